@@ -1,0 +1,8 @@
+//! Exact, certified solvability of viewing graphs.
+//!
+//! Data flows one way: a [`graph`] is read, its question is reduced and decided
+//! with [`exact`] arithmetic, and the answer leaves with its evidence. A module
+//! never imports one that stands below it in this list.
+
+pub mod graph;
+pub mod exact;

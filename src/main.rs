@@ -1,0 +1,2 @@
+//! `verify`: arguments in, reports out.
+fn main() {}
