@@ -6,3 +6,6 @@
 
 pub mod graph;
 pub mod exact;
+pub mod body;
+pub mod piece;
+pub mod union_find;

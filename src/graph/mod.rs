@@ -1,5 +1,9 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
 
+mod adjacency;
+
+pub use adjacency::Adjacency;
+
 /// A simple undirected graph on the nodes `0..nodes`.
 ///
 /// Edges are pairs `(i, j)` with `i < j`, sorted lexicographically and without

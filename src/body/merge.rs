@@ -1,0 +1,260 @@
+//! Merging bodies: two that share two nodes, three that pairwise share a node.
+
+use super::{Body, Merge, Part, Seed};
+use crate::graph::Adjacency;
+use std::collections::{HashMap, VecDeque};
+
+/// For every node the bodies that contain it, by the numbers they had when they
+/// were grown, and which body each of those has become part of.
+pub(super) struct Owners {
+    start: Vec<u32>,
+    bodies: Vec<u32>,
+    parent: Vec<u32>,
+}
+
+impl Owners {
+    fn new(nodes: usize, bodies: &[Body]) -> Self {
+        let mut start = vec![0u32; nodes + 1];
+        for body in bodies {
+            for &v in &body.nodes {
+                start[v as usize + 1] += 1;
+            }
+        }
+        for v in 0..nodes {
+            start[v + 1] += start[v];
+        }
+        let mut fill = start.clone();
+        let mut list = vec![0; start[nodes] as usize];
+        for (k, body) in (0..).zip(bodies) {
+            for &v in &body.nodes {
+                list[fill[v as usize] as usize] = k;
+                fill[v as usize] += 1;
+            }
+        }
+        Self {
+            start,
+            bodies: list,
+            parent: (0..bodies.len() as u32).collect(),
+        }
+    }
+
+    /// The body that body `k` is part of now.
+    fn current(&self, mut k: u32) -> u32 {
+        while self.parent[k as usize] != k {
+            k = self.parent[k as usize];
+        }
+        k
+    }
+
+    /// As [`Self::current`], shortening the way for the next time.
+    fn find(&mut self, k: u32) -> u32 {
+        let root = self.current(k);
+        let mut at = k;
+        while self.parent[at as usize] != root {
+            at = std::mem::replace(&mut self.parent[at as usize], root);
+        }
+        root
+    }
+
+    fn range(&self, v: u32) -> std::ops::Range<usize> {
+        self.start[v as usize] as usize..self.start[v as usize + 1] as usize
+    }
+
+    /// Whether one body contains both nodes.
+    pub(super) fn share_body(&self, v: u32, w: u32) -> bool {
+        let of_w = &self.bodies[self.range(w)];
+        self.bodies[self.range(v)].iter().any(|&k| {
+            let k = self.current(k);
+            of_w.iter().any(|&l| self.current(l) == k)
+        })
+    }
+}
+
+/// Merges bodies, with the help of the loose edges among `remaining`, until no rule
+/// applies. New bodies are appended; the consumed ones lose their nodes.
+///
+/// Bodies are taken by falling size, round after round until nothing changes. Of
+/// three bodies that pairwise share a node the largest finds the other two, so a body
+/// is only ever searched by larger ones that touch it.
+pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize) -> Owners {
+    let mut owners = Owners::new(nodes, bodies);
+    let mut inside = vec![u32::MAX; nodes];
+    let mut changed = true;
+    let mut stamp = 0;
+    while changed {
+        changed = false;
+        let mut order: Vec<u32> = (0..bodies.len() as u32)
+            .filter(|&k| !bodies[k as usize].nodes.is_empty())
+            .collect();
+        order.sort_by_key(|&k| std::cmp::Reverse(bodies[k as usize].nodes.len()));
+        for k in order {
+            if bodies[k as usize].nodes.is_empty() {
+                continue;
+            }
+            let mut absorption = Absorption {
+                bodies,
+                owners: &mut owners,
+                remaining,
+                inside: &mut inside,
+                stamp,
+                nodes: Vec::new(),
+                queue: VecDeque::new(),
+                consumed: vec![k],
+                touched: HashMap::new(),
+                reached: HashMap::new(),
+                merges: Vec::new(),
+            };
+            stamp += 1;
+            changed |= absorption.run(k);
+        }
+    }
+    for k in 0..bodies.len() as u32 {
+        owners.find(k);
+    }
+    owners
+}
+
+/// One body absorbing whatever the rules allow.
+struct Absorption<'a> {
+    bodies: &'a mut Vec<Body>,
+    owners: &'a mut Owners,
+    remaining: &'a Adjacency,
+    /// The stamp of the absorption that the node is inside of.
+    inside: &'a mut [u32],
+    stamp: u32,
+    /// Nodes of the body; grows.
+    nodes: Vec<u32>,
+    /// Nodes whose surroundings are still to be searched.
+    queue: VecDeque<u32>,
+    /// The body itself and those absorbed.
+    consumed: Vec<u32>,
+    /// Bodies that share a node with this one, and that node.
+    touched: HashMap<u32, u32>,
+    /// Nodes outside that some part at a node of the body reaches: the part and that
+    /// node.
+    reached: HashMap<u32, (Part, u32)>,
+    merges: Vec<Merge>,
+}
+
+impl Absorption<'_> {
+    /// Runs to the end; if anything was absorbed, appends the new body. Returns
+    /// whether it was.
+    fn run(&mut self, k: u32) -> bool {
+        let own = std::mem::take(&mut self.bodies[k as usize].nodes);
+        self.take_in(&own);
+        while let Some(a) = self.queue.pop_front() {
+            self.search(a);
+        }
+        let nodes = std::mem::take(&mut self.nodes);
+        if self.merges.is_empty() {
+            self.bodies[k as usize].nodes = nodes;
+            return false;
+        }
+        let new = self.bodies.len() as u32;
+        for &k in &self.consumed {
+            self.owners.parent[k as usize] = new;
+        }
+        self.owners.parent.push(new);
+        self.bodies.push(Body {
+            seed: Seed::Body(k),
+            add: Vec::new(),
+            merge: std::mem::take(&mut self.merges),
+            nodes,
+        });
+        true
+    }
+
+    fn is_inside(&self, v: u32) -> bool {
+        self.inside[v as usize] == self.stamp
+    }
+
+    fn take_in(&mut self, nodes: &[u32]) {
+        for &v in nodes {
+            if !self.is_inside(v) {
+                self.inside[v as usize] = self.stamp;
+                self.nodes.push(v);
+                self.queue.push_back(v);
+            }
+        }
+    }
+
+    fn absorb(&mut self, part: Part) {
+        match part {
+            Part::Edge(i, j) => self.take_in(&[i, j]),
+            Part::Body(k) => {
+                let nodes = std::mem::take(&mut self.bodies[k as usize].nodes);
+                self.take_in(&nodes);
+                self.consumed.push(k);
+            }
+        }
+    }
+
+    /// Looks at everything that touches the body at its node `a`.
+    fn search(&mut self, a: u32) {
+        for at in self.owners.range(a) {
+            let k = self.owners.find(self.owners.bodies[at]);
+            // The body itself and what it has absorbed have no nodes of their own now.
+            if self.bodies[k as usize].nodes.is_empty() {
+                continue;
+            }
+            let part = Part::Body(k);
+            match self.touched.insert(k, a) {
+                Some(before) if before != a => {
+                    self.merges.push(Merge::Shared {
+                        part,
+                        at: [before, a],
+                    });
+                    self.absorb(part);
+                }
+                _ => self.search_body(k, a),
+            }
+        }
+        for &x in self.remaining.neighbours(a) {
+            if !self.is_inside(x) {
+                self.reach(x, Part::edge(a, x), a);
+            }
+        }
+    }
+
+    /// Looks at the nodes of body `k`, which touches this one at `a`.
+    fn search_body(&mut self, k: u32, a: u32) {
+        if self.bodies[k as usize].nodes.len() > self.nodes.len() {
+            return;
+        }
+        for at in 0.. {
+            let Some(&x) = self.bodies[k as usize].nodes.get(at) else {
+                break;
+            };
+            if x == a {
+                continue;
+            }
+            if self.is_inside(x) {
+                let part = Part::Body(k);
+                self.merges.push(Merge::Shared { part, at: [a, x] });
+                self.absorb(part);
+                break;
+            }
+            self.reach(x, Part::Body(k), a);
+        }
+    }
+
+    /// Node x outside is in `part`, which touches the body at `a`: if another part
+    /// reaches x from another node, the three are a triangle of bodies.
+    fn reach(&mut self, x: u32, part: Part, a: u32) {
+        let Some(&(other, b)) = self.reached.get(&x) else {
+            self.reached.insert(x, (part, a));
+            return;
+        };
+        // From the same node: if these are two bodies they share two nodes, which one
+        // of them finds when its turn comes.
+        if a == b {
+            return;
+        }
+        self.merges.push(Merge::Triangle {
+            parts: [other, part],
+            at: [b, a, x],
+        });
+        self.absorb(other);
+        self.absorb(part);
+    }
+}

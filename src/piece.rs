@@ -1,0 +1,366 @@
+//! Cutting a contracted graph into pieces at its articulation nodes, and the core of
+//! a piece (docs/theory.md, section 4).
+//!
+//! Ranks add up over pieces and no component lies in two of them, so each piece is
+//! decided by itself, on its core: the nodes that its members share.
+
+use crate::body::Contraction;
+use crate::graph::Graph;
+
+/// Some members of a contracted graph: final bodies and loose edges.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Members {
+    /// Loose edges, increasing.
+    pub edges: Vec<(u32, u32)>,
+    /// Numbers of final bodies, increasing.
+    pub bodies: Vec<u32>,
+}
+
+impl Members {
+    /// How many members there are.
+    pub fn len(&self) -> usize {
+        self.edges.len() + self.bodies.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn sort(&mut self) {
+        self.edges.sort_unstable();
+        self.bodies.sort_unstable();
+    }
+}
+
+/// A contracted graph, cut into pieces.
+#[derive(Clone, Debug)]
+pub struct Pieces {
+    /// The members that are pieces by themselves.
+    pub rigid: Members,
+    /// The other pieces, each of two members or more, in a fixed order.
+    pub pieces: Vec<Members>,
+    /// For every body of the contraction those of its nodes, increasing, that lie in
+    /// a second member; empty for consumed bodies.
+    shared: Vec<Vec<u32>>,
+    /// Number of nodes of every body.
+    size: Vec<usize>,
+}
+
+impl Pieces {
+    /// Cuts the graph at the nodes that are articulations of the structure of members
+    /// and shared nodes. Linear time.
+    pub fn new(graph: &Graph, contraction: &Contraction) -> Self {
+        let incidence = Incidence::new(graph.nodes(), contraction);
+        let piece_of = incidence.pieces();
+        let mut grouped: Vec<Members> = vec![Members::default(); incidence.members()];
+        for (member, &piece) in piece_of.iter().enumerate() {
+            let piece = &mut grouped[piece as usize];
+            match contraction.finals.get(member) {
+                Some(&body) => piece.bodies.push(body),
+                None => piece
+                    .edges
+                    .push(contraction.loose[member - contraction.finals.len()]),
+            }
+        }
+        let mut rigid = Members::default();
+        let mut pieces = Vec::new();
+        for piece in grouped {
+            match piece.len() {
+                0 => {}
+                1 => {
+                    rigid.bodies.extend(piece.bodies);
+                    rigid.edges.extend(piece.edges);
+                }
+                _ => pieces.push(piece),
+            }
+        }
+        rigid.sort();
+        pieces.sort();
+        Self::with(contraction, incidence, rigid, pieces)
+    }
+
+    /// The whole graph as one piece (a single member is rigid all the same).
+    pub fn whole(graph: &Graph, contraction: &Contraction) -> Self {
+        let all = Members {
+            edges: contraction.loose.clone(),
+            bodies: contraction.finals.clone(),
+        };
+        let (rigid, pieces) = if all.len() == 1 {
+            (all, Vec::new())
+        } else {
+            (Members::default(), vec![all])
+        };
+        let incidence = Incidence::new(graph.nodes(), contraction);
+        Self::with(contraction, incidence, rigid, pieces)
+    }
+
+    fn with(
+        contraction: &Contraction,
+        incidence: Incidence,
+        rigid: Members,
+        pieces: Vec<Members>,
+    ) -> Self {
+        let mut shared = vec![Vec::new(); contraction.bodies.len()];
+        for (member, &body) in contraction.finals.iter().enumerate() {
+            shared[body as usize] = incidence
+                .of_member
+                .of(member)
+                .iter()
+                .map(|&node| incidence.nodes[node as usize])
+                .collect();
+        }
+        let size = contraction.bodies.iter().map(|b| b.nodes.len()).collect();
+        Self {
+            rigid,
+            pieces,
+            shared,
+            size,
+        }
+    }
+
+    /// The core of a piece, or of a part of it.
+    ///
+    /// # Panics
+    /// If two members share two nodes, which a contraction excludes.
+    pub fn core(&self, part: &Members) -> Core {
+        let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
+        let mut of_bodies: Vec<u32> = part
+            .bodies
+            .iter()
+            .flat_map(|&b| self.shared[b as usize].iter().copied())
+            .collect();
+        of_bodies.sort_unstable();
+        nodes.extend(
+            of_bodies
+                .windows(2)
+                .filter(|pair| pair[0] == pair[1])
+                .map(|pair| pair[0]),
+        );
+        nodes.sort_unstable();
+        nodes.dedup();
+
+        let number = |v: &u32| nodes.binary_search(v).ok().map(|k| k as u32);
+        let mut edges: Vec<(u32, u32, u32)> = Vec::new();
+        let mut outside = 0;
+        for (member, &body) in (0..).zip(&part.bodies) {
+            let at: Vec<u32> = self.shared[body as usize]
+                .iter()
+                .filter_map(number)
+                .collect();
+            outside += self.size[body as usize] - at.len();
+            for step in [1, 2] {
+                edges.extend(at.iter().zip(at.iter().skip(step)).map(|(&a, &b)| (a, b, member)));
+            }
+        }
+        for (member, (i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
+            let ends = number(i).zip(number(j)).expect("ends of edges are nodes");
+            edges.push((ends.0, ends.1, member));
+        }
+        edges.sort_unstable();
+        let owner = edges.iter().map(|&(_, _, member)| member).collect();
+        let pairs = edges.into_iter().map(|(a, b, _)| (a, b)).collect();
+        let (graph, merged) = Graph::from_pairs(nodes.len() as u32, pairs)
+            .expect("core edges join two different core nodes");
+        assert_eq!(merged, 0, "two members share two nodes");
+        Core {
+            total_nodes: nodes.len() + outside,
+            nodes,
+            graph,
+            owner,
+        }
+    }
+
+    /// Number of nodes of all members of a part together.
+    pub fn count_nodes(&self, part: &Members) -> usize {
+        let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
+        let mut inner = 0;
+        for &body in &part.bodies {
+            let shared = &self.shared[body as usize];
+            inner += self.size[body as usize] - shared.len();
+            nodes.extend(shared);
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        inner + nodes.len()
+    }
+
+    /// Whether a body contains a node that also lies in another member.
+    pub fn body_shares(&self, body: u32, node: u32) -> bool {
+        self.shared[body as usize].binary_search(&node).is_ok()
+    }
+
+    /// The nodes of a member that lie in a second one (all nodes of an edge).
+    pub fn shared_nodes(&self, body: u32) -> &[u32] {
+        &self.shared[body as usize]
+    }
+}
+
+/// The core of a piece: its shared nodes, with a chain of triangles in the place of
+/// every body.
+#[derive(Clone, Debug)]
+pub struct Core {
+    /// The core's nodes as nodes of the whole graph, increasing.
+    pub nodes: Vec<u32>,
+    /// The core on the nodes `0 .. nodes.len()`.
+    pub graph: Graph,
+    /// For every core edge the member it stands for: first the bodies, then the
+    /// edges, counted in the order of the part.
+    pub owner: Vec<u32>,
+    /// Number of nodes of the piece itself.
+    pub total_nodes: usize,
+}
+
+/// Lists of `u32`, one after another.
+struct Lists {
+    start: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    fn of(&self, k: usize) -> &[u32] {
+        &self.items[self.start[k] as usize..self.start[k + 1] as usize]
+    }
+
+    /// Groups `(key, item)` by key, the items of a key in the order given.
+    fn group(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut start = vec![0u32; keys + 1];
+        for (key, _) in pairs.clone() {
+            start[key as usize + 1] += 1;
+        }
+        for key in 0..keys {
+            start[key + 1] += start[key];
+        }
+        let mut fill = start.clone();
+        let mut items = vec![0; start[keys] as usize];
+        for (key, item) in pairs {
+            items[fill[key as usize] as usize] = item;
+            fill[key as usize] += 1;
+        }
+        Self { start, items }
+    }
+}
+
+/// Which members (final bodies, then loose edges) contain which shared nodes.
+struct Incidence {
+    /// The shared nodes, increasing.
+    nodes: Vec<u32>,
+    /// For every member its shared nodes, by their position in `nodes`.
+    of_member: Lists,
+    /// For every shared node the members that contain it.
+    of_node: Lists,
+}
+
+impl Incidence {
+    fn new(n: usize, contraction: &Contraction) -> Self {
+        let each = |mut visit: Box<dyn FnMut(u32, u32) + '_>| {
+            for (member, &body) in (0..).zip(&contraction.finals) {
+                for &v in &contraction.bodies[body as usize].nodes {
+                    visit(member, v);
+                }
+            }
+            for (member, &(i, j)) in (contraction.finals.len() as u32..).zip(&contraction.loose) {
+                visit(member, i);
+                visit(member, j);
+            }
+        };
+        let mut count = vec![0u8; n];
+        each(Box::new(|_, v| {
+            count[v as usize] = count[v as usize].saturating_add(1);
+        }));
+        let nodes: Vec<u32> = (0..n as u32).filter(|&v| count[v as usize] > 1).collect();
+        let mut position = vec![u32::MAX; n];
+        for (k, &v) in (0..).zip(&nodes) {
+            position[v as usize] = k;
+        }
+        let mut pairs = Vec::new();
+        each(Box::new(|member, v| {
+            let node = position[v as usize];
+            if node != u32::MAX {
+                pairs.push((member, node));
+            }
+        }));
+        let members = contraction.finals.len() + contraction.loose.len();
+        Self {
+            of_member: Lists::group(members, pairs.iter().copied()),
+            of_node: Lists::group(nodes.len(), pairs.iter().map(|&(m, v)| (v, m))),
+            nodes,
+        }
+    }
+
+    fn members(&self) -> usize {
+        self.of_member.start.len() - 1
+    }
+
+    /// For every member a number of its piece. Members are in one piece if they lie on
+    /// a common cycle of the bipartite graph of members and shared nodes, or are linked
+    /// by such cycles: Tarjan's biconnected components, united at common members.
+    fn pieces(&self) -> Vec<u32> {
+        const UNSEEN: u32 = u32::MAX;
+        let members = self.members();
+        let total = members + self.nodes.len();
+        let neighbour = |v: usize, at: usize| -> Option<usize> {
+            if v < members {
+                let node = self.of_member.of(v).get(at)?;
+                Some(members + *node as usize)
+            } else {
+                Some(*self.of_node.of(v - members).get(at)? as usize)
+            }
+        };
+        let mut piece = crate::union_find::UnionFind::new(members);
+        let mut found = vec![UNSEEN; total];
+        let mut low = vec![UNSEEN; total];
+        let mut clock = 0;
+        // Vertices seen but not yet in a finished component, and the path to the
+        // current vertex with the next neighbour to look at.
+        let mut open: Vec<usize> = Vec::new();
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        for root in 0..members {
+            if found[root] != UNSEEN {
+                continue;
+            }
+            path.push((root, 0));
+            while let Some(&mut (v, ref mut at)) = path.last_mut() {
+                if found[v] == UNSEEN {
+                    found[v] = clock;
+                    low[v] = clock;
+                    clock += 1;
+                    open.push(v);
+                }
+                let next = neighbour(v, *at);
+                *at += 1;
+                if let Some(w) = next {
+                    if found[w] == UNSEEN {
+                        path.push((w, 0));
+                    } else {
+                        low[v] = low[v].min(found[w]);
+                    }
+                    continue;
+                }
+                path.pop();
+                let Some(&(parent, _)) = path.last() else {
+                    open.clear();
+                    break;
+                };
+                low[parent] = low[parent].min(low[v]);
+                if low[v] >= found[parent] {
+                    let cut = open.iter().rposition(|&w| w == v).expect("v is open");
+                    let component = open.split_off(cut);
+                    // A component of v and its parent alone is a bridge, not a cycle.
+                    if component.len() > 1 {
+                        let mut of_component = component
+                            .iter()
+                            .chain(std::iter::once(&parent))
+                            .filter(|&&w| w < members);
+                        if let Some(&first) = of_component.next() {
+                            for &other in of_component {
+                                piece.union(first, other);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        (0..members).map(|m| piece.find(m) as u32).collect()
+    }
+}
