@@ -4,8 +4,8 @@
 //! with [`exact`] arithmetic, and the answer leaves with its evidence. A module
 //! never imports one that stands below it in this list.
 
-pub mod graph;
-pub mod exact;
 pub mod body;
+pub mod exact;
+pub mod graph;
 pub mod piece;
 pub mod union_find;

@@ -150,7 +150,11 @@ impl Pieces {
                 .collect();
             outside += self.size[body as usize] - at.len();
             for step in [1, 2] {
-                edges.extend(at.iter().zip(at.iter().skip(step)).map(|(&a, &b)| (a, b, member)));
+                edges.extend(
+                    at.iter()
+                        .zip(at.iter().skip(step))
+                        .map(|(&a, &b)| (a, b, member)),
+                );
             }
         }
         for (member, (i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {

@@ -61,7 +61,9 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
             }
             // Neighbours refused once are refused for good, as edges only go; the
             // body's own have left the list of v.
-            at = remaining.neighbours(v).partition_point(|&x| refused_by[x as usize] == v);
+            at = remaining
+                .neighbours(v)
+                .partition_point(|&x| refused_by[x as usize] == v);
             bodies.push(body);
         }
     }

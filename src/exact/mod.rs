@@ -1,6 +1,10 @@
 //! Exact arithmetic: rings and fields as values, so that a modulus chosen at run
 //! time is just another field.
 
+#[cfg(test)]
+mod laws;
+pub mod prime;
+
 use std::fmt::Debug;
 
 /// A commutative ring with one. The ring is a value (it may carry a modulus);

@@ -38,10 +38,7 @@ impl Graph {
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
-    pub fn from_pairs(
-        nodes: u32,
-        mut pairs: Vec<(u32, u32)>,
-    ) -> Result<(Self, usize), GraphError> {
+    pub fn from_pairs(nodes: u32, mut pairs: Vec<(u32, u32)>) -> Result<(Self, usize), GraphError> {
         for pair in &mut pairs {
             let (i, j) = *pair;
             if i == j {
@@ -59,7 +56,13 @@ impl Graph {
         let given = pairs.len();
         pairs.dedup();
         let merged = given - pairs.len();
-        Ok((Self { nodes, edges: pairs }, merged))
+        Ok((
+            Self {
+                nodes,
+                edges: pairs,
+            },
+            merged,
+        ))
     }
 
     /// Number of cameras, n.
