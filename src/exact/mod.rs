@@ -1,9 +1,16 @@
 //! Exact arithmetic: rings and fields as values, so that a modulus chosen at run
 //! time is just another field.
 
+pub mod bareiss;
+pub mod dense;
+pub mod gauss;
+pub mod integer;
 #[cfg(test)]
 mod laws;
 pub mod prime;
+pub mod rational;
+#[cfg(test)]
+mod samples;
 
 use std::fmt::Debug;
 
