@@ -7,6 +7,7 @@ pub mod gauss;
 pub mod integer;
 #[cfg(test)]
 mod laws;
+pub mod modular;
 pub mod prime;
 pub mod rational;
 #[cfg(test)]
