@@ -6,6 +6,7 @@
 
 pub mod body;
 pub mod exact;
+pub mod formulation;
 pub mod graph;
 pub mod piece;
 pub mod union_find;

@@ -1,0 +1,3 @@
+//! Matrices whose rank decides solvability, one file a formulation.
+
+pub mod plane_flow;

@@ -1,0 +1,379 @@
+//! Plane flows: the rank of the paper's Jacobian from matrices a quarter of its size
+//! (docs/theory.md, section 3).
+//!
+//! At cameras [ I | -c_v ] with c_i != c_j on every edge,
+//!
+//! ```text
+//! rank J_P = 4 rank N + rank Lambda - m
+//! ```
+//!
+//! where N (2m x 3n) is the parallel rigidity matrix of the centres and Lambda the map
+//! from edge scalars to the plane flows, the left kernel of N.
+
+use crate::exact::dense::Matrix;
+use crate::exact::gauss::Pivots;
+use crate::exact::modular::{Echelon, eliminate_mod};
+use crate::exact::prime::PrimeField;
+use crate::exact::{Field, Ring};
+use crate::graph::Graph;
+use crate::union_find::UnionFind;
+
+/// The two directions orthogonal to d = c_i - c_j on an edge: with q the first index
+/// at which d is not zero and r < s the others, d_q e_r - d_r e_q and d_q e_s - d_s e_q.
+/// `None` for coincident centres.
+pub fn directions<R: Ring>(
+    ring: &R,
+    ci: &[R::Elem; 3],
+    cj: &[R::Elem; 3],
+) -> Option<[[R::Elem; 3]; 2]> {
+    let d: [R::Elem; 3] = std::array::from_fn(|k| ring.sub(&ci[k], &cj[k]));
+    let q = d.iter().position(|x| !ring.is_zero(x))?;
+    let direction = |r: usize| {
+        std::array::from_fn(|k| {
+            if k == r {
+                d[q].clone()
+            } else if k == q {
+                ring.neg(&d[r])
+            } else {
+                ring.zero()
+            }
+        })
+    };
+    let (r, s) = [(1, 2), (0, 2), (0, 1)][q];
+    Some([direction(r), direction(s)])
+}
+
+/// N as sparse rows `(column, value)`, columns increasing: for edge e = (i, j) and its
+/// directions a, rows 2e and 2e + 1 hold a in the columns 3i, 3i+1, 3i+2 and -a in
+/// 3j, 3j+1, 3j+2. Zero entries are left out.
+///
+/// # Panics
+/// If the centres of an edge coincide.
+pub fn rigidity_rows<R: Ring>(
+    ring: &R,
+    graph: &Graph,
+    centres: &[[R::Elem; 3]],
+) -> Vec<Vec<(usize, R::Elem)>> {
+    let mut rows = Vec::with_capacity(2 * graph.edges().len());
+    for &(i, j) in graph.edges() {
+        let (i, j) = (i as usize, j as usize);
+        let both = directions(ring, &centres[i], &centres[j]).expect("centres are distinct");
+        for a in both {
+            let at_i = (0..3).map(|k| (3 * i + k, a[k].clone()));
+            let at_j = (0..3).map(|k| (3 * j + k, ring.neg(&a[k])));
+            rows.push(at_i.chain(at_j).filter(|(_, x)| !ring.is_zero(x)).collect());
+        }
+    }
+    rows
+}
+
+/// The right-hand sides of the four column systems N y^k = rho_k lambda: entry
+/// `(row, k)` is -a^T P_j e_k for the direction a of the row, that is -a_k for k < 3
+/// and a . c_j for k = 3.
+fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
+    let [x, y, z] = a.map(|value| field.neg(&value));
+    let dot = a
+        .iter()
+        .zip(cj)
+        .fold(0, |sum, (s, t)| field.add(&sum, &field.mul(s, t)));
+    [x, y, z, dot]
+}
+
+/// N and Lambda of a graph at given centres modulo p, eliminated.
+#[derive(Clone, Debug)]
+pub struct PlaneFlows<'a> {
+    field: &'a PrimeField,
+    graph: &'a Graph,
+    centres: &'a [[u64; 3]],
+    rigidity: Echelon,
+}
+
+/// A lower bound on rank J_P that elimination found, with its pivots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlaneFlowRank {
+    /// Pivots of N.
+    pub rigidity: Pivots,
+    /// Rows of N, none of them a pivot, whose plane flows the rows of Lambda come from.
+    pub flows: Vec<usize>,
+    /// Pivots of Lambda; row 4 f + k belongs to the f-th of `flows`, columns are edges.
+    pub lambda: Pivots,
+}
+
+impl PlaneFlowRank {
+    /// 4 rank N + rank Lambda - m.
+    pub fn rank(&self, edges: usize) -> usize {
+        4 * self.rigidity.rank() + self.lambda.rank() - edges
+    }
+}
+
+/// A motion of the cameras that keeps the fundamental matrices up to scale.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Motion {
+    /// `columns[k][3 v + r]` is entry (r, k) of dP_v.
+    pub columns: [Vec<u64>; 4],
+    /// For every edge the X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j,
+    /// row by row, less the multiple of I that makes its last entry zero.
+    pub transforms: Vec<[u64; 16]>,
+}
+
+impl<'a> PlaneFlows<'a> {
+    /// Eliminates N at the given centres. O((2m) (3n)^2) at worst.
+    ///
+    /// # Panics
+    /// If there is not one centre a node, or the centres of an edge coincide.
+    pub fn new(field: &'a PrimeField, graph: &'a Graph, centres: &'a [[u64; 3]]) -> Self {
+        assert_eq!(centres.len(), graph.nodes(), "one centre a node");
+        let rows = rigidity_rows(field, graph, centres);
+        let mut dense = Matrix::new(
+            rows.len(),
+            3 * graph.nodes(),
+            vec![0; rows.len() * 3 * graph.nodes()],
+        );
+        for (at, row) in rows.iter().enumerate() {
+            for &(col, value) in row {
+                dense[(at, col)] = value;
+            }
+        }
+        Self {
+            field,
+            graph,
+            centres,
+            rigidity: eliminate_mod(field, dense),
+        }
+    }
+
+    /// The rank of N.
+    pub fn rigidity_rank(&self) -> usize {
+        self.rigidity.rank()
+    }
+
+    /// The pivots of N.
+    pub fn rigidity_pivots(&self) -> Pivots {
+        self.rigidity.pivots()
+    }
+
+    fn edge_directions(&self, edge: usize) -> [[u64; 3]; 2] {
+        let (i, j) = self.graph.edges()[edge];
+        directions(
+            self.field,
+            &self.centres[i as usize],
+            &self.centres[j as usize],
+        )
+        .expect("centres are distinct")
+    }
+
+    /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
+    /// on the others by the potentials.
+    pub fn lambda(&self) -> Lambda {
+        let mut forest = UnionFind::new(self.graph.nodes());
+        let cotree: Vec<usize> = (0..)
+            .zip(self.graph.edges())
+            .filter(|&(_, &(i, j))| !forest.union(i as usize, j as usize))
+            .map(|(e, _)| e)
+            .collect();
+        let kernel = self.rigidity.left_kernel();
+        let flows = self.rigidity.free_rows();
+        let mut rows = Matrix::new(
+            4 * flows.len(),
+            cotree.len(),
+            vec![0; 4 * flows.len() * cotree.len()],
+        );
+        for (at, &e) in cotree.iter().enumerate() {
+            let [a, b] = self.edge_directions(e);
+            let cj = &self.centres[self.graph.edges()[e].1 as usize];
+            let (a, b) = (
+                right_side(self.field, &a, cj),
+                right_side(self.field, &b, cj),
+            );
+            for f in 0..flows.len() {
+                let (s, t) = (kernel[(f, 2 * e)], kernel[(f, 2 * e + 1)]);
+                if (s, t) == (0, 0) {
+                    continue;
+                }
+                for k in 0..4 {
+                    let value = self.field.dot(0, &[s, t], &[a[k], b[k]]);
+                    rows[(4 * f + k, at)] = self.field.negate(value);
+                }
+            }
+        }
+        Lambda {
+            flows: flows.to_vec(),
+            cotree,
+            echelon: eliminate_mod(self.field, rows.clone()),
+            rows,
+        }
+    }
+
+    /// The lower bound on rank J_P, with the flows that its pivots use.
+    pub fn rank(&self, lambda: &Lambda) -> PlaneFlowRank {
+        let pivots = lambda.echelon.pivots();
+        let mut used: Vec<usize> = pivots.rows.iter().map(|row| row / 4).collect();
+        used.sort_unstable();
+        used.dedup();
+        let position = |flow: usize| used.binary_search(&flow).expect("every used flow");
+        PlaneFlowRank {
+            rigidity: self.rigidity.pivots(),
+            lambda: Pivots {
+                rows: pivots
+                    .rows
+                    .iter()
+                    .map(|row| 4 * position(row / 4) + row % 4)
+                    .collect(),
+                cols: pivots.cols.iter().map(|&col| lambda.cotree[col]).collect(),
+            },
+            flows: used.iter().map(|&f| lambda.flows[f]).collect(),
+        }
+    }
+
+    /// A random element of ker J_P, uniform modulo the scales of the cameras. `random`
+    /// gives uniform elements of the field.
+    pub fn motion(&self, lambda: &Lambda, mut random: impl FnMut() -> u64) -> Motion {
+        let scales = lambda.random_kernel_vector(self.field, self.graph.edges().len(), &mut random);
+        let columns = std::array::from_fn(|k| {
+            let mut sides = Vec::with_capacity(2 * self.graph.edges().len());
+            for (e, &(_, j)) in self.graph.edges().iter().enumerate() {
+                for a in self.edge_directions(e) {
+                    let side = right_side(self.field, &a, &self.centres[j as usize])[k];
+                    sides.push(self.field.mul(&side, &scales[e]));
+                }
+            }
+            self.solve(sides, &mut random)
+        });
+        let transforms = (0..self.graph.edges().len())
+            .map(|e| self.transform(&columns, e, scales[e]))
+            .collect();
+        Motion {
+            columns,
+            transforms,
+        }
+    }
+
+    /// A uniformly random solution y of N y = sides, which must have one.
+    fn solve(&self, mut sides: Vec<u64>, random: &mut impl FnMut() -> u64) -> Vec<u64> {
+        let field = self.field;
+        let mut y = vec![0; 3 * self.graph.nodes()];
+        for col in self.rigidity.pivots().free_cols(y.len()) {
+            y[col] = random();
+        }
+        for (row, side) in rigidity_rows(field, self.graph, self.centres)
+            .iter()
+            .zip(&mut sides)
+        {
+            for &(col, value) in row {
+                *side = field.sub(side, &field.mul(&value, &y[col]));
+            }
+        }
+        let pivot_part = self
+            .rigidity
+            .solve(&sides)
+            .expect("the left kernel vanishes on the sides");
+        for (value, part) in y.iter_mut().zip(&pivot_part) {
+            *value = field.add(value, part);
+        }
+        y
+    }
+
+    /// X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j: column k is
+    /// (u_k, w_k) with (c_j - c_i) w_k = y_i^k - y_j^k + lambda_e P_j e_k and
+    /// u_k = y_i^k + w_k c_i.
+    fn transform(&self, columns: &[Vec<u64>; 4], edge: usize, scale: u64) -> [u64; 16] {
+        let f = self.field;
+        let (i, j) = self.graph.edges()[edge];
+        let (i, j) = (i as usize, j as usize);
+        let (ci, cj) = (&self.centres[i], &self.centres[j]);
+        let q = (0..3)
+            .find(|&q| ci[q] != cj[q])
+            .expect("centres are distinct");
+        let inverse = f.inv(&f.sub(&cj[q], &ci[q])).expect("they differ at q");
+        let mut x = [0; 16];
+        for (k, y) in columns.iter().enumerate() {
+            let camera_entry = match k {
+                3 => f.neg(&cj[q]),
+                _ if k == q => f.one(),
+                _ => 0,
+            };
+            let moved = f.add(
+                &f.sub(&y[3 * i + q], &y[3 * j + q]),
+                &f.mul(&scale, &camera_entry),
+            );
+            let w = f.mul(&moved, &inverse);
+            for r in 0..3 {
+                x[4 * r + k] = f.add(&y[3 * i + r], &f.mul(&w, &ci[r]));
+            }
+            x[12 + k] = w;
+        }
+        let last = x[15];
+        for r in 0..4 {
+            x[5 * r] = f.sub(&x[5 * r], &last);
+        }
+        x
+    }
+
+    /// A random element of ker N (the calibrated model), with the scale and translation
+    /// (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
+    pub fn calibrated_motion(&self, mut random: impl FnMut() -> u64) -> (Vec<u64>, Vec<[u64; 4]>) {
+        let f = self.field;
+        let y = self.solve(vec![0; 2 * self.graph.edges().len()], &mut random);
+        let transforms = self
+            .graph
+            .edges()
+            .iter()
+            .map(|&(i, j)| {
+                let (i, j) = (i as usize, j as usize);
+                let (ci, cj) = (&self.centres[i], &self.centres[j]);
+                let q = (0..3)
+                    .find(|&q| ci[q] != cj[q])
+                    .expect("centres are distinct");
+                let inverse = f.inv(&f.sub(&ci[q], &cj[q])).expect("they differ at q");
+                let scale = f.mul(&f.sub(&y[3 * i + q], &y[3 * j + q]), &inverse);
+                let t = |r: usize| f.sub(&y[3 * i + r], &f.mul(&scale, &ci[r]));
+                [scale, t(0), t(1), t(2)]
+            })
+            .collect();
+        (y, transforms)
+    }
+}
+
+/// Lambda restricted to the edges outside a spanning forest, eliminated.
+#[derive(Clone, Debug)]
+pub struct Lambda {
+    /// Rows of N that are not pivots; the f-th gives the rows 4f .. 4f + 3.
+    flows: Vec<usize>,
+    /// The edge of every column.
+    cotree: Vec<usize>,
+    rows: Matrix<u64>,
+    echelon: Echelon,
+}
+
+impl Lambda {
+    /// The rank of Lambda.
+    pub fn rank(&self) -> usize {
+        self.echelon.rank()
+    }
+
+    /// A uniformly random lambda of the kernel that vanishes on the spanning forest, one
+    /// value an edge.
+    fn random_kernel_vector(
+        &self,
+        field: &PrimeField,
+        edges: usize,
+        random: &mut impl FnMut() -> u64,
+    ) -> Vec<u64> {
+        let mut part = vec![0; self.cotree.len()];
+        for col in self.echelon.pivots().free_cols(part.len()) {
+            part[col] = random();
+        }
+        let sides: Vec<u64> = (0..self.rows.rows())
+            .map(|row| field.negate(field.dot(0, self.rows.row(row), &part)))
+            .collect();
+        let pivot_part = self
+            .echelon
+            .solve(&sides)
+            .expect("free columns depend on pivots");
+        let mut scales = vec![0; edges];
+        for (col, &e) in self.cotree.iter().enumerate() {
+            scales[e] = field.add(&part[col], &pivot_part[col]);
+        }
+        scales
+    }
+}
