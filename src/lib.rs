@@ -5,8 +5,11 @@
 //! never imports one that stands below it in this list.
 
 pub mod body;
+pub mod bound;
+pub mod component;
 pub mod exact;
 pub mod formulation;
 pub mod graph;
+pub mod model;
 pub mod piece;
 pub mod union_find;

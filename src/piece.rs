@@ -27,6 +27,59 @@ impl Members {
         self.len() == 0
     }
 
+    /// The members of each class, classes in the order of their first members. Members
+    /// are counted bodies first, then edges, as in [`Core::owner`].
+    pub fn grouped(&self, mut class: impl FnMut(usize) -> usize) -> Vec<Self> {
+        let mut position = std::collections::BTreeMap::new();
+        let mut groups: Vec<Self> = Vec::new();
+        for member in 0..self.len() {
+            let at = *position.entry(class(member)).or_insert_with(|| {
+                groups.push(Self::default());
+                groups.len() - 1
+            });
+            match self.bodies.get(member) {
+                Some(&body) => groups[at].bodies.push(body),
+                None => groups[at]
+                    .edges
+                    .push(self.edges[member - self.bodies.len()]),
+            }
+        }
+        groups
+    }
+
+    /// Where the members of a part stand among these: bodies first, then edges.
+    ///
+    /// # Panics
+    /// If a member of the part is not one of these.
+    pub fn positions(&self, part: &Self) -> Vec<usize> {
+        let body = |body| self.bodies.binary_search(body).expect("a member");
+        let edge = |edge| self.edges.binary_search(edge).expect("a member");
+        part.bodies
+            .iter()
+            .map(body)
+            .chain(part.edges.iter().map(|e| self.bodies.len() + edge(e)))
+            .collect()
+    }
+
+    /// Whether all members of a part are among these.
+    pub fn contains(&self, part: &Self) -> bool {
+        let body = |body| self.bodies.binary_search(body).is_ok();
+        let edge = |edge| self.edges.binary_search(edge).is_ok();
+        part.bodies.iter().all(body) && part.edges.iter().all(edge)
+    }
+
+    /// Takes in the members of another part.
+    pub fn extend(&mut self, part: &Self) {
+        self.bodies.extend(&part.bodies);
+        self.edges.extend(&part.edges);
+        self.sort();
+    }
+
+    /// Each member by itself.
+    pub fn singles(&self) -> Vec<Self> {
+        self.grouped(|member| member)
+    }
+
     fn sort(&mut self) {
         self.edges.sort_unstable();
         self.bodies.sort_unstable();
@@ -189,14 +242,10 @@ impl Pieces {
         inner + nodes.len()
     }
 
-    /// Whether a body contains a node that also lies in another member.
-    pub fn body_shares(&self, body: u32, node: u32) -> bool {
-        self.shared[body as usize].binary_search(&node).is_ok()
-    }
-
-    /// The nodes of a member that lie in a second one (all nodes of an edge).
-    pub fn shared_nodes(&self, body: u32) -> &[u32] {
-        &self.shared[body as usize]
+    /// Whether a part contains a node that lies in two members or more.
+    pub fn contains_node(&self, part: &Members, node: u32) -> bool {
+        let in_body = |&b: &u32| self.shared[b as usize].binary_search(&node).is_ok();
+        part.edges.iter().any(|&(i, j)| i == node || j == node) || part.bodies.iter().any(in_body)
     }
 }
 

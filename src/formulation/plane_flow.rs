@@ -162,6 +162,24 @@ impl<'a> PlaneFlows<'a> {
         .expect("centres are distinct")
     }
 
+    /// A basis of the plane flows: for each the omega_e of every edge (the normal of its
+    /// plane), omega flowing from j to i on the edge (i, j).
+    pub fn flows(&self) -> Vec<Vec<[u64; 3]>> {
+        let kernel = self.rigidity.left_kernel();
+        let both: Vec<_> = (0..self.graph.edges().len())
+            .map(|e| self.edge_directions(e))
+            .collect();
+        (0..kernel.rows())
+            .map(|f| {
+                let weights = kernel.row(f).chunks_exact(2);
+                let combine = |(w, [a, b]): (&[u64], &[[u64; 3]; 2])| {
+                    std::array::from_fn(|k| self.field.dot(0, w, &[a[k], b[k]]))
+                };
+                weights.zip(&both).map(combine).collect()
+            })
+            .collect()
+    }
+
     /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
     /// on the others by the potentials.
     pub fn lambda(&self) -> Lambda {

@@ -1,0 +1,321 @@
+//! The hub bound: parts that meet at a node, and too few plane flows between them.
+
+use crate::component;
+use crate::exact::Ring;
+use crate::exact::prime::PrimeField;
+use crate::formulation::plane_flow::PlaneFlows;
+use crate::graph::Graph;
+use crate::piece::{Core, Members, Pieces};
+use crate::union_find::UnionFind;
+
+/// How many sets of parts the search looks at for one node.
+pub const FLATS: usize = 20_000;
+
+/// A node at which a block loses rank. With every part of `split` given its own copy of
+/// the node, kappa the number of connected components of what results, and s the sum
+/// over the groups of 3 n_g - 4 less 3 n_B - 4, it loses at least
+/// |split| - (kappa - 1) - 3 s.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hub {
+    /// The node.
+    pub node: u32,
+    /// A partition of the block's members.
+    pub parts: Vec<Members>,
+    /// The parts, increasing, that get their own copy of the node.
+    pub split: Vec<u32>,
+    /// A partition of the parts, for the bound on the rank of N of the split graph.
+    pub groups: Vec<Vec<u32>>,
+    /// kappa; the node counts as a component if no part outside `split` contains it.
+    pub components: usize,
+    /// What the block loses, at least 1.
+    pub less: usize,
+}
+
+/// The hub that takes off most from the rank of a block whose edges the parts
+/// partition, or `None` if the search finds no hub.
+pub(super) fn search(
+    pieces: &Pieces,
+    block: &Members,
+    parts: &[Members],
+    field: &PrimeField,
+    random: &mut dyn FnMut() -> u64,
+) -> Option<Hub> {
+    let core = pieces.core(block);
+    let mut connected = UnionFind::new(core.graph.nodes());
+    let joins = |&&(i, j): &&(u32, u32)| connected.union(i as usize, j as usize);
+    if core.graph.edges().iter().filter(joins).count() + 1 < core.graph.nodes() {
+        return None;
+    }
+    let mut part_of_member = vec![0; block.len()];
+    for (k, part) in parts.iter().enumerate() {
+        for member in block.positions(part) {
+            part_of_member[member] = k;
+        }
+    }
+    let part_of_edge: Vec<usize> = core
+        .owner
+        .iter()
+        .map(|&member| part_of_member[member as usize])
+        .collect();
+    let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
+        .map(|_| std::array::from_fn(|_| random()))
+        .collect();
+    let flows = PlaneFlows::new(field, &core.graph, &centres).flows();
+
+    let mut best: Option<Hub> = None;
+    for v in 0..core.graph.nodes() as u32 {
+        let inflow = Inflow::new(field, &core.graph, &flows, &part_of_edge, v);
+        for (set, _) in inflow.promising(field) {
+            let split: Vec<u32> = set.iter().map(|&k| inflow.parts[k] as u32).collect();
+            let candidate = Split {
+                pieces,
+                block,
+                core: &core,
+                parts,
+                part_of_edge: &part_of_edge,
+                node: v,
+                split: &split,
+            };
+            let hub = candidate.evaluate(field, random);
+            if let Some(hub) = hub
+                && best.as_ref().is_none_or(|b| hub.less > b.less)
+            {
+                best = Some(hub);
+            }
+        }
+    }
+    best
+}
+
+/// The net plane flow that each part carries into a node, as a linear function of the
+/// flows: three vectors (the coordinates of the flow) a part, with one entry for each
+/// flow of a basis.
+struct Inflow {
+    /// The parts at the node, increasing.
+    parts: Vec<usize>,
+    functions: Vec<[Vec<u64>; 3]>,
+}
+
+impl Inflow {
+    /// `flows[f][e]` is omega_e of the f-th flow.
+    fn new(
+        field: &PrimeField,
+        graph: &Graph,
+        flows: &[Vec<[u64; 3]>],
+        part_of_edge: &[usize],
+        v: u32,
+    ) -> Self {
+        let mut at_node: Vec<(usize, usize, bool)> = Vec::new();
+        for (e, &(i, j)) in graph.edges().iter().enumerate() {
+            if i == v || j == v {
+                at_node.push((part_of_edge[e], e, i == v));
+            }
+        }
+        at_node.sort_unstable();
+        let mut parts: Vec<usize> = at_node.iter().map(|&(part, ..)| part).collect();
+        parts.dedup();
+        let functions = parts
+            .iter()
+            .map(|&part| {
+                std::array::from_fn(|k| {
+                    let mut function = vec![0; flows.len()];
+                    for &(_, e, outgoing) in at_node.iter().filter(|&&(p, ..)| p == part) {
+                        for (value, flow) in function.iter_mut().zip(flows) {
+                            *value = if outgoing {
+                                field.add(value, &flow[e][k])
+                            } else {
+                                field.sub(value, &flow[e][k])
+                            };
+                        }
+                    }
+                    function
+                })
+            })
+            .collect();
+        Self { parts, functions }
+    }
+
+    /// Sets of parts (by position) closed under dependence with more than three parts
+    /// for every dimension of their flows, and the excess; best first.
+    fn promising(&self, field: &PrimeField) -> Vec<(Vec<usize>, usize)> {
+        let mut found = Vec::new();
+        let mut budget = FLATS;
+        self.extend(field, &Span::default(), 0, &mut budget, &mut found);
+        found.sort_by(|(a, x), (b, y)| y.cmp(x).then(a.cmp(b)));
+        found.dedup();
+        found
+    }
+
+    fn extend(
+        &self,
+        field: &PrimeField,
+        span: &Span,
+        from: usize,
+        budget: &mut usize,
+        found: &mut Vec<(Vec<usize>, usize)>,
+    ) {
+        if *budget == 0 {
+            return;
+        }
+        *budget -= 1;
+        let closed: Vec<usize> = (0..self.parts.len())
+            .filter(|&k| self.functions[k].iter().all(|f| span.contains(field, f)))
+            .collect();
+        if closed.len() > 3 * span.dimension() {
+            let excess = closed.len() - 3 * span.dimension();
+            found.push((closed.clone(), excess));
+        }
+        for k in from..self.parts.len() {
+            if closed.contains(&k) {
+                continue;
+            }
+            let mut larger = span.clone();
+            for function in &self.functions[k] {
+                larger.insert(field, function);
+            }
+            if 3 * larger.dimension() < self.parts.len() {
+                self.extend(field, &larger, k + 1, budget, found);
+            }
+        }
+    }
+}
+
+/// A subspace, by a basis in echelon form.
+#[derive(Clone, Default)]
+struct Span {
+    /// Each vector is one at its leader, where the vectors after it are zero.
+    basis: Vec<(usize, Vec<u64>)>,
+}
+
+impl Span {
+    fn dimension(&self) -> usize {
+        self.basis.len()
+    }
+
+    fn reduce(&self, field: &PrimeField, vector: &[u64]) -> Vec<u64> {
+        let mut rest = vector.to_vec();
+        for (leader, b) in &self.basis {
+            let factor = field.negate(rest[*leader]);
+            if factor != 0 {
+                field.axpy(&mut rest, factor, b);
+            }
+        }
+        rest
+    }
+
+    fn contains(&self, field: &PrimeField, vector: &[u64]) -> bool {
+        self.reduce(field, vector).iter().all(|&x| x == 0)
+    }
+
+    fn insert(&mut self, field: &PrimeField, vector: &[u64]) {
+        use crate::exact::Field;
+        let mut rest = self.reduce(field, vector);
+        let Some(leader) = rest.iter().position(|&x| x != 0) else {
+            return;
+        };
+        let inverse = field.inv(&rest[leader]).expect("not zero");
+        for x in &mut rest {
+            *x = field.mul(x, &inverse);
+        }
+        self.basis.push((leader, rest));
+    }
+}
+
+/// A set of parts to be split off at a node.
+struct Split<'a> {
+    pieces: &'a Pieces,
+    block: &'a Members,
+    core: &'a Core,
+    parts: &'a [Members],
+    part_of_edge: &'a [usize],
+    /// The node, as a node of the core.
+    node: u32,
+    split: &'a [u32],
+}
+
+impl Split<'_> {
+    /// Counts what the split takes off; `None` if nothing.
+    fn evaluate(&self, field: &PrimeField, random: &mut dyn FnMut() -> u64) -> Option<Hub> {
+        let v = self.node;
+        // The split core: copies of v come after all nodes, v itself is what remains.
+        let n = self.core.graph.nodes() as u32;
+        let mut copies = n;
+        let mut copy_of_part = vec![v; self.parts.len()];
+        for &part in self.split {
+            copy_of_part[part as usize] = copies;
+            copies += 1;
+        }
+        let mut edges: Vec<((u32, u32), usize)> = Vec::new();
+        let mut remains = false;
+        for (&(i, j), &part) in self.core.graph.edges().iter().zip(self.part_of_edge) {
+            remains |= (i == v || j == v) && copy_of_part[part] == v;
+            let place = |w| if w == v { copy_of_part[part] } else { w };
+            let (i, j) = (place(i), place(j));
+            edges.push(((i.min(j), i.max(j)), part));
+        }
+        edges.sort_unstable();
+        let mut connected = UnionFind::new(copies as usize);
+        let mut components = copies as usize;
+        for &((i, j), _) in &edges {
+            components -= usize::from(connected.union(i as usize, j as usize));
+        }
+
+        // The isolated remainder of v carries no edge: its columns stay free and no
+        // transformation sees them.
+        let pairs = edges.iter().map(|&(pair, _)| pair).collect();
+        let (graph, _) = Graph::from_pairs(copies, pairs).expect("as in the core");
+        let centres: Vec<[u64; 3]> = (0..copies)
+            .map(|_| std::array::from_fn(|_| random()))
+            .collect();
+        let flows = PlaneFlows::new(field, &graph, &centres);
+        let (_, transforms) = flows.calibrated_motion(random);
+        let mut sets = UnionFind::new(self.parts.len());
+        component::unite(
+            &mut sets,
+            transforms.iter().zip(edges.iter().map(|&(_, part)| part)),
+        );
+        let mut groups: Vec<Vec<u32>> = vec![Vec::new(); self.parts.len()];
+        for part in 0..self.parts.len() {
+            groups[sets.find(part)].push(part as u32);
+        }
+        groups.retain(|group| !group.is_empty());
+
+        let node = self.core.nodes[v as usize];
+        let total: usize = groups
+            .iter()
+            .map(|group| 3 * self.group_nodes(group, node, remains) - 4)
+            .sum();
+        let s = total.checked_sub(3 * self.pieces.count_nodes(self.block) - 4)?;
+        let less = self
+            .split
+            .len()
+            .checked_sub(components - 1 + 3 * s)
+            .filter(|&less| less > 0)?;
+        Some(Hub {
+            node,
+            parts: self.parts.to_vec(),
+            split: self.split.to_vec(),
+            groups,
+            components,
+            less,
+        })
+    }
+
+    /// Nodes of a group in the split graph: different copies are different nodes.
+    fn group_nodes(&self, group: &[u32], node: u32, remains: bool) -> usize {
+        let mut all = Members::default();
+        let mut copies = 0;
+        let mut plain = false;
+        for &part in group {
+            let part_members = &self.parts[part as usize];
+            all.extend(part_members);
+            if self.split.contains(&part) {
+                copies += 1;
+            } else {
+                plain |= remains && self.pieces.contains_node(part_members, node);
+            }
+        }
+        let here = copies + usize::from(plain);
+        self.pieces.count_nodes(&all) - usize::from(here > 0) + here
+    }
+}
