@@ -270,21 +270,38 @@ impl Echelon {
     /// O(rank^2) multiply-accumulates a vector.
     pub fn left_kernel(&self) -> Matrix<u64> {
         let rank = self.rank();
-        let free = self.free_rows().len();
-        // The entries of -L in the free rows, then solved with L from the right.
-        let mut weights = Matrix::from_fn(free, rank, |i, k| {
-            self.factors[(rank + i, self.pivot_cols[k])]
-        });
-        self.solve_lower_transposed(&mut weights);
-        let mut kernel = Matrix::new(free, self.order.len(), vec![0; free * self.order.len()]);
-        for i in 0..free {
+        let free: Vec<usize> = (rank..self.order.len()).collect();
+        let weights = self.left_weights(&free);
+        let mut kernel = Matrix::new(
+            free.len(),
+            self.order.len(),
+            vec![0; free.len() * self.order.len()],
+        );
+        for i in 0..free.len() {
             let row = kernel.row_mut(i);
             row[self.order[rank + i]] = self.field.one();
-            for (k, &weight) in weights.row(i).iter().enumerate() {
-                row[self.order[k]] = weight;
+            for (&original, &weight) in self.order.iter().zip(weights.row(i)) {
+                row[original] = weight;
             }
         }
         kernel
+    }
+
+    /// For each of the given positions in factorised order, none of a pivot: the weights
+    /// of the pivot rows, in pivot order, that make their sum with that row zero.
+    pub(crate) fn left_weights(&self, positions: &[usize]) -> Matrix<u64> {
+        let mut weights = Matrix::from_fn(positions.len(), self.rank(), |i, k| {
+            self.factors[(positions[i], self.pivot_cols[k])]
+        });
+        // Unknown k meets column k of -L below the diagonal: w_k = r_k + sum w_l (-L)_lk.
+        let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
+        self.solve_backwards(&mut weights, entry, |_, value| value);
+        weights
+    }
+
+    /// The original rows in factorised order, pivots first.
+    pub(crate) fn order(&self) -> &[usize] {
+        &self.order
     }
 
     /// A basis of the right kernel, one row for each column that is not a pivot,
@@ -293,16 +310,7 @@ impl Echelon {
     pub fn right_kernel(&self) -> Matrix<u64> {
         let cols = self.factors.cols();
         let free = self.pivots().free_cols(cols);
-        let mut solutions = Matrix::from_fn(free.len(), self.rank(), |s, k| {
-            // An entry left of the pivot is a multiplier or zero in U.
-            let right = self.pivot_cols[k] < free[s];
-            if right {
-                self.field.negate(self.factors[(k, free[s])])
-            } else {
-                0
-            }
-        });
-        self.solve_upper(&mut solutions);
+        let solutions = self.right_weights(&free);
         let mut kernel = Matrix::new(free.len(), cols, vec![0; free.len() * cols]);
         for (s, &col) in free.iter().enumerate() {
             let row = kernel.row_mut(s);
@@ -312,6 +320,22 @@ impl Echelon {
             }
         }
         kernel
+    }
+
+    /// For each of the given columns, none a pivot: the weights of the pivot columns, in
+    /// pivot order, that make their sum with that column zero.
+    pub(crate) fn right_weights(&self, free: &[usize]) -> Matrix<u64> {
+        let mut weights = Matrix::from_fn(free.len(), self.rank(), |s, k| {
+            // Left of its pivot a row of U is zero.
+            let right = self.pivot_cols[k] < free[s];
+            if right {
+                self.field.negate(self.factors[(k, free[s])])
+            } else {
+                0
+            }
+        });
+        self.solve_upper(&mut weights);
+        weights
     }
 
     /// A solution x of A x = b, zero at the columns that are not pivots; `None` if there
@@ -348,15 +372,8 @@ impl Echelon {
         Some(x)
     }
 
-    /// Replaces every row r by the row w with w L11 = r.
-    pub(crate) fn solve_lower_transposed(&self, rows: &mut Matrix<u64>) {
-        // Column k of the unknowns meets the rows of -L below k: w_k = r_k + w (-L)_k.
-        let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        self.solve_backwards(rows, |k, l| entry(k, l), |_, value| value);
-    }
-
     /// Replaces every row r by the row x with U11 x^T = r^T.
-    pub(crate) fn solve_upper(&self, rows: &mut Matrix<u64>) {
+    fn solve_upper(&self, rows: &mut Matrix<u64>) {
         let mut inverses: Vec<u64> = self
             .pivot_cols
             .iter()

@@ -1,0 +1,630 @@
+//! Sparse elimination modulo a prime, with a dense end.
+//!
+//! Pivots are chosen by Markowitz' rule (Management Science 3, 1957) among the columns
+//! with the fewest entries, so that little fills in. What remains when filling in can no
+//! longer be avoided is eliminated as a dense matrix. The factors are kept: they give
+//! kernel vectors and solutions for many right-hand sides at once.
+
+use super::Ring;
+use super::dense::Matrix;
+use super::gauss::Pivots;
+use super::modular::{Echelon, eliminate_mod};
+use super::prime::PrimeField;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// The entries of a row that are not zero: `(column, value)`, columns ascending.
+pub type SparseRow = Vec<(usize, u64)>;
+
+/// Columns looked at for every pivot.
+const SEARCHED: usize = 4;
+
+/// What one entry of a sparse row operation costs, in multiply-accumulates of the dense
+/// elimination: merging, and keeping the columns' lists.
+const SPARSE_COST: usize = 24;
+
+/// Right-hand sides that share one pass over the sparse factors.
+const LANES: usize = 8;
+
+type Lanes = [u64; LANES];
+
+/// An eliminated sparse matrix modulo p.
+///
+/// ```
+/// use viewcert::exact::{Ring, prime::PrimeField, sparse::Factorisation};
+///
+/// // Edges of a triangle: rows e_0 - e_1, e_1 - e_2, e_0 - e_2.
+/// let f = PrimeField::mersenne61();
+/// let (one, minus) = (f.one(), f.from_i64(-1));
+/// let rows = vec![vec![(0, one), (1, minus)], vec![(1, one), (2, minus)], vec![(0, one), (2, minus)]];
+/// let done = Factorisation::new(&f, rows, 3);
+/// assert_eq!(done.rank(), 2);
+/// assert_eq!(done.right_kernel(done.free_cols()).data(), [one, one, one]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Factorisation {
+    field: PrimeField,
+    rows: usize,
+    cols: usize,
+    /// Pivots of the sparse part.
+    sparse: Pivots,
+    /// The pivot rows of the sparse part as they were when chosen, without the pivot.
+    upper: Vec<SparseRow>,
+    inverses: Vec<u64>,
+    /// For every row, the sparse pivots whose rows were added to it, and how often.
+    lower: Vec<SparseRow>,
+    /// Rows and columns of the dense part.
+    dense_rows: Vec<usize>,
+    dense_cols: Vec<usize>,
+    dense: Echelon,
+    free_rows: Vec<usize>,
+    free_cols: Vec<usize>,
+}
+
+/// The part of the matrix that has not been eliminated, with its columns' rows.
+struct Active {
+    field: PrimeField,
+    rows: Vec<SparseRow>,
+    /// The rows with an entry in each column.
+    members: Vec<Vec<usize>>,
+    /// Columns with at least one entry, by their number of entries.
+    by_count: BTreeSet<(usize, usize)>,
+    nonempty: usize,
+}
+
+impl Active {
+    fn new(field: &PrimeField, rows: Vec<SparseRow>, cols: usize) -> Self {
+        let mut members = vec![Vec::new(); cols];
+        for (r, row) in rows.iter().enumerate() {
+            for &(col, _) in row {
+                members[col].push(r);
+            }
+        }
+        let columns = members
+            .iter()
+            .enumerate()
+            .filter(|(_, rows)| !rows.is_empty());
+        let by_count = columns.map(|(col, rows)| (rows.len(), col)).collect();
+        let nonempty = rows.iter().filter(|row| !row.is_empty()).count();
+        Self {
+            field: *field,
+            rows,
+            members,
+            by_count,
+            nonempty,
+        }
+    }
+
+    /// The pivot with the least fill, `(fill, row, column)`; `None` when nothing is left.
+    fn choose(&self) -> Option<(usize, usize, usize)> {
+        let candidate = |&(count, col): &(usize, usize)| {
+            let shortest = self.members[col]
+                .iter()
+                .map(|&row| (self.rows[row].len(), row))
+                .min();
+            shortest.map(|(length, row)| ((length - 1) * (count - 1), row, col))
+        };
+        self.by_count
+            .iter()
+            .take(SEARCHED)
+            .filter_map(candidate)
+            .min()
+    }
+
+    /// Whether to go on with a dense matrix rather than with a pivot of this fill.
+    fn is_dense(&self, fill: usize) -> bool {
+        fill * SPARSE_COST > self.nonempty * self.by_count.len()
+    }
+
+    fn insert(&mut self, col: usize, row: usize) {
+        let count = self.members[col].len();
+        self.by_count.remove(&(count, col));
+        self.by_count.insert((count + 1, col));
+        self.members[col].push(row);
+    }
+
+    fn remove(&mut self, col: usize, row: usize) {
+        let count = self.members[col].len();
+        self.by_count.remove(&(count, col));
+        if count > 1 {
+            self.by_count.insert((count - 1, col));
+        }
+        self.members[col].retain(|&member| member != row);
+    }
+
+    /// Eliminates a column with a row; returns the row without the pivot, the inverse of
+    /// the pivot, and for each other row how often the pivot row was added to it.
+    fn eliminate(&mut self, row: usize, col: usize) -> (SparseRow, u64, Vec<(usize, u64)>) {
+        let mut pivot_row = std::mem::take(&mut self.rows[row]);
+        self.nonempty -= 1;
+        for &(c, _) in &pivot_row {
+            self.remove(c, row);
+        }
+        let place = pivot_row
+            .binary_search_by_key(&col, |&(c, _)| c)
+            .unwrap_or_else(|_| unreachable!("a pivot is an entry of its row"));
+        let (_, pivot) = pivot_row.remove(place);
+        let inverse = self
+            .field
+            .inverse(pivot)
+            .unwrap_or_else(|| unreachable!("a pivot is not zero"));
+        let mut factors = Vec::new();
+        for target in self.members[col].clone() {
+            let factor = self.add_multiple(target, col, &pivot_row, inverse);
+            self.remove(col, target);
+            factors.push((target, factor));
+        }
+        (pivot_row, inverse, factors)
+    }
+
+    /// Clears column `col` of a row with the multiple of the pivot row that does it.
+    fn add_multiple(
+        &mut self,
+        target: usize,
+        col: usize,
+        pivot_row: &SparseRow,
+        inverse: u64,
+    ) -> u64 {
+        let f = self.field;
+        let old = std::mem::take(&mut self.rows[target]);
+        let place = old
+            .binary_search_by_key(&col, |&(c, _)| c)
+            .unwrap_or_else(|_| unreachable!("a column's list holds rows with an entry there"));
+        let factor = f.negate(f.times(old[place].1, inverse));
+        let mut sum = Vec::with_capacity(old.len() + pivot_row.len());
+        let mut added = pivot_row.iter().peekable();
+        for &(c, value) in &old {
+            while let Some(&&(new, x)) = added.peek().filter(|&&&(new, _)| new < c) {
+                sum.push((new, f.times(factor, x)));
+                self.insert(new, target);
+                added.next();
+            }
+            if let Some(&(_, x)) = added.next_if(|&&(same, _)| same == c) {
+                let value = f.plus(value, f.times(factor, x));
+                if value == 0 {
+                    self.remove(c, target);
+                } else {
+                    sum.push((c, value));
+                }
+            } else if c != col {
+                sum.push((c, value));
+            }
+        }
+        for &(new, x) in added {
+            sum.push((new, f.times(factor, x)));
+            self.insert(new, target);
+        }
+        if sum.is_empty() {
+            self.nonempty -= 1;
+        }
+        self.rows[target] = sum;
+        factor
+    }
+}
+
+impl Factorisation {
+    /// Eliminates the matrix with the given rows and `cols` columns. The cost depends on
+    /// the fill; it is at most that of the dense elimination, up to a constant, and the
+    /// memory is at most that of the dense matrix of what remains.
+    ///
+    /// # Panics
+    /// If a row is not ascending, or has a column beyond the last or a zero.
+    pub fn new(field: &PrimeField, rows: Vec<SparseRow>, cols: usize) -> Self {
+        for row in &rows {
+            assert!(
+                row.is_sorted_by(|a, b| a.0 < b.0),
+                "columns of a sparse row ascend"
+            );
+            assert!(
+                row.iter().all(|&(c, x)| c < cols && x != 0),
+                "entries of a sparse row"
+            );
+        }
+        let count = rows.len();
+        let mut active = Active::new(field, rows, cols);
+        let mut sparse = Pivots::default();
+        let (mut upper, mut inverses) = (Vec::new(), Vec::new());
+        let mut lower = vec![Vec::new(); count];
+        while let Some((fill, row, col)) = active.choose() {
+            if active.is_dense(fill) {
+                break;
+            }
+            let (pivot_row, inverse, factors) = active.eliminate(row, col);
+            for (target, factor) in factors {
+                lower[target].push((sparse.rank(), factor));
+            }
+            upper.push(pivot_row);
+            inverses.push(inverse);
+            sparse.rows.push(row);
+            sparse.cols.push(col);
+        }
+
+        let dense_rows: Vec<usize> = (0..count).filter(|&r| !active.rows[r].is_empty()).collect();
+        let dense_cols: Vec<usize> = (0..cols)
+            .filter(|&col| !active.members[col].is_empty())
+            .collect();
+        let mut place = vec![0; cols];
+        for (k, &col) in dense_cols.iter().enumerate() {
+            place[col] = k;
+        }
+        let width = dense_cols.len();
+        let mut rest = Matrix::new(dense_rows.len(), width, vec![0; dense_rows.len() * width]);
+        for (k, &row) in dense_rows.iter().enumerate() {
+            for &(col, value) in &active.rows[row] {
+                rest[(k, place[col])] = value;
+            }
+        }
+        let dense = eliminate_mod(field, rest);
+        let mut done = Self {
+            field: *field,
+            rows: count,
+            cols,
+            sparse,
+            upper,
+            inverses,
+            lower,
+            dense_rows,
+            dense_cols,
+            dense,
+            free_rows: Vec::new(),
+            free_cols: Vec::new(),
+        };
+        let pivots = done.pivots();
+        done.free_rows = pivots.free_rows(count);
+        done.free_cols = pivots.free_cols(cols);
+        done
+    }
+
+    /// The rank modulo p.
+    pub fn rank(&self) -> usize {
+        self.sparse.rank() + self.dense.rank()
+    }
+
+    /// Rows and columns of a minor that is not zero: first those of the sparse part.
+    pub fn pivots(&self) -> Pivots {
+        let mut pivots = self.sparse.clone();
+        let dense = self.dense.pivots();
+        pivots
+            .rows
+            .extend(dense.rows.iter().map(|&row| self.dense_rows[row]));
+        pivots
+            .cols
+            .extend(dense.cols.iter().map(|&col| self.dense_cols[col]));
+        pivots
+    }
+
+    /// The rows that are not pivots, ascending.
+    pub fn free_rows(&self) -> &[usize] {
+        &self.free_rows
+    }
+
+    /// The columns that are not pivots, ascending.
+    pub fn free_cols(&self) -> &[usize] {
+        &self.free_cols
+    }
+
+    /// Rows and columns of the part that was eliminated as a dense matrix.
+    pub fn dense_size(&self) -> (usize, usize) {
+        (self.dense_rows.len(), self.dense_cols.len())
+    }
+
+    /// Vectors w with w A = 0, one row of the result for each of the given free rows: one
+    /// at that row and zero at the other free rows. Over all free rows this is a basis.
+    ///
+    /// Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and one
+    /// pass over the sparse factors for every 8 vectors; shared among threads.
+    ///
+    /// # Panics
+    /// If a row is not free.
+    pub fn left_kernel(&self, free: &[usize]) -> Matrix<u64> {
+        assert!(
+            free.iter()
+                .all(|row| self.free_rows.binary_search(row).is_ok()),
+            "rows not free"
+        );
+        let mut position = vec![None; self.rows];
+        for (place, &row) in self.dense.order().iter().enumerate() {
+            position[self.dense_rows[row]] = Some(place);
+        }
+        let in_dense: Vec<usize> = free.iter().filter_map(|&row| position[row]).collect();
+        let weights = self.dense.left_weights(&in_dense);
+        let mut dense_index = Vec::with_capacity(free.len());
+        let mut next = 0..in_dense.len();
+        for &row in free {
+            dense_index.push(position[row].and_then(|_| next.next()));
+        }
+
+        let mut kernel = Matrix::new(free.len(), self.rows, vec![0; free.len() * self.rows]);
+        let chunk = LANES * self.rows.max(1);
+        let chunks = kernel
+            .data_mut()
+            .par_chunks_mut(chunk)
+            .zip(free.par_chunks(LANES));
+        chunks
+            .zip(dense_index.par_chunks(LANES))
+            .for_each(|((out, free), dense_index)| {
+                let mut sums = vec![[0; LANES]; self.sparse.rank()];
+                let spread = |sums: &mut [Lanes], row: usize, weight: &Lanes| {
+                    for &(k, factor) in &self.lower[row] {
+                        self.add_lanes(&mut sums[k], factor, weight);
+                    }
+                };
+                for (lane, &row) in free.iter().enumerate() {
+                    let mut weight = [0; LANES];
+                    weight[lane] = self.field.one();
+                    spread(&mut sums, row, &weight);
+                    out[lane * self.rows + row] = self.field.one();
+                }
+                for (k, &row) in self.dense.order()[..self.dense.rank()].iter().enumerate() {
+                    let mut weight = [0; LANES];
+                    for (weight, index) in weight.iter_mut().zip(dense_index) {
+                        *weight = index.map_or(0, |index| weights[(index, k)]);
+                    }
+                    spread(&mut sums, self.dense_rows[row], &weight);
+                    self.store(out, self.rows, self.dense_rows[row], &weight);
+                }
+                for (k, &row) in self.sparse.rows.iter().enumerate().rev() {
+                    let weight = sums[k];
+                    spread(&mut sums, row, &weight);
+                    self.store(out, self.rows, row, &weight);
+                }
+            });
+        kernel
+    }
+
+    /// Vectors x with A x = 0, one row of the result for each of the given free columns:
+    /// one at that column and zero at the other free columns. Over all free columns this
+    /// is a basis. The cost is as for [`left_kernel`](Self::left_kernel).
+    ///
+    /// # Panics
+    /// If a column is not free.
+    pub fn right_kernel(&self, free: &[usize]) -> Matrix<u64> {
+        assert!(
+            free.iter()
+                .all(|col| self.free_cols.binary_search(col).is_ok()),
+            "cols not free"
+        );
+        let places: Vec<Option<usize>> = free
+            .iter()
+            .map(|col| self.dense_cols.binary_search(col).ok())
+            .collect();
+        let in_dense: Vec<usize> = places.iter().copied().flatten().collect();
+        let weights = self.dense.right_weights(&in_dense);
+        let dense_pivots = self.dense.pivots().cols;
+        let mut next = 0..in_dense.len();
+        let dense_index: Vec<Option<usize>> = places
+            .iter()
+            .map(|place| place.and_then(|_| next.next()))
+            .collect();
+
+        let mut kernel = Matrix::new(free.len(), self.cols, vec![0; free.len() * self.cols]);
+        let chunk = LANES * self.cols.max(1);
+        let chunks = kernel
+            .data_mut()
+            .par_chunks_mut(chunk)
+            .zip(free.par_chunks(LANES));
+        chunks
+            .zip(dense_index.par_chunks(LANES))
+            .for_each(|((out, free), dense_index)| {
+                let mut x = vec![[0; LANES]; self.cols];
+                for (lane, &col) in free.iter().enumerate() {
+                    x[col][lane] = self.field.one();
+                }
+                for (k, &col) in dense_pivots.iter().enumerate() {
+                    for (x, index) in x[self.dense_cols[col]].iter_mut().zip(dense_index) {
+                        *x = index.map_or(0, |index| weights[(index, k)]);
+                    }
+                }
+                self.substitute(&mut x, |_| [0; LANES]);
+                for (col, x) in x.iter().enumerate() {
+                    self.store(out, self.cols, col, x);
+                }
+            });
+        kernel
+    }
+
+    /// A solution x of A x = b, zero at the free columns; `None` if there is none.
+    ///
+    /// # Panics
+    /// If `b` does not have one entry a row.
+    pub fn solve(&self, b: &[u64]) -> Option<Vec<u64>> {
+        assert_eq!(b.len(), self.rows, "one entry a row");
+        let mut reduced = Vec::with_capacity(self.sparse.rank());
+        let reduce = |row: usize, reduced: &[u64]| {
+            let terms = self.lower[row]
+                .iter()
+                .map(|&(k, factor)| self.field.times(factor, reduced[k]));
+            terms.fold(b[row], |sum, term| self.field.plus(sum, term))
+        };
+        for &row in &self.sparse.rows {
+            let value = reduce(row, &reduced);
+            reduced.push(value);
+        }
+        let rest: Vec<u64> = self
+            .dense_rows
+            .iter()
+            .map(|&row| reduce(row, &reduced))
+            .collect();
+        let empty = self
+            .free_rows
+            .iter()
+            .filter(|row| self.dense_rows.binary_search(row).is_err());
+        if empty.into_iter().any(|&row| reduce(row, &reduced) != 0) {
+            return None;
+        }
+        let dense = self.dense.solve(&rest)?;
+        let mut x = vec![[0; LANES]; self.cols];
+        for (&col, value) in self.dense_cols.iter().zip(dense) {
+            x[col][0] = value;
+        }
+        self.substitute(&mut x, |k| {
+            let mut right = [0; LANES];
+            right[0] = reduced[k];
+            right
+        });
+        Some(x.into_iter().map(|lanes| lanes[0]).collect())
+    }
+
+    /// Solves for the sparse pivots' columns, last pivot first.
+    fn substitute(&self, x: &mut [Lanes], right: impl Fn(usize) -> Lanes) {
+        for (k, &col) in self.sparse.cols.iter().enumerate().rev() {
+            let mut sum = right(k);
+            for &(other, value) in &self.upper[k] {
+                self.add_lanes(&mut sum, self.field.negate(value), &x[other]);
+            }
+            x[col] = sum.map(|value| self.field.times(value, self.inverses[k]));
+        }
+    }
+
+    #[inline]
+    fn add_lanes(&self, sum: &mut Lanes, factor: u64, x: &Lanes) {
+        for (sum, &x) in sum.iter_mut().zip(x) {
+            *sum = self.field.plus(*sum, self.field.times(factor, x));
+        }
+    }
+
+    /// Writes one entry of every vector that is there.
+    fn store(&self, out: &mut [u64], length: usize, at: usize, lanes: &Lanes) {
+        for (vector, &value) in out.chunks_exact_mut(length).zip(lanes) {
+            vector[at] = value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{known_rank, multiply};
+    use super::super::{gauss, prime::DEFAULT_PRIME};
+    use super::*;
+    use proptest::prelude::*;
+    use rand::{Rng, SeedableRng};
+
+    fn sparse(m: &Matrix<u64>) -> Vec<SparseRow> {
+        let row = |i: usize| {
+            m.row(i)
+                .iter()
+                .copied()
+                .enumerate()
+                .filter(|&(_, x)| x != 0)
+                .collect()
+        };
+        (0..m.rows()).map(row).collect()
+    }
+
+    fn verify(field: &PrimeField, m: &Matrix<u64>) -> Factorisation {
+        let rank = gauss::eliminate(field, m).rank();
+        let done = Factorisation::new(field, sparse(m), m.cols());
+        assert_eq!(done.rank(), rank);
+        let pivots = done.pivots();
+        let minor = m.submatrix(&pivots.rows, &pivots.cols);
+        assert_eq!(gauss::eliminate(field, &minor).rank(), rank);
+
+        let left = done.left_kernel(done.free_rows());
+        let transposed = m.transposed();
+        assert_eq!(left.rows(), m.rows() - rank);
+        for i in 0..left.rows() {
+            assert!(
+                multiply(field, &transposed, left.row(i))
+                    .iter()
+                    .all(|&x| x == 0)
+            );
+            for (k, &row) in done.free_rows().iter().enumerate() {
+                assert_eq!(left[(i, row)], if i == k { field.one() } else { 0 });
+            }
+        }
+        let right = done.right_kernel(done.free_cols());
+        assert_eq!(right.rows(), m.cols() - rank);
+        for s in 0..right.rows() {
+            assert!(multiply(field, m, right.row(s)).iter().all(|&x| x == 0));
+            for (k, &col) in done.free_cols().iter().enumerate() {
+                assert_eq!(right[(s, col)], if s == k { field.one() } else { 0 });
+            }
+        }
+        let x: Vec<u64> = (0..m.cols() as u64)
+            .map(|k| field.from_u64(k * k + 1))
+            .collect();
+        let mut b = multiply(field, m, &x);
+        assert_eq!(multiply(field, m, &done.solve(&b).unwrap()), b);
+        for &row in done.free_rows() {
+            b[row] = field.add(&b[row], &field.one());
+            assert_eq!(done.solve(&b), None);
+            b[row] = field.sub(&b[row], &field.one());
+        }
+        done
+    }
+
+    /// Entries at random places; small values, so that entries cancel.
+    fn scattered(
+        field: &PrimeField,
+        rows: usize,
+        cols: usize,
+        a_row: usize,
+        seed: u64,
+    ) -> Matrix<u64> {
+        let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+        let mut m = Matrix::new(rows, cols, vec![0; rows * cols]);
+        for i in 0..rows {
+            for _ in 0..a_row {
+                let col = (rng.next_u64() % cols as u64) as usize;
+                m[(i, col)] = field.from_i64((rng.next_u64() % 5) as i64 - 2);
+            }
+        }
+        m
+    }
+
+    #[test]
+    fn both_parts_are_used() {
+        let field = PrimeField::mersenne61();
+        let done = verify(&field, &scattered(&field, 260, 200, 4, 3));
+        assert!(
+            done.sparse.rank() > 100 && done.dense.rank() > 10,
+            "{:?}",
+            done.dense_size()
+        );
+    }
+
+    #[test]
+    fn a_forest_never_becomes_dense() {
+        // Incidence matrix of a path: no fill at all.
+        let field = PrimeField::mersenne61();
+        let m = Matrix::from_fn(40, 41, |i, j| {
+            field.from_i64(if j == i {
+                1
+            } else if j == i + 1 {
+                -1
+            } else {
+                0
+            })
+        });
+        let done = verify(&field, &m);
+        assert_eq!(done.rank(), 40);
+        assert_eq!(done.dense_size(), (0, 0));
+    }
+
+    #[test]
+    fn empty() {
+        let field = PrimeField::mersenne61();
+        for (rows, cols) in [(0, 0), (0, 3), (3, 0), (2, 3)] {
+            verify(&field, &Matrix::new(rows, cols, vec![0; rows * cols]));
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn scattered_matrices(
+            rows in 1..60usize, cols in 1..60usize, a_row in 1..6usize, seed: u64, small: bool,
+        ) {
+            let p = if small { 5 } else { DEFAULT_PRIME };
+            let field = PrimeField::new(p).unwrap();
+            verify(&field, &scattered(&field, rows, cols, a_row, seed));
+        }
+
+        #[test]
+        fn known_ranks(rank in 0..20usize, rows in 0..20usize, cols in 0..20usize, seed: u64) {
+            let field = PrimeField::new(7).unwrap();
+            let m = known_rank(&field, rank + rows, rank + cols, rank, seed, 1);
+            prop_assert_eq!(verify(&field, &m).rank(), rank);
+        }
+    }
+}
