@@ -1,11 +1,13 @@
 //! Exact, certified solvability of viewing graphs.
 //!
-//! Data flows one way: a [`graph`] is read, its question is reduced and decided
-//! with [`exact`] arithmetic, and the answer leaves with its evidence. A module
-//! never imports one that stands below it in this list.
+//! Data flows one way: a [`graph`] is read, contracted to bodies ([`body`]) and cut into
+//! pieces ([`piece`]); each piece is decided with [`exact`] arithmetic at a [`camera`]
+//! set in some [`formulation`], its [`component`]s are found and upper [`bound`]s are
+//! counted; the [`verdict`] leaves with its [`evidence`].
 
 pub mod body;
 pub mod bound;
+pub mod camera;
 pub mod component;
 pub mod exact;
 pub mod formulation;

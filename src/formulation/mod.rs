@@ -1,3 +1,4 @@
-//! Matrices whose rank decides solvability, one file a formulation.
+//! Formulations of the question: which matrix has the rank that decides.
 
 pub mod plane_flow;
+pub mod skew;
