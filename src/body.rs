@@ -66,6 +66,8 @@ pub struct Body {
     /// Its nodes in increasing order; empty once the body has been consumed by a
     /// later one.
     pub nodes: Vec<u32>,
+    /// How many edges of the graph it covers; 0 once consumed.
+    pub edges: usize,
 }
 
 /// A viewing graph contracted to bodies and loose edges.
@@ -100,8 +102,11 @@ impl Contraction {
         let mut loose = Vec::new();
         for v in 0..graph.nodes() as u32 {
             for &w in remaining.neighbours(v) {
-                if v < w && !owners.share_body(v, w) {
-                    loose.push((v, w));
+                if v < w {
+                    match owners.common_body(v, w) {
+                        Some(body) => bodies[body as usize].edges += 1,
+                        None => loose.push((v, w)),
+                    }
                 }
             }
         }

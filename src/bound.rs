@@ -19,7 +19,7 @@ use crate::component;
 use crate::exact::prime::PrimeField;
 use crate::formulation::plane_flow::PlaneFlows;
 use crate::model::Model;
-use crate::piece::{Members, Pieces};
+use crate::piece::{Assembly, Members};
 
 pub use hub::Hub;
 
@@ -43,11 +43,11 @@ pub struct Block {
 
 impl Counting {
     /// The partition bound of the given blocks.
-    fn partition(model: Model, pieces: &Pieces, blocks: &[Members]) -> Self {
+    fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
         Self {
             bound: blocks
                 .iter()
-                .map(|block| model.required(pieces.count_nodes(block)))
+                .map(|block| model.required(assembly.count_nodes(block)))
                 .sum(),
             blocks: blocks
                 .iter()
@@ -72,22 +72,22 @@ impl Counting {
 /// choice steers the search but not the validity of what it finds.
 pub fn count(
     model: Model,
-    pieces: &Pieces,
+    assembly: &Assembly,
     piece: &Members,
     components: &[Members],
     target: usize,
     field: &PrimeField,
     random: &mut dyn FnMut() -> u64,
 ) -> Counting {
-    let partition = Counting::partition(model, pieces, components);
+    let partition = Counting::partition(model, assembly, components);
     if partition.bound <= target || model == Model::Calibrated {
         return partition;
     }
-    let whole = with_hub(pieces, piece, components, field, random);
+    let whole = with_hub(assembly, piece, components, field, random);
     if whole.bound <= target {
         return whole;
     }
-    let rigid = parallel_rigid_components(pieces, piece, field, random);
+    let rigid = parallel_rigid_components(assembly, piece, field, random);
     let by_block = rigid
         .iter()
         .map(|block| {
@@ -96,11 +96,11 @@ pub fn count(
                 .filter(|component| block.contains(component))
                 .cloned()
                 .collect();
-            let split = Counting::partition(model, pieces, &inside);
+            let split = Counting::partition(model, assembly, &inside);
             if inside.len() < 2 {
                 return split;
             }
-            let one = with_hub(pieces, block, &inside, field, random);
+            let one = with_hub(assembly, block, &inside, field, random);
             if one.bound < split.bound { one } else { split }
         })
         .collect();
@@ -112,17 +112,17 @@ pub fn count(
 
 /// One block, with the best hub that the search finds.
 fn with_hub(
-    pieces: &Pieces,
+    assembly: &Assembly,
     block: &Members,
     components: &[Members],
     field: &PrimeField,
     random: &mut dyn FnMut() -> u64,
 ) -> Counting {
-    let mut best = hub::search(pieces, block, components, field, random);
+    let mut best = hub::search(assembly, block, components, field, random);
     if best.is_none() && components.len() < block.len() {
-        best = hub::search(pieces, block, &block.singles(), field, random);
+        best = hub::search(assembly, block, &block.singles(), field, random);
     }
-    let required = Model::Projective.required(pieces.count_nodes(block));
+    let required = Model::Projective.required(assembly.count_nodes(block));
     Counting {
         bound: required - best.as_ref().map_or(0, |hub| hub.less),
         blocks: vec![Block {
@@ -134,16 +134,16 @@ fn with_hub(
 
 /// The components of the calibrated model: where N alone leaves no freedom.
 fn parallel_rigid_components(
-    pieces: &Pieces,
+    assembly: &Assembly,
     piece: &Members,
     field: &PrimeField,
     random: &mut dyn FnMut() -> u64,
 ) -> Vec<Members> {
-    let core = pieces.core(piece);
+    let core = assembly.core(piece);
     let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
         .map(|_| std::array::from_fn(|_| random()))
         .collect();
     let flows = PlaneFlows::new(field, &core.graph, &centres);
     let (_, transforms) = flows.calibrated_motion(random);
-    component::components(piece, &core, &transforms)
+    component::classes(piece, &core, &transforms)
 }

@@ -23,8 +23,8 @@
 //! | rational cameras, bounds A, B | 12 entries, row by row | numerator: uniform below 2A + 1, less A; then denominator: uniform below B, plus 1 |
 //! | integer centres, bound C | 3 coordinates | uniform below 2C + 1, less C |
 //!
-//! A rational camera is then multiplied by the least common multiple of the denominators
-//! (in lowest terms) of its twelve entries: projectively the same camera, with integer
+//! A rational camera is then multiplied by the least common multiple of the twelve
+//! denominators (as drawn, before cancelling): projectively the same camera, with integer
 //! entries.
 //!
 //! A draw in which two centres coincide, or a camera has rank below 3, is discarded as a
@@ -33,14 +33,21 @@
 
 use crate::exact::integer::{Integer, Integers};
 use crate::exact::prime::PrimeField;
-use crate::exact::rational::Rational;
 use crate::exact::{Field, Ring};
+use num_integer::Integer as _;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha20Rng;
 use sha2::{Digest, Sha256};
 
 /// How many draws are tried before the bounds or the prime are given up as too small.
 const ATTEMPTS: u64 = 1000;
+
+/// Largest bound on the numerators of rational cameras: the entries of the integer
+/// Jacobian then stay below 2^120.
+pub const MAX_NUMERATOR: u64 = 100;
+
+/// Largest bound on the denominators of rational cameras.
+pub const MAX_DENOMINATOR: u64 = 12;
 
 /// A 3 x 4 camera, row by row.
 pub type Camera<E> = [[E; 4]; 3];
@@ -80,12 +87,30 @@ pub enum DrawError {
     /// A bound that leaves nothing to draw from.
     #[error("the bound {0} is out of range: take one from 1 to 2^62 - 1")]
     Bound(u64),
+    /// Bounds on rational entries out of range.
+    #[error(
+        "rational cameras take numerators up to 1 .. {MAX_NUMERATOR} and denominators up to \
+         1 .. {MAX_DENOMINATOR}"
+    )]
+    RationalBounds,
 }
 
 impl DrawKey {
     fn generator(&self) -> ChaCha20Rng {
+        self.generator_for(b"viewcert draw 1\n")
+    }
+
+    /// Uniform elements of the field for whatever needs no name in a certificate: which
+    /// kernel vector to take, where to look for a hub.
+    pub fn residues(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
+        let mut generator = self.generator_for(b"viewcert pick 1\n");
+        let field = *field;
+        move || field.from_u64(uniform(&mut generator, field.modulus()))
+    }
+
+    fn generator_for(&self, purpose: &[u8; 16]) -> ChaCha20Rng {
         let key = Sha256::new()
-            .chain_update(b"viewcert draw 1\n")
+            .chain_update(purpose)
             .chain_update(self.graph_sha256)
             .chain_update(self.seed.to_le_bytes())
             .chain_update(self.draw.to_le_bytes())
@@ -163,6 +188,42 @@ pub fn centres_mod(
     key.draw(nodes, draw, |&centre: &[u64; 3]| Some(centre))
 }
 
+/// As [`centres_mod`], modulo a prime that the draw itself chooses: words w of the stream
+/// are taken until 2^61 + 2 (w mod 2^60) + 1 is prime. Returns the field, the centres and
+/// the number of the draw.
+///
+/// # Errors
+/// As [`centres_mod`]; never for less than 2^30 nodes.
+pub fn centres_mod_drawn_prime(
+    nodes: usize,
+    key: &DrawKey,
+) -> Result<(PrimeField, Vec<[u64; 3]>, u64), DrawError> {
+    for attempt in 0..ATTEMPTS {
+        let key = DrawKey {
+            draw: key.draw.wrapping_add(attempt),
+            ..*key
+        };
+        let mut generator = key.generator();
+        let field = loop {
+            let candidate = (1 << 61) + 2 * (generator.next_u64() % (1 << 60)) + 1;
+            if let Ok(field) = PrimeField::new(candidate) {
+                break field;
+            }
+        };
+        let centres: Vec<[u64; 3]> = (0..nodes)
+            .map(|_| {
+                std::array::from_fn(|_| field.from_u64(uniform(&mut generator, field.modulus())))
+            })
+            .collect();
+        let mut sorted = centres.clone();
+        sorted.sort_unstable();
+        if sorted.is_sorted_by(|a, b| a < b) {
+            return Ok((field, centres, key.draw));
+        }
+    }
+    Err(DrawError::Degenerate { nodes })
+}
+
 /// Cameras of rank 3 with distinct centres modulo p, as elements of `field`, one a node.
 ///
 /// # Errors
@@ -189,26 +250,27 @@ pub fn cameras_mod(
 /// multiplied by the least common multiple of its denominators.
 ///
 /// # Errors
-/// A bound of zero or above 2^62 - 1, or bounds too small for so many distinct centres.
+/// A bound of zero or above [`MAX_NUMERATOR`] or [`MAX_DENOMINATOR`], or bounds too small
+/// for so many distinct centres.
 pub fn cameras_rational(
     nodes: usize,
     numerator: u64,
     denominator: u64,
     key: &DrawKey,
 ) -> Result<Drawn<Vec<Camera<Integer>>>, DrawError> {
-    check_bound(numerator)?;
-    check_bound(denominator)?;
+    if !(1..=MAX_NUMERATOR).contains(&numerator) || !(1..=MAX_DENOMINATOR).contains(&denominator) {
+        return Err(DrawError::RationalBounds);
+    }
     let draw = |generator: &mut ChaCha20Rng| {
-        let mut entry = || {
-            let above = symmetric(generator, numerator);
-            let below = uniform(generator, denominator) + 1;
-            Rational::new(above.into(), below.into())
-                .unwrap_or_else(|| unreachable!("a denominator is at least 1"))
-        };
-        let camera: Camera<Rational> = std::array::from_fn(|_| std::array::from_fn(|_| entry()));
-        let entries = camera.iter().flatten();
-        let lcm = entries.fold(Integer::one(), |lcm, x| lcm.lcm(x.denominator()));
-        camera.map(|row| row.map(|x| x.numerator().mul(&lcm).div_exact(x.denominator())))
+        let mut above = [0; 12];
+        let mut below = [0; 12];
+        for (above, below) in above.iter_mut().zip(&mut below) {
+            *above = symmetric(generator, numerator);
+            *below = uniform(generator, denominator) as i64 + 1;
+        }
+        let lcm = below.iter().fold(1i64, |lcm, x| lcm.lcm(x));
+        let entry = |at: usize| Integer::from(above[at] * (lcm / below[at]));
+        std::array::from_fn(|row| std::array::from_fn(|col| entry(4 * row + col)))
     };
     let centre = |camera: &Camera<Integer>| {
         let mut centre = centre(&Integers, camera);

@@ -1,17 +1,19 @@
-//! Components of a piece from one motion of its core (docs/theory.md, section 6).
+//! Motion classes of a piece from one motion of its core (docs/theory.md, section 6).
 //!
 //! In a component every motion is one transformation, so edges that a motion
 //! transforms differently lie in different components; a random motion tells all of
-//! them apart but with probability about 1/p.
+//! them apart but with probability about 1/p. The converse fails: what always moves as
+//! one need not be rigid by itself, so that a class is a component only if its own
+//! rank says so.
 
 use crate::piece::{Core, Members};
 use crate::union_find::UnionFind;
 use std::collections::BTreeMap;
 
 /// Groups the members of a piece by the transformations of a motion: two members are in
-/// one component if some of their core edges are transformed alike. Components come in
-/// a fixed order, that of their first members.
-pub fn components<T: Ord>(part: &Members, core: &Core, transforms: &[T]) -> Vec<Members> {
+/// one class if some of their core edges are transformed alike. Classes come in a fixed
+/// order, that of their first members.
+pub fn classes<T: Ord>(part: &Members, core: &Core, transforms: &[T]) -> Vec<Members> {
     let mut sets = UnionFind::new(part.len());
     let owners = core.owner.iter().map(|&owner| owner as usize);
     unite(&mut sets, transforms.iter().zip(owners));
@@ -34,17 +36,17 @@ mod tests {
     use super::*;
     use crate::body::Contraction;
     use crate::graph::Graph;
-    use crate::piece::Pieces;
+    use crate::piece::Assembly;
 
     #[test]
-    fn members_with_equal_transforms_are_one_component() {
+    fn members_with_equal_transforms_are_one_class() {
         // The 4-cycle 0-1-2-3: four loose edges, one piece.
         let pairs = vec![(0, 1), (1, 2), (2, 3), (0, 3)];
         let (graph, _) = Graph::from_pairs(4, pairs).unwrap();
-        let pieces = Pieces::new(&graph, &Contraction::new(&graph));
-        let piece = &pieces.pieces[0];
-        let core = pieces.core(piece);
-        let found = components(piece, &core, &[7, 8, 7, 9]);
+        let assembly = Assembly::new(&graph, &Contraction::new(&graph));
+        let piece = &assembly.split(&assembly.all()).pieces[0];
+        let core = assembly.core(piece);
+        let found = classes(piece, &core, &[7, 8, 7, 9]);
         let edges: Vec<_> = found.iter().map(|c| c.edges.clone()).collect();
         assert_eq!(edges, [vec![(0, 1), (1, 2)], vec![(0, 3)], vec![(2, 3)]]);
     }

@@ -86,13 +86,10 @@ impl Members {
     }
 }
 
-/// A contracted graph, cut into pieces.
+/// A contracted graph: which member contains which of the nodes that members share.
 #[derive(Clone, Debug)]
-pub struct Pieces {
-    /// The members that are pieces by themselves.
-    pub rigid: Members,
-    /// The other pieces, each of two members or more, in a fixed order.
-    pub pieces: Vec<Members>,
+pub struct Assembly {
+    all: Members,
     /// For every body of the contraction those of its nodes, increasing, that lie in
     /// a second member; empty for consumed bodies.
     shared: Vec<Vec<u32>>,
@@ -100,76 +97,78 @@ pub struct Pieces {
     size: Vec<usize>,
 }
 
-impl Pieces {
-    /// Cuts the graph at the nodes that are articulations of the structure of members
-    /// and shared nodes. Linear time.
+/// Some members, cut at their articulation nodes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Split {
+    /// The members that are pieces by themselves.
+    pub rigid: Members,
+    /// The other pieces, each of two members or more, in a fixed order.
+    pub pieces: Vec<Members>,
+}
+
+impl Assembly {
+    /// The structure of a contracted graph. O(n + loose edges).
     pub fn new(graph: &Graph, contraction: &Contraction) -> Self {
-        let incidence = Incidence::new(graph.nodes(), contraction);
-        let piece_of = incidence.pieces();
-        let mut grouped: Vec<Members> = vec![Members::default(); incidence.members()];
-        for (member, &piece) in piece_of.iter().enumerate() {
-            let piece = &mut grouped[piece as usize];
-            match contraction.finals.get(member) {
-                Some(&body) => piece.bodies.push(body),
-                None => piece
-                    .edges
-                    .push(contraction.loose[member - contraction.finals.len()]),
-            }
+        let mut count = vec![0u8; graph.nodes()];
+        let mut see = |v: u32| count[v as usize] = count[v as usize].saturating_add(1);
+        for &body in &contraction.finals {
+            let nodes = &contraction.bodies[body as usize].nodes;
+            nodes.iter().copied().for_each(&mut see);
         }
-        let mut rigid = Members::default();
-        let mut pieces = Vec::new();
-        for piece in grouped {
-            match piece.len() {
-                0 => {}
-                1 => {
-                    rigid.bodies.extend(piece.bodies);
-                    rigid.edges.extend(piece.edges);
-                }
-                _ => pieces.push(piece),
-            }
+        for &(i, j) in &contraction.loose {
+            see(i);
+            see(j);
         }
-        rigid.sort();
-        pieces.sort();
-        Self::with(contraction, incidence, rigid, pieces)
-    }
-
-    /// The whole graph as one piece (a single member is rigid all the same).
-    pub fn whole(graph: &Graph, contraction: &Contraction) -> Self {
-        let all = Members {
-            edges: contraction.loose.clone(),
-            bodies: contraction.finals.clone(),
-        };
-        let (rigid, pieces) = if all.len() == 1 {
-            (all, Vec::new())
-        } else {
-            (Members::default(), vec![all])
-        };
-        let incidence = Incidence::new(graph.nodes(), contraction);
-        Self::with(contraction, incidence, rigid, pieces)
-    }
-
-    fn with(
-        contraction: &Contraction,
-        incidence: Incidence,
-        rigid: Members,
-        pieces: Vec<Members>,
-    ) -> Self {
-        let mut shared = vec![Vec::new(); contraction.bodies.len()];
-        for (member, &body) in contraction.finals.iter().enumerate() {
-            shared[body as usize] = incidence
-                .of_member
-                .of(member)
-                .iter()
-                .map(|&node| incidence.nodes[node as usize])
-                .collect();
-        }
-        let size = contraction.bodies.iter().map(|b| b.nodes.len()).collect();
+        let shared = |v: &u32| count[*v as usize] > 1;
+        let bodies = &contraction.bodies;
         Self {
-            rigid,
-            pieces,
-            shared,
-            size,
+            all: Members {
+                edges: contraction.loose.clone(),
+                bodies: contraction.finals.clone(),
+            },
+            shared: bodies
+                .iter()
+                .map(|body| body.nodes.iter().copied().filter(shared).collect())
+                .collect(),
+            size: bodies.iter().map(|body| body.nodes.len()).collect(),
         }
+    }
+
+    /// All members.
+    pub fn all(&self) -> Members {
+        self.all.clone()
+    }
+
+    /// Cuts some members at the nodes that are articulations of their structure. Linear
+    /// time, up to sorting.
+    pub fn split(&self, part: &Members) -> Split {
+        let piece_of = Incidence::new(part, &self.shared).pieces();
+        let mut split = Split {
+            rigid: Members::default(),
+            pieces: Vec::new(),
+        };
+        for piece in part.grouped(|member| piece_of[member] as usize) {
+            if piece.len() == 1 {
+                split.rigid.bodies.extend(piece.bodies);
+                split.rigid.edges.extend(piece.edges);
+            } else {
+                split.pieces.push(piece);
+            }
+        }
+        split.rigid.sort();
+        split.pieces.sort();
+        split
+    }
+
+    /// Some members as one piece, whatever their articulations (a single member is rigid
+    /// all the same).
+    pub fn whole(&self, part: &Members) -> Split {
+        let (rigid, pieces) = if part.len() == 1 {
+            (part.clone(), Vec::new())
+        } else {
+            (Members::default(), vec![part.clone()])
+        };
+        Split { rigid, pieces }
     }
 
     /// The core of a piece, or of a part of it.
@@ -271,6 +270,10 @@ struct Lists {
 }
 
 impl Lists {
+    fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+
     fn of(&self, k: usize) -> &[u32] {
         &self.items[self.start[k] as usize..self.start[k + 1] as usize]
     }
@@ -294,55 +297,34 @@ impl Lists {
     }
 }
 
-/// Which members (final bodies, then loose edges) contain which shared nodes.
+/// Which members (bodies, then edges) contain which shared nodes.
 struct Incidence {
-    /// The shared nodes, increasing.
-    nodes: Vec<u32>,
-    /// For every member its shared nodes, by their position in `nodes`.
+    /// For every member its shared nodes, numbered among all of them.
     of_member: Lists,
     /// For every shared node the members that contain it.
     of_node: Lists,
 }
 
 impl Incidence {
-    fn new(n: usize, contraction: &Contraction) -> Self {
-        let each = |mut visit: Box<dyn FnMut(u32, u32) + '_>| {
-            for (member, &body) in (0..).zip(&contraction.finals) {
-                for &v in &contraction.bodies[body as usize].nodes {
-                    visit(member, v);
-                }
-            }
-            for (member, &(i, j)) in (contraction.finals.len() as u32..).zip(&contraction.loose) {
-                visit(member, i);
-                visit(member, j);
-            }
-        };
-        let mut count = vec![0u8; n];
-        each(Box::new(|_, v| {
-            count[v as usize] = count[v as usize].saturating_add(1);
-        }));
-        let nodes: Vec<u32> = (0..n as u32).filter(|&v| count[v as usize] > 1).collect();
-        let mut position = vec![u32::MAX; n];
-        for (k, &v) in (0..).zip(&nodes) {
-            position[v as usize] = k;
+    /// `shared` lists the shared nodes of every body.
+    fn new(part: &Members, shared: &[Vec<u32>]) -> Self {
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (member, &body) in (0..).zip(&part.bodies) {
+            pairs.extend(shared[body as usize].iter().map(|&v| (member, v)));
         }
-        let mut pairs = Vec::new();
-        each(Box::new(|member, v| {
-            let node = position[v as usize];
-            if node != u32::MAX {
-                pairs.push((member, node));
-            }
-        }));
-        let members = contraction.finals.len() + contraction.loose.len();
+        for (member, &(i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
+            pairs.extend([(member, i), (member, j)]);
+        }
+        let mut nodes: Vec<u32> = pairs.iter().map(|&(_, v)| v).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        for (_, v) in &mut pairs {
+            *v = nodes.partition_point(|w| w < v) as u32;
+        }
         Self {
-            of_member: Lists::group(members, pairs.iter().copied()),
+            of_member: Lists::group(part.len(), pairs.iter().copied()),
             of_node: Lists::group(nodes.len(), pairs.iter().map(|&(m, v)| (v, m))),
-            nodes,
         }
-    }
-
-    fn members(&self) -> usize {
-        self.of_member.start.len() - 1
     }
 
     /// For every member a number of its piece. Members are in one piece if they lie on
@@ -350,8 +332,8 @@ impl Incidence {
     /// by such cycles: Tarjan's biconnected components, united at common members.
     fn pieces(&self) -> Vec<u32> {
         const UNSEEN: u32 = u32::MAX;
-        let members = self.members();
-        let total = members + self.nodes.len();
+        let members = self.of_member.len();
+        let total = members + self.of_node.len();
         let neighbour = |v: usize, at: usize| -> Option<usize> {
             if v < members {
                 let node = self.of_member.of(v).get(at)?;

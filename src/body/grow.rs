@@ -95,14 +95,18 @@ impl Growth {
                 }
             }
         }
+        let mut ends = 0;
         for &u in &nodes {
+            ends += remaining.degree(u);
             remaining.retain(u, |x| self.joined[x as usize] != k);
+            ends -= remaining.degree(u);
         }
         Body {
             seed: Seed::Edge(v.min(w), v.max(w)),
             add,
             merge: Vec::new(),
             nodes,
+            edges: ends / 2,
         }
     }
 }

@@ -60,13 +60,11 @@ impl Owners {
         self.start[v as usize] as usize..self.start[v as usize + 1] as usize
     }
 
-    /// Whether one body contains both nodes.
-    pub(super) fn share_body(&self, v: u32, w: u32) -> bool {
+    /// The body that contains both nodes.
+    pub(super) fn common_body(&self, v: u32, w: u32) -> Option<u32> {
         let of_w = &self.bodies[self.range(w)];
-        self.bodies[self.range(v)].iter().any(|&k| {
-            let k = self.current(k);
-            of_w.iter().any(|&l| self.current(l) == k)
-        })
+        let mut of_v = self.bodies[self.range(v)].iter().map(|&k| self.current(k));
+        of_v.find(|&k| of_w.iter().any(|&l| self.current(l) == k))
     }
 }
 
@@ -100,6 +98,7 @@ pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize)
                 nodes: Vec::new(),
                 queue: VecDeque::new(),
                 consumed: vec![k],
+                edges: 0,
                 touched: HashMap::new(),
                 reached: HashMap::new(),
                 merges: Vec::new(),
@@ -128,6 +127,8 @@ struct Absorption<'a> {
     queue: VecDeque<u32>,
     /// The body itself and those absorbed.
     consumed: Vec<u32>,
+    /// Edges that these cover.
+    edges: usize,
     /// Bodies that share a node with this one, and that node.
     touched: HashMap<u32, u32>,
     /// Nodes outside that some part at a node of the body reaches: the part and that
@@ -151,6 +152,7 @@ impl Absorption<'_> {
             return false;
         }
         let new = self.bodies.len() as u32;
+        let edges = self.edges + std::mem::take(&mut self.bodies[k as usize].edges);
         for &k in &self.consumed {
             self.owners.parent[k as usize] = new;
         }
@@ -160,6 +162,7 @@ impl Absorption<'_> {
             add: Vec::new(),
             merge: std::mem::take(&mut self.merges),
             nodes,
+            edges,
         });
         true
     }
@@ -185,6 +188,7 @@ impl Absorption<'_> {
                 let nodes = std::mem::take(&mut self.bodies[k as usize].nodes);
                 self.take_in(&nodes);
                 self.consumed.push(k);
+                self.edges += std::mem::take(&mut self.bodies[k as usize].edges);
             }
         }
     }

@@ -3,9 +3,10 @@
 use crate::component;
 use crate::exact::Ring;
 use crate::exact::prime::PrimeField;
+use crate::exact::span::Span;
 use crate::formulation::plane_flow::PlaneFlows;
 use crate::graph::Graph;
-use crate::piece::{Core, Members, Pieces};
+use crate::piece::{Assembly, Core, Members};
 use crate::union_find::UnionFind;
 
 /// How many sets of parts the search looks at for one node.
@@ -34,13 +35,13 @@ pub struct Hub {
 /// The hub that takes off most from the rank of a block whose edges the parts
 /// partition, or `None` if the search finds no hub.
 pub(super) fn search(
-    pieces: &Pieces,
+    assembly: &Assembly,
     block: &Members,
     parts: &[Members],
     field: &PrimeField,
     random: &mut dyn FnMut() -> u64,
 ) -> Option<Hub> {
-    let core = pieces.core(block);
+    let core = assembly.core(block);
     let mut connected = UnionFind::new(core.graph.nodes());
     let joins = |&&(i, j): &&(u32, u32)| connected.union(i as usize, j as usize);
     if core.graph.edges().iter().filter(joins).count() + 1 < core.graph.nodes() {
@@ -68,7 +69,7 @@ pub(super) fn search(
         for (set, _) in inflow.promising(field) {
             let split: Vec<u32> = set.iter().map(|&k| inflow.parts[k] as u32).collect();
             let candidate = Split {
-                pieces,
+                assembly,
                 block,
                 core: &core,
                 parts,
@@ -180,50 +181,9 @@ impl Inflow {
     }
 }
 
-/// A subspace, by a basis in echelon form.
-#[derive(Clone, Default)]
-struct Span {
-    /// Each vector is one at its leader, where the vectors after it are zero.
-    basis: Vec<(usize, Vec<u64>)>,
-}
-
-impl Span {
-    fn dimension(&self) -> usize {
-        self.basis.len()
-    }
-
-    fn reduce(&self, field: &PrimeField, vector: &[u64]) -> Vec<u64> {
-        let mut rest = vector.to_vec();
-        for (leader, b) in &self.basis {
-            let factor = field.negate(rest[*leader]);
-            if factor != 0 {
-                field.axpy(&mut rest, factor, b);
-            }
-        }
-        rest
-    }
-
-    fn contains(&self, field: &PrimeField, vector: &[u64]) -> bool {
-        self.reduce(field, vector).iter().all(|&x| x == 0)
-    }
-
-    fn insert(&mut self, field: &PrimeField, vector: &[u64]) {
-        use crate::exact::Field;
-        let mut rest = self.reduce(field, vector);
-        let Some(leader) = rest.iter().position(|&x| x != 0) else {
-            return;
-        };
-        let inverse = field.inv(&rest[leader]).expect("not zero");
-        for x in &mut rest {
-            *x = field.mul(x, &inverse);
-        }
-        self.basis.push((leader, rest));
-    }
-}
-
 /// A set of parts to be split off at a node.
 struct Split<'a> {
-    pieces: &'a Pieces,
+    assembly: &'a Assembly,
     block: &'a Members,
     core: &'a Core,
     parts: &'a [Members],
@@ -285,7 +245,7 @@ impl Split<'_> {
             .iter()
             .map(|group| 3 * self.group_nodes(group, node, remains) - 4)
             .sum();
-        let s = total.checked_sub(3 * self.pieces.count_nodes(self.block) - 4)?;
+        let s = total.checked_sub(3 * self.assembly.count_nodes(self.block) - 4)?;
         let less = self
             .split
             .len()
@@ -312,10 +272,10 @@ impl Split<'_> {
             if self.split.contains(&part) {
                 copies += 1;
             } else {
-                plain |= remains && self.pieces.contains_node(part_members, node);
+                plain |= remains && self.assembly.contains_node(part_members, node);
             }
         }
         let here = copies + usize::from(plain);
-        self.pieces.count_nodes(&all) - usize::from(here > 0) + here
+        self.assembly.count_nodes(&all) - usize::from(here > 0) + here
     }
 }

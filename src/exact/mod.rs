@@ -12,6 +12,7 @@ pub mod prime;
 pub mod rational;
 #[cfg(test)]
 mod samples;
+pub mod span;
 pub mod sparse;
 
 use std::fmt::Debug;

@@ -89,7 +89,7 @@ pub struct PlaneFlows<'a> {
 }
 
 /// A lower bound on rank J_P that elimination found, with its pivots.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PlaneFlowRank {
     /// Pivots of N.
     pub rigidity: Pivots,
@@ -114,6 +114,20 @@ pub struct Motion {
     /// For every edge the X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j,
     /// row by row, less the multiple of I that makes its last entry zero.
     pub transforms: Vec<[u64; 16]>,
+}
+
+impl Motion {
+    /// The entries in the order of J_P's columns: `12 v + 3 c + r` for entry (r, c) of
+    /// dP_v.
+    pub fn by_node(&self) -> Vec<u64> {
+        let nodes = self.columns[0].len() / 3;
+        (0..nodes)
+            .flat_map(|v| {
+                let column = move |y: &Vec<u64>| [y[3 * v], y[3 * v + 1], y[3 * v + 2]];
+                self.columns.iter().flat_map(column)
+            })
+            .collect()
+    }
 }
 
 impl<'a> PlaneFlows<'a> {
