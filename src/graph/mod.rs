@@ -1,8 +1,19 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
 
 mod adjacency;
+pub mod canonical;
+pub mod edge_list;
+pub mod error;
+pub mod graph6;
+pub mod labels;
+pub mod matlab;
+pub mod read;
 
 pub use adjacency::Adjacency;
+pub use canonical::sha256;
+pub use error::ReadError;
+pub use labels::Labels;
+pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
 
 /// A simple undirected graph on the nodes `0..nodes`.
 ///
@@ -34,7 +45,7 @@ pub enum GraphError {
 impl Graph {
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
-    /// away. O(m log m), or O(m) when the pairs are already sorted.
+    /// away. O(m log m), or O(m) when the pairs are already sorted; in place.
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
@@ -80,3 +91,6 @@ impl Graph {
         self.edges.binary_search(&(a.min(b), a.max(b))).ok()
     }
 }
+
+#[cfg(test)]
+mod tests;
