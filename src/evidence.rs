@@ -128,6 +128,22 @@ pub enum Strength {
 }
 
 impl Strength {
+    /// The name in certificates and in JSON output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Proof => "proof",
+            Self::ErrorBound(_) => "error-bound",
+        }
+    }
+
+    /// The exponent of the error bound, for what is not proved.
+    pub fn error_log2(self) -> Option<i64> {
+        match self {
+            Self::Proof => None,
+            Self::ErrorBound(e) => Some(e),
+        }
+    }
+
     /// The strength of a claim that rests on several: the sum of the error bounds,
     /// rounded up to a power of two.
     pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {

@@ -8,6 +8,7 @@
 pub mod body;
 pub mod bound;
 pub mod camera;
+pub mod certificate;
 pub mod component;
 pub mod evidence;
 pub mod exact;

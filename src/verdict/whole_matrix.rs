@@ -12,7 +12,6 @@ use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
 use crate::formulation::skew;
 use crate::graph::Graph;
-use std::cmp::Ordering;
 
 /// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
@@ -111,13 +110,7 @@ fn independent_motions(
     kernel: Vec<Vec<Integer>>,
 ) -> Vec<Vec<Integer>> {
     let field = PrimeField::mersenne61();
-    let residue = |x: &Integer| {
-        let magnitude = field.from_u64(x.abs().rem_u64(field.modulus()));
-        match x.sign() {
-            Ordering::Less => field.neg(&magnitude),
-            _ => magnitude,
-        }
-    };
+    let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
     let cameras: Vec<Camera<u64>> = cameras
         .iter()
         .map(|camera| std::array::from_fn(|r| std::array::from_fn(|c| residue(&camera[r][c]))))
