@@ -3,6 +3,8 @@
 mod layout;
 mod view;
 
+pub(crate) use view::hex;
+
 use crate::graph::{Graph, graph6};
 use crate::verdict::Verdict;
 use std::io::{self, Write};

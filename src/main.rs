@@ -1,2 +1,5 @@
 //! `verify`: arguments in, reports out.
-fn main() {}
+
+fn main() -> std::process::ExitCode {
+    viewcert::cli::main()
+}

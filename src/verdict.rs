@@ -118,6 +118,22 @@ pub struct Verdict {
     pub pieces: Vec<PieceVerdict>,
 }
 
+impl Verdict {
+    /// The nodes of a component, increasing.
+    pub fn component_nodes(&self, component: &Component) -> Vec<u32> {
+        let members = &component.members;
+        let bodies = members.bodies.iter();
+        let mut nodes: Vec<u32> = bodies
+            .flat_map(|&body| &self.contraction.bodies[body as usize].nodes)
+            .copied()
+            .chain(members.edges.iter().flat_map(|&(i, j)| [i, j]))
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+}
+
 /// Why there is no verdict.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum VerdictError {

@@ -1,0 +1,59 @@
+//! The command line: arguments in, reports out; no mathematics.
+
+mod atomic;
+mod certificates;
+mod check;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Exact, certified solvability of viewing graphs.
+///
+/// For every graph: is the set of cameras that its fundamental matrices determine unique,
+/// finite, or infinite, and which maximal parts of it are determined?
+///
+/// Exit codes: 0 all graphs are solvable or finite solvable (check: verified), 1 some are
+/// not (check: rejected), 2 bad usage or input.
+#[derive(Parser)]
+#[command(name = "verify", version, args_conflicts_with_subcommands = true)]
+#[command(subcommand_negates_reqs = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    verify: verify::Arguments,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Verify a certificate with the independent checker.
+    Check(check::Arguments),
+}
+
+/// Runs the program on the process's arguments.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match arguments.command {
+        Some(Command::Check(arguments)) => check::run(&arguments),
+        None => verify::run(&arguments.verify),
+    };
+    match done {
+        Ok(code) => code,
+        Err(error) => {
+            // Nothing is left to tell if standard error is gone as well.
+            let _ = std::io::Write::write_fmt(
+                &mut std::io::stderr(),
+                format_args!("verify: {error:#}\n"),
+            );
+            ExitCode::from(BAD_INPUT)
+        }
+    }
+}
+
+/// All good.
+const GOOD: u8 = 0;
+/// Not solvable, or refuted.
+const NOT: u8 = 1;
+/// Bad usage or input.
+const BAD_INPUT: u8 = 2;

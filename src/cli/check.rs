@@ -1,0 +1,19 @@
+//! `verify check`: the independent checker on a certificate.
+
+use anyhow::Result;
+use clap::Args;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// What to check.
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// The certificate; `-` is standard input.
+    certificate: PathBuf,
+    /// The graph it is about; not needed if the certificate embeds it.
+    graph: Option<PathBuf>,
+}
+
+pub(super) fn run(_: &Arguments) -> Result<ExitCode> {
+    anyhow::bail!("not yet")
+}

@@ -1,0 +1,188 @@
+//! `verify GRAPH...`: decide, report, certify.
+
+use super::certificates::Target;
+use super::{BAD_INPUT, GOOD, NOT};
+use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
+use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
+use crate::model::Model;
+use crate::report::{self, Report};
+use crate::verdict::{self, Arithmetic, Options, Value};
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Options of the verifier.
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
+    /// standard input.
+    #[arg(required = true, value_name = "GRAPH")]
+    graphs: Vec<String>,
+    /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1].
+    #[arg(long, value_name = "P", num_args = 0..=1, require_equals = true)]
+    #[arg(
+        default_missing_value = "2305843009213693951",
+        conflicts_with = "rational"
+    )]
+    prime: Option<u64>,
+    /// Compute over the integers, at cameras with small rational entries.
+    #[arg(long)]
+    rational: bool,
+    /// Bound on the numerators of rational cameras, at most 100.
+    #[arg(long, value_name = "A", default_value_t = 9, requires = "rational")]
+    numerator: u64,
+    /// Bound on the denominators of rational cameras, at most 12.
+    #[arg(long, value_name = "B", default_value_t = 4, requires = "rational")]
+    denominator: u64,
+    /// What is known of the cameras.
+    #[arg(long, value_enum, default_value_t = ModelName::Projective)]
+    model: ModelName,
+    /// Compute the Jacobian of the whole graph, as the paper does.
+    #[arg(long)]
+    no_contraction: bool,
+    /// Do not look for proofs by counting: negative verdicts get an error bound.
+    #[arg(long)]
+    no_counting: bool,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Format of the graphs [default: what they look like].
+    #[arg(long, value_enum)]
+    format: Option<FormatName>,
+    /// Variable of a MATLAB file [default: A, or the only square matrix].
+    #[arg(long, value_name = "NAME")]
+    variable: Option<String>,
+    /// Write a certificate to this file, or for every graph to this folder.
+    #[arg(long, value_name = "PATH")]
+    certificate: Option<PathBuf>,
+    /// Embed graphs of any size in their certificates.
+    #[arg(long, requires = "certificate")]
+    embed_graph: bool,
+    /// Print one JSON object a graph.
+    #[arg(long)]
+    json: bool,
+    /// List the members of every component.
+    #[arg(long)]
+    components: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ModelName {
+    /// Edges carry fundamental matrices.
+    Projective,
+    /// Edges carry essential matrices: known intrinsics.
+    Calibrated,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FormatName {
+    /// One pair a line.
+    EdgeList,
+    /// One graph a line.
+    Graph6,
+    /// Adjacency matrix, MATLAB 5.
+    Matlab,
+}
+
+impl Arguments {
+    fn options(&self) -> Result<Options> {
+        let prime = self.prime.unwrap_or(DEFAULT_PRIME);
+        let arithmetic = if self.rational {
+            Arithmetic::Rational {
+                numerator: self.numerator,
+                denominator: self.denominator,
+            }
+        } else {
+            Arithmetic::Prime
+        };
+        Ok(Options {
+            model: match self.model {
+                ModelName::Projective => Model::Projective,
+                ModelName::Calibrated => Model::Calibrated,
+            },
+            arithmetic,
+            field: PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?,
+            contraction: !self.no_contraction,
+            counting: !self.no_counting,
+            seed: self.seed,
+        })
+    }
+
+    fn read_options(&self) -> ReadOptions {
+        ReadOptions {
+            format: self.format.map(|format| match format {
+                FormatName::EdgeList => Format::EdgeList,
+                FormatName::Graph6 => Format::Graph6,
+                FormatName::Matlab => Format::Matlab,
+            }),
+            variable: self.variable.clone(),
+        }
+    }
+}
+
+/// Decides every graph in turn; a bad one is reported and does not stop the others.
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let options = arguments.options()?;
+    let read_options = arguments.read_options();
+    let mut target = arguments
+        .certificate
+        .as_deref()
+        .map(|path| Target::new(path, arguments.embed_graph));
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut code = GOOD;
+    for path in &arguments.graphs {
+        let mut start = Instant::now();
+        for input in read_graphs(path, &read_options) {
+            let decided = input.map_err(Into::into).and_then(|input| {
+                let target = target.as_mut();
+                decide(arguments, &options, &input, target, start, &mut out)
+            });
+            code = code.max(match decided {
+                Ok(Value::NotFiniteSolvable) => NOT,
+                Ok(_) => GOOD,
+                Err(error) => {
+                    writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    BAD_INPUT
+                }
+            });
+            // Nobody reads on: the rest would be work for nothing.
+            out.flush().context("standard output")?;
+            start = Instant::now();
+        }
+    }
+    Ok(ExitCode::from(code))
+}
+
+/// Decides one graph that has been read since `start`, certifies and reports.
+fn decide(
+    arguments: &Arguments,
+    options: &Options,
+    input: &NamedGraph,
+    target: Option<&mut Target>,
+    start: Instant,
+    out: &mut impl Write,
+) -> Result<Value> {
+    let verdict = verdict::decide(&input.graph, options).with_context(|| input.name.clone())?;
+    let certificate = target
+        .map(|target| target.write(input, &verdict))
+        .transpose()?;
+    let report = Report {
+        input,
+        verdict: &verdict,
+        rational: arguments.rational,
+        list_components: arguments.components,
+        time: start.elapsed(),
+    };
+    if arguments.json {
+        report::json::write(out, &report)?;
+    } else {
+        report::text::write(out, &report)?;
+        if let Some(path) = certificate {
+            writeln!(out, "  certificate {}", path.display())?;
+        }
+    }
+    Ok(verdict.value)
+}

@@ -1,0 +1,23 @@
+//! Reports of verdicts: text for people, JSON for programs.
+
+pub mod json;
+pub mod text;
+
+use crate::graph::NamedGraph;
+use crate::verdict::Verdict;
+use std::time::Duration;
+
+/// Everything a report says about one graph.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The graph as it was read.
+    pub input: &'a NamedGraph,
+    /// What was decided.
+    pub verdict: &'a Verdict,
+    /// Whether the arithmetic was rational.
+    pub rational: bool,
+    /// Whether to list the members of the components.
+    pub list_components: bool,
+    /// How long reading, deciding and certifying took.
+    pub time: Duration,
+}

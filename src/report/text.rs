@@ -1,0 +1,147 @@
+//! A few lines a graph, for people.
+
+use super::Report;
+use crate::evidence::{Evidence, Strength};
+use crate::model::Model;
+use crate::verdict::{Value, Verdict};
+use std::io::{self, Write};
+
+/// How many components are shown with their sizes.
+const SHOWN: usize = 8;
+
+/// Writes the report.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
+    let (input, verdict) = (report.input, report.verdict);
+    writeln!(out, "{}", input.name)?;
+    let nodes = input.graph.nodes();
+    writeln!(
+        out,
+        "  graph       {nodes} cameras, {} pairs",
+        input.graph.edges().len()
+    )?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
+    writeln!(out, "  verdict     {}", answer(verdict))?;
+    writeln!(out, "  because     {}", reason(report))?;
+    writeln!(
+        out,
+        "  rank        {} of {} ({})",
+        verdict.rank,
+        verdict.required,
+        strength(verdict.rank_strength)
+    )?;
+    writeln!(
+        out,
+        "  components  {} ({}): {}",
+        verdict.components.len(),
+        strength(verdict.components_strength),
+        sizes(verdict)
+    )?;
+    if report.list_components {
+        for (k, component) in (1..).zip(&verdict.components) {
+            write!(out, "  component {k}:")?;
+            for v in verdict.component_nodes(component) {
+                write!(out, " {}", input.labels.display(v))?;
+            }
+            writeln!(out)?;
+        }
+    }
+    writeln!(out, "  time        {}", seconds(report.time.as_micros()))
+}
+
+fn answer(verdict: &Verdict) -> String {
+    let value = match (verdict.value, verdict.model) {
+        (Value::Solvable, _) => "solvable: the cameras are unique",
+        (Value::FiniteSolvable, _) => "finite solvable: finitely many sets of cameras",
+        (Value::NotFiniteSolvable, Model::Projective) => {
+            "not finite solvable: infinitely many sets of cameras"
+        }
+        (Value::NotFiniteSolvable, Model::Calibrated) => {
+            "not solvable: infinitely many sets of cameras"
+        }
+    };
+    format!("{value} ({})", strength(verdict.strength))
+}
+
+fn strength(strength: Strength) -> String {
+    match strength {
+        Strength::Proof => "proved".into(),
+        Strength::ErrorBound(e) => format!("error at most 2^{e}"),
+    }
+}
+
+/// What the verdict rests on, in a line.
+fn reason(report: &Report) -> String {
+    let verdict = report.verdict;
+    let nodes = report.input.graph.nodes();
+    if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
+        return match verdict.contraction.bodies.len() {
+            0 => "a single pair determines its two cameras".into(),
+            1 => format!("one body grows from a triangle to all {nodes} cameras"),
+            merges => format!("{merges} bodies merge into one with all {nodes} cameras"),
+        };
+    }
+    if verdict.value != Value::NotFiniteSolvable {
+        let kind = verdict
+            .pieces
+            .iter()
+            .flat_map(|piece| &piece.evidence)
+            .next_back();
+        return match kind {
+            Some(Evidence::IntegerMinor(minor)) => format!(
+                "a minor of the Jacobian at rational cameras is not zero (a determinant of {} bits)",
+                minor.determinant.bits()
+            ),
+            Some(Evidence::Minor { draw, .. }) => {
+                format!("a minor of the Jacobian is not zero modulo {}", draw.prime)
+            }
+            Some(Evidence::PlaneFlow { draw, .. }) => {
+                format!("full rank at one camera set modulo {}", draw.prime)
+            }
+            _ => "full rank".into(),
+        };
+    }
+    let parts = verdict.rigid.len() + verdict.pieces.len();
+    let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
+    match verdict.strength {
+        Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
+        Strength::Proof if parts > 1 => {
+            format!("{parts} parts hang together in single cameras, or not at all")
+        }
+        Strength::Proof if covered < verdict.required => {
+            format!("counting allows rank {covered} at most")
+        }
+        Strength::Proof => "some cameras have no pairs".into(),
+    }
+}
+
+fn sizes(verdict: &Verdict) -> String {
+    let mut text: Vec<String> = verdict
+        .components
+        .iter()
+        .take(SHOWN)
+        .map(|component| {
+            let plural = if component.edges == 1 { "" } else { "s" };
+            format!(
+                "{} cameras / {} pair{plural}",
+                component.nodes, component.edges
+            )
+        })
+        .collect();
+    if verdict.components.len() > SHOWN {
+        text.push(format!("and {} more", verdict.components.len() - SHOWN));
+    }
+    text.join(", ")
+}
+
+fn seconds(micros: u128) -> String {
+    match micros {
+        0..10_000 => format!("{}.{} ms", micros / 1000, micros % 1000 / 100),
+        10_000..10_000_000 => format!("{} ms", micros / 1000),
+        _ => format!("{} s", micros / 1_000_000),
+    }
+}
