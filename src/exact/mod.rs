@@ -8,6 +8,7 @@ pub mod integer;
 #[cfg(test)]
 mod laws;
 pub mod modular;
+pub mod multimodular;
 pub mod prime;
 pub mod rational;
 #[cfg(test)]
