@@ -29,6 +29,10 @@ pub trait Ring {
     /// The neutral element of multiplication.
     fn one(&self) -> Self::Elem;
     /// The image of an integer.
+    #[expect(
+        clippy::wrong_self_convention,
+        reason = "the ring is the receiver, not the source"
+    )]
     fn from_i64(&self, value: i64) -> Self::Elem;
     /// `a + b`
     fn add(&self, a: &Self::Elem, b: &Self::Elem) -> Self::Elem;

@@ -1,6 +1,6 @@
 //! Dense elimination modulo a prime, in blocks.
 //!
-//! The matrix is factorised in panels of [`PANEL`] columns. A panel is eliminated column
+//! The matrix is factorised in panels of 64 columns. A panel is eliminated column
 //! by column, each entry by one dot product with everything already known (Crout); the
 //! columns to its right then receive all of the panel's pivots at once, as a matrix
 //! product in cache-sized tiles. Either way sums are reduced once, not term by term.
