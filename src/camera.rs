@@ -428,14 +428,14 @@ mod tests {
         let drawn = cameras_rational(2, 20, 9, &key(7, 3)).unwrap();
         let expected = [
             [
-                [-1330, -168, -252, 1260],
-                [-1260, 105, 180, -7560],
-                [504, -840, -840, 630i64],
+                [-7980, -1008, -1512, 7560],
+                [-7560, 630, 1080, -45360],
+                [3024, -5040, -5040, 3780i64],
             ],
             [
-                [490, -245, 1050, -714],
-                [630, 150, -840, 315],
-                [525, 630, -350, -1365],
+                [5880, -2940, 12600, -8568],
+                [7560, 1800, -10080, 3780],
+                [6300, 7560, -4200, -16380],
             ],
         ];
         assert_eq!(
@@ -485,8 +485,15 @@ mod tests {
                 centres_integer(1, bound, &key(0, 0)),
                 Err(DrawError::Bound(bound))
             );
-            let cameras = cameras_rational(1, 1, bound, &key(0, 0));
-            assert_eq!(cameras, Err(DrawError::Bound(bound)));
+        }
+        for (numerator, denominator) in [
+            (0, 1),
+            (MAX_NUMERATOR + 1, 1),
+            (1, 0),
+            (1, MAX_DENOMINATOR + 1),
+        ] {
+            let cameras = cameras_rational(1, numerator, denominator, &key(0, 0));
+            assert_eq!(cameras, Err(DrawError::RationalBounds));
         }
     }
 
