@@ -103,7 +103,16 @@ impl DrawKey {
     /// Uniform elements of the field for whatever needs no name in a certificate: which
     /// kernel vector to take, where to look for a hub.
     pub fn residues(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
-        let mut generator = self.generator_for(b"viewcert pick 1\n");
+        self.stream(field, b"viewcert pick 1\n")
+    }
+
+    /// The weights of plane flows at the rows of N that are not pivots: uniform residues.
+    pub fn flow_weights(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
+        self.stream(field, b"viewcert flow 1\n")
+    }
+
+    fn stream(&self, field: &PrimeField, purpose: &[u8; 16]) -> impl FnMut() -> u64 + use<> {
+        let mut generator = self.generator_for(purpose);
         let field = *field;
         move || field.from_u64(uniform(&mut generator, field.modulus()))
     }

@@ -322,6 +322,28 @@ impl Echelon {
         kernel
     }
 
+    /// As [`left_weights`](Self::left_weights) for linear combinations of the free rows:
+    /// `coefficients` has a row for each combination and a column for each free row, in
+    /// factorised order.
+    pub(crate) fn combined_left_weights(&self, coefficients: &Matrix<u64>) -> Matrix<u64> {
+        let rank = self.rank();
+        let columns: Vec<Vec<u64>> = self
+            .pivot_cols
+            .iter()
+            .map(|&col| {
+                (rank..self.order.len())
+                    .map(|i| self.factors[(i, col)])
+                    .collect()
+            })
+            .collect();
+        let mut weights = Matrix::from_fn(coefficients.rows(), rank, |i, k| {
+            self.field.dot(0, coefficients.row(i), &columns[k])
+        });
+        let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
+        self.solve_backwards(&mut weights, entry, |_, value| value);
+        weights
+    }
+
     /// For each of the given columns, none a pivot: the weights of the pivot columns, in
     /// pivot order, that make their sum with that column zero.
     pub(crate) fn right_weights(&self, free: &[usize]) -> Matrix<u64> {

@@ -308,58 +308,68 @@ impl Factorisation {
         (self.dense_rows.len(), self.dense_cols.len())
     }
 
-    /// Vectors w with w A = 0, one row of the result for each of the given free rows: one
-    /// at that row and zero at the other free rows. Over all free rows this is a basis.
-    ///
-    /// Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and one
+    /// A basis of the vectors w with w A = 0, one row of the result for each free row: one
+    /// at that row and zero at the other free rows.
+    pub fn left_kernel(&self) -> Matrix<u64> {
+        let free = self.free_rows.len();
+        let unit = |i, k| if i == k { self.field.one() } else { 0 };
+        self.left_combinations(&Matrix::from_fn(free, free, unit))
+    }
+
+    /// Vectors w with w A = 0, one row of the result for each row of `coefficients`: its
+    /// entries, in the order of [`free_rows`](Self::free_rows), are those of w at the free
+    /// rows. Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and one
     /// pass over the sparse factors for every 8 vectors; shared among threads.
     ///
     /// # Panics
-    /// If a row is not free.
-    pub fn left_kernel(&self, free: &[usize]) -> Matrix<u64> {
-        assert!(
-            free.iter()
-                .all(|row| self.free_rows.binary_search(row).is_ok()),
-            "rows not free"
+    /// If `coefficients` does not have a column for each free row.
+    pub fn left_combinations(&self, coefficients: &Matrix<u64>) -> Matrix<u64> {
+        assert_eq!(
+            coefficients.cols(),
+            self.free_rows.len(),
+            "one coefficient a free row"
         );
-        let mut position = vec![None; self.rows];
-        for (place, &row) in self.dense.order().iter().enumerate() {
-            position[self.dense_rows[row]] = Some(place);
-        }
-        let in_dense: Vec<usize> = free.iter().filter_map(|&row| position[row]).collect();
-        let weights = self.dense.left_weights(&in_dense);
-        let mut dense_index = Vec::with_capacity(free.len());
-        let mut next = 0..in_dense.len();
-        for &row in free {
-            dense_index.push(position[row].and_then(|_| next.next()));
-        }
+        let place = |row: usize| {
+            let free = self.free_rows.binary_search(&row);
+            free.unwrap_or_else(|_| unreachable!("a row that is not a pivot is free"))
+        };
+        let dense_free: Vec<usize> = self.dense.order()[self.dense.rank()..]
+            .iter()
+            .map(|&row| place(self.dense_rows[row]))
+            .collect();
+        let in_dense = Matrix::from_fn(coefficients.rows(), dense_free.len(), |i, k| {
+            coefficients[(i, dense_free[k])]
+        });
+        let weights = self.dense.combined_left_weights(&in_dense);
 
-        let mut kernel = Matrix::new(free.len(), self.rows, vec![0; free.len() * self.rows]);
+        let count = coefficients.rows();
+        let mut kernel = Matrix::new(count, self.rows, vec![0; count * self.rows]);
         let chunk = LANES * self.rows.max(1);
-        let chunks = kernel
+        kernel
             .data_mut()
             .par_chunks_mut(chunk)
-            .zip(free.par_chunks(LANES));
-        chunks
-            .zip(dense_index.par_chunks(LANES))
-            .for_each(|((out, free), dense_index)| {
+            .enumerate()
+            .for_each(|(block, out)| {
+                let lanes = |value: &dyn Fn(usize) -> u64| {
+                    let mut weight = [0; LANES];
+                    for (weight, i) in weight.iter_mut().zip(block * LANES..count) {
+                        *weight = value(i);
+                    }
+                    weight
+                };
                 let mut sums = vec![[0; LANES]; self.sparse.rank()];
                 let spread = |sums: &mut [Lanes], row: usize, weight: &Lanes| {
                     for &(k, factor) in &self.lower[row] {
                         self.add_lanes(&mut sums[k], factor, weight);
                     }
                 };
-                for (lane, &row) in free.iter().enumerate() {
-                    let mut weight = [0; LANES];
-                    weight[lane] = self.field.one();
+                for (at, &row) in self.free_rows.iter().enumerate() {
+                    let weight = lanes(&|i| coefficients[(i, at)]);
                     spread(&mut sums, row, &weight);
-                    out[lane * self.rows + row] = self.field.one();
+                    self.store(out, self.rows, row, &weight);
                 }
                 for (k, &row) in self.dense.order()[..self.dense.rank()].iter().enumerate() {
-                    let mut weight = [0; LANES];
-                    for (weight, index) in weight.iter_mut().zip(dense_index) {
-                        *weight = index.map_or(0, |index| weights[(index, k)]);
-                    }
+                    let weight = lanes(&|i| weights[(i, k)]);
                     spread(&mut sums, self.dense_rows[row], &weight);
                     self.store(out, self.rows, self.dense_rows[row], &weight);
                 }
@@ -374,7 +384,8 @@ impl Factorisation {
 
     /// Vectors x with A x = 0, one row of the result for each of the given free columns:
     /// one at that column and zero at the other free columns. Over all free columns this
-    /// is a basis. The cost is as for [`left_kernel`](Self::left_kernel).
+    /// is a basis. The cost is as for
+    /// [`left_combinations`](Self::left_combinations).
     ///
     /// # Panics
     /// If a column is not free.
@@ -519,7 +530,7 @@ mod tests {
         let minor = m.submatrix(&pivots.rows, &pivots.cols);
         assert_eq!(gauss::eliminate(field, &minor).rank(), rank);
 
-        let left = done.left_kernel(done.free_rows());
+        let left = done.left_kernel();
         let transposed = m.transposed();
         assert_eq!(left.rows(), m.rows() - rank);
         for i in 0..left.rows() {

@@ -14,6 +14,7 @@ use crate::exact::dense::Matrix;
 use crate::exact::gauss::Pivots;
 use crate::exact::modular::{Echelon, eliminate_mod};
 use crate::exact::prime::PrimeField;
+use crate::exact::sparse::Factorisation;
 use crate::exact::{Field, Ring};
 use crate::graph::Graph;
 use crate::union_find::UnionFind;
@@ -79,13 +80,16 @@ fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
     [x, y, z, dot]
 }
 
+/// Flows that are computed beyond those needed at full rank.
+const SPARE_FLOWS: usize = 2;
+
 /// N and Lambda of a graph at given centres modulo p, eliminated.
 #[derive(Clone, Debug)]
 pub struct PlaneFlows<'a> {
     field: &'a PrimeField,
     graph: &'a Graph,
     centres: &'a [[u64; 3]],
-    rigidity: Echelon,
+    rigidity: Factorisation,
 }
 
 /// A lower bound on rank J_P that elimination found, with its pivots.
@@ -93,9 +97,9 @@ pub struct PlaneFlows<'a> {
 pub struct PlaneFlowRank {
     /// Pivots of N.
     pub rigidity: Pivots,
-    /// Rows of N, none of them a pivot, whose plane flows the rows of Lambda come from.
-    pub flows: Vec<usize>,
-    /// Pivots of Lambda; row 4 f + k belongs to the f-th of `flows`, columns are edges.
+    /// How many flows the rows of Lambda come from.
+    pub flows: usize,
+    /// Pivots of Lambda; row 4 f + k belongs to the f-th flow, columns are edges.
     pub lambda: Pivots,
 }
 
@@ -131,28 +135,19 @@ impl Motion {
 }
 
 impl<'a> PlaneFlows<'a> {
-    /// Eliminates N at the given centres. O((2m) (3n)^2) at worst.
+    /// Eliminates N at the given centres: sparse at first, then what fills in as a dense
+    /// matrix, O(n^3) at worst.
     ///
     /// # Panics
     /// If there is not one centre a node, or the centres of an edge coincide.
     pub fn new(field: &'a PrimeField, graph: &'a Graph, centres: &'a [[u64; 3]]) -> Self {
         assert_eq!(centres.len(), graph.nodes(), "one centre a node");
         let rows = rigidity_rows(field, graph, centres);
-        let mut dense = Matrix::new(
-            rows.len(),
-            3 * graph.nodes(),
-            vec![0; rows.len() * 3 * graph.nodes()],
-        );
-        for (at, row) in rows.iter().enumerate() {
-            for &(col, value) in row {
-                dense[(at, col)] = value;
-            }
-        }
         Self {
             field,
             graph,
             centres,
-            rigidity: eliminate_mod(field, dense),
+            rigidity: Factorisation::new(field, rows, 3 * graph.nodes()),
         }
     }
 
@@ -196,72 +191,88 @@ impl<'a> PlaneFlows<'a> {
 
     /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
     /// on the others by the potentials.
-    pub fn lambda(&self) -> Lambda {
+    ///
+    /// Flows are random: their entries at the rows of N that are not pivots are the values
+    /// of `weights`, one flow after another (docs/certificate.md, section 7). Each gives four
+    /// rows, so that about a quarter as many flows as columns are enough at full rank; more
+    /// are taken until they no longer raise the rank.
+    pub fn lambda(&self, mut weights: impl FnMut() -> u64) -> Lambda {
         let mut forest = UnionFind::new(self.graph.nodes());
         let cotree: Vec<usize> = (0..)
             .zip(self.graph.edges())
             .filter(|&(_, &(i, j))| !forest.union(i as usize, j as usize))
             .map(|(e, _)| e)
             .collect();
-        let kernel = self.rigidity.left_kernel();
-        let flows = self.rigidity.free_rows();
-        let mut rows = Matrix::new(
-            4 * flows.len(),
-            cotree.len(),
-            vec![0; 4 * flows.len() * cotree.len()],
-        );
-        for (at, &e) in cotree.iter().enumerate() {
-            let [a, b] = self.edge_directions(e);
+        let dimension = self.rigidity.free_rows().len();
+        let mut flows = 0;
+        let mut rows = Vec::new();
+        let mut rank = None;
+        loop {
+            let more = match rank {
+                None => dimension.min(cotree.len().div_ceil(4) + SPARE_FLOWS),
+                Some(_) => (dimension - flows).min(flows / 4 + SPARE_FLOWS),
+            };
+            let weights = Matrix::from_fn(more, dimension, |_, _| weights());
+            rows.extend(self.lambda_rows(&weights, &cotree));
+            flows += more;
+            let matrix = Matrix::new(4 * flows, cotree.len(), rows.clone());
+            let echelon = eliminate_mod(self.field, matrix);
+            let found = echelon.rank();
+            if found == cotree.len() || flows == dimension || rank == Some(found) {
+                return Lambda {
+                    rows: Matrix::new(4 * flows, cotree.len(), rows),
+                    cotree,
+                    echelon,
+                };
+            }
+            rank = Some(found);
+        }
+    }
+
+    /// The rows of Lambda that the flows with the given entries at the free rows of N give,
+    /// one after another: four rows a flow, restricted to the given edges.
+    fn lambda_rows(&self, weights: &Matrix<u64>, edges: &[usize]) -> Vec<u64> {
+        let kernel = self.rigidity.left_combinations(weights);
+        let width = edges.len();
+        let mut rows = vec![0; 4 * kernel.rows() * width];
+        for (at, &e) in edges.iter().enumerate() {
             let cj = &self.centres[self.graph.edges()[e].1 as usize];
-            let (a, b) = (
-                right_side(self.field, &a, cj),
-                right_side(self.field, &b, cj),
-            );
-            for f in 0..flows.len() {
+            let [a, b] = self
+                .edge_directions(e)
+                .map(|direction| right_side(self.field, &direction, cj));
+            for f in 0..kernel.rows() {
                 let (s, t) = (kernel[(f, 2 * e)], kernel[(f, 2 * e + 1)]);
                 if (s, t) == (0, 0) {
                     continue;
                 }
                 for k in 0..4 {
                     let value = self.field.dot(0, &[s, t], &[a[k], b[k]]);
-                    rows[(4 * f + k, at)] = self.field.negate(value);
+                    rows[(4 * f + k) * width + at] = self.field.neg(&value);
                 }
             }
         }
-        Lambda {
-            flows: flows.to_vec(),
-            cotree,
-            echelon: eliminate_mod(self.field, rows.clone()),
-            rows,
-        }
+        rows
     }
 
-    /// The lower bound on rank J_P, with the flows that its pivots use.
+    /// The lower bound on rank J_P, with its pivots.
     pub fn rank(&self, lambda: &Lambda) -> PlaneFlowRank {
-        let pivots = lambda.echelon.pivots();
-        let mut used: Vec<usize> = pivots.rows.iter().map(|row| row / 4).collect();
-        used.sort_unstable();
-        used.dedup();
-        let position = |flow: usize| used.binary_search(&flow).expect("every used flow");
+        let mut pivots = lambda.echelon.pivots();
+        for col in &mut pivots.cols {
+            *col = lambda.cotree[*col];
+        }
         PlaneFlowRank {
             rigidity: self.rigidity.pivots(),
-            lambda: Pivots {
-                rows: pivots
-                    .rows
-                    .iter()
-                    .map(|row| 4 * position(row / 4) + row % 4)
-                    .collect(),
-                cols: pivots.cols.iter().map(|&col| lambda.cotree[col]).collect(),
-            },
-            flows: used.iter().map(|&f| lambda.flows[f]).collect(),
+            flows: pivots.rows.iter().map(|row| row / 4 + 1).max().unwrap_or(0),
+            lambda: pivots,
         }
     }
 
-    /// A random element of ker J_P, uniform modulo the scales of the cameras. `random`
-    /// gives uniform elements of the field.
-    pub fn motion(&self, lambda: &Lambda, mut random: impl FnMut() -> u64) -> Motion {
+    /// A random element of ker J_P, uniform modulo the scales of the cameras; `None` if the
+    /// flows of `lambda` do not span all flows, which is unlikely but modulo a small prime.
+    /// `random` gives uniform elements of the field.
+    pub fn motion(&self, lambda: &Lambda, mut random: impl FnMut() -> u64) -> Option<Motion> {
         let scales = lambda.random_kernel_vector(self.field, self.graph.edges().len(), &mut random);
-        let columns = std::array::from_fn(|k| {
+        let mut column = |k: usize| {
             let mut sides = Vec::with_capacity(2 * self.graph.edges().len());
             for (e, &(_, j)) in self.graph.edges().iter().enumerate() {
                 for a in self.edge_directions(e) {
@@ -270,21 +281,22 @@ impl<'a> PlaneFlows<'a> {
                 }
             }
             self.solve(sides, &mut random)
-        });
+        };
+        let columns = [column(0)?, column(1)?, column(2)?, column(3)?];
         let transforms = (0..self.graph.edges().len())
             .map(|e| self.transform(&columns, e, scales[e]))
             .collect();
-        Motion {
+        Some(Motion {
             columns,
             transforms,
-        }
+        })
     }
 
-    /// A uniformly random solution y of N y = sides, which must have one.
-    fn solve(&self, mut sides: Vec<u64>, random: &mut impl FnMut() -> u64) -> Vec<u64> {
+    /// A uniformly random solution y of N y = sides, if there is one.
+    fn solve(&self, mut sides: Vec<u64>, random: &mut impl FnMut() -> u64) -> Option<Vec<u64>> {
         let field = self.field;
         let mut y = vec![0; 3 * self.graph.nodes()];
-        for col in self.rigidity.pivots().free_cols(y.len()) {
+        for &col in self.rigidity.free_cols() {
             y[col] = random();
         }
         for (row, side) in rigidity_rows(field, self.graph, self.centres)
@@ -295,14 +307,11 @@ impl<'a> PlaneFlows<'a> {
                 *side = field.sub(side, &field.mul(&value, &y[col]));
             }
         }
-        let pivot_part = self
-            .rigidity
-            .solve(&sides)
-            .expect("the left kernel vanishes on the sides");
+        let pivot_part = self.rigidity.solve(&sides)?;
         for (value, part) in y.iter_mut().zip(&pivot_part) {
             *value = field.add(value, part);
         }
-        y
+        Some(y)
     }
 
     /// X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j: column k is
@@ -345,7 +354,9 @@ impl<'a> PlaneFlows<'a> {
     /// (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
     pub fn calibrated_motion(&self, mut random: impl FnMut() -> u64) -> (Vec<u64>, Vec<[u64; 4]>) {
         let f = self.field;
-        let y = self.solve(vec![0; 2 * self.graph.edges().len()], &mut random);
+        let y = self
+            .solve(vec![0; 2 * self.graph.edges().len()], &mut random)
+            .expect("zero is a solution");
         let transforms = self
             .graph
             .edges()
@@ -369,8 +380,6 @@ impl<'a> PlaneFlows<'a> {
 /// Lambda restricted to the edges outside a spanning forest, eliminated.
 #[derive(Clone, Debug)]
 pub struct Lambda {
-    /// Rows of N that are not pivots; the f-th gives the rows 4f .. 4f + 3.
-    flows: Vec<usize>,
     /// The edge of every column.
     cotree: Vec<usize>,
     rows: Matrix<u64>,
@@ -396,7 +405,7 @@ impl Lambda {
             part[col] = random();
         }
         let sides: Vec<u64> = (0..self.rows.rows())
-            .map(|row| field.negate(field.dot(0, self.rows.row(row), &part)))
+            .map(|row| field.neg(&field.dot(0, self.rows.row(row), &part)))
             .collect();
         let pivot_part = self
             .echelon

@@ -144,15 +144,16 @@ impl Piece<'_> {
     }
 
     fn ranks<'c>(&'c self, at: &'c Centres) -> Ranks<'c> {
-        ranks(self.options.model, &at.field, self.core, &at.values)
+        ranks(self.options.model, at, self.core)
     }
 
     /// The motion classes at some centres, and the kernel vector that shows them.
-    fn classes(&self, at: &Centres, ranks: &Ranks) -> (Vec<Members>, Evidence) {
+    /// `None` if the random flows do not span all of them.
+    fn classes(&self, at: &Centres, ranks: &Ranks) -> Option<(Vec<Members>, Evidence)> {
         let mut random = at.key.residues(&at.field);
         let (classes, entries) = match &ranks.lambda {
             Some(lambda) => {
-                let motion = ranks.flows.motion(lambda, &mut random);
+                let motion = ranks.flows.motion(lambda, &mut random)?;
                 let found = component::classes(self.members, self.core, &motion.transforms);
                 (found, motion.by_node())
             }
@@ -166,7 +167,7 @@ impl Piece<'_> {
             draw: at.draw,
             vector: entries.iter().map(|&x| at.field.to_u64(x)).collect(),
         };
-        (classes, kernel)
+        Some((classes, kernel))
     }
 
     /// Decides at the given centres, or says that they (or so small a prime) do not do.
@@ -182,7 +183,9 @@ impl Piece<'_> {
             return Ok(Some(self.full(evidence)));
         }
         let lower = self.rank_of_piece(ranks.rank);
-        let (found, kernel) = self.classes(at, &ranks);
+        let Some((found, kernel)) = self.classes(at, &ranks) else {
+            return Ok(None);
+        };
         if found.len() < 2 {
             return Ok(None);
         }
@@ -274,7 +277,7 @@ impl Piece<'_> {
         };
         for _ in 0..attempts {
             let at = draw(&self.options.field, core.graph.nodes(), self.key(next))?;
-            let ranks = ranks(self.options.model, &at.field, &core, &at.values);
+            let ranks = ranks(self.options.model, &at, &core);
             if ranks.rank == required {
                 return Ok(Some(ranks.evidence(at.draw)));
             }
@@ -307,7 +310,9 @@ impl Piece<'_> {
             next = used + 1;
             let ranks = self.ranks(&at);
             largest = largest.max(ranks.rank);
-            let (found, kernel) = self.classes(&at, &ranks);
+            let Some((found, kernel)) = self.classes(&at, &ranks) else {
+                return Ok(None);
+            };
             if ranks.rank > rank || found != classes {
                 return Ok(None);
             }
@@ -362,13 +367,8 @@ fn draw(field: &PrimeField, nodes: usize, key: DrawKey) -> Result<Centres, Verdi
     Ok(Centres::new(*field, drawn.values, key))
 }
 
-fn ranks<'a>(
-    model: Model,
-    field: &'a PrimeField,
-    core: &'a Core,
-    centres: &'a [[u64; 3]],
-) -> Ranks<'a> {
-    let flows = PlaneFlows::new(field, &core.graph, centres);
+fn ranks<'a>(model: Model, at: &'a Centres, core: &'a Core) -> Ranks<'a> {
+    let flows = PlaneFlows::new(&at.field, &core.graph, &at.values);
     let rigidity = flows.rigidity_rank();
     match model {
         Model::Calibrated => Ranks {
@@ -377,7 +377,7 @@ fn ranks<'a>(
             rank: rigidity,
         },
         Model::Projective => {
-            let lambda = flows.lambda();
+            let lambda = flows.lambda(at.key.flow_weights(&at.field));
             Ranks {
                 rank: 4 * rigidity + lambda.rank() - core.graph.edges().len(),
                 flows,

@@ -1,0 +1,124 @@
+//! Synthetic viewing graphs for the benchmarks, as edge lists on standard output.
+//!
+//! ```text
+//! cargo run --release --example generate -- regular NODES SEED
+//! cargo run --release --example generate -- sequence NODES NEIGHBOURS SEED
+//! ```
+//!
+//! `regular`: a random 4-regular graph without triangles, which contraction cannot touch.
+//!
+//! `sequence`: cameras along a path, each paired with the next NEIGHBOURS ones; a loop closure
+//! (20 consecutive cameras see 20 others far away) every 10,000 cameras; and at the end of the
+//! sequence parts that hang on: for every 20,000 cameras one pendant camera (one pair), one
+//! camera seen from two others, and one chain of three pairs between two cameras.
+
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha20Rng;
+use std::collections::BTreeSet;
+use std::io::{self, BufWriter, Write};
+
+fn main() -> io::Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |k: usize| arguments.get(k).and_then(|word| word.parse::<u64>().ok());
+    let mut out = BufWriter::with_capacity(1 << 20, io::stdout().lock());
+    match (
+        arguments.first().map(String::as_str),
+        number(1),
+        number(2),
+        number(3),
+    ) {
+        (Some("regular"), Some(nodes), Some(seed), None) => regular(&mut out, nodes, seed)?,
+        (Some("sequence"), Some(nodes), Some(neighbours), Some(seed)) => {
+            sequence(&mut out, nodes, neighbours, seed)?;
+        }
+        _ => {
+            eprintln!("usage: generate regular NODES SEED | sequence NODES NEIGHBOURS SEED");
+            std::process::exit(2);
+        }
+    }
+    out.flush()
+}
+
+fn below(random: &mut ChaCha20Rng, bound: u64) -> u64 {
+    // The bias is below 2^-30 and of no consequence here.
+    random.next_u64() % bound
+}
+
+/// Starts from a circulant graph and exchanges the ends of random pairs of edges while the graph
+/// stays simple; then goes on with exchanges until no triangle is left.
+fn regular(out: &mut impl Write, n: u64, seed: u64) -> io::Result<()> {
+    assert!(n >= 20, "a random graph needs some room");
+    let mut random = ChaCha20Rng::seed_from_u64(seed);
+    let mut neighbours = vec![BTreeSet::new(); n as usize];
+    let mut edges: Vec<(u64, u64)> = (0..n)
+        .flat_map(|v| [(v, (v + 1) % n), (v, (v + 2) % n)])
+        .collect();
+    for &(a, b) in &edges {
+        neighbours[a as usize].insert(b);
+        neighbours[b as usize].insert(a);
+    }
+    let in_triangle = |neighbours: &[BTreeSet<u64>], (a, b): (u64, u64)| {
+        !neighbours[a as usize].is_disjoint(&neighbours[b as usize])
+    };
+    let mut exchanges = 40 * n;
+    loop {
+        let k = if exchanges > 0 {
+            exchanges -= 1;
+            below(&mut random, 2 * n) as usize
+        } else {
+            match (0..edges.len()).find(|&k| in_triangle(&neighbours, edges[k])) {
+                Some(k) => k,
+                None => break,
+            }
+        };
+        let l = below(&mut random, 2 * n) as usize;
+        let ((a, b), (mut c, mut d)) = (edges[k], edges[l]);
+        if random.next_u64() % 2 == 1 {
+            (c, d) = (d, c);
+        }
+        let distinct = a != c && a != d && b != c && b != d;
+        if !distinct || neighbours[a as usize].contains(&d) || neighbours[c as usize].contains(&b) {
+            continue;
+        }
+        for (x, y, z) in [(a, b, d), (b, a, c), (c, d, b), (d, c, a)] {
+            neighbours[x as usize].remove(&y);
+            neighbours[x as usize].insert(z);
+        }
+        edges[k] = (a, d);
+        edges[l] = (c, b);
+    }
+    for (a, b) in edges {
+        writeln!(out, "{} {}", a.min(b), a.max(b))?;
+    }
+    Ok(())
+}
+
+fn sequence(out: &mut impl Write, n: u64, neighbours: u64, seed: u64) -> io::Result<()> {
+    let mut random = ChaCha20Rng::seed_from_u64(seed);
+    let parts = n / 20_000;
+    // A pendant camera, one seen twice, two inner cameras of a chain.
+    let path = n - 4 * parts;
+    let mut line = |a: u64, b: u64| writeln!(out, "{a} {b}");
+    for v in 0..path {
+        for w in v + 1..path.min(v + 1 + neighbours) {
+            line(v, w)?;
+        }
+    }
+    for _ in 0..n / 10_000 {
+        let (v, w) = (below(&mut random, path - 40), below(&mut random, path - 40));
+        for k in 0..20 {
+            line(v + k, w + 40 - k)?;
+        }
+    }
+    for part in 0..parts {
+        let at = below(&mut random, path - 2 * neighbours);
+        let new = path + 4 * part;
+        line(new, at)?;
+        line(new + 1, at)?;
+        line(new + 1, at + neighbours)?;
+        line(new + 2, at)?;
+        line(new + 2, new + 3)?;
+        line(new + 3, at + 2 * neighbours - 1)?;
+    }
+    Ok(())
+}
