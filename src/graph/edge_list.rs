@@ -154,7 +154,7 @@ impl Collector {
         let fault = |problem| Place::Input.fault(problem);
         let Self {
             mut pairs,
-            mut singles,
+            singles,
             names,
             lines_with_more,
             ..
@@ -164,7 +164,7 @@ impl Collector {
         }
         let (labels, nodes) = match names {
             Some(names) => names.sort(&mut pairs),
-            None => number_integers(&mut pairs, &mut singles),
+            None => number_integers(&mut pairs, &singles),
         };
         let nodes = u32::try_from(nodes).map_err(|_| fault(Problem::TooManyNodes))?;
         if pairs.is_empty() {
@@ -268,14 +268,14 @@ fn small_integer(text: &[u8]) -> Option<(u32, &[u8])> {
 
 /// Replaces integers by their places among those that occur. Returns the
 /// labels and their number.
-fn number_integers(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> (Labels, usize) {
+fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
     let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
     let largest = ends.chain(singles.iter().copied()).max().unwrap_or(0);
     let given = 2 * pairs.len() + singles.len();
     // The bitmap takes 3/16 of a byte for every possible value: for values much
     // larger than their number it would outgrow the pairs.
     if largest as usize / 32 > given + 1024 {
-        return Index::of_integers(pairs, singles).sort(pairs);
+        return number_far_apart(pairs, singles, largest);
     }
     let mut words = vec![0u64; largest as usize / 64 + 1];
     let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
@@ -321,6 +321,71 @@ fn number_integers(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> (Labels, us
     (Labels::Integers(values), nodes)
 }
 
+/// As [`number_integers`], for integers that lie far apart, `largest` being the
+/// largest: sorts them and looks each up where its leading bits begin, which
+/// stays in the processor's caches where a hash table would not.
+fn number_far_apart(pairs: &mut [(u32, u32)], singles: &[u32], largest: u32) -> (Labels, usize) {
+    let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
+    let mut values: Vec<u32> = ends.chain(singles.iter().copied()).collect();
+    values.sort_unstable();
+    values.dedup();
+    values.shrink_to_fit();
+    let mut shift = 0;
+    while (largest >> shift) as usize > 2 * values.len() {
+        shift += 1;
+    }
+    // starts[k] is how many values have leading bits below k.
+    let mut starts = vec![0u32; (largest >> shift) as usize + 2];
+    for value in &values {
+        starts[(value >> shift) as usize + 1] += 1;
+    }
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += *start;
+        *start = sum;
+    }
+    let rank = |value: u32| {
+        let at = (value >> shift) as usize;
+        let alike = &values[starts[at] as usize..starts[at + 1] as usize];
+        starts[at] + alike.partition_point(|&other| other < value) as u32
+    };
+    for (a, b) in pairs {
+        *a = rank(*a);
+        *b = rank(*b);
+    }
+    let nodes = values.len();
+    let values = values.into_iter().map(u64::from).collect();
+    (integers(values), nodes)
+}
+
+/// Replaces integers by numbers in the order in which they are met. Returns
+/// the number of every integer.
+fn number_as_met(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> HashMap<u32, u32> {
+    let mut nodes = HashMap::new();
+    let mut number = |value: &mut u32| {
+        let next = nodes.len() as u32;
+        *value = *nodes.entry(*value).or_insert(next);
+    };
+    for (a, b) in pairs {
+        number(a);
+        number(b);
+    }
+    singles.iter_mut().for_each(number);
+    nodes
+}
+
+/// Gives the nodes listed the numbers 0, 1, ... in the order of the list.
+fn renumber(pairs: &mut [(u32, u32)], nodes: impl ExactSizeIterator<Item = u32>) {
+    let mut place = vec![0; nodes.len()];
+    for (node, new) in nodes.zip(0..) {
+        place[node as usize] = new;
+    }
+    for (a, b) in pairs {
+        *a = place[*a as usize];
+        *b = place[*b as usize];
+    }
+}
+
 /// Labels of any kind, numbered in the order in which they came.
 #[derive(Default)]
 struct Index {
@@ -330,16 +395,7 @@ struct Index {
 impl Index {
     /// The index of pairs of integers, which become node numbers.
     fn of_integers(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> Self {
-        let mut nodes = HashMap::new();
-        let mut number = |value: &mut u32| {
-            let next = nodes.len() as u32;
-            *value = *nodes.entry(*value).or_insert(next);
-        };
-        for (a, b) in pairs {
-            number(a);
-            number(b);
-        }
-        singles.iter_mut().for_each(number);
+        let nodes = number_as_met(pairs, singles);
         let mut text = String::new();
         let name = |(value, node): (u32, u32)| {
             text.clear();
@@ -380,14 +436,7 @@ impl Index {
             labels.sort_unstable();
         }
         let nodes = labels.len();
-        let mut place = vec![0; nodes];
-        for ((_, node), new) in labels.iter().zip(0..) {
-            place[*node as usize] = new;
-        }
-        for (a, b) in pairs {
-            *a = place[*a as usize];
-            *b = place[*b as usize];
-        }
+        renumber(pairs, labels.iter().map(|&(_, node)| node));
         let labels = match values {
             Some(mut values) => {
                 values.sort_unstable();
