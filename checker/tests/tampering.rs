@@ -1,0 +1,308 @@
+//! Certificates written by an independent script from the specification, and what becomes of them when they are changed.
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use viewcert_check::{Graph, check};
+
+fn certificates() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/certificates");
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.iter().map(|path| (path.display().to_string(), fs::read_to_string(path).unwrap())).collect()
+}
+
+fn named(name: &str) -> String {
+    let found = certificates().into_iter().find(|(path, _)| path.ends_with(&format!("/{name}.json")));
+    found.unwrap().1
+}
+
+fn rejection(text: &str) -> String {
+    check(text.as_bytes(), None).map(|verified| verified.to_string()).unwrap_err().to_string()
+}
+
+/// The end of the JSON value that starts at a position (of a valid text).
+fn value_end(text: &[u8], start: usize) -> usize {
+    let (mut depth, mut at, mut in_string) = (0, start, false);
+    loop {
+        match text[at] {
+            b'"' => in_string = !in_string,
+            b'[' | b'{' if !in_string => depth += 1,
+            b']' | b'}' if !in_string => depth -= 1,
+            _ => {}
+        }
+        at += 1;
+        if depth == 0
+            && !in_string
+            && (text[start] == b'"' || b"[{".contains(&text[start]) || b",]}\n ".contains(&text[at]))
+        {
+            return at;
+        }
+    }
+}
+
+/// Every member of every object: its name, where it stands with its name, and where its value stands.
+fn members(text: &str) -> Vec<(String, Range<usize>, Range<usize>)> {
+    let bytes = text.as_bytes();
+    let colons = text.match_indices("\":");
+    colons
+        .map(|(quote, _)| {
+            let start = text[..quote].rfind('"').unwrap();
+            let value = quote + 2;
+            (text[start + 1..quote].to_string(), start..value_end(bytes, value), value..value_end(bytes, value))
+        })
+        .collect()
+}
+
+/// Every number and every string that is a value, with the name of the member in which it stands.
+fn scalars(text: &str) -> Vec<(String, Range<usize>)> {
+    let bytes = text.as_bytes();
+    let mut found = Vec::new();
+    for (name, _, value) in members(text) {
+        let inner = members(text).into_iter().any(|(_, whole, _)| value.start < whole.start && whole.end < value.end);
+        let mut at = value.start;
+        while at < value.end && !inner {
+            if bytes[at] == b'"' || bytes[at].is_ascii_digit() || bytes[at] == b'-' || bytes[at] == b'n' {
+                let end = value_end(bytes, at);
+                found.push((name.clone(), at..end));
+                at = end;
+            }
+            at += 1;
+        }
+    }
+    found
+}
+
+fn replaced(text: &str, range: &Range<usize>, with: &str) -> String {
+    format!("{}{with}{}", &text[..range.start], &text[range.end..])
+}
+
+#[test]
+fn all_are_verified() {
+    assert_eq!(certificates().len(), 13);
+    for (path, text) in certificates() {
+        let verified = check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let solvable = ["pair", "triangle", "merges", "bipartite", "square-calibrated"];
+        let wanted = solvable.iter().any(|name| path.ends_with(&format!("/{name}.json")));
+        assert_eq!(verified.rank().0 == verified.required(), wanted, "{path}");
+    }
+}
+
+/// A changed certificate is rejected, or it proves the very same statement in another way (other pivots or cameras).
+#[test]
+fn no_changed_scalar_changes_what_is_verified() {
+    const OTHER_PROOF: [&str; 12] = [
+        "name",
+        "program",
+        "rows",
+        "cols",
+        "flows",
+        "lambda_rows",
+        "lambda_cols",
+        "seed",
+        "draw",
+        "cameras",
+        "add",
+        "at",
+    ];
+    let mut rejected = 0;
+    for (path, text) in certificates() {
+        let original = check(text.as_bytes(), None).unwrap().to_string();
+        for (name, range) in scalars(&text) {
+            let old = &text[range.clone()];
+            let digits = old.trim_matches('"');
+            let changes = match digits.parse::<i128>() {
+                Ok(number) if old.starts_with('"') => {
+                    vec![format!("\"{}\"", number + 1), format!("\"{}\"", number - 1), digits.to_string()]
+                }
+                Ok(number) => {
+                    vec![(number + 1).to_string(), (number - 1).to_string(), format!("\"{old}\""), "null".into()]
+                }
+                Err(_) if old == "null" => vec!["0".into(), "-100".into(), "\"\"".into()],
+                Err(_) => vec![format!("\"{digits}x\""), "\"\"".into(), "0".into()],
+            };
+            for change in changes {
+                let changed = replaced(&text, &range, &change);
+                match check(changed.as_bytes(), None) {
+                    Err(_) => rejected += 1,
+                    Ok(verified) => {
+                        assert!(OTHER_PROOF.contains(&name.as_str()), "{path}: {name} {old} -> {change}");
+                        let same = |text: &str| text.split("\nalso").next().unwrap().to_string();
+                        assert_eq!(same(&verified.to_string()), same(&original), "{path}: {name} {old} -> {change}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(rejected > 3000, "{rejected}");
+}
+
+#[test]
+fn members_are_there_once() {
+    for (path, text) in certificates() {
+        for (name, whole, value) in members(&text) {
+            let member = &text[whole.clone()];
+            let twice = rejection(&replaced(&text, &whole, &format!("{member},{member}")));
+            assert!(twice.ends_with(&format!("member `{name}` stands twice")), "{path}: {twice}");
+            let unknown = rejection(&replaced(&text, &whole, &format!("{member},\"extra\":1")));
+            assert!(unknown.ends_with("unknown member `extra`"), "{path}: {unknown}");
+            let renamed = rejection(&replaced(&text, &whole, &format!("\"{name}s\":{}", &text[value.clone()])));
+            assert!(renamed.ends_with(&format!("member `{name}` is missing")), "{path}: {renamed}");
+            for other in ["7", "\"7\"", "[]", "{}", "[[0,1]]", "[[]]", "[7]", "[{}]"] {
+                let changed = replaced(&text, &value, other);
+                // Without its kernel an integer minor is a lower bound still.
+                let weaker = name == "kernel" && other == "[]";
+                if changed != text && !weaker && !["name", "program", "seed", "draw"].contains(&name.as_str()) {
+                    assert!(check(changed.as_bytes(), None).is_err(), "{path}: {name} -> {other}");
+                }
+            }
+        }
+    }
+}
+
+/// Members may stand in any order.
+#[test]
+fn order_of_members_does_not_matter() {
+    let text = named("square");
+    let (graph, rest) = text.split_once("\"graph\":").unwrap();
+    let (value, tail) = rest.split_at(value_end(rest.as_bytes(), 0));
+    let moved = format!("{{\"graph\":{value},{}{}", &graph[1..], &tail.trim_start()[1..]);
+    assert!(check(moved.as_bytes(), None).is_ok());
+}
+
+#[test]
+fn truncated_anywhere() {
+    for (path, text) in certificates() {
+        for end in 0..text.trim_end().len() {
+            assert!(check(&text.as_bytes()[..end], None).is_err(), "{path} up to byte {end}");
+        }
+        assert_eq!(rejection(&format!("{text}x")).split(": ").last(), Some("something follows the text"));
+    }
+}
+
+#[test]
+fn another_graph() {
+    let square = Graph::from_graph6(b"Cl").unwrap();
+    assert!(check(named("square").as_bytes(), Some(&square)).is_ok());
+    let other = Graph::from_graph6(b"C~").unwrap();
+    let rejected = check(named("square").as_bytes(), Some(&other)).unwrap_err();
+    assert_eq!(rejected.to_string(), "graph: the graph has another hash than `sha256`");
+    let without = named("square").replace("\"Cl\"", "null");
+    assert!(check(without.as_bytes(), Some(&square)).is_ok());
+    assert_eq!(rejection(&without), "graph: the certificate does not hold the graph, and none is given");
+}
+
+/// Single changes with the reason that each must be given.
+#[test]
+fn reasons() {
+    for (name, old, new, wanted) in [
+        ("square", "projective", "affine", "model: unknown model `affine`"),
+        ("square", "\"version\":1", "\"version\":2", "document: version 2 is unknown to this program"),
+        (
+            "square",
+            "\"bound\":28",
+            "\"bound\":27",
+            "pieces[0].evidence[1] (counting): the bound is 27, but the blocks sum up to 28",
+        ),
+        (
+            "square",
+            "1000003",
+            "1000001",
+            "pieces[0].evidence[0] (plane-flow).prime: 1000001 is not a prime with 5 <= p < 2^62",
+        ),
+        ("square", "\"plane-flow\"", "\"plain-flow\"", "pieces[0].evidence[0] (plain-flow): unknown kind of evidence"),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[]", "pieces: the edge (0, 1) is in no piece"),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[1,0]]", "rigid.edges: [1, 0] is not an edge (i < j) of the graph"),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[0,1],[0,1]]", "rigid.edges: the list is not increasing"),
+        (
+            "pair",
+            "\"solvable\"",
+            "\"finite-solvable\"",
+            "claim.verdict: `finite-solvable` is claimed, but the evidence gives `solvable`",
+        ),
+        ("pair", "\"value\":7", "\"value\":6", "claim.rank: 6 of 7 is claimed, but the evidence gives 7 of 7"),
+        ("path", "\"value\":2", "\"value\":1", "claim.components: 1 is claimed, but the evidence gives 2"),
+        ("triangle", "[[2,0,1]]", "[[2,0,0]]", "bodies[0].add[0]: the two nodes of the body are the same"),
+        ("triangle", "[[2,0,1]]", "[[1,0,2]]", "bodies[0].add[0]: node 1 is in the body already"),
+        ("triangle", "\"bodies\":[0]", "\"bodies\":[1]", "rigid.bodies: 1 is out of range (0 to 1, exclusive)"),
+        ("merges", "\"with\":[1,2]", "\"with\":[1,1]", "bodies[3].merge[0]: the two parts of the merge are the same"),
+        ("merges", "\"at\":[2,0,4]", "\"at\":[2,1,4]", "bodies[3].merge[0]: node 1 is not where the merge needs it"),
+        ("merges", "\"with\":[[1,6],[5,6]]", "\"with\":[1,[5,6]]", "bodies[3].merge[1]: body 1 is used a second time"),
+        (
+            "merges",
+            "\"with\":[[1,6],[5,6]]",
+            "\"with\":[[1,5],[5,6]]",
+            "bodies[3].merge[1]: [1, 5] is not an edge (i < j) of the graph",
+        ),
+        ("merges", "\"bodies\":[3]", "\"bodies\":[0]", "rigid: body 0 is not a final one"),
+        (
+            "integer",
+            "\"determinant\":\"-",
+            "\"determinant\":\"",
+            "pieces[0].evidence[0] (integer-minor): `determinant` is not that of the minor",
+        ),
+        ("draws", "\"count\":2", "\"count\":1", "pieces[0].evidence[1] (draws): `count` must be 2"),
+        (
+            "draws",
+            "\"rank\":28",
+            "\"rank\":27",
+            "pieces[0].evidence[1] (draws): the rank at draw 0 is 28, larger than 27",
+        ),
+        ("draws", "\"rank\":28", "\"rank\":29", "pieces[0].evidence[1] (draws): no draw has rank 29"),
+        (
+            "draws",
+            "\"error-bound\",\"error_log2\":-102",
+            "\"proof\",\"error_log2\":null",
+            "claim.verdict: the strength is not `proof`, but `error at most 2^-102 over the draws`",
+        ),
+        (
+            "square",
+            "\"proof\",\"error_log2\":null",
+            "\"error-bound\",\"error_log2\":-102",
+            "claim.verdict: the strength is not `error at most 2^-102 over the draws`, but `proof`",
+        ),
+    ] {
+        let text = named(name);
+        assert!(text.contains(old), "{name} has no {old}");
+        assert_eq!(rejection(&text.replacen(old, new, 1)), wanted, "{name}: {old} -> {new}");
+    }
+}
+
+/// Each condition on a hub, on the square: node 0 split into a copy for each of its two edges.
+#[test]
+fn hubs() {
+    let step = "pieces[0].evidence[1] (counting).blocks[0].hubs[0]";
+    for (old, new, wanted) in [
+        ("\"split\":[0,1]", "\"split\":[0,2]", ": part 2 is split, but does not contain node 0"),
+        ("\"split\":[0,1]", "\"split\":[0]", ": the split graph has 1 components, not 2"),
+        ("\"split\":[0,1]", "\"split\":[1,0]", ".split: the list is not increasing"),
+        ("\"components\":2", "\"components\":1", ": the split graph has 2 components, not 1"),
+        ("\"less\":1", "\"less\":2", ": the hub takes off 1, not 2"),
+        ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2]]", ": a part is in no group"),
+        ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2],[3],[0]]", ": part 0 stands in two groups"),
+        ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2],[3],[]]", ": a group without parts"),
+        // One group of both edges at node 0 has four nodes, two of them copies: s = 8 + 2 + 2 - 8 = 4, 2 - 1 - 3 s = -11.
+        ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0,1],[2],[3]]", ": the hub takes off -11, not 1"),
+        ("\"node\":0", "\"node\":1", ": part 1 is split, but does not contain node 1"),
+        ("\"node\":0", "\"node\":4294967296", ": 4294967296 is not a node"),
+    ] {
+        let text = named("hub");
+        assert!(text.contains(old), "no {old}");
+        assert_eq!(rejection(&text.replacen(old, new, 1)), format!("{step}{wanted}"), "{old} -> {new}");
+    }
+}
+
+/// A trivial motion is a kernel vector, but separates nothing; half a kernel vector is none.
+#[test]
+fn kernel_vectors_that_prove_nothing() {
+    let text = named("square");
+    let (head, tail) = text.split_at(text.find("\"vector\":").unwrap() + 9);
+    let end = value_end(tail.as_bytes(), 0);
+    let with = |vector: String| rejection(&format!("{head}[{vector}]{}", &tail[end..]));
+    let step = "pieces[0].evidence[3] (kernel)";
+    assert_eq!(with(["\"0\""; 48].join(",")), format!("{step}: two components move alike"));
+    let shifted: Vec<String> = (0..48).map(|k| format!("\"{}\"", u8::from(k == 0))).collect();
+    assert!(with(shifted.join(",")).starts_with(&format!("{step}: not a kernel vector at the core edge")));
+    assert_eq!(with(["\"0\""; 47].join(",")), format!("{step}: `vector` has 47 entries instead of 48"));
+    assert_eq!(with(["\"1000003\""; 48].join(",")), format!("{step}.vector: 1000003 is not a residue modulo 1000003"));
+}
