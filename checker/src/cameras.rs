@@ -41,14 +41,14 @@ pub(crate) fn centres_and_prime(
 }
 
 fn centres_from(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<[u64; 3]>> {
-    let mut centre = || std::array::from_fn(|_| field.from(stream.below(field.prime())));
-    let centres = (0..nodes).map(|_| centre()).collect();
+    let mut centre = || std::array::from_fn(|_| field.element(stream.below(field.prime())));
+    let centres: Vec<_> = (0..nodes).map(|_| centre()).collect();
     all_different(&centres)?;
     Ok(centres)
 }
 
-fn all_different<C: Ord + Clone>(centres: &Vec<C>) -> Checked<()> {
-    let mut sorted = centres.clone();
+fn all_different<C: Ord + Clone>(centres: &[C]) -> Checked<()> {
+    let mut sorted = centres.to_vec();
     sorted.sort_unstable();
     ensure!(sorted.windows(2).all(|pair| pair[0] != pair[1]), "the draw is void: two nodes have the same centre");
     Ok(())
@@ -63,7 +63,7 @@ pub(crate) fn general(
     nodes: usize,
 ) -> Checked<Vec<Camera<u64>>> {
     let mut stream = stream(graph, seed, draw);
-    let mut entry = || field.from(stream.below(field.prime()));
+    let mut entry = || field.element(stream.below(field.prime()));
     let cameras: Vec<_> = (0..nodes).map(|_| camera(&mut entry)).collect();
     let mut centres = Vec::new();
     for camera in &cameras {

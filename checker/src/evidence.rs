@@ -51,7 +51,10 @@ pub(crate) fn evaluate(list: &Value, setting: Setting, structure: &Structure, pi
                     components = Some(read_components(&mut members, setting, structure, piece)?);
                 }
                 // Kernels need the components and draws, which may come later.
-                "kernel" => return Ok(kernels.push((k, value))),
+                "kernel" => {
+                    kernels.push((k, value));
+                    return Ok(());
+                }
                 _ => match lower(kind, &mut members, setting, &core)? {
                     Some(bound) => bounds.push(bound),
                     None => return Err(Rejection::new("unknown kind of evidence")),
@@ -147,7 +150,7 @@ fn kernel(
         let residue = |entry: &Value| {
             let residue = entry.big()?;
             ensure!(residue < prime, "{residue} is not a residue modulo {prime}");
-            Ok(field.from(residue))
+            Ok(field.element(residue))
         };
         list.list()?.iter().map(residue).collect::<Checked<Vec<u64>>>()
     })?;

@@ -148,7 +148,7 @@ fn difference(field: &Field, i: &[u64; 3], j: &[u64; 3]) -> ([usize; 3], [u64; 3
 pub(crate) fn direction(field: &Field, core: &Core, centres: &[[u64; 3]], row: usize) -> [u64; 3] {
     let (i, j) = core.edges[row / 2];
     let ([q, r, s], d) = difference(field, &centres[i], &centres[j]);
-    let other = if row % 2 == 0 { r } else { s };
+    let other = if row.is_multiple_of(2) { r } else { s };
     let mut a = [0; 3];
     a[other] = d[q];
     a[q] = field.neg(d[other]);

@@ -113,10 +113,8 @@ impl Factors<'_> {
                 for k in first..last {
                     row[k] = field.mul(row[k], self.inverses[k]);
                     factors[k - first] = field.neg(row[k]);
-                    for column in k + 1..last {
-                        let product = field.mul(factors[k - first], self.dense[k - base][column - base]);
-                        row[column] = field.add(row[column], product);
-                    }
+                    let lane = &self.dense[k - base][k + 1 - base..last - base];
+                    add_multiple(field, &mut row[k + 1..last], factors[k - first], lane);
                 }
                 if factors != [0; LANES] {
                     let lanes = self.dense[first - base..last - base].iter().map(|lane| &lane[last - base..]);
@@ -146,10 +144,8 @@ impl Factors<'_> {
                 let mut factors = [0; LANES];
                 for k in (first..last).rev() {
                     factors[k - first] = field.neg(row[k]);
-                    for column in first..k {
-                        let product = field.mul(factors[k - first], self.dense[k - base][column - base]);
-                        row[column] = field.add(row[column], product);
-                    }
+                    let lane = &self.dense[k - base][first - base..k - base];
+                    add_multiple(field, &mut row[first..k], factors[k - first], lane);
                 }
                 let lanes = self.dense[first - base..last - base].iter().map(|lane| &lane[..first - base]);
                 add_lanes(field, &mut row[base..first], &factors, lanes);
@@ -172,6 +168,11 @@ impl Factors<'_> {
         let product = self.inverses.iter().fold(self.field.one(), |product, &inverse| self.field.mul(product, inverse));
         self.field.inverse(product)
     }
+}
+
+/// row += factor lane.
+fn add_multiple(field: &Field, row: &mut [u64], factor: u64, lane: &[u64]) {
+    row.iter_mut().zip(lane).for_each(|(entry, &value)| *entry = field.add(*entry, field.mul(factor, value)));
 }
 
 /// row += sum of factors[k] lanes[k], all of one length.
@@ -222,9 +223,7 @@ pub(crate) fn rank(field: &Field, width: usize, rows: impl Iterator<Item = Vec<(
         for (pivot, inverse, other) in &reduced {
             if row[*pivot] != 0 {
                 let factor = field.neg(field.mul(row[*pivot], *inverse));
-                for (entry, &value) in row.iter_mut().zip(other) {
-                    *entry = field.add(*entry, field.mul(factor, value));
-                }
+                add_multiple(field, &mut row, factor, other);
             }
         }
         if let Some(pivot) = row.iter().position(|&entry| entry != 0) {
@@ -244,7 +243,7 @@ mod tests {
     fn random(field: &Field, size: usize, share: u64) -> Vec<Vec<u64>> {
         let mut stream = Stream::new(&[size as u8; 32]);
         let entry = |k, j, stream: &mut Stream| {
-            if k == j || stream.below(100) < share { field.from(1 + stream.below(field.prime() - 1)) } else { 0 }
+            if k == j || stream.below(100) < share { field.element(1 + stream.below(field.prime() - 1)) } else { 0 }
         };
         (0..size).map(|k| (0..size).map(|j| entry(k, j, &mut stream)).collect()).collect()
     }
@@ -277,10 +276,10 @@ mod tests {
         let field = Field::new((1 << 61) - 1).unwrap();
         let node = |k: usize| (3 * k * k + k + 2) as u64;
         let factors = factor(&field, 20, |k, row| {
-            row.iter_mut().enumerate().for_each(|(j, entry)| *entry = field.pow(field.from(node(k)), j as u64));
+            row.iter_mut().enumerate().for_each(|(j, entry)| *entry = field.pow(field.element(node(k)), j as u64));
         });
         let pairs = (0..20).flat_map(|k| (0..k).map(move |j| node(k) - node(j)));
-        let product = pairs.fold(field.one(), |product, factor| field.mul(product, field.from(factor)));
+        let product = pairs.fold(field.one(), |product, factor| field.mul(product, field.element(factor)));
         assert_eq!(factors.unwrap().determinant(), product);
     }
 
@@ -288,7 +287,7 @@ mod tests {
     fn a_vanishing_pivot_is_named() {
         let field = Field::new(7).unwrap();
         // Rows 0 and 1 agree in columns 0 and 1, so that the second pivot vanishes although the matrix is invertible.
-        let matrix = [[1, 1, 0], [1, 1, 1], [0, 1, 1]].map(|row| row.map(|entry| field.from(entry)));
+        let matrix = [[1, 1, 0], [1, 1, 1], [0, 1, 1]].map(|row| row.map(|entry| field.element(entry)));
         let outcome = factor(&field, 3, |k, row| row.copy_from_slice(&matrix[k]));
         assert_eq!(outcome.map(|_| ()).unwrap_err().reason(), "pivot 1 vanishes");
     }

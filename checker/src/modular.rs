@@ -40,21 +40,21 @@ impl Field {
     }
 
     /// The element with this residue (any integer is fine).
-    pub fn from(&self, residue: u64) -> u64 {
+    pub fn element(&self, residue: u64) -> u64 {
         self.mul(residue % self.p, self.square)
     }
 
-    pub fn from_signed(&self, value: i128) -> u64 {
-        self.from(value.rem_euclid(i128::from(self.p)) as u64)
+    pub fn signed(&self, value: i128) -> u64 {
+        self.element(value.rem_euclid(i128::from(self.p)) as u64)
     }
 
     /// The element of a decimal integer.
-    pub fn from_decimal(&self, (negative, digits): (bool, &str)) -> u64 {
+    pub fn decimal(&self, (negative, digits): (bool, &str)) -> u64 {
         let mut value = 0;
         for chunk in digits.as_bytes().chunks(18) {
             let (number, scale) =
                 chunk.iter().fold((0, 1), |(n, s), &digit| (n * 10 + u64::from(digit.wrapping_sub(b'0')), s * 10));
-            value = self.add(self.mul(value, self.from(scale)), self.from(number));
+            value = self.add(self.mul(value, self.element(scale)), self.element(number));
         }
         if negative { self.neg(value) } else { value }
     }
@@ -121,7 +121,7 @@ impl Field {
 /// (Sorenson and Webster, 2017). Here p < 2^62.
 pub(crate) fn is_prime(p: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    if p < 2 || p >= 1 << 62 {
+    if !(2..1 << 62).contains(&p) {
         return false;
     }
     if let Some(&factor) = BASES.iter().find(|&&base| p.is_multiple_of(base)) {
@@ -130,7 +130,7 @@ pub(crate) fn is_prime(p: u64) -> bool {
     let ring = Field::odd(p);
     let (twos, minus_one) = ((p - 1).trailing_zeros(), ring.neg(ring.one));
     BASES.iter().all(|&base| {
-        let mut power = ring.pow(ring.from(base), (p - 1) >> twos);
+        let mut power = ring.pow(ring.element(base), (p - 1) >> twos);
         let mut passes = power == ring.one || power == minus_one;
         for _ in 1..twos {
             power = ring.mul(power, power);
@@ -160,15 +160,15 @@ mod tests {
             let samples = [0, 1, 2, 3, 4, p / 2, p - 2, p - 1, 0x1234_5678_9abc_def0 % p];
             for a in samples.map(|a| a % p) {
                 for b in samples.map(|b| b % p) {
-                    let wide = |x: u128| field.from((x % u128::from(p)) as u64);
-                    let (x, y) = (field.from(a), field.from(b));
+                    let wide = |x: u128| field.element((x % u128::from(p)) as u64);
+                    let (x, y) = (field.element(a), field.element(b));
                     assert_eq!(field.mul(x, y), wide(u128::from(a) * u128::from(b)));
                     assert_eq!(field.add(x, y), wide(u128::from(a) + u128::from(b)));
                     assert_eq!(field.sub(x, y), wide(u128::from(a) + u128::from(p - b)));
                     let sum = field.add_products(x, &[y; LANES], [x; LANES]);
                     assert_eq!(sum, wide(u128::from(a) + 8 * (u128::from(a) * u128::from(b) % u128::from(p))));
                 }
-                let x = field.from(a);
+                let x = field.element(a);
                 assert_eq!(field.mul(x, field.inverse(x)), if a == 0 { 0 } else { field.one() });
             }
             // The largest stored values, whatever they stand for.
@@ -198,8 +198,8 @@ mod tests {
         let field = Field::new(1_000_003).unwrap();
         let text = "123456789012345678901234567890123456789";
         let plain = text.bytes().fold(0, |v, digit| (v * 10 + u64::from(digit - b'0')) % 1_000_003);
-        assert_eq!(field.from_decimal((false, text)), field.from(plain));
-        assert_eq!(field.from_decimal((true, text)), field.from(1_000_003 - plain));
-        assert_eq!(field.from_signed(-1), field.from(1_000_002));
+        assert_eq!(field.decimal((false, text)), field.element(plain));
+        assert_eq!(field.decimal((true, text)), field.element(1_000_003 - plain));
+        assert_eq!(field.signed(-1), field.element(1_000_002));
     }
 }

@@ -19,6 +19,9 @@ impl Part {
     }
 }
 
+/// The parts of a partition with what else was read of each, and for each member of the whole its part's number.
+type Partition<T> = (Vec<(Part, T)>, Vec<usize>);
+
 /// A final body. Only contacts matter to the rest: nodes that lie in another member, too.
 struct Body {
     contacts: Vec<u32>,
@@ -130,7 +133,7 @@ impl<'a> Structure<'a> {
         name: &str,
         members: &mut Members,
         rest: impl Fn(&mut Members, &Part) -> Checked<T>,
-    ) -> Checked<(Vec<(Part, T)>, Vec<usize>)> {
+    ) -> Checked<Partition<T>> {
         let mut parts = Vec::new();
         let mut owner = vec![usize::MAX; whole.len()];
         for (k, value) in members.read(name, Value::list)?.iter().enumerate() {

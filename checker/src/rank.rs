@@ -235,18 +235,17 @@ fn integer_minor(members: &mut Members, setting: Setting, core: &Core) -> Checke
     let claimed = decimal_bits(determinant.1);
     ensure!(3 * (determinant.1.len() - 1) <= bound, "`determinant` is larger than the minor can be");
     for field in largest_primes(bound.max(claimed) / 61 + 2) {
-        let entries = |row: usize| rows[row].0.iter().map(|&(column, value)| (column, field.from_signed(value)));
+        let entries = |row: usize| rows[row].0.iter().map(|&(column, value)| (column, field.signed(value)));
         let factors = factor(&field, r, |k, row| pivots.write(&field, entries(pivots.rows[k]), row))?;
-        ensure!(factors.determinant() == field.from_decimal(determinant), "`determinant` is not that of the minor");
+        ensure!(factors.determinant() == field.decimal(determinant), "`determinant` is not that of the minor");
     }
     let largest = rows.iter().map(|(_, bits)| *bits).max().unwrap_or(0);
     for (k, vector) in kernel.iter().enumerate() {
         let bits = vector.iter().map(|(_, digits)| decimal_bits(digits)).max().unwrap_or(0);
         for field in largest_primes((bits + largest) / 61 + 1) {
-            let vector: Vec<u64> = vector.iter().map(|(sign, digits)| field.from_decimal((*sign, digits))).collect();
+            let vector: Vec<u64> = vector.iter().map(|(sign, digits)| field.decimal((*sign, digits))).collect();
             for (number, (entries, _)) in rows.iter().enumerate() {
-                let products =
-                    entries.iter().map(|&(column, value)| field.mul(field.from_signed(value), vector[column]));
+                let products = entries.iter().map(|&(column, value)| field.mul(field.signed(value), vector[column]));
                 let sum = products.fold(0, |sum, product| field.add(sum, product));
                 ensure!(sum == 0, "kernel[{k}] is not in the kernel: row {number}");
             }
@@ -255,7 +254,7 @@ fn integer_minor(members: &mut Members, setting: Setting, core: &Core) -> Checke
     let field = &largest_primes(1)[0];
     let vectors = kernel
         .iter()
-        .map(|vector| vector.iter().map(|(sign, digits)| field.from_decimal((*sign, digits))).enumerate().collect());
+        .map(|vector| vector.iter().map(|(sign, digits)| field.decimal((*sign, digits))).enumerate().collect());
     let trivial = trivial_kernel(field, &cameras);
     let count = kernel.len() + trivial.len();
     let independent = kernel.is_empty() || rank(field, width, trivial.into_iter().chain(vectors))? == count;
@@ -277,7 +276,7 @@ fn decimal_bits(digits: &str) -> usize {
 
 /// The kernel that J_P always has: the scale of each camera, and P_v X for X = E_ab, (a, b) != (3, 3).
 fn trivial_kernel(field: &Field, cameras: &[cameras::Camera<i128>]) -> Vec<Vec<(usize, u64)>> {
-    let entry = |v: usize, r: usize, c: usize| field.from_signed(cameras[v][r][c]);
+    let entry = |v: usize, r: usize, c: usize| field.signed(cameras[v][r][c]);
     let cells = (0..12).map(|cell| (cell % 3, cell / 3));
     let scale = |v: usize| cells.clone().map(move |(r, c)| (12 * v + 3 * c + r, entry(v, r, c))).collect();
     let map = |ab: usize| {
