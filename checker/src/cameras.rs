@@ -91,7 +91,7 @@ pub(crate) fn integer(
     nodes: usize,
 ) -> Checked<Vec<Camera<i128>>> {
     let (a, b) = bounds;
-    ensure!((1..=1000).contains(&a), "`numerator` is not from 1 to 1000");
+    ensure!((1..=100).contains(&a), "`numerator` is not from 1 to 100");
     ensure!((1..=12).contains(&b), "`denominator` is not from 1 to 12");
     let mut stream = stream(graph, seed, draw);
     let (mut cameras, mut centres) = (Vec::new(), Vec::new());
@@ -102,7 +102,7 @@ pub(crate) fn integer(
         });
         let scale = drawn.iter().flatten().fold(1, |lcm, &(_, denominator)| lcm / gcd(lcm, denominator) * denominator);
         let camera = drawn.map(|row| row.map(|(numerator, denominator)| scale / denominator * numerator));
-        // Entries are below 1000 * lcm(1..12) < 2^25, so that these minors are below 2^78.
+        // Entries are below 100 * lcm(1..12) < 2^22, so that these minors are below 2^69.
         let centre = [0, 1, 2, 3].map(|left_out| {
             let [x, y, z] = minor_columns(&camera, left_out);
             let minor = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])

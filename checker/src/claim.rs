@@ -1,6 +1,6 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
-use crate::evidence::{Findings, Strength};
+use crate::evidence::{Findings, Piece, Strength};
 use crate::json::{Members, Value};
 use crate::rank::Model;
 use crate::rejection::{Checked, Rejection, Within, ensure};
@@ -48,19 +48,6 @@ pub(crate) struct Identity {
     pub sha256: String,
 }
 
-/// A piece as far as the claim is concerned.
-pub(crate) struct Piece {
-    pub nodes: usize,
-    /// `None` for a single body or edge.
-    pub findings: Option<Findings>,
-}
-
-impl Piece {
-    fn sum(pieces: &[Piece], model: Model, of: impl Fn(&Findings) -> i64) -> i64 {
-        pieces.iter().map(|piece| piece.findings.as_ref().map_or_else(|| model.required(piece.nodes), &of)).sum()
-    }
-}
-
 /// The strength of a statement that rests on several pieces.
 fn together(strengths: impl Iterator<Item = Strength>) -> Checked<Strength> {
     let exponents: Vec<i64> = strengths
@@ -81,10 +68,14 @@ fn together(strengths: impl Iterator<Item = Strength>) -> Checked<Strength> {
 pub(crate) fn verify(claim: &Value, graph: Identity, model: Model, pieces: &[Piece]) -> Checked<Verified> {
     let required = model.required(graph.nodes);
     let found = || pieces.iter().filter_map(|piece| piece.findings.as_ref());
+    let of_piece = |piece: &Piece, of: &dyn Fn(&Findings) -> i64| {
+        piece.findings.as_ref().map_or_else(|| model.required(piece.nodes), of)
+    };
+    let sum = |of: &dyn Fn(&Findings) -> i64| pieces.iter().map(|piece| of_piece(piece, of)).sum::<i64>();
     let whole = matches!(pieces, [piece] if piece.nodes == graph.nodes);
-    let (lower, upper) = (Piece::sum(pieces, model, |f| f.lower), Piece::sum(pieces, model, |f| f.upper));
+    let (lower, upper) = (sum(&|f| f.lower), sum(&|f| f.upper));
     let drawn = |f: &Findings| f.drawn.filter(|&(rank, _)| rank < f.upper);
-    let at_draws = Piece::sum(pieces, model, |f| drawn(f).map_or(f.upper, |(rank, _)| rank));
+    let at_draws = sum(&|f| drawn(f).map_or(f.upper, |(rank, _)| rank));
 
     let verdict = || {
         if whole && (found().next().is_none() || model == Model::Calibrated && lower == required) {
@@ -111,11 +102,11 @@ pub(crate) fn verify(claim: &Value, graph: Identity, model: Model, pieces: &[Pie
         Ok((lower, together(gaps?.into_iter())?))
     };
     let components = || {
-        let separated: Checked<Vec<_>> = found()
-            .map(|f| f.separated.ok_or_else(|| Rejection::new("components of a piece are not separated")))
-            .collect();
-        let count: usize = pieces.iter().map(|piece| piece.findings.as_ref().map_or(1, |f| f.components)).sum();
-        Ok((count, together(separated?.into_iter())?))
+        let separated = found().flat_map(|f| &f.separated);
+        let separated: Option<Vec<Strength>> = separated.copied().collect();
+        let separated = separated.ok_or_else(|| Rejection::new("classes of a piece are not separated"))?;
+        let count: usize = pieces.iter().map(Piece::components).sum();
+        Ok((count, together(separated.into_iter())?))
     };
 
     let mut members = claim.members()?;

@@ -31,8 +31,8 @@ pub use graph::{Graph, GraphError};
 pub use rank::Model;
 pub use rejection::Rejection;
 
-use claim::{Identity, Piece};
-use json::{Members, Value};
+use claim::Identity;
+use json::Value;
 use rejection::{Checked, Within, ensure};
 use std::borrow::Cow;
 
@@ -102,14 +102,9 @@ impl<'a> Certificate<'a> {
         })?;
         let claim = members.take("claim")?;
         let bodies = bodies::rebuild(members.take("bodies")?, &graph)?;
-        let mut structure = pieces::Structure::new(&graph, bodies).within(|| "bodies".into())?;
+        let structure = pieces::Structure::new(&graph, bodies).within(|| "bodies".into())?;
         let setting = rank::Setting { model, graph: &sha256 };
-        let mut pieces = members.read("rigid", |value| rigid(value, &mut structure))?;
-        for (k, value) in members.read("pieces", Value::list)?.iter().enumerate() {
-            let piece = piece(value, setting, &mut structure);
-            pieces.push(piece.within(|| format!("pieces[{k}]"))?);
-        }
-        structure.all_placed().within(|| "pieces".into())?;
+        let pieces = evidence::read_pieces(&mut members, setting, &structure, &structure.everything)?;
         members.end()?;
         let identity = Identity { nodes: graph.nodes(), edges: graph.edges(), sha256: hex(&sha256) };
         claim::verify(claim, identity, model, &pieces).within(|| "claim".into())
@@ -151,30 +146,4 @@ fn identify<'g>(value: &Value, given: Option<&'g Graph>) -> Checked<(Cow<'g, Gra
     ensure!(graph.edges() as u64 == edges, "the graph has {} edges, not {edges}", graph.edges());
     ensure!(edges >= 1, "the graph has no edges");
     Ok((graph, hash))
-}
-
-/// Pieces that are a single body or edge.
-fn rigid(value: &Value, structure: &mut pieces::Structure) -> Checked<Vec<Piece>> {
-    let mut members = value.members()?;
-    let all = structure.read_part(&mut members)?;
-    members.end()?;
-    let bodies = all.bodies.into_iter().map(|body| pieces::Part { bodies: vec![body], edges: Vec::new() });
-    let edges = all.edges.into_iter().map(|edge| pieces::Part { bodies: Vec::new(), edges: vec![edge] });
-    let place = |part: pieces::Part| {
-        structure.place(&part)?;
-        Ok(Piece { nodes: structure.size(&part), findings: None })
-    };
-    bodies.chain(edges).map(place).collect()
-}
-
-/// Any other piece.
-fn piece(value: &Value, setting: rank::Setting, structure: &mut pieces::Structure) -> Checked<Piece> {
-    let mut members: Members = value.members()?;
-    let part = structure.read_part(&mut members)?;
-    ensure!(part.len() >= 2, "a piece with fewer than two bodies and edges");
-    structure.place(&part)?;
-    let evidence = members.take("evidence")?;
-    members.end()?;
-    let findings = evidence::evaluate(evidence, setting, structure, &part)?;
-    Ok(Piece { nodes: structure.size(&part), findings: Some(findings) })
 }

@@ -17,6 +17,20 @@ impl Part {
     pub fn len(&self) -> usize {
         self.bodies.len() + self.edges.len()
     }
+
+    /// The positions here of the members of another part, bodies first.
+    fn positions(&self, other: &Part) -> impl Iterator<Item = Option<usize>> {
+        let edge = |edge| self.edges.binary_search(edge).ok().map(|position| self.bodies.len() + position);
+        let bodies = other.bodies.iter().map(|body| self.bodies.binary_search(body).ok());
+        bodies.chain(other.edges.iter().map(edge))
+    }
+
+    fn describe(&self, position: usize) -> String {
+        match self.bodies.get(position) {
+            Some(body) => format!("body {body}"),
+            None => format!("the edge {:?}", self.edges[position - self.bodies.len()]),
+        }
+    }
 }
 
 /// The parts of a partition with what else was read of each, and for each member of the whole its part's number.
@@ -35,10 +49,17 @@ pub(crate) struct Structure<'a> {
     bodies: Vec<Option<Body>>,
     /// The final bodies of every node, in increasing order.
     bodies_of: Vec<Vec<u32>>,
-    /// Edges that are loose, and final bodies, that are not yet in a piece.
-    unplaced_edges: Vec<bool>,
-    unplaced_bodies: Vec<bool>,
-    /// Union-find over nodes (first) and pieces: pieces that touch.
+    /// All final bodies and loose edges.
+    pub everything: Part,
+}
+
+/// Pieces being laid out within a set of members: each member once, and no cycle of pieces.
+pub(crate) struct Layout<'s> {
+    structure: &'s Structure<'s>,
+    whole: &'s Part,
+    placed: Vec<bool>,
+    /// The nodes at which pieces can touch, and a union-find over their positions (first) and the pieces.
+    nodes: Vec<u32>,
     touching: Forest,
 }
 
@@ -58,6 +79,12 @@ impl Forest {
         Forest((0..size).collect())
     }
 
+    /// Adds one element.
+    fn add(&mut self) -> usize {
+        self.0.push(self.0.len());
+        self.0.len() - 1
+    }
+
     pub fn find(&mut self, mut at: usize) -> usize {
         while self.0[at] != at {
             self.0[at] = self.0[self.0[at]];
@@ -75,6 +102,38 @@ impl Forest {
     }
 }
 
+impl<'s> Layout<'s> {
+    pub fn new(structure: &'s Structure<'s>, whole: &'s Part) -> Layout<'s> {
+        let mut nodes = structure.ends(whole);
+        nodes.dedup();
+        let touching = Forest::new(nodes.len());
+        Layout { structure, whole, placed: vec![false; whole.len()], nodes, touching }
+    }
+
+    /// Places one piece.
+    pub fn place(&mut self, part: &Part) -> Checked<()> {
+        for position in self.whole.positions(part) {
+            let position = position.ok_or_else(|| Rejection::new("a body or edge from elsewhere"))?;
+            ensure!(!std::mem::replace(&mut self.placed[position], true), "a body or edge that stands in two pieces");
+        }
+        let mut ends = self.structure.ends(part);
+        ends.dedup();
+        let piece = self.touching.add();
+        for node in ends {
+            let new = self.touching.unite(self.nodes.partition_point(|&other| other < node), piece);
+            ensure!(new, "the piece closes a cycle of pieces at node {node}");
+        }
+        Ok(())
+    }
+
+    /// Rejects if a member is in no piece.
+    pub fn end(self) -> Checked<()> {
+        let missing = self.placed.iter().position(|&placed| !placed);
+        ensure!(missing.is_none(), "{} is in no piece", self.whole.describe(missing.unwrap_or_default()));
+        Ok(())
+    }
+}
+
 impl<'a> Structure<'a> {
     /// Finds which edges each body covers; rejects an edge covered twice.
     pub fn new(graph: &'a Graph, finals: Vec<Option<Vec<u32>>>) -> Checked<Structure<'a>> {
@@ -85,15 +144,15 @@ impl<'a> Structure<'a> {
             }
         }
         let mut touched = vec![false; graph.nodes()];
-        let mut unplaced_edges = Vec::with_capacity(graph.edges());
+        let mut everything = Part::default();
         for (i, j) in graph.pairs() {
             let (a, b) = (&bodies_of[i as usize], &bodies_of[j as usize]);
             // The shorter list is walked, the longer one searched: hubs in many bodies stay cheap.
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
             let covering = short.iter().filter(|&body| long.binary_search(body).is_ok()).count();
             ensure!(covering <= 1, "the edge [{i}, {j}] is covered by two bodies");
-            unplaced_edges.push(covering == 0);
             if covering == 0 {
+                everything.edges.push((i, j));
                 touched[i as usize] = true;
                 touched[j as usize] = true;
             }
@@ -103,10 +162,9 @@ impl<'a> Structure<'a> {
             let contacts: Vec<u32> = nodes.iter().copied().filter(contact).collect();
             Body { inner: nodes.len() - contacts.len(), contacts }
         };
-        let unplaced_bodies = finals.iter().map(Option::is_some).collect();
+        everything.bodies = (0..finals.len()).filter(|&k| finals[k].is_some()).collect();
         let bodies = finals.into_iter().map(|nodes| nodes.map(body)).collect();
-        let touching = Forest::new(graph.nodes());
-        Ok(Structure { graph, bodies, bodies_of, unplaced_edges, unplaced_bodies, touching })
+        Ok(Structure { graph, bodies, bodies_of, everything })
     }
 
     /// Reads the members `bodies` and `edges`. That they belong together is for `place` or `partition` to see.
@@ -141,9 +199,7 @@ impl<'a> Structure<'a> {
                 let mut members = value.members()?;
                 let part = self.read_part(&mut members)?;
                 ensure!(part.len() > 0, "no members");
-                let bodies = part.bodies.iter().map(|body| whole.bodies.binary_search(body).ok());
-                let edge = |edge| whole.edges.binary_search(edge).ok().map(|position| whole.bodies.len() + position);
-                for position in bodies.chain(part.edges.iter().map(edge)) {
+                for position in whole.positions(&part) {
                     let position = position.ok_or_else(|| Rejection::new("a body or edge from elsewhere"))?;
                     ensure!(owner[position] == usize::MAX, "a body or edge that stands in two parts");
                     owner[position] = k;
@@ -188,34 +244,6 @@ impl<'a> Structure<'a> {
     pub fn member_ends(&self, part: &Part) -> impl Iterator<Item = Vec<u32>> {
         let bodies = self.bodies_in(part).map(|body| body.contacts.clone());
         bodies.chain(part.edges.iter().map(|&(i, j)| vec![i, j]))
-    }
-
-    /// Places a piece: its members must be free, and it must not close a cycle of pieces.
-    pub fn place(&mut self, part: &Part) -> Checked<()> {
-        let mut ends = self.ends(part);
-        ends.dedup();
-        let piece = self.touching.0.len();
-        self.touching.0.push(piece);
-        for node in ends {
-            ensure!(self.touching.unite(node as usize, piece), "the piece closes a cycle of pieces at node {node}");
-        }
-        for &(i, j) in &part.edges {
-            let free = self.graph.edge_number(i, j).is_some_and(|edge| std::mem::take(&mut self.unplaced_edges[edge]));
-            ensure!(free, "the edge [{i}, {j}] is covered by a body or in another piece");
-        }
-        for &body in &part.bodies {
-            ensure!(std::mem::take(&mut self.unplaced_bodies[body]), "body {body} is in another piece");
-        }
-        Ok(())
-    }
-
-    /// Rejects if a final body or a loose edge is in no piece.
-    pub fn all_placed(&self) -> Checked<()> {
-        let body = self.unplaced_bodies.iter().position(|&unplaced| unplaced);
-        ensure!(body.is_none(), "body {} is in no piece", body.unwrap_or_default());
-        let edge = self.graph.pairs().zip(&self.unplaced_edges).find(|&(_, &unplaced)| unplaced);
-        ensure!(edge.is_none(), "the edge {:?} is in no piece", edge.map_or((0, 0), |(edge, _)| edge));
-        Ok(())
     }
 
     /// The core of a part.

@@ -305,7 +305,7 @@ pub(crate) fn draws(members: &mut Members, setting: Setting, core: &Core) -> Che
     let bits = 64 - (setting.model.required(core.nodes) as u64).leading_zeros();
     ensure!(bits <= 36, "the core is too large for an error bound");
     let each = u64::from(56 - bits);
-    ensure!(count == 100u64.div_ceil(each), "`count` must be {}", 100u64.div_ceil(each));
+    ensure!(count == 120u64.div_ceil(each), "`count` must be {}", 120u64.div_ceil(each));
     let (mut numbers, mut reached) = (Vec::new(), false);
     // Void draws are rarer than 2^-50: a few more than wanted are enough.
     for draw in 0..count + 10 {
