@@ -4,11 +4,13 @@ use super::{Body, Merge, Part, Seed};
 use crate::graph::Adjacency;
 use std::collections::{HashMap, VecDeque};
 
-/// For every node the bodies that contain it, by the numbers they had when they
-/// were grown, and which body each of those has become part of.
+/// For every node the bodies that contain it, by the numbers they had when it joined them,
+/// and which body each of those has become part of.
 pub(super) struct Owners {
     start: Vec<u32>,
     bodies: Vec<u32>,
+    /// Bodies that contain a node because a loose edge brought it in.
+    joined: HashMap<u32, Vec<u32>>,
     parent: Vec<u32>,
 }
 
@@ -34,6 +36,7 @@ impl Owners {
         Self {
             start,
             bodies: list,
+            joined: HashMap::new(),
             parent: (0..bodies.len() as u32).collect(),
         }
     }
@@ -56,15 +59,19 @@ impl Owners {
         root
     }
 
-    fn range(&self, v: u32) -> std::ops::Range<usize> {
-        self.start[v as usize] as usize..self.start[v as usize + 1] as usize
+    /// The bodies that contain a node, perhaps with repetitions.
+    fn of(&self, v: u32) -> impl Iterator<Item = u32> {
+        let range = self.start[v as usize] as usize..self.start[v as usize + 1] as usize;
+        let joined = self.joined.get(&v).map_or(&[][..], |list| list);
+        self.bodies[range]
+            .iter()
+            .chain(joined)
+            .map(|&k| self.current(k))
     }
 
     /// The body that contains both nodes.
     pub(super) fn common_body(&self, v: u32, w: u32) -> Option<u32> {
-        let of_w = &self.bodies[self.range(w)];
-        let mut of_v = self.bodies[self.range(v)].iter().map(|&k| self.current(k));
-        of_v.find(|&k| of_w.iter().any(|&l| self.current(l) == k))
+        self.of(v).find(|&k| self.of(w).any(|l| l == k))
     }
 }
 
@@ -102,6 +109,7 @@ pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize)
                 touched: HashMap::new(),
                 reached: HashMap::new(),
                 merges: Vec::new(),
+                brought_in: Vec::new(),
             };
             stamp += 1;
             changed |= absorption.run(k);
@@ -135,6 +143,8 @@ struct Absorption<'a> {
     /// node.
     reached: HashMap<u32, (Part, u32)>,
     merges: Vec<Merge>,
+    /// Nodes that only loose edges brought in so far.
+    brought_in: Vec<u32>,
 }
 
 impl Absorption<'_> {
@@ -157,6 +167,9 @@ impl Absorption<'_> {
             self.owners.parent[k as usize] = new;
         }
         self.owners.parent.push(new);
+        for v in std::mem::take(&mut self.brought_in) {
+            self.owners.joined.entry(v).or_default().push(new);
+        }
         self.bodies.push(Body {
             seed: Seed::Body(k),
             add: Vec::new(),
@@ -183,7 +196,14 @@ impl Absorption<'_> {
 
     fn absorb(&mut self, part: Part) {
         match part {
-            Part::Edge(i, j) => self.take_in(&[i, j]),
+            Part::Edge(i, j) => {
+                for v in [i, j] {
+                    if !self.is_inside(v) {
+                        self.brought_in.push(v);
+                    }
+                }
+                self.take_in(&[i, j]);
+            }
             Part::Body(k) => {
                 let nodes = std::mem::take(&mut self.bodies[k as usize].nodes);
                 self.take_in(&nodes);
@@ -195,8 +215,8 @@ impl Absorption<'_> {
 
     /// Looks at everything that touches the body at its node `a`.
     fn search(&mut self, a: u32) {
-        for at in self.owners.range(a) {
-            let k = self.owners.find(self.owners.bodies[at]);
+        let around: Vec<u32> = self.owners.of(a).collect();
+        for k in around {
             // The body itself and what it has absorbed have no nodes of their own now.
             if self.bodies[k as usize].nodes.is_empty() {
                 continue;
