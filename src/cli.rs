@@ -18,22 +18,22 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]
-struct Arguments {
+struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    verify: verify::Arguments,
+    verify: verify::VerifyArguments,
 }
 
 #[derive(Subcommand)]
 enum Command {
     /// Verify a certificate with the independent checker.
-    Check(check::Arguments),
+    Check(check::CheckArguments),
 }
 
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = CommandLine::parse();
     let done = match arguments.command {
         Some(Command::Check(arguments)) => check::run(&arguments),
         None => verify::run(&arguments.verify),

@@ -16,7 +16,7 @@ use std::time::Instant;
 
 /// Options of the verifier.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub(super) struct VerifyArguments {
     /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
     /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
@@ -87,7 +87,7 @@ enum FormatName {
     Matlab,
 }
 
-impl Arguments {
+impl VerifyArguments {
     fn options(&self) -> Result<Options> {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         let arithmetic = if self.rational {
@@ -124,7 +124,7 @@ impl Arguments {
 }
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
     let read_options = arguments.read_options();
     let mut target = arguments
@@ -158,7 +158,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 /// Decides one graph that has been read since `start`, certifies and reports.
 fn decide(
-    arguments: &Arguments,
+    arguments: &VerifyArguments,
     options: &Options,
     input: &NamedGraph,
     target: Option<&mut Target>,

@@ -196,14 +196,16 @@ impl Piece<'_> {
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let mut upper = self.rank_of_piece(self.required());
         if self.options.counting {
+            // Where to look is not a claim: a large prime looks best.
+            let field = PrimeField::mersenne61();
             let counting = bound::count(
                 self.options.model,
                 self.assembly,
                 self.members,
                 &components,
                 lower,
-                &at.field,
-                &mut at.key.residues(&at.field),
+                &field,
+                &mut at.key.residues(&field),
             );
             if counting.bound < upper {
                 upper = counting.bound;

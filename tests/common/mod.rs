@@ -1,0 +1,105 @@
+//! What the tests of the program share.
+
+#![allow(dead_code)] // Each test file uses its own part.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// The folder with the published graphs and tables, which is not part of the repository.
+pub fn data() -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    if path.is_dir() {
+        return Some(path);
+    }
+    eprintln!("SKIPPED: the published data are not at {}", path.display());
+    None
+}
+
+/// Biconnected graphs with the given numbers of nodes and edges from nauty's geng, a graph6
+/// line each.
+pub fn geng(nodes: usize, edges: usize) -> Option<String> {
+    for program in ["geng", "nauty-geng"] {
+        let made = Command::new(program)
+            .args(["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")])
+            .output();
+        if let Ok(made) = made {
+            assert!(made.status.success(), "{program}");
+            return Some(String::from_utf8(made.stdout).unwrap());
+        }
+    }
+    eprintln!("SKIPPED: neither geng nor nauty-geng is installed");
+    None
+}
+
+/// The nodes and edges of the rows of Table 1, and the counts of the paper.
+pub const TABLE_1: [(usize, usize, usize, usize); 8] = [
+    (3, 3, 1, 1),
+    (4, 5, 1, 1),
+    (5, 6, 2, 1),
+    (6, 8, 9, 4),
+    (7, 9, 20, 3),
+    (8, 11, 161, 36),
+    (9, 12, 433, 27),
+    (10, 14, 5898, 756),
+];
+
+/// A run of the program.
+pub struct Run {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+impl Run {
+    fn new(output: Output) -> Self {
+        Self {
+            code: output.status.code().expect("not killed"),
+            out: String::from_utf8(output.stdout).unwrap(),
+            err: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
+
+    /// The JSON objects on standard output.
+    pub fn json(&self) -> Vec<serde_json::Value> {
+        let line = |line| serde_json::from_str(line).unwrap();
+        self.out.lines().map(line).collect()
+    }
+}
+
+/// Runs `verify`.
+pub fn verify(arguments: &[&str]) -> Run {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
+    Run::new(
+        command
+            .args(arguments)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap(),
+    )
+}
+
+/// Runs `verify` with something on standard input.
+pub fn verify_with(input: &[u8], arguments: &[&str]) -> Run {
+    use std::io::Write;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let input = input.to_vec();
+    let feed = std::thread::spawn(move || {
+        // The program may refuse the input before it has read all of it.
+        let _ = stdin.write_all(&input);
+    });
+    let output = child.wait_with_output().unwrap();
+    feed.join().unwrap();
+    Run::new(output)
+}
+
+/// The nodes 0 .. n-1 of a cycle, as an edge list.
+pub fn cycle(n: usize) -> String {
+    (0..n).map(|v| format!("{v} {}\n", (v + 1) % n)).collect()
+}

@@ -1,0 +1,409 @@
+//! `verify GRAPH...` through the real binary.
+
+mod common;
+
+use common::{TABLE_1, cycle, data, geng, verify, verify_with};
+use std::collections::BTreeMap;
+
+/// Trivial graphs whose answers are known by hand.
+#[test]
+fn answers_by_hand() {
+    // A pair determines its cameras; so do a triangle and a node seen from two of a body.
+    for solvable in ["a b\n", "a b\nb c\nc a\n", "a b\nb c\nc a\nd a\nd b\n"] {
+        let run = verify_with(solvable.as_bytes(), &["-", "--json"]);
+        assert_eq!(run.code, 0, "{solvable}{}", run.err);
+        let line = &run.json()[0];
+        assert_eq!(line["verdict"], "solvable");
+        assert_eq!(line["strength"], "proof");
+        assert_eq!(line["rank"], line["rank_required"]);
+        assert_eq!(line["components"].as_array().unwrap().len(), 1);
+    }
+    // The 4-cycle: 4 * 7 = 28 < 29 = 11 * 4 - 15.
+    let run = verify_with(cycle(4).as_bytes(), &["-", "--json"]);
+    assert_eq!(run.code, 1);
+    let line = &run.json()[0];
+    assert_eq!(line["verdict"], "not-finite-solvable");
+    assert_eq!(
+        (&line["rank"], &line["rank_required"]),
+        (&28.into(), &29.into())
+    );
+    assert_eq!(line["components"].as_array().unwrap().len(), 4);
+    assert!(line["error_log2"].is_null());
+}
+
+#[test]
+fn json_has_the_documented_members() {
+    let run = verify_with(cycle(4).as_bytes(), &["-", "--json"]);
+    let line = &run.json()[0];
+    let members: Vec<_> = line.as_object().unwrap().keys().cloned().collect();
+    for member in [
+        "graph",
+        "verdict",
+        "strength",
+        "error_log2",
+        "rank",
+        "rank_required",
+        "components",
+        "mode",
+        "seconds",
+    ] {
+        assert!(members.iter().any(|m| m == member), "{member}");
+    }
+    assert_eq!(line["graph"]["name"], "-");
+    assert_eq!(line["graph"]["nodes"], 4);
+    assert_eq!(line["graph"]["edges"], 4);
+    assert_eq!(line["graph"]["sha256"].as_str().unwrap().len(), 64);
+    assert_eq!(line["mode"], "prime");
+    assert_eq!(line["components"][0]["nodes"], 2);
+    assert_eq!(line["components"][0]["edges"], 1);
+}
+
+#[test]
+fn labels_are_kept() {
+    let list = "img1.jpg img2.jpg\nimg2.jpg img3.jpg\nimg3.jpg img1.jpg\nimg3.jpg door.png\n";
+    let run = verify_with(list.as_bytes(), &["-", "--components"]);
+    assert_eq!(run.code, 1);
+    assert!(
+        run.out.contains("component 1: img1.jpg img2.jpg img3.jpg"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out.contains("component 2: door.png img3.jpg"),
+        "{}",
+        run.out
+    );
+}
+
+#[test]
+fn isolated_cameras_are_never_determined() {
+    let run = verify_with(b"a b\nb c\nc a\nd\n", &["-", "--json"]);
+    assert_eq!(run.code, 1);
+    let line = &run.json()[0];
+    assert_eq!(
+        (&line["rank"], &line["rank_required"]),
+        (&18.into(), &29.into())
+    );
+    assert_eq!(line["strength"], "proof");
+}
+
+/// Ψ of docs/theory.md, Example 6.2: four pairs always move as one and are four components
+/// all the same.
+#[test]
+fn what_moves_as_one_need_not_be_a_component() {
+    let edges = "0 3,0 5,1 4,1 5,1 6,1 7,1 8,2 4,2 6,3 7,3 8,0 9,2 9,0 10,2 10";
+    let list = edges.replace(',', "\n");
+    for extra in [
+        &[][..],
+        &["--no-counting"],
+        &["--no-contraction"],
+        &["--rational"],
+    ] {
+        let run = verify_with(list.as_bytes(), &[&["-", "--json"], extra].concat());
+        let line = &run.json()[0];
+        assert_eq!(
+            line["components"].as_array().unwrap().len(),
+            15,
+            "{extra:?}"
+        );
+        assert_eq!(
+            (&line["rank"], &line["rank_required"]),
+            (&105.into(), &106.into())
+        );
+    }
+}
+
+/// Γ of docs/theory.md, Example 5.6: the partition bound is 84, the rank 83.
+#[test]
+fn hub_refutation_by_hand() {
+    let edges = "0 2,0 3,0 5,1 4,1 5,1 6,1 7,1 8,2 4,2 6,3 7,3 8";
+    let run = verify_with(edges.replace(',', "\n").as_bytes(), &["-", "--json"]);
+    let line = &run.json()[0];
+    assert_eq!(line["verdict"], "not-finite-solvable");
+    assert_eq!(line["strength"], "proof");
+    assert_eq!(line["rank_strength"], "proof");
+    assert_eq!(line["rank"], 83);
+}
+
+#[test]
+fn without_counting_a_negative_verdict_has_an_error_bound() {
+    let run = verify_with(cycle(5).as_bytes(), &["-", "--json", "--no-counting"]);
+    let line = &run.json()[0];
+    assert_eq!(line["strength"], "error-bound");
+    assert!(line["error_log2"].as_i64().unwrap() <= -100);
+    assert_eq!(line["rank"], 35);
+}
+
+/// Table 1 for n = 3 .. 8, in both modes, with and without contraction.
+#[test]
+fn table_1_in_both_modes() {
+    for (nodes, edges, candidates, solvable) in TABLE_1.into_iter().take(6) {
+        let Some(graphs) = geng(nodes, edges) else {
+            return;
+        };
+        assert_eq!(graphs.lines().count(), candidates);
+        for mode in ["--prime", "--rational"] {
+            // A rational computation on whole graphs with 8 nodes takes a while.
+            for extra in [&[][..], &["--no-contraction"]] {
+                let run = verify_with(graphs.as_bytes(), &[&["-", "--json", mode], extra].concat());
+                let found = count(&run);
+                assert_eq!(
+                    found,
+                    (candidates, solvable),
+                    "{nodes} nodes, {mode} {extra:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Table 1 whole, every verdict, rank and partition into components a proof.
+#[test]
+fn table_1_is_proved() {
+    for (nodes, edges, candidates, solvable) in TABLE_1 {
+        let Some(graphs) = geng(nodes, edges) else {
+            return;
+        };
+        let run = verify_with(graphs.as_bytes(), &["-", "--json"]);
+        assert_eq!(count(&run), (candidates, solvable), "{nodes} nodes");
+        for line in run.json() {
+            for strength in ["strength", "rank_strength", "components_strength"] {
+                assert_eq!(line[strength], "proof", "{line}");
+            }
+        }
+    }
+}
+
+fn count(run: &common::Run) -> (usize, usize) {
+    assert_eq!(run.err, "");
+    let lines = run.json();
+    let solvable = lines
+        .iter()
+        .filter(|line| line["verdict"] != "not-finite-solvable");
+    (lines.len(), solvable.count())
+}
+
+/// All 29 graphs of Table 3: the published number of components, everything proved.
+#[test]
+fn table_3_has_the_published_components() {
+    let Some(data) = data() else { return };
+    let table = std::fs::read_to_string(data.join("table3.csv")).unwrap();
+    let mut rows = 0;
+    for row in table.lines().skip(1) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let path = data.join("table3").join(fields[1]);
+        let run = verify(&[path.to_str().unwrap(), "--json"]);
+        let line = &run.json()[0];
+        let components = line["components"].as_array().unwrap().len();
+        assert_eq!(components.to_string(), fields[5], "{row}");
+        assert_eq!(components.to_string(), fields[7], "{row}");
+        assert_eq!(run.code, i32::from(components > 1));
+        for strength in ["strength", "rank_strength", "components_strength"] {
+            assert_eq!(line[strength], "proof", "{row}");
+        }
+        rows += 1;
+    }
+    assert_eq!(rows, 29);
+}
+
+/// Three of the synthetic graphs carry the true component of every edge.
+#[test]
+fn synthetic_graphs_have_their_true_components() {
+    let Some(data) = data() else { return };
+    for name in ["house", "triangles2", "triangles3"] {
+        let path = data.join("synthetic").join(name).with_extension("mat");
+        let bytes = std::fs::read(&path).unwrap();
+        let truth = viewcert::graph::matlab::entries(&bytes, "gt_comp").unwrap();
+        let graph = viewcert::graph::matlab::read(&bytes, None).unwrap();
+        let verdict = viewcert::verdict::decide(&graph, &Default::default()).unwrap();
+        // Edges of one true component are in one found component, and the other way.
+        let mut found = BTreeMap::new();
+        for (k, component) in verdict.components.iter().enumerate() {
+            let nodes = verdict.component_nodes(component);
+            for (e, (i, j)) in graph.edges().iter().enumerate() {
+                if nodes.contains(i) && nodes.contains(j) {
+                    assert_eq!(found.insert(e, k), None);
+                }
+            }
+        }
+        assert_eq!(found.len(), graph.edges().len());
+        let mut pairs: Vec<(i64, usize)> = truth
+            .iter()
+            .map(|&(e, _, component)| (component as i64, found[&(e as usize)]))
+            .collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        assert_eq!(pairs.len(), verdict.components.len(), "{name}");
+        let mut truths: Vec<i64> = pairs.iter().map(|pair| pair.0).collect();
+        truths.dedup();
+        assert_eq!(truths.len(), verdict.components.len(), "{name}");
+    }
+    for name in ["G9", "G90"] {
+        let path = data.join("synthetic").join(name).with_extension("mat");
+        let run = verify(&[path.to_str().unwrap(), "--json"]);
+        assert_eq!(run.json()[0]["verdict"], "finite-solvable");
+    }
+}
+
+#[test]
+fn calibrated_is_weaker_to_ask_and_easier_to_answer() {
+    // In space a generic 4-cycle of known directions is rigid (Σ s_i d_i = 0 has one
+    // solution up to scale); a 5-cycle is not.
+    let run = verify_with(
+        cycle(4).as_bytes(),
+        &["-", "--json", "--model", "calibrated"],
+    );
+    assert_eq!(run.json()[0]["verdict"], "solvable");
+    assert_eq!(run.json()[0]["rank"], 8);
+    let run = verify_with(
+        cycle(5).as_bytes(),
+        &["-", "--json", "--model", "calibrated"],
+    );
+    let line = &run.json()[0];
+    assert_eq!(line["verdict"], "not-finite-solvable");
+    assert_eq!(line["strength"], "proof");
+    assert_eq!(
+        (&line["rank"], &line["rank_required"]),
+        (&10.into(), &11.into())
+    );
+    assert_eq!(line["components"].as_array().unwrap().len(), 5);
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = folder.path().join("good.txt");
+    let bad = folder.path().join("bad.txt");
+    std::fs::write(&good, "1 2\n").unwrap();
+    std::fs::write(&bad, "1 2\n3 3\n").unwrap();
+    let (good, bad) = (good.to_str().unwrap(), bad.to_str().unwrap());
+    let run = verify(&[bad, good, "no such file", "--json"]);
+    assert_eq!(run.code, 2);
+    assert_eq!(run.json().len(), 1);
+    assert!(run.err.contains(&format!("{bad}:2:")), "{}", run.err);
+    assert!(run.err.contains("no such file"), "{}", run.err);
+    assert_eq!(run.err.lines().count(), 2);
+}
+
+#[test]
+fn exit_codes() {
+    assert_eq!(verify_with(b"1 2\n", &["-"]).code, 0);
+    assert_eq!(verify_with(b"1 2\n2 3\n", &["-"]).code, 1);
+    assert_eq!(verify_with(b"", &["-"]).code, 2);
+    assert_eq!(verify(&[]).code, 2);
+    assert_eq!(verify(&["--no-such-option"]).code, 2);
+    assert_eq!(verify(&["--help"]).code, 0);
+}
+
+#[test]
+fn moduli_are_refused_with_a_reason() {
+    for (prime, reason) in [
+        ("2", "5"),
+        ("3", "5"),
+        ("91", "prime"),
+        ("4611686018427387904", "2^62"),
+        ("x", "invalid"),
+    ] {
+        let run = verify_with(b"1 2\n", &["-", &format!("--prime={prime}")]);
+        assert_eq!(run.code, 2, "{prime}");
+        assert!(run.err.contains(reason), "{prime}: {}", run.err);
+        assert_eq!(run.out, "");
+    }
+    assert_eq!(
+        verify_with(b"1 2\n", &["-", "--prime", "--rational"]).code,
+        2
+    );
+}
+
+/// Small primes prove what they can and leave the rest open; they never lie.
+#[test]
+fn small_primes_are_honest() {
+    let Some(graphs) = geng(7, 9) else { return };
+    for prime in ["--prime=5", "--prime=7", "--prime=101"] {
+        let run = verify_with(graphs.as_bytes(), &["-", "--json", prime]);
+        let lines = run.json();
+        let solvable = lines
+            .iter()
+            .filter(|l| l["verdict"] != "not-finite-solvable");
+        assert!(solvable.count() <= 3, "{prime}");
+        let negative = lines
+            .iter()
+            .filter(|l| l["verdict"] == "not-finite-solvable");
+        assert!(negative.count() <= 17, "{prime}");
+        assert_eq!(
+            lines.len() + run.err.lines().count(),
+            20,
+            "{prime}: {}",
+            run.err
+        );
+    }
+}
+
+#[test]
+fn too_large_is_said_at_once() {
+    let run = verify_with(
+        cycle(40_000).as_bytes(),
+        &["-", "--no-contraction", "--prime"],
+    );
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("GiB"), "{}", run.err);
+    let run = verify_with(
+        cycle(2000).as_bytes(),
+        &["-", "--no-contraction", "--rational"],
+    );
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("--prime"), "{}", run.err);
+}
+
+#[test]
+fn certificates_are_byte_deterministic() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = "0 1\n1 2\n2 3\n3 0\n0 4\n4 5\n5 0\n4 0\n";
+    let make = |name: &str, extra: &[&str]| {
+        let path = folder.path().join(name);
+        let arguments = ["-", "--certificate", path.to_str().unwrap()];
+        let run = verify_with(list.as_bytes(), &[&arguments, extra].concat());
+        assert_eq!(run.code, 1, "{}", run.err);
+        std::fs::read(path).unwrap()
+    };
+    assert_eq!(make("a", &[]), make("b", &[]));
+    assert_eq!(make("c", &["--rational"]), make("d", &["--rational"]));
+    assert_ne!(make("e", &["--seed", "2"]), make("f", &["--seed", "3"]));
+}
+
+#[test]
+fn certificates_of_many_graphs_go_to_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let run = verify_with(b"Bw\nC~\n", &["-", "--certificate", path]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(std::fs::read_dir(path).unwrap().count(), 2);
+    // One file cannot hold two.
+    let file = folder.path().join("one.json");
+    let run = verify_with(b"Bw\nC~\n", &["-", "--certificate", file.to_str().unwrap()]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("folder"), "{}", run.err);
+    // A folder that is not there is said, and nothing is left behind.
+    let nowhere = folder.path().join("nowhere/c.json");
+    let run = verify_with(b"Bw\n", &["-", "--certificate", nowhere.to_str().unwrap()]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("was not written"), "{}", run.err);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_is_not_success() {
+    use std::process::{Command, Stdio};
+    let full = std::fs::File::create("/dev/full").unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_verify"))
+        .arg("-")
+        .stdin(Stdio::piped())
+        .stdout(full)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::io::Write::write_all(&mut child.stdin.take().unwrap(), b"1 2\n").unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(!output.stderr.is_empty());
+}
