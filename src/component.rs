@@ -6,6 +6,8 @@
 //! one need not be rigid by itself, so that a class is a component only if its own
 //! rank says so.
 
+pub mod iterative;
+
 use crate::piece::{Core, Members};
 use crate::union_find::UnionFind;
 use std::collections::BTreeMap;

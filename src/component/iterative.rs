@@ -1,0 +1,49 @@
+//! Components by the paper's own method (its section 4.2), on the exact null space.
+//!
+//! Fix the gauge at an edge; the nodes whose rows of the null space of J are zero form its
+//! component; go on with the edges that are left. The method takes what never moves
+//! against the edge for rigid, so that on rare graphs it merges components
+//! (docs/theory.md, Example 6.2); it is here as an independent check of the others.
+
+use crate::camera::{self, DrawError, DrawKey};
+use crate::exact::modular::eliminate_mod;
+use crate::exact::prime::PrimeField;
+use crate::formulation::skew;
+use crate::graph::Graph;
+
+/// The components of a graph by the paper's method at general cameras modulo p, as lists of
+/// edges, each increasing, in the order in which they are found: that of their first edges.
+///
+/// One elimination of the dense (10m + n + 15) x 12n matrix J for every component, with
+/// the edges that are left.
+///
+/// # Errors
+/// If no cameras can be drawn modulo so small a prime.
+pub fn components(
+    field: &PrimeField,
+    graph: &Graph,
+    key: &DrawKey,
+) -> Result<Vec<Vec<(u32, u32)>>, DrawError> {
+    let mut left = graph.edges().to_vec();
+    let mut components = Vec::new();
+    while !left.is_empty() {
+        let mut nodes: Vec<u32> = left.iter().flat_map(|&(i, j)| [i, j]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let number = |v: u32| nodes.partition_point(|&w| w < v) as u32;
+        let pairs = left.iter().map(|&(i, j)| (number(i), number(j))).collect();
+        let (rest, _) = Graph::from_pairs(nodes.len() as u32, pairs).expect("edges of a graph");
+        let cameras = camera::cameras_mod(field, rest.nodes(), key)?.values;
+        let rows = skew::augmented(field, &rest, &cameras, 0);
+        let kernel =
+            eliminate_mod(field, skew::dense(field, &rows, 12 * rest.nodes())).right_kernel();
+        let fixed = |v: u32| {
+            let at = 12 * number(v) as usize;
+            (0..kernel.rows()).all(|k| kernel.row(k)[at..at + 12].iter().all(|&x| x == 0))
+        };
+        let (inside, outside) = left.iter().partition(|&&(i, j)| fixed(i) && fixed(j));
+        components.push(inside);
+        left = outside;
+    }
+    Ok(components)
+}
