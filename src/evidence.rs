@@ -173,10 +173,19 @@ pub struct IntegerMinor {
     pub draw: u64,
     /// Rows and columns.
     pub pivots: Pivots,
-    /// The determinant of the minor.
-    pub determinant: Integer,
+    /// Why the minor is not zero.
+    pub witness: Witness,
     /// Kernel vectors that are independent modulo the trivial ones, as many as there are.
     pub kernel: Vec<Vec<Integer>>,
+}
+
+/// Why an integer minor is not zero.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// Its determinant, rows and columns in the order of the pivots.
+    Determinant(Integer),
+    /// A prime modulo which it is not zero.
+    Prime(u64),
 }
 
 /// The rank at random cameras modulo random primes, with the error bound of

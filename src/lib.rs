@@ -20,3 +20,7 @@ pub mod piece;
 pub mod report;
 pub mod union_find;
 pub mod verdict;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -3,7 +3,7 @@
 use crate::body::{Body, Merge, Part, Seed};
 use crate::bound::{Block, Counting, Hub};
 use crate::evidence::{
-    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Strength,
+    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Strength, Witness,
 };
 use crate::exact::gauss::Pivots;
 use crate::exact::integer::Integer;
@@ -292,7 +292,12 @@ fn integer_minor<M: SerializeMap>(map: &mut M, minor: &IntegerMinor) -> Result<(
     map.serialize_entry("seed", &Big(minor.seed))?;
     map.serialize_entry("draw", &minor.draw)?;
     rows_and_cols(map, &minor.pivots)?;
-    map.serialize_entry("determinant", &Big(&minor.determinant))?;
+    let (determinant, prime) = match &minor.witness {
+        Witness::Determinant(determinant) => (Some(Big(determinant)), None),
+        Witness::Prime(prime) => (None, Some(Big(prime))),
+    };
+    map.serialize_entry("determinant", &determinant)?;
+    map.serialize_entry("prime", &prime)?;
     let kernel: Vec<Vec<Big<&Integer>>> = minor.kernel.iter().map(|vector| bigs(vector)).collect();
     map.serialize_entry("kernel", &kernel)
 }

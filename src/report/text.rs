@@ -1,7 +1,7 @@
 //! A few lines a graph, for people.
 
 use super::Report;
-use crate::evidence::{Evidence, Strength};
+use crate::evidence::{Evidence, Strength, Witness};
 use crate::model::Model;
 use crate::verdict::{Value, Verdict};
 use std::io::{self, Write};
@@ -92,10 +92,15 @@ fn reason(report: &Report) -> String {
             .flat_map(|piece| &piece.evidence)
             .next_back();
         return match kind {
-            Some(Evidence::IntegerMinor(minor)) => format!(
-                "a minor of the Jacobian at rational cameras is not zero (a determinant of {} bits)",
-                minor.determinant.bits()
-            ),
+            Some(Evidence::IntegerMinor(minor)) => {
+                let witness = match &minor.witness {
+                    Witness::Determinant(determinant) => {
+                        format!("a determinant of {} bits", determinant.bits())
+                    }
+                    Witness::Prime(prime) => format!("not even modulo {prime}"),
+                };
+                format!("a minor of the Jacobian at rational cameras is not zero ({witness})")
+            }
             Some(Evidence::Minor { draw, .. }) => {
                 format!("a minor of the Jacobian is not zero modulo {}", draw.prime)
             }

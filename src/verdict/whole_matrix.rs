@@ -2,23 +2,24 @@
 
 use super::VerdictError;
 use crate::camera::{self, Camera, DrawKey};
-use crate::evidence::{Evidence, IntegerMinor, ModularDraw};
+use crate::evidence::{Evidence, IntegerMinor, ModularDraw, Witness};
 use crate::exact::Ring;
 use crate::exact::bareiss;
-use crate::exact::dense::Matrix;
 use crate::exact::integer::{Integer, Integers};
 use crate::exact::modular::eliminate_mod;
+use crate::exact::multimodular::{self, UpperBound};
 use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
-use crate::formulation::skew;
+use crate::formulation::skew::{self, SparseRows};
 use crate::graph::Graph;
+use crate::model::Model;
 
 /// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
 
-/// Largest matrix for fraction-free elimination: J_P of 50 cameras and 190 pairs, some
-/// minutes.
-const MAX_INTEGERS: usize = 600 * 1900;
+/// Largest matrix, in entries, for fraction-free elimination: J_P of 20 cameras and 80 pairs.
+/// Beyond, elimination modulo a prime and exact kernel vectors are much faster.
+const MAX_FRACTION_FREE: usize = 240 * 800;
 
 /// The rank of J_P modulo a prime at general cameras.
 pub(super) fn modular(
@@ -26,19 +27,7 @@ pub(super) fn modular(
     field: &PrimeField,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (rows, cols) = size(graph);
-    if rows.saturating_mul(cols) > MAX_RESIDUES {
-        return Err(VerdictError::TooLarge {
-            what: "the whole Jacobian modulo p",
-            nodes: graph.nodes(),
-            edges: graph.edges().len(),
-            needs: format!(
-                "{:.0} GiB of memory",
-                (rows as f64) * (cols as f64) / f64::from(1 << 27)
-            ),
-            advice: "leave contraction on",
-        });
-    }
+    let (_, cols) = size(graph)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
     let matrix = skew::dense(field, &skew::jacobian(field, graph, &drawn.values), cols);
     let pivots = eliminate_mod(field, matrix).pivots();
@@ -51,46 +40,77 @@ pub(super) fn modular(
     Ok((Evidence::Minor { draw, pivots }, rank))
 }
 
-/// The rank of J_P over Q at cameras with small rational entries.
+/// The rank of J_P over Q at cameras with small rational entries: small matrices by
+/// fraction-free elimination, large ones modulo a prime with exact kernel vectors.
 pub(super) fn rational(
     graph: &Graph,
     numerator: u64,
     denominator: u64,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (rows, cols) = size(graph);
-    if rows.saturating_mul(cols) > MAX_INTEGERS {
-        return Err(VerdictError::TooLarge {
-            what: "fraction-free elimination",
-            nodes: graph.nodes(),
-            edges: graph.edges().len(),
-            needs: format!("{rows} x {cols} integers of growing length"),
-            advice: "use --prime, which proves as much",
-        });
-    }
+    let (rows, cols) = size(graph)?;
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
-    let matrix = primitive_rows(graph, &drawn.values);
-    let done = bareiss::eliminate(matrix);
-    let rank = done.pivots().rank();
-    let kernel = independent_motions(graph, &drawn.values, done.kernel());
+    let cameras = &drawn.values;
+    let jacobian = primitive_rows(graph, cameras);
+    let (pivots, witness, kernel) = if rows * cols <= MAX_FRACTION_FREE {
+        let done = bareiss::eliminate(skew::dense(&Integers, &jacobian, cols));
+        let witness = Witness::Determinant(done.determinant().clone());
+        (done.pivots().clone(), witness, done.kernel())
+    } else {
+        let lower = multimodular::rank_at_least(&PrimeField::mersenne61(), &jacobian, cols);
+        let full = lower.bound() == Model::Projective.required(graph.nodes());
+        let kernel = if full {
+            Vec::new()
+        } else {
+            kernel_without_gauge(graph, jacobian)
+        };
+        (
+            lower.pivots().clone(),
+            Witness::Prime(lower.prime()),
+            kernel,
+        )
+    };
+    let rank = pivots.rank();
     let minor = IntegerMinor {
         numerator,
         denominator,
         seed: key.seed,
         draw: drawn.draw,
-        pivots: done.pivots().clone(),
-        determinant: done.determinant().clone(),
-        kernel,
+        pivots,
+        witness,
+        kernel: independent_motions(graph, cameras, kernel),
     };
     Ok((Evidence::IntegerMinor(minor), rank))
 }
 
-fn size(graph: &Graph) -> (usize, usize) {
-    (10 * graph.edges().len(), 12 * graph.nodes())
+/// Exact kernel vectors of the augmented J: those of J_P but for the trivial ones.
+fn kernel_without_gauge(graph: &Graph, mut rows: SparseRows<Integer>) -> Vec<Vec<Integer>> {
+    rows.extend(skew::gauge(&Integers, graph, 0));
+    match multimodular::rank_exact(&rows, 12 * graph.nodes()).upper() {
+        UpperBound::Right(vectors) => vectors.clone(),
+        // There are more rows than columns unless every column is a pivot.
+        UpperBound::Full | UpperBound::Left(_) => Vec::new(),
+    }
+}
+
+/// Rows and columns of J_P, unless it is too large for a dense elimination.
+fn size(graph: &Graph) -> Result<(usize, usize), VerdictError> {
+    let (rows, cols) = (10 * graph.edges().len(), 12 * graph.nodes());
+    let entries = rows.saturating_mul(cols);
+    if entries > MAX_RESIDUES {
+        return Err(VerdictError::TooLarge {
+            what: "the whole Jacobian",
+            nodes: graph.nodes(),
+            edges: graph.edges().len(),
+            needs: format!("{} GiB of memory", entries >> 27),
+            advice: "leave contraction on, and use --prime",
+        });
+    }
+    Ok((rows, cols))
 }
 
 /// J_P with every row divided by the greatest common divisor of its entries.
-fn primitive_rows(graph: &Graph, cameras: &[Camera<Integer>]) -> Matrix<Integer> {
+fn primitive_rows(graph: &Graph, cameras: &[Camera<Integer>]) -> SparseRows<Integer> {
     let mut rows = skew::jacobian(&Integers, graph, cameras);
     for row in &mut rows {
         let gcd = row.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
@@ -98,7 +118,7 @@ fn primitive_rows(graph: &Graph, cameras: &[Camera<Integer>]) -> Matrix<Integer>
             *x = x.div_exact(&gcd);
         }
     }
-    skew::dense(&Integers, &rows, 12 * graph.nodes())
+    rows
 }
 
 /// Of the kernel vectors those that the trivial motions and the earlier ones do not span.
