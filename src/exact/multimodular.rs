@@ -47,19 +47,7 @@ impl RankAtLeast {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RankExact {
     lower: RankAtLeast,
-    upper: UpperBound,
-}
-
-/// Why the rank is no larger than the number of pivots.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum UpperBound {
-    /// Every row or every column is a pivot's.
-    Full,
-    /// A basis of the right kernel: one vector for each column that is not a pivot,
-    /// ascending, without a common divisor, positive there and zero at the others.
-    Right(Vec<Vec<Integer>>),
-    /// A basis of the left kernel, likewise for the rows.
-    Left(Vec<Vec<Integer>>),
+    kernel: Vec<Vec<Integer>>,
 }
 
 impl RankExact {
@@ -68,9 +56,11 @@ impl RankExact {
         &self.lower
     }
 
-    /// The evidence that there are no more.
-    pub fn upper(&self) -> &UpperBound {
-        &self.upper
+    /// The evidence that there are no more: a basis of the right kernel, one vector for each
+    /// column that is not a pivot, ascending, without a common divisor, positive there and
+    /// zero at the others.
+    pub fn kernel(&self) -> &[Vec<Integer>] {
+        &self.kernel
     }
 
     /// The rank over Q.
@@ -100,7 +90,7 @@ pub fn rank_at_least(field: &PrimeField, rows: &[IntegerRow], cols: usize) -> Ra
 /// The exact rank over Q of the matrix with the given rows and `cols` columns.
 ///
 /// The prime is 2^61 - 1, and if that divides every minor of largest size the next lower
-/// ones in turn. The kernel is lifted on the side where fewer vectors are missing.
+/// ones in turn.
 /// Elimination modulo p, and for each vector one p-adic digit for every 30 bits of the
 /// solution at the price of a multiplication of the matrix with a vector.
 ///
@@ -112,42 +102,12 @@ pub fn rank_exact(rows: &[IntegerRow], cols: usize) -> RankExact {
         let field = PrimeField::new(prime)
             .unwrap_or_else(|_| unreachable!("a prime from 5 to 2^61 - 1 is a modulus"));
         let lower = rank_at_least(&field, rows, cols);
-        if let Some(upper) = upper_bound(&field, rows, cols, lower.pivots()) {
-            return RankExact { lower, upper };
+        let pivots = lower.pivots();
+        if let Some(kernel) = kernel(&field, rows, cols, &pivots.rows, &pivots.cols) {
+            return RankExact { lower, kernel };
         }
     }
     unreachable!("a non-zero minor has fewer divisors than there are primes below 2^61")
-}
-
-/// `None` if the rank is larger than the number of pivots: the prime was unlucky.
-fn upper_bound(
-    field: &PrimeField,
-    rows: &[IntegerRow],
-    cols: usize,
-    pivots: &Pivots,
-) -> Option<UpperBound> {
-    let rank = pivots.rank();
-    if rank == rows.len() || rank == cols {
-        return Some(UpperBound::Full);
-    }
-    if cols - rank <= rows.len() - rank {
-        let vectors = kernel(field, rows, cols, &pivots.rows, &pivots.cols)?;
-        Some(UpperBound::Right(vectors))
-    } else {
-        let transposed = transpose(rows, cols);
-        let vectors = kernel(field, &transposed, rows.len(), &pivots.cols, &pivots.rows)?;
-        Some(UpperBound::Left(vectors))
-    }
-}
-
-fn transpose(rows: &[IntegerRow], cols: usize) -> Vec<IntegerRow> {
-    let mut columns = vec![IntegerRow::new(); cols];
-    for (i, row) in rows.iter().enumerate() {
-        for (col, value) in row {
-            columns[*col].push((i, value.clone()));
-        }
-    }
-    columns
 }
 
 /// One verified kernel vector for each column that is not in `pivot_cols`, given a minor
@@ -367,38 +327,18 @@ mod tests {
         let pivots = exact.lower().pivots();
         let minor = m.submatrix(&pivots.rows, &pivots.cols);
         assert_eq!(bareiss::eliminate(minor).pivots().rank(), rank);
-        match exact.upper() {
-            UpperBound::Full => assert!(rank == m.rows() || rank == m.cols()),
-            UpperBound::Right(vectors) => {
-                assert_eq!(vectors.len(), m.cols() - rank);
-                let order: Vec<usize> = pivots
-                    .cols
-                    .iter()
-                    .copied()
-                    .chain(pivots.free_cols(m.cols()))
-                    .collect();
-                compare(
-                    &m.submatrix(&(0..m.rows()).collect::<Vec<_>>(), &order),
-                    &order,
-                    vectors,
-                );
-            }
-            UpperBound::Left(vectors) => {
-                assert_eq!(vectors.len(), m.rows() - rank);
-                let order: Vec<usize> = pivots
-                    .rows
-                    .iter()
-                    .copied()
-                    .chain(pivots.free_rows(m.rows()))
-                    .collect();
-                let t = m.transposed();
-                compare(
-                    &t.submatrix(&(0..t.rows()).collect::<Vec<_>>(), &order),
-                    &order,
-                    vectors,
-                );
-            }
-        }
+        assert_eq!(exact.kernel().len(), m.cols() - rank);
+        let order: Vec<usize> = pivots
+            .cols
+            .iter()
+            .copied()
+            .chain(pivots.free_cols(m.cols()))
+            .collect();
+        compare(
+            &m.submatrix(&(0..m.rows()).collect::<Vec<_>>(), &order),
+            &order,
+            exact.kernel(),
+        );
     }
 
     /// With the pivot columns moved to the front, elimination takes them as pivots too.
@@ -420,7 +360,7 @@ mod tests {
         let field = PrimeField::mersenne61();
         assert_eq!(rank_at_least(&field, &sparse(&m), 2).bound(), 1);
         let exact = rank_exact(&sparse(&m), 2);
-        assert_eq!((exact.rank(), exact.upper()), (2, &UpperBound::Full));
+        assert_eq!((exact.rank(), exact.kernel().len()), (2, 0));
         assert!(exact.lower().prime() < DEFAULT_PRIME);
 
         // The same with a third column and row that depend on the others.

@@ -7,7 +7,7 @@ use crate::exact::Ring;
 use crate::exact::bareiss;
 use crate::exact::integer::{Integer, Integers};
 use crate::exact::modular::eliminate_mod;
-use crate::exact::multimodular::{self, UpperBound};
+use crate::exact::multimodular;
 use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
 use crate::formulation::skew::{self, SparseRows};
@@ -62,7 +62,7 @@ pub(super) fn rational(
         let kernel = if full {
             Vec::new()
         } else {
-            kernel_without_gauge(graph, jacobian)
+            multimodular::rank_exact(&jacobian, cols).kernel().to_vec()
         };
         (
             lower.pivots().clone(),
@@ -81,16 +81,6 @@ pub(super) fn rational(
         kernel: independent_motions(graph, cameras, kernel),
     };
     Ok((Evidence::IntegerMinor(minor), rank))
-}
-
-/// Exact kernel vectors of the augmented J: those of J_P but for the trivial ones.
-fn kernel_without_gauge(graph: &Graph, mut rows: SparseRows<Integer>) -> Vec<Vec<Integer>> {
-    rows.extend(skew::gauge(&Integers, graph, 0));
-    match multimodular::rank_exact(&rows, 12 * graph.nodes()).upper() {
-        UpperBound::Right(vectors) => vectors.clone(),
-        // There are more rows than columns unless every column is a pivot.
-        UpperBound::Full | UpperBound::Left(_) => Vec::new(),
-    }
 }
 
 /// Rows and columns of J_P, unless it is too large for a dense elimination.
