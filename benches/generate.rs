@@ -2,10 +2,14 @@
 //!
 //! ```text
 //! cargo run --release --example generate -- regular NODES SEED
+//! cargo run --release --example generate -- random NODES PAIRS SEED
 //! cargo run --release --example generate -- sequence NODES NEIGHBOURS SEED
 //! ```
 //!
 //! `regular`: a random 4-regular graph without triangles, which contraction cannot touch.
+//!
+//! `random`: so many different pairs, all sets of pairs being equally likely; cameras that end up
+//! without a pair are not in the list.
 //!
 //! `sequence`: cameras along a path, each paired with the next NEIGHBOURS ones; a loop closure
 //! (20 consecutive cameras see 20 others far away) every 10,000 cameras; and at the end of the
@@ -28,11 +32,17 @@ fn main() -> io::Result<()> {
         number(3),
     ) {
         (Some("regular"), Some(nodes), Some(seed), None) => regular(&mut out, nodes, seed)?,
+        (Some("random"), Some(nodes), Some(pairs), Some(seed)) => {
+            random_pairs(&mut out, nodes, pairs, seed)?;
+        }
         (Some("sequence"), Some(nodes), Some(neighbours), Some(seed)) => {
             sequence(&mut out, nodes, neighbours, seed)?;
         }
         _ => {
-            eprintln!("usage: generate regular NODES SEED | sequence NODES NEIGHBOURS SEED");
+            eprintln!(
+                "usage: generate regular NODES SEED | random NODES PAIRS SEED | \
+                 sequence NODES NEIGHBOURS SEED"
+            );
             std::process::exit(2);
         }
     }
@@ -89,6 +99,25 @@ fn regular(out: &mut impl Write, n: u64, seed: u64) -> io::Result<()> {
     }
     for (a, b) in edges {
         writeln!(out, "{} {}", a.min(b), a.max(b))?;
+    }
+    Ok(())
+}
+
+fn random_pairs(out: &mut impl Write, n: u64, pairs: u64, seed: u64) -> io::Result<()> {
+    assert!(
+        pairs <= n * n.saturating_sub(1) / 2,
+        "more pairs than there are"
+    );
+    let mut random = ChaCha20Rng::seed_from_u64(seed);
+    let mut chosen = BTreeSet::new();
+    while (chosen.len() as u64) < pairs {
+        let (a, b) = (below(&mut random, n), below(&mut random, n));
+        if a < b {
+            chosen.insert((a, b));
+        }
+    }
+    for (a, b) in chosen {
+        writeln!(out, "{a} {b}")?;
     }
     Ok(())
 }
