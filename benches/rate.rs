@@ -23,9 +23,10 @@ use viewcert::exact::prime::PrimeField;
 /// As in the elimination: products a sum, and groups of four columns of a tile.
 const DEPTH: usize = 64;
 const GROUPS: usize = 8;
-/// Passes over a tile in a run, some tenths of a second.
-const PASSES: usize = 200_000;
-const RUNS: usize = 7;
+/// Passes over a tile in a run of some milliseconds: short enough to fall between whatever else
+/// the machine does.
+const PASSES: usize = 5_000;
+const RUNS: usize = 50;
 const SIZES: [usize; 3] = [500, 1000, 2000];
 
 fn main() {
@@ -43,7 +44,7 @@ fn main() {
             let matrix = Matrix::from_fn(n, n, |_, _| field.from_u64(random.next_u64()));
             let pool = ThreadPoolBuilder::new().num_threads(threads).build();
             let time = pool.expect("threads").install(|| {
-                best(|| {
+                best(RUNS * 100 / n, || {
                     let matrix = matrix.clone();
                     let start = Instant::now();
                     let rank = eliminate_mod(&field, matrix).rank();
@@ -64,13 +65,13 @@ fn report(name: &str, threads: usize, products: usize, time: Duration) {
     );
 }
 
-fn best(mut run: impl FnMut() -> Duration) -> Duration {
-    (0..RUNS).map(|_| run()).min().expect("several runs")
+fn best(runs: usize, mut run: impl FnMut() -> Duration) -> Duration {
+    (0..runs).map(|_| run()).min().expect("several runs")
 }
 
 /// The time that `threads` threads take who each do the work.
 fn on_threads(threads: usize, work: impl Fn() + Sync) -> Duration {
-    best(|| {
+    best(RUNS, || {
         let start = Instant::now();
         std::thread::scope(|scope| {
             for _ in 0..threads {

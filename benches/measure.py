@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+"""Takes the measurements of benches/README.md and prints its tables.
+
+    python3 benches/measure.py table3   [--data DIR]
+    python3 benches/measure.py rational
+    python3 benches/measure.py cores    [--nodes 200 1000 3000] [--jacobian N] [--flint N]
+    python3 benches/measure.py sequence [--nodes 1000000]
+
+Needs the programs of `cargo build --release --workspace --bins --examples`; `rational` and
+`cores` also FLINT (Debian: libflint-dev) and gcc, and `rational` takes in the GMP build if
+`cargo build --release --features gmp --target-dir target/gmp` has been made.
+
+Every figure is a median over several runs of a process of its own, runs of the compared
+programs taking turns. Wall-clock times include starting the process. On a machine that does
+other things as well the CPU time (user + system) is the steadier of the two.
+"""
+
+import argparse
+import csv
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+RELEASE = ROOT / "target" / "release"
+VERIFY = RELEASE / "verify"
+CHECK = RELEASE / "viewcert-check"
+GMP = ROOT / "target" / "gmp" / "release" / "verify"
+EXAMPLES = RELEASE / "examples"
+
+# The first of the 756 finite-solvable graphs in the order of `nauty-geng -Cq 10 14:14`.
+SOLVABLE_10_14 = "I???FbMN_"
+
+
+class Run:
+    """One run of a program: seconds of wall clock and of CPU, exit code."""
+
+    def __init__(self, command, output=os.devnull):
+        command = [str(word) for word in command]
+        flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
+        actions = [(os.POSIX_SPAWN_OPEN, 1, str(output), flags, 0o644)]
+        start = time.perf_counter()
+        child = os.posix_spawn(command[0], command, os.environ, file_actions=actions)
+        _, status, usage = os.wait4(child, 0)
+        self.wall = time.perf_counter() - start
+        self.cpu = usage.ru_utime + usage.ru_stime
+        self.code = os.waitstatus_to_exitcode(status)
+        if self.code not in (0, 1):
+            sys.exit(f"{' '.join(command)}: exit code {self.code}")
+
+
+class Figures:
+    """Medians over the runs of one command, and its peak memory in bytes."""
+
+    def __init__(self, command, runs):
+        self.wall = statistics.median(run.wall for run in runs)
+        self.cpu = statistics.median(run.cpu for run in runs)
+        self.code = runs[-1].code
+        self.peak = peak(command)
+
+
+def compare(commands, count, memory=True):
+    """Figures of each command, the runs of all taking turns; one more run for the memory."""
+    runs = [[] for _ in commands]
+    for _ in range(count):
+        for command, its in zip(commands, runs):
+            its.append(Run(command))
+    return [Figures(command if memory else None, its) for command, its in zip(commands, runs)]
+
+
+def peak(command):
+    """Peak resident memory in bytes, by GNU time: the kernel counts a process that this one
+    starts itself as at least as large as this one."""
+    if command is None:
+        return None
+    with tempfile.NamedTemporaryFile() as report:
+        timed = ["/usr/bin/time", "-f", "%M", "-o", report.name, *map(str, command)]
+        subprocess.run(timed, stdout=subprocess.DEVNULL, check=False)
+        return 1024 * int(Path(report.name).read_text().split()[-1])
+
+
+def generate(path, *arguments):
+    with open(path, "w") as out:
+        subprocess.run([EXAMPLES / "generate", *map(str, arguments)], stdout=out, check=True)
+    return path
+
+
+def size(path):
+    """Numbers of nodes and edges."""
+    run = subprocess.run([EXAMPLES / "read_only", path], capture_output=True, text=True, check=True)
+    return [int(word) for word in run.stdout.split()[-2:]]
+
+
+def flint(kind, graph, folder):
+    """What FLINT's rank function says of a matrix of the graph, and how long it takes."""
+    program = folder / "flint_rank"
+    if not program.exists():
+        source = ROOT / "benches" / "flint_rank.c"
+        libraries = ["-lflint", "-lmpfr", "-lgmp"]
+        subprocess.run(["gcc", "-O2", "-o", program, source, *libraries], check=True)
+    with open(folder / "matrix", "w+") as matrix:
+        subprocess.run([EXAMPLES / "matrix", kind, graph], stdout=matrix, check=True)
+        matrix.seek(0)
+        run = subprocess.run([program], stdin=matrix, capture_output=True, text=True, check=True)
+    return json.loads(run.stdout)
+
+
+def row(*cells):
+    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+
+
+def head(*cells):
+    row(*cells)
+    print("|---" + "|---:" * (len(cells) - 1) + "|")
+
+
+def ms(seconds):
+    return f"{1e3 * seconds:.1f}"
+
+
+def sec(seconds):
+    return f"{seconds:.4f}" if seconds < 0.01 else f"{seconds:.3g}" if seconds < 100 else f"{seconds:.0f}"
+
+
+def mib(size):
+    return f"{size / 2**20:.1f}"
+
+
+def table3(arguments, folder):
+    """Reading against everything, on the paper's real graphs."""
+    data = Path(arguments.data)
+    with open(data / "table3.csv") as table:
+        published = list(csv.DictReader(table))
+    certificate = folder / "certificate.json"
+    small = generate(folder / "small", "random", 3, 3, 1)
+    constant = peak([VERIFY, "--certificate", certificate, small])
+    print(f"constant part of the memory: {mib(constant)} MiB (a graph with 3 pairs)\n")
+    head("graph", "pairs", "components", "published", "reading, ms", "everything, ms", "ratio",
+         "CPU ratio", "check, ms", "peak, MiB", "bytes a pair", "paper, s")
+    for line in published:
+        path = data / "table3" / line["file"]
+        reading = [EXAMPLES / "read_only", path]
+        everything = [VERIFY, "--certificate", certificate, path]
+        read, all_ = compare([reading, everything], arguments.runs)
+        nodes, edges = size(path)
+        report = subprocess.run([VERIFY, "--json", path], capture_output=True, text=True)
+        components = len(json.loads(report.stdout)["components"])
+        embedded = folder / "embedded.json"
+        subprocess.run([VERIFY, "--embed-graph", "--certificate", embedded, path],
+                       stdout=subprocess.DEVNULL)
+        head_room = max(0, all_.peak - constant)
+        row(line["name"], edges, components, line["components_node_based"], ms(read.wall),
+            ms(all_.wall), f"{all_.wall / read.wall:.1f}", f"{all_.cpu / read.cpu:.1f}",
+            *checked([embedded], arguments.runs, ms), mib(all_.peak), f"{head_room / edges:.0f}",
+            f"{line['seconds_edge_based']} / {line['seconds_node_based']}")
+
+
+def checked(certificate_and_graph, count, unit):
+    """Wall-clock time of the checker, or that it does not accept."""
+    [figures] = compare([[CHECK, *certificate_and_graph]], count, memory=False)
+    return [unit(figures.wall) if figures.code == 0 else "rejected"]
+
+
+def rational(arguments, folder):
+    """Rational mode against FLINT."""
+    small = folder / "10-14.g6"
+    small.write_text(SOLVABLE_10_14 + "\n")
+    large = generate(folder / "20-60.txt", "random", 20, 60, 1)
+    head("graph", "rank", "num-bigint, s", "GMP, s", "peak, MiB", "determinant, bits",
+         "fmpz_mat_rank, s", "prime mode, s", "nmod_mat_rank, s")
+    for name, graph in [("10 cameras, 14 pairs", small), ("20 cameras, 60 pairs", large)]:
+        commands = [[program, *mode, "--no-contraction", graph]
+                    for program, mode in [(VERIFY, ["--rational"]), (GMP, ["--rational"]),
+                                          (VERIFY, ["--prime"])]
+                    if program.exists()]
+        results = compare(commands, arguments.runs)
+        number, prime = results[0], results[-1]
+        gmp = sec(results[1].cpu) if len(results) == 3 else "not built"
+        text = subprocess.run(commands[0], capture_output=True, text=True).stdout
+        bits = re.search(r"determinant of (\d+) bits", text)
+        integers, residues = (
+            [flint(kind, graph, folder) for _ in range(arguments.runs)]
+            for kind in ("integers", "residues"))
+        row(name, integers[0]["rank"], sec(number.cpu), gmp, mib(number.peak),
+            bits[1] if bits else "-", sec(median(integers, "cpu")), sec(prime.cpu),
+            sec(median(residues, "cpu")))
+
+
+def median(results, key):
+    return statistics.median(result[key] for result in results)
+
+
+def cores(arguments, folder):
+    """Cores without triangles: plane flows, the paper's Jacobian, FLINT."""
+    head("nodes", "computation", "rank", "CPU, s", "wall clock, s", "peak, MiB")
+    for nodes in arguments.nodes:
+        graph = generate(folder / f"{nodes}.txt", "regular", nodes, 1)
+        certificate = folder / "certificate.json"
+        count = arguments.runs if nodes <= 1000 else 1
+        rank = lambda *options: json.loads(subprocess.run(
+            [VERIFY, "--json", *options, graph], capture_output=True, text=True).stdout)["rank"]
+        command = [VERIFY, "--certificate", certificate, graph]
+        [flows] = compare([command], count)
+        row(nodes, "plane flows: verdict, components, certificate", rank(), sec(flows.cpu),
+            sec(flows.wall), mib(flows.peak))
+        [check] = compare([[CHECK, certificate, graph]], 1)
+        row(nodes, "checker", "accepted" if check.code == 0 else "rejected", sec(check.cpu),
+            sec(check.wall), mib(check.peak))
+        if nodes <= arguments.jacobian:
+            command = [VERIFY, "--no-contraction", "--prime", graph]
+            [whole] = compare([command], 3 if nodes <= 200 else 1, memory=nodes <= 200)
+            row(nodes, "J_P modulo p", "11n - 15", sec(whole.cpu), sec(whole.wall),
+                mib(whole.peak) if whole.peak else f"{10 * 2 * nodes * 12 * nodes * 8 / 2**20:.0f}")
+        if nodes <= arguments.flint:
+            for kind, name in [("residues", "J_P"), ("rigidity", "N")]:
+                result = flint(kind, graph, folder)
+                row(nodes, f"FLINT nmod_mat_rank of {name}", result["rank"], sec(result["cpu"]),
+                    sec(result["wall"]), mib(1024 * result["peak_kib"]))
+
+
+def sequence(arguments, folder):
+    """A long image sequence: reading against everything."""
+    graph = generate(folder / "sequence.txt", "sequence", arguments.nodes, 20, 1)
+    certificate = folder / "certificate.json"
+    commands = [[EXAMPLES / "read_only", graph], [VERIFY, "--certificate", certificate, graph],
+                [CHECK, certificate, graph]]
+    read, all_, check = compare(commands, arguments.runs)
+    nodes, edges = size(graph)
+    print(f"{nodes} cameras, {edges} pairs, {graph.stat().st_size / 1e6:.0f} MB of text; "
+          f"certificate of {certificate.stat().st_size / 1e6:.0f} MB\n")
+    head("", "wall clock, s", "CPU, s", "ratio of wall clock", "ratio of CPU", "peak, MiB")
+    accepted = "checker" if check.code == 0 else "checker (rejected)"
+    for name, its in [("reading alone", read), ("everything", all_), (accepted, check)]:
+        row(name, sec(its.wall), sec(its.cpu), f"{its.wall / read.wall:.2f}",
+            f"{its.cpu / read.cpu:.2f}", mib(its.peak))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    commands = parser.add_subparsers(required=True, metavar="table3 | rational | cores | sequence")
+    for name, function, runs in [("table3", table3, 11), ("rational", rational, 5),
+                                 ("cores", cores, 3), ("sequence", sequence, 3)]:
+        command = commands.add_parser(name, help=function.__doc__)
+        command.set_defaults(run=function)
+        command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
+        if name == "table3":
+            command.add_argument("--data", default=str(ROOT.parent / "shared" / "data"),
+                                 help="folder of table3.csv and table3/*.mat")
+        if name == "cores":
+            command.add_argument("--nodes", type=int, nargs="+", default=[200, 1000, 3000])
+            command.add_argument("--jacobian", type=int, default=200,
+                                 help="largest graph for the whole Jacobian")
+            command.add_argument("--flint", type=int, default=200,
+                                 help="largest graph for FLINT")
+        if name == "sequence":
+            command.add_argument("--nodes", type=int, default=1_000_000)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="viewcert-bench-") as folder:
+        arguments.run(arguments, Path(folder))
+
+
+if __name__ == "__main__":
+    main()
