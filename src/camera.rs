@@ -402,6 +402,33 @@ mod tests {
         }
     }
 
+    /// The prime is the draw's own, and comes first in the stream.
+    #[test]
+    fn golden_centres_mod_drawn_prime() {
+        let (field, centres, draw) = centres_mod_drawn_prime(2, &key(7, 3)).unwrap();
+        assert_eq!((field.modulus(), draw), (4339413764273369993, 3));
+        let expected = [
+            [881795641151828847, 1499419119206969938, 2100357088918846207],
+            [2736202000115207422, 961499846577724831, 1195322211528276221],
+        ];
+        let residues: Vec<[u64; 3]> = centres
+            .iter()
+            .map(|centre| centre.map(|x| field.to_u64(x)))
+            .collect();
+        assert_eq!(residues, expected);
+    }
+
+    #[test]
+    fn golden_flow_weights() {
+        let field = PrimeField::mersenne61();
+        let mut weights = key(7, 3).flow_weights(&field);
+        let first: [u64; 3] = std::array::from_fn(|_| field.to_u64(weights()));
+        assert_eq!(
+            first,
+            [930405442687540168, 604505434197379882, 2141589733269668872]
+        );
+    }
+
     #[test]
     fn golden_cameras_mod() {
         let field = PrimeField::mersenne61();

@@ -5,11 +5,13 @@ use crate::camera::{self, Camera, DrawKey};
 use crate::evidence::{Evidence, IntegerMinor, ModularDraw, Witness};
 use crate::exact::Ring;
 use crate::exact::bareiss;
+use crate::exact::gauss::Pivots;
 use crate::exact::integer::{Integer, Integers};
 use crate::exact::modular::eliminate_mod;
 use crate::exact::multimodular;
 use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
+use crate::exact::sparse::Factorisation;
 use crate::formulation::skew::{self, SparseRows};
 use crate::graph::Graph;
 use crate::model::Model;
@@ -17,9 +19,12 @@ use crate::model::Model;
 /// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
 
-/// Largest matrix, in entries, for fraction-free elimination: J_P of 20 cameras and 80 pairs.
-/// Beyond, elimination modulo a prime and exact kernel vectors are much faster.
-const MAX_FRACTION_FREE: usize = 240 * 800;
+/// Largest matrix, in entries, that is eliminated whole over the integers: J_P of 14 cameras
+/// and 28 pairs.
+const MAX_FRACTION_FREE: usize = 168 * 280;
+
+/// Largest minor whose determinant is computed: the rank at 50 cameras.
+const MAX_DETERMINANT: usize = 11 * 50 - 15;
 
 /// The rank of J_P modulo a prime at general cameras.
 pub(super) fn modular(
@@ -57,18 +62,15 @@ pub(super) fn rational(
         let witness = Witness::Determinant(done.determinant().clone());
         (done.pivots().clone(), witness, done.kernel())
     } else {
-        let lower = multimodular::rank_at_least(&PrimeField::mersenne61(), &jacobian, cols);
-        let full = lower.bound() == Model::Projective.required(graph.nodes());
-        let kernel = if full {
+        let pivots = sparse_pivots(&jacobian, cols);
+        // The trivial motions alone account for the rest of a full rank.
+        let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
             Vec::new()
         } else {
             multimodular::rank_exact(&jacobian, cols).kernel().to_vec()
         };
-        (
-            lower.pivots().clone(),
-            Witness::Prime(lower.prime()),
-            kernel,
-        )
+        let (pivots, witness) = witness(&jacobian, cols, pivots);
+        (pivots, witness, kernel)
     };
     let rank = pivots.rank();
     let minor = IntegerMinor {
@@ -81,6 +83,36 @@ pub(super) fn rational(
         kernel: independent_motions(graph, cameras, kernel),
     };
     Ok((Evidence::IntegerMinor(minor), rank))
+}
+
+/// Pivots modulo 2^61 - 1, in an order that keeps the elimination sparse.
+fn sparse_pivots(rows: &SparseRows<Integer>, cols: usize) -> Pivots {
+    let field = PrimeField::mersenne61();
+    let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
+    let residues = rows
+        .iter()
+        .map(|row| {
+            let entries = row.iter().map(|(col, x)| (*col, residue(x)));
+            entries.filter(|&(_, x)| x != 0).collect()
+        })
+        .collect();
+    Factorisation::new(&field, residues, cols).pivots()
+}
+
+/// Why the minor with pivots modulo 2^61 - 1 is not zero: its determinant, by fraction-free
+/// elimination of the minor alone, if that is not too long; with the pivots in its order.
+fn witness(rows: &SparseRows<Integer>, cols: usize, pivots: Pivots) -> (Pivots, Witness) {
+    if pivots.rank() > MAX_DETERMINANT {
+        return (pivots, Witness::Prime(PrimeField::mersenne61().modulus()));
+    }
+    let minor = skew::dense(&Integers, rows, cols).submatrix(&pivots.rows, &pivots.cols);
+    let done = bareiss::eliminate(minor);
+    let order = done.pivots();
+    let pivots = Pivots {
+        rows: order.rows.iter().map(|&k| pivots.rows[k]).collect(),
+        cols: order.cols.iter().map(|&k| pivots.cols[k]).collect(),
+    };
+    (pivots, Witness::Determinant(done.determinant().clone()))
 }
 
 /// Rows and columns of J_P, unless it is too large for a dense elimination.
