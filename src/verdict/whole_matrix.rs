@@ -23,8 +23,8 @@ const MAX_RESIDUES: usize = 1 << 29;
 /// and 28 pairs.
 const MAX_FRACTION_FREE: usize = 168 * 280;
 
-/// Largest minor whose determinant is computed: the rank at 50 cameras.
-const MAX_DETERMINANT: usize = 11 * 50 - 15;
+/// Largest minor whose determinant is computed: the rank at 25 cameras, a second or two.
+const MAX_DETERMINANT: usize = 11 * 25 - 15;
 
 /// The rank of J_P modulo a prime at general cameras.
 pub(super) fn modular(
