@@ -9,9 +9,9 @@
 //! of a block with the components as parts and, failing that, with the members (bodies
 //! and loose edges) as parts, where the block is the whole piece or one of its
 //! parallel-rigid components. At a node where t parts meet, the sets that can be
-//! split off with gain are unions of at most (t - 1) / 3 parts and all the parts whose
-//! flow these determine; at most [`hub::FLATS`] such sets are looked at, which is all of
-//! them up to t = 40 or so.
+//! split off with gain are those of at most (t - 1) / 3 parts, together with all the parts
+//! whose flow these determine. At most 20,000 such sets are looked at for a node: all of them
+//! where at most 16 parts meet. Rank is then taken off the block by the best single hub.
 
 mod hub;
 

@@ -10,7 +10,7 @@ use crate::piece::{Assembly, Core, Members};
 use crate::union_find::UnionFind;
 
 /// How many sets of parts the search looks at for one node.
-pub const FLATS: usize = 20_000;
+const FLATS: usize = 20_000;
 
 /// A node at which a block loses rank. With every part of `split` given its own copy of
 /// the node, kappa the number of connected components of what results, and s the sum
