@@ -7,6 +7,8 @@
 
 mod grow;
 mod merge;
+#[cfg(test)]
+mod tests;
 
 use crate::graph::{Adjacency, Graph};
 
