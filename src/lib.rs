@@ -8,6 +8,7 @@
 pub mod body;
 pub mod bound;
 pub mod camera;
+pub mod catalog;
 pub mod certificate;
 pub mod cli;
 pub mod component;

@@ -1,0 +1,20 @@
+//! The catalog: all candidates of a size, decided one by one.
+//!
+//! [`candidates`] generates the biconnected graphs with some numbers of nodes and edges,
+//! one of each isomorphism class: from [`kernel`]s by [`subdivide`]-ing, or node by node
+//! ([`grow`]) where there are many edges. [`mine`] decides them; [`minimal`] finds the
+//! graphs that are finite solvable and not so without any one edge; [`random`] samples
+//! connected random graphs; [`invariants`] describes what was found.
+
+pub mod candidates;
+pub mod canonical;
+pub mod grow;
+pub mod invariants;
+pub mod kernel;
+pub mod mine;
+pub mod minimal;
+pub mod multigraph;
+pub mod random;
+pub mod subdivide;
+
+pub use candidates::{Candidates, SizeError, least_edges};
