@@ -1,8 +1,11 @@
 //! The command line: arguments in, reports out; no mathematics.
 
 mod atomic;
+mod catalog;
 mod certificates;
 mod check;
+mod experiment;
+mod progress;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -29,6 +32,10 @@ struct CommandLine {
 enum Command {
     /// Verify a certificate with the independent checker.
     Check(check::CheckArguments),
+    /// Enumerate candidates and decide them all.
+    Catalog(Box<catalog::Arguments>),
+    /// Repeat an experiment of the paper.
+    Experiment(experiment::Arguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -36,6 +43,8 @@ pub fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let done = match arguments.command {
         Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Catalog(arguments)) => catalog::run(&arguments),
+        Some(Command::Experiment(arguments)) => experiment::run(&arguments),
         None => verify::run(&arguments.verify),
     };
     match done {

@@ -1,6 +1,11 @@
-//! Reports of verdicts: text for people, JSON for programs.
+//! Reports: text for people, JSON for programs, tables and pictures.
 
+pub mod catalog_page;
 pub mod json;
+pub mod layout;
+pub mod plot;
+pub mod svg;
+pub mod table;
 pub mod text;
 
 use crate::graph::NamedGraph;

@@ -79,6 +79,19 @@ impl Candidates {
         })
     }
 
+    /// How many candidates there are, where counting them takes no longer than a small
+    /// part of deciding them.
+    pub fn count(&self) -> Option<u64> {
+        self.kernels.is_some().then(|| {
+            let mut count = 0;
+            self.for_each(&mut |_| {
+                count += 1;
+                true
+            });
+            count
+        })
+    }
+
     /// Calls `each` for every candidate, in a fixed order, until it returns false.
     pub fn for_each(&self, each: &mut impl FnMut(Graph) -> bool) {
         match &self.kernels {

@@ -46,6 +46,11 @@ impl Entry {
         }
     }
 
+    /// Whether the graph is finite solvable, or the answer is not proved.
+    pub fn is_notable(&self) -> bool {
+        self.value != Value::NotFiniteSolvable || self.strength != Strength::Proof
+    }
+
     /// Writes the entry as a line of tab-separated values.
     ///
     /// # Errors

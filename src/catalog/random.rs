@@ -9,8 +9,10 @@
 //! which are integers if p is a decimal fraction, then a graph by [`Counts`].
 
 mod counts;
+mod fisher;
 
 pub use counts::Counts;
+pub use fisher::fisher;
 
 use crate::graph::Graph;
 use num_bigint::BigUint;

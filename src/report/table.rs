@@ -1,0 +1,49 @@
+//! The table of a catalog, in the form of the paper's Table 1 with further columns.
+
+use crate::catalog::mine::Summary;
+use std::io::{self, Write};
+
+/// One source of candidates.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What it is called.
+    pub name: String,
+    /// Its counts.
+    pub summary: Summary,
+    /// How long it took.
+    pub seconds: Option<f64>,
+}
+
+/// Writes the table.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut impl Write, rows: &[Row]) -> io::Result<()> {
+    let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
+    writeln!(
+        out,
+        "{:width$}  candidates  fin_solv    unique    proved negative  by a hub  unproved  \
+         rank proved  seconds",
+        ""
+    )?;
+    for Row {
+        name,
+        summary,
+        seconds,
+    } in rows
+    {
+        let seconds = seconds.map_or(String::new(), |seconds| format!("{seconds:.2}"));
+        writeln!(
+            out,
+            "{name:width$}  {:>10}  {:>8}  {:>8}  {:>15}  {:>8}  {:>8}  {:>11}  {seconds:>7}",
+            summary.candidates,
+            summary.finite_solvable(),
+            summary.unique,
+            summary.refuted,
+            summary.hub,
+            summary.unproved,
+            summary.rank_proved,
+        )?;
+    }
+    Ok(())
+}
