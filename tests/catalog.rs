@@ -1,0 +1,458 @@
+//! `verify catalog` and `verify experiment`, through the program.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::Duration;
+
+fn verify(arguments: &[&str]) -> Output {
+    command(arguments).output().unwrap()
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
+    command.args(arguments);
+    command
+}
+
+fn with_input(arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = command(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(input).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn good(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// Candidates, finite-solvable ones and unproved verdicts of each line of a table.
+fn counts(table: &str) -> Vec<[u64; 3]> {
+    let column = |header: &str, name: &str| {
+        let at = header.find(name).unwrap() + name.len();
+        move |line: &str| -> u64 {
+            let cell = line[..at].rsplit(' ').next().unwrap();
+            cell.parse().unwrap()
+        }
+    };
+    let mut lines = table.lines();
+    let header = lines.next().unwrap();
+    let columns = ["candidates", "fin_solv", "unproved"].map(|name| column(header, name));
+    lines
+        .map(|line| [0, 1, 2].map(|k| columns[k](line)))
+        .collect()
+}
+
+fn data(name: &str) -> Option<String> {
+    let folder = std::env::var_os("VIEWCERT_DATA").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
+        PathBuf::from,
+    );
+    let found = fs::read_to_string(folder.join(name)).ok();
+    if found.is_none() {
+        eprintln!("skipped: {} is not there", folder.join(name).display());
+    }
+    found
+}
+
+#[test]
+fn table_1_as_published() {
+    let Some(published) = data("table1.csv") else {
+        return;
+    };
+    let expected: Vec<[u64; 3]> = published
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<u64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+            [cells[2], cells[3], 0]
+        })
+        .collect();
+    let all = good(&verify(&["catalog", "--nodes", "3-10"]));
+    assert_eq!(counts(&all), expected, "{all}");
+    let necessary = good(&verify(&["catalog", "--nodes", "3-10", "--necessary"]));
+    for (necessary, all) in counts(&necessary).iter().zip(&expected) {
+        assert!(necessary[0] <= all[0]);
+        assert_eq!(necessary[1..], all[1..]);
+    }
+}
+
+/// The same graphs as nauty's geng, which only counts here.
+#[test]
+fn as_many_candidates_as_geng() {
+    for nodes in 3..=11usize {
+        let edges = (11 * nodes - 15).div_ceil(7);
+        let size = format!("{edges}:{edges}");
+        let run = ["nauty-geng", "geng"].iter().find_map(|program| {
+            Command::new(program)
+                .args(["-Cu", &nodes.to_string(), &size])
+                .output()
+                .ok()
+        });
+        let Some(run) = run else {
+            eprintln!("skipped: geng is not there");
+            return;
+        };
+        let report = text(&run.stderr);
+        let line = report.lines().find(|line| line.starts_with(">Z")).unwrap();
+        let expected = line.split(' ').nth(1).unwrap().parse().unwrap();
+        let mut found = 0u64;
+        viewcert::catalog::Candidates::new(nodes, edges, false)
+            .unwrap()
+            .for_each(&mut |_| {
+                found += 1;
+                true
+            });
+        assert_eq!(found, expected, "{nodes} nodes");
+    }
+}
+
+#[test]
+fn candidates_of_geng_have_the_same_verdicts() {
+    let Some(run) = ["nauty-geng", "geng"].iter().find_map(|program| {
+        Command::new(program)
+            .args(["-Cq", "9", "12:12"])
+            .output()
+            .ok()
+    }) else {
+        eprintln!("skipped: geng is not there");
+        return;
+    };
+    let table = good(&with_input(&["catalog", "--from", "-"], &run.stdout));
+    assert_eq!(counts(&table), [[433, 27, 0]]);
+}
+
+/// Bw is the triangle, C^ two triangles with a common edge.
+#[test]
+fn a_malformed_line_is_named_and_the_rest_goes_on() {
+    let run = with_input(&["catalog", "--from", "-"], b"Bw\nB w\nC^\n");
+    assert_eq!(run.status.code(), Some(2));
+    assert_eq!(counts(&text(&run.stdout)), [[2, 2, 0]]);
+    let errors = text(&run.stderr);
+    assert!(errors.contains("line 2"), "{errors}");
+}
+
+#[test]
+fn impossible_sizes_are_bad_usage() {
+    for (arguments, message) in [
+        (&["--nodes", "2"][..], "3 to 16 nodes"),
+        (&["--nodes", "0"], "3 to 16 nodes"),
+        (&["--nodes", "17"], "3 to 16 nodes"),
+        (&["--nodes", "5", "--edges", "11"], "5 to 10 edges"),
+        (&["--nodes", "5", "--edges", "4"], "5 to 10 edges"),
+        (&["--nodes", "7-5"], "range is empty"),
+        (&["--nodes", "6", "--shard", "3/2"], "I/K"),
+        (&["--nodes", "6", "--prime", "15"], "prime"),
+        (&[], "--nodes"),
+    ] {
+        let run = verify(&[&["catalog"], arguments].concat());
+        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        let errors = text(&run.stderr);
+        assert!(errors.contains(message), "{arguments:?}: {errors}");
+    }
+}
+
+fn shard(out: &Path, shard: &str) -> Command {
+    command(&[
+        "catalog",
+        "--nodes",
+        "9",
+        "--part",
+        "50",
+        "--shard",
+        shard,
+        "--out",
+        out.to_str().unwrap(),
+    ])
+}
+
+/// All lines of entries in a folder of shards, sorted.
+fn lines(out: &Path) -> Vec<String> {
+    let mut lines = Vec::new();
+    for shard in fs::read_dir(out).unwrap() {
+        for part in fs::read_dir(shard.unwrap().path()).unwrap() {
+            let path = part.unwrap().path();
+            if path.extension().is_some_and(|ending| ending == "tsv") {
+                let text = fs::read_to_string(path).unwrap();
+                let inner = text.lines().filter(|line| line.contains('\t'));
+                lines.extend(
+                    inner
+                        .filter(|line| !line.starts_with("graph6"))
+                        .map(String::from),
+                );
+            }
+        }
+    }
+    lines.sort();
+    lines
+}
+
+#[test]
+fn the_union_of_the_shards_is_the_whole() {
+    let list = good(&verify(&["catalog", "--nodes", "9", "--list"]));
+    let mut whole: Vec<String> = list.lines().skip(1).map(String::from).collect();
+    whole.sort();
+    assert_eq!(whole.len(), 433);
+    for count in [1, 2, 5] {
+        let folder = tempfile::tempdir().unwrap();
+        for index in 1..=count {
+            good(
+                &shard(folder.path(), &format!("{index}/{count}"))
+                    .output()
+                    .unwrap(),
+            );
+        }
+        assert_eq!(lines(folder.path()), whole, "{count} shards");
+        let folder = folder.path().to_str().unwrap();
+        let table = good(&verify(&["catalog", "merge", folder]));
+        assert_eq!(counts(&table), [[433, 27, 0]]);
+    }
+}
+
+/// Killed again and again at different times, and finished at last: as if it had not
+/// been.
+#[test]
+#[cfg(unix)]
+fn a_killed_run_goes_on() {
+    let quiet = tempfile::tempdir().unwrap();
+    good(&shard(quiet.path(), "1/1").output().unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let mut killed = 0;
+    for wait in 0..40 {
+        let mut child = shard(out, "1/1")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(wait * 7 % 60));
+        // On Unix this is the signal that cannot be caught, kill -9.
+        child.kill().unwrap();
+        killed += u32::from(!child.wait().unwrap().success());
+        let complete = lines(quiet.path());
+        let found = lines_if_any(out);
+        assert!(found.windows(2).all(|pair| pair[0] != pair[1]), "twice");
+        assert!(
+            found
+                .iter()
+                .all(|line| complete.binary_search(line).is_ok())
+        );
+    }
+    assert!(killed > 0, "no run was killed in time");
+    good(&shard(out, "1/1").output().unwrap());
+    for name in ["part-000000.tsv", "part-000008.tsv", "done.json"] {
+        let path = Path::new("shard-1-of-1").join(name);
+        let read = |folder: &Path| fs::read(folder.join(&path)).unwrap();
+        assert_eq!(read(out), read(quiet.path()), "{name}");
+    }
+    assert_eq!(lines(out), lines(quiet.path()));
+}
+
+fn lines_if_any(out: &Path) -> Vec<String> {
+    if out.join("shard-1-of-1").is_dir() {
+        lines(out)
+    } else {
+        Vec::new()
+    }
+}
+
+#[test]
+fn a_merge_names_what_is_wrong() {
+    let refused = |folder: &Path, message: &str| {
+        let run = verify(&["catalog", "merge", folder.to_str().unwrap()]);
+        assert_eq!(run.status.code(), Some(2));
+        let errors = text(&run.stderr);
+        assert!(errors.contains(message), "{errors}");
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    refused(out, "no shards here");
+    refused(&out.join("nothing"), "nothing");
+    good(&shard(out, "1/3").output().unwrap());
+    good(&shard(out, "3/3").output().unwrap());
+    refused(out, "shards are missing: 2/3");
+    // A shard of another run: another seed.
+    let foreign = shard(out, "2/3").args(["--seed", "2"]).output().unwrap();
+    good(&foreign);
+    refused(out, "different runs");
+    // The right one does not continue the foreign one.
+    let mixed = shard(out, "2/3").output().unwrap();
+    assert_eq!(mixed.status.code(), Some(2));
+    assert!(text(&mixed.stderr).contains("another run"));
+    fs::remove_dir_all(out.join("shard-2-of-3")).unwrap();
+    good(&shard(out, "2/3").output().unwrap());
+    good(&verify(&["catalog", "merge", out.to_str().unwrap()]));
+    // A copy under another name, a missing part, an unfinished shard.
+    let of = out.join("shard-2-of-3");
+    fs::rename(&of, out.join("shard-4-of-3")).unwrap();
+    refused(out, "holds shard 2/3");
+    fs::rename(out.join("shard-4-of-3"), &of).unwrap();
+    let part = fs::read(of.join("part-000001.tsv")).unwrap();
+    fs::remove_file(of.join("part-000001.tsv")).unwrap();
+    refused(out, "part-000001.tsv");
+    fs::write(of.join("part-000001.tsv"), &part[..part.len() / 2]).unwrap();
+    refused(out, "not a part of a catalog");
+    fs::write(of.join("part-000001.tsv"), part).unwrap();
+    fs::remove_file(of.join("done.json")).unwrap();
+    refused(out, "not finished");
+}
+
+/// Parts of other candidates are not taken for one's own.
+#[test]
+fn a_run_on_other_candidates_does_not_continue() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let arguments = ["catalog", "--from", "-", "--out", out];
+    good(&with_input(&arguments, b"Bw\n"));
+    good(&with_input(&arguments, b"Bw\n"));
+    let other = with_input(&arguments, b"C^\n");
+    assert_eq!(other.status.code(), Some(2));
+    assert!(text(&other.stderr).contains("other candidates"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error() {
+    let full = fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .unwrap();
+    let run = command(&["catalog", "--nodes", "5"])
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    let errors = text(&run.stderr);
+    assert!(errors.contains("No space left"), "{errors}");
+}
+
+/// Minimal graphs with 5 nodes; both ways of looking agree on those with the least number
+/// of edges.
+#[test]
+fn minimal_graphs() {
+    let table = good(&verify(&["catalog", "--nodes", "3-7", "--minimal"]));
+    let found = counts(&table);
+    let least = counts(&good(&verify(&["catalog", "--nodes", "3-7"])));
+    for (minimal, least) in found.iter().zip(least) {
+        assert!(minimal[1] >= least[1], "{table}");
+        assert_eq!(minimal[0], minimal[1], "only minimal graphs are counted");
+    }
+    assert_eq!(found[..2], [[1, 1, 0]; 2]);
+}
+
+#[test]
+fn random_graphs_are_reproducible_and_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let run = |csv: &str, svg: &str| {
+        good(&verify(&[
+            "experiment",
+            "random",
+            "--nodes",
+            "8",
+            "--density",
+            "20%,0.5",
+            "--samples",
+            "50",
+            "--seed",
+            "7",
+            "--csv",
+            csv,
+            "--svg",
+            svg,
+        ]))
+    };
+    let (one, two) = (path("one.csv"), path("two.csv"));
+    let (first, second) = (path("one.svg"), path("two.svg"));
+    let table = run(&one, &first);
+    assert_eq!(run(&two, &second), table);
+    let csv = fs::read_to_string(&one).unwrap();
+    assert_eq!(csv.lines().count(), 101);
+    assert_eq!(csv, fs::read_to_string(&two).unwrap());
+    assert!(fs::read_to_string(&first).unwrap().starts_with("<svg"));
+    assert_eq!(fs::read(&first).unwrap(), fs::read(&second).unwrap());
+}
+
+/// The published counts lie within the sampling error of ours: Fisher's exact test at every
+/// density, at a level of 1 in 1000 for all eight together.
+#[test]
+fn table_2_within_sampling_error() {
+    let Some(published) = data("table2.csv") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    fs::write(&path, published).unwrap();
+    let table = good(&verify(&[
+        "experiment",
+        "random",
+        "--density",
+        "5%,10%,20%,30%,40%,50%,60%,70%",
+        "--samples",
+        "500",
+        "--compare",
+        path.to_str().unwrap(),
+    ]));
+    let rows: Vec<&str> = table.lines().skip(1).collect();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let cells: Vec<&str> = row.split_whitespace().collect();
+        let p: f64 = cells[cells.len() - 3].parse().unwrap();
+        assert!(p > 0.001 / 8.0, "{table}");
+        assert_eq!(cells[1], cells[3], "an unproved verdict: {table}");
+        // Of 500 graphs, 10 and more beyond the extremes of 1000 others on one side: 3^-10.
+        for beyond in &cells[cells.len() - 2..] {
+            assert!(beyond.parse::<u32>().unwrap() < 10, "{table}");
+        }
+    }
+}
+
+#[test]
+fn bad_densities_are_bad_usage() {
+    for bad in ["0", "1.5", "x"] {
+        let run = verify(&["experiment", "random", "--density", bad]);
+        assert_eq!(run.status.code(), Some(2));
+        assert!(text(&run.stderr).contains("decimal fraction"));
+    }
+}
+
+/// Small, and the same bytes twice.
+#[test]
+fn the_published_catalog_is_reproducible() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = ["one", "two"].map(|name| folder.path().join(name));
+    for name in &names {
+        good(&verify(&[
+            "catalog",
+            "publish",
+            "--certified",
+            "7",
+            "--listed",
+            "8",
+            name.to_str().unwrap(),
+        ]));
+    }
+    let mut files: Vec<_> = fs::read_dir(&names[0])
+        .unwrap()
+        .map(|file| file.unwrap().file_name())
+        .collect();
+    files.sort();
+    // Two files of 5, 6 and 7 nodes, one of 3 and 4, two lists, page, counts, README.
+    assert_eq!(files.len(), 6 + 2 + 2 + 3);
+    for file in files {
+        let read = |folder: &PathBuf| fs::read(folder.join(&file)).unwrap();
+        assert_eq!(read(&names[0]), read(&names[1]), "{file:?}");
+    }
+    let listed = fs::read_to_string(names[0].join("n08-finite-solvable.g6")).unwrap();
+    assert_eq!(listed.lines().count(), 36);
+}
