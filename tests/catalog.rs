@@ -105,7 +105,7 @@ fn as_many_candidates_as_geng() {
         };
         let report = text(&run.stderr);
         let line = report.lines().find(|line| line.starts_with(">Z")).unwrap();
-        let expected = line.split(' ').nth(1).unwrap().parse().unwrap();
+        let expected: u64 = line.split(' ').nth(1).unwrap().parse().unwrap();
         let mut found = 0u64;
         viewcert::catalog::Candidates::new(nodes, edges, false)
             .unwrap()

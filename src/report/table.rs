@@ -22,7 +22,7 @@ pub fn write(out: &mut impl Write, rows: &[Row]) -> io::Result<()> {
     let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
     writeln!(
         out,
-        "{:width$}  candidates  fin_solv    unique    proved negative  by a hub  unproved  \
+        "{:width$}  candidates  fin_solv    unique  proved negative  by a hub  unproved  \
          rank proved  seconds",
         ""
     )?;

@@ -26,7 +26,7 @@ pub fn fisher(one: [u64; 2], two: [u64; 2]) -> f64 {
     let mut weight = choose(m, least) * choose(n, sum - least);
     let mut weights = vec![weight.clone()];
     for x in least..most {
-        weight = weight * ((m - x) * (sum - x)) / ((x + 1) * (n - sum + x + 1));
+        weight = weight * ((m - x) * (sum - x)) / ((x + 1) * (n + x + 1 - sum));
         weights.push(weight.clone());
     }
     let own = weights[(a - least) as usize].clone();
