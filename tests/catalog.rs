@@ -139,7 +139,7 @@ fn a_malformed_line_is_named_and_the_rest_goes_on() {
     assert_eq!(run.status.code(), Some(2));
     assert_eq!(counts(&text(&run.stdout)), [[2, 2, 0]]);
     let errors = text(&run.stderr);
-    assert!(errors.contains("line 2"), "{errors}");
+    assert!(errors.contains("-:2: graph6"), "{errors}");
 }
 
 #[test]
