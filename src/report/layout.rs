@@ -2,30 +2,66 @@
 //!
 //! Stress majorisation (Gansner, Koren, North, *Graph drawing by stress majorization*,
 //! 2004): positions whose distances come as close as possible to the lengths of shortest paths,
-//! from many starts, of which the drawing with the fewest flaws is kept: edges that cross,
-//! nodes on foreign edges. Nothing but the four operations and square roots is used, so
-//! that the same graph has the same drawing on every machine.
+//! from many starts. The best drawings are then polished: a node moves to a place of a
+//! grid as long as that takes away flaws - edges that cross, nodes on foreign edges - or
+//! stress. Nothing but the four operations and square roots is used, so that the same graph has
+//! the same drawing on every machine.
 
 use crate::graph::{Adjacency, Graph};
 
 const STARTS: u64 = 60;
 const ROUNDS: usize = 150;
+/// How many drawings are polished.
+const POLISHED: usize = 6;
+/// Steps of the grid along each side.
+const GRID: u32 = 12;
 
-/// Positions of the nodes in the unit square. O(starts * rounds * n^2 + starts * m^2).
+/// Positions of the nodes in the unit square. For small graphs: a round of polishing takes
+/// O(grid^2 n m^2).
 pub fn layout(graph: &Graph) -> Vec<[f64; 2]> {
     let distances = distances(graph);
-    let drawings = (1..=STARTS).map(|start| {
-        let mut points = scatter(graph.nodes(), start);
-        for _ in 0..ROUNDS {
-            points = improve(&points, &distances);
-        }
-        let points = fit(&points);
-        let cost = flaws(graph, &points) as f64 + stress(&points, &distances);
-        (cost, points)
-    });
+    let cost = |points: &[[f64; 2]]| flaws(graph, points) as f64 + stress(points, &distances);
+    let mut drawings: Vec<(f64, Vec<[f64; 2]>)> = (1..=STARTS)
+        .map(|start| {
+            let mut points = scatter(graph.nodes(), start);
+            for _ in 0..ROUNDS {
+                points = improve(&points, &distances);
+            }
+            let points = fit(&points);
+            (cost(&points), points)
+        })
+        .collect();
+    drawings.sort_by(|a, b| a.0.total_cmp(&b.0));
     drawings
-        .reduce(|best, other| if other.0 < best.0 { other } else { best })
-        .map_or_else(Vec::new, |(_, points)| points)
+        .into_iter()
+        .take(POLISHED)
+        .map(|(_, points)| polish(points, &cost))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or_else(Vec::new, |(_, points)| fit(&points))
+}
+
+/// Moves one node after the other to the best place of the grid until no move helps.
+fn polish(mut points: Vec<[f64; 2]>, cost: &impl Fn(&[[f64; 2]]) -> f64) -> (f64, Vec<[f64; 2]>) {
+    let mut best = cost(&points);
+    loop {
+        let before = best;
+        for v in 0..points.len() {
+            let mut place = points[v];
+            for cell in 0..(GRID + 1) * (GRID + 1) {
+                let step = |k: u32| f64::from(k) / f64::from(GRID);
+                points[v] = [step(cell % (GRID + 1)), step(cell / (GRID + 1))];
+                let moved = cost(&points);
+                if moved < best {
+                    best = moved;
+                    place = points[v];
+                }
+            }
+            points[v] = place;
+        }
+        if best >= before {
+            return (best, points);
+        }
+    }
 }
 
 /// Lengths of shortest paths; the number of nodes where there is none.
@@ -123,7 +159,7 @@ fn fit(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 /// How far distances are from being proportional to those wanted, below 1 for a sensible
 /// drawing.
 fn stress(points: &[[f64; 2]], distances: &[Vec<f64>]) -> f64 {
-    let (mut squares, mut ratios, mut count) = (0.0, 0.0, 0.0);
+    let (mut squares, mut ratios, mut count) = (0.0f64, 0.0f64, 0.0f64);
     for v in 0..points.len() {
         for w in 0..v {
             let ratio = length(minus(points[v], points[w])) / distances[v][w];

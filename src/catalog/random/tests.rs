@@ -168,11 +168,12 @@ fn agrees_with_rejection() {
         .map(|k| sampler.draw(&mut generator(1, k)))
         .collect();
     let theirs: Vec<Graph> = (0..draws).map(rejected).collect();
-    let statistics: [(&str, &dyn Fn(&Graph) -> usize); 2] = [
-        ("edges", &|graph| graph.edges().len() / 3),
-        ("triangles", &|graph| triangles(graph) / 6),
-    ];
-    for (name, value) in statistics {
+    let edges = |graph: &Graph| graph.edges().len() / 3;
+    let triangles = |graph: &Graph| triangles(graph) / 6;
+    for (name, value) in [
+        ("edges", &edges as &dyn Fn(&Graph) -> usize),
+        ("triangles", &triangles),
+    ] {
         let histogram = |graphs: &[Graph]| {
             let mut counts = vec![0.0; 200];
             graphs

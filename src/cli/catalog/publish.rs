@@ -38,7 +38,7 @@ pub(super) struct Arguments {
 }
 
 /// A prime of 16 bits: any odd prime makes lower bounds and kernel vectors proofs, and
-/// residues of 5 digits instead of 19 make certificates a third as large.
+/// residues of 5 digits instead of 19 make shorter certificates.
 const PRIME: u64 = 65_521;
 
 /// Pictures are drawn of graphs with up to this many nodes.
@@ -272,7 +272,7 @@ fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> 
          | `finite-solvable.svg` | all finite-solvable graphs with up to {DRAWN} nodes, drawn |\n\
          \n\
          Certificates are JSON lines, one a graph, in the format of\n\
-         [docs/certificate.md](../docs/certificate.md), compressed with gzip (a tenth of the size).\n\
+         [docs/certificate.md](../docs/certificate.md), compressed with gzip (a sixth of the size).\n\
          They are computed modulo {PRIME}: proofs modulo a small prime are proofs, and shorter. Each embeds its\n\
          graph as graph6, which is its name as well. The certificate of any graph of the other\n\
          lists is made by\n\
