@@ -145,8 +145,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::from(GOOD))
 }
 
-/// A field of comma-separated values; graph6 has no commas outside of quotation marks' reach
-/// but may begin with or hold any other sign.
+/// A field of comma-separated values that may hold any character but a line end.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
