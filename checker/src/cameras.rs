@@ -10,8 +10,17 @@ pub(crate) type Camera<E> = [[E; 4]; 3];
 
 /// The key stream of a draw.
 fn stream(graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
+    stream_for(b"viewcert draw 1\n", graph, seed, draw)
+}
+
+/// The key stream of the weights of plane flows at a draw.
+pub(crate) fn flow_weights(graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
+    stream_for(b"viewcert flow 1\n", graph, seed, draw)
+}
+
+fn stream_for(purpose: &[u8; 16], graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
     let mut hash = Sha256::new();
-    hash.update(b"viewcert draw 1\n");
+    hash.update(purpose);
     hash.update(graph);
     hash.update(seed.to_le_bytes());
     hash.update(draw.to_le_bytes());

@@ -130,32 +130,39 @@ fn plane_flow(members: &mut Members, setting: Setting, core: &Core) -> Checked<L
     let centres = cameras::centres(&field, setting.graph, at.1, at.2, core.nodes)?;
     let height = 2 * core.edges.len();
     let pivots = Pivots::read(members, ("rows", height), ("cols", 3 * core.nodes))?;
-    let flows = members.read("flows", |list| list.indices(height))?;
-    let lambda = Pivots::read(members, ("lambda_rows", 4 * flows.len()), ("lambda_cols", core.edges.len()))?;
     let mut is_pivot = vec![false; height];
     pivots.rows.iter().for_each(|&row| is_pivot[row] = true);
-    let both = flows.iter().find(|&&row| is_pivot[row]);
-    ensure!(both.is_none(), "row {} is a pivot and in `flows`", both.unwrap_or(&0));
-    ensure!(setting.model == Model::Projective || flows.is_empty(), "`flows` is not empty in the calibrated model");
+    let free: Vec<usize> = (0..height).filter(|&row| !is_pivot[row]).collect();
+    let flows = members.read("flows", Value::count)? as usize;
+    ensure!(flows <= free.len(), "{flows} flows, but N leaves at most {}", free.len());
+    let lambda = Pivots::read(members, ("lambda_rows", 4 * flows), ("lambda_cols", core.edges.len()))?;
+    ensure!(setting.model == Model::Projective || flows == 0, "`flows` is not zero in the calibrated model");
 
     let (a, b) = (pivots.rows.len(), lambda.rows.len());
     let factors =
         factor(&field, a, |k, row| pivots.write(&field, bearing(&field, core, &centres, pivots.rows[k]), row))
             .within(|| "N".into())?;
+    let mut stream = cameras::flow_weights(setting.graph, at.1, at.2);
     let mut lambda_rows: Vec<Vec<u64>> = Vec::new();
-    for flows in flows.chunks(128) {
-        let right_side = |&flow: &usize| {
-            let mut row = vec![0; a];
-            pivots.write(&field, bearing(&field, core, &centres, flow), &mut row);
-            row
-        };
-        let mut solutions: Vec<Vec<u64>> = flows.iter().map(right_side).collect();
-        factors.solve(&mut solutions);
-        for (&flow, solution) in flows.iter().zip(&solutions) {
+    for first in (0..flows).step_by(128) {
+        let mut flow_rows = Vec::new();
+        let mut solutions = Vec::new();
+        for _ in first..flows.min(first + 128) {
             let mut weights = vec![0; height];
+            let mut sum = vec![0; a];
+            for &row in &free {
+                weights[row] = field.element(stream.below(field.prime()));
+                let entries = bearing(&field, core, &centres, row);
+                let scaled = entries.into_iter().map(|(column, value)| (column, field.mul(weights[row], value)));
+                pivots.write(&field, scaled, &mut sum);
+            }
+            flow_rows.push(weights);
+            solutions.push(sum);
+        }
+        factors.solve(&mut solutions);
+        for (k, (mut weights, solution)) in (first..).zip(flow_rows.into_iter().zip(&solutions)) {
             pivots.rows.iter().zip(solution).for_each(|(&row, &x)| weights[row] = field.neg(x));
-            weights[flow] = field.one();
-            let planes = planes(&field, core, &centres, &weights).within(|| format!("flow from row {flow}"))?;
+            let planes = planes(&field, core, &centres, &weights).within(|| format!("flow {k}"))?;
             for entry in 0..4 {
                 let mut row = vec![0; b];
                 lambda.write(&field, planes.iter().map(|plane| plane[entry]).enumerate(), &mut row);
@@ -199,7 +206,11 @@ fn integer_minor(members: &mut Members, setting: Setting, core: &Core) -> Checke
     let width = 12 * core.nodes;
     let pivots = Pivots::read(members, ("rows", 10 * core.edges.len()), ("cols", width))?;
     let r = pivots.rows.len();
-    let determinant = members.read("determinant", Value::decimal)?;
+    let determinant =
+        members.read("determinant", |value| if value.is_null() { Ok(None) } else { value.decimal().map(Some) })?;
+    let prime = members
+        .read("prime", |value| if value.is_null() { Ok(None) } else { value.big().and_then(Field::new).map(Some) })?;
+    ensure!(determinant.is_some() != prime.is_some(), "one of `determinant` and `prime` is null, and one is not");
     let kernel = members.read("kernel", |list| {
         let vector = |vector: &Value| -> Checked<Vec<(bool, String)>> {
             let entries =
@@ -232,12 +243,17 @@ fn integer_minor(members: &mut Members, setting: Setting, core: &Core) -> Checke
     }
     // Twelve entries below 2^b have a sum below 2^(b+4); a determinant is at most the product of such sums over its rows.
     let bound: usize = pivots.rows.iter().map(|&row| rows[row].1).sum();
-    let claimed = decimal_bits(determinant.1);
-    ensure!(3 * (determinant.1.len() - 1) <= bound, "`determinant` is larger than the minor can be");
-    for field in largest_primes(bound.max(claimed) / 61 + 2) {
+    let mut fields = prime.into_iter().collect::<Vec<_>>();
+    if let Some(determinant) = determinant {
+        let claimed = decimal_bits(determinant.1);
+        ensure!(3 * (determinant.1.len() - 1) <= bound, "`determinant` is larger than the minor can be");
+        fields = largest_primes(bound.max(claimed) / 61 + 2);
+    }
+    for field in &fields {
         let entries = |row: usize| rows[row].0.iter().map(|&(column, value)| (column, field.signed(value)));
-        let factors = factor(&field, r, |k, row| pivots.write(&field, entries(pivots.rows[k]), row))?;
-        ensure!(factors.determinant() == field.decimal(determinant), "`determinant` is not that of the minor");
+        let factors = factor(field, r, |k, row| pivots.write(field, entries(pivots.rows[k]), row))?;
+        let agrees = determinant.is_none_or(|determinant| factors.determinant() == field.decimal(determinant));
+        ensure!(agrees, "`determinant` is not that of the minor");
     }
     let largest = rows.iter().map(|(_, bits)| *bits).max().unwrap_or(0);
     for (k, vector) in kernel.iter().enumerate() {
