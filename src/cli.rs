@@ -4,6 +4,8 @@ mod atomic;
 mod catalog;
 mod certificates;
 mod check;
+mod compare;
+mod conditions;
 mod experiment;
 mod progress;
 mod verify;
@@ -36,6 +38,10 @@ enum Command {
     Catalog(Box<catalog::Arguments>),
     /// Repeat an experiment of the paper.
     Experiment(experiment::Arguments),
+    /// Compare the formulations of the literature: sizes, ranks, time.
+    Compare(compare::CompareArguments),
+    /// Check the necessary and sufficient conditions of the literature.
+    Conditions(conditions::ConditionArguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -45,6 +51,8 @@ pub fn main() -> ExitCode {
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Catalog(arguments)) => catalog::run(&arguments),
         Some(Command::Experiment(arguments)) => experiment::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Conditions(arguments)) => conditions::run(&arguments),
         None => verify::run(&arguments.verify),
     };
     match done {

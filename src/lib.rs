@@ -12,6 +12,7 @@ pub mod catalog;
 pub mod certificate;
 pub mod cli;
 pub mod component;
+pub mod conditions;
 pub mod evidence;
 pub mod exact;
 pub mod formulation;

@@ -1,6 +1,10 @@
 //! Reports: text for people, JSON for programs, tables and pictures.
 
+pub mod bars;
+pub mod canvas;
 pub mod catalog_page;
+pub mod comparison;
+pub mod conditions;
 pub mod json;
 pub mod layout;
 pub mod plot;

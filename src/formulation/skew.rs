@@ -12,13 +12,14 @@
 //!   column by column: (0,0), (1,0), (2,0), (3,0), (1,1), (2,1), (3,1), (2,2), (3,2), (3,3).
 //! * Edges are numbered as in the graph, (i, j) with i < j.
 
+use super::Formulation;
 use crate::camera::Camera;
-use crate::exact::Ring;
 use crate::exact::dense::Matrix;
+use crate::exact::{Field, Ring};
 use crate::graph::Graph;
 
 /// The places of the lower triangle in the order of vech.
-const VECH: [(usize, usize); 10] = [
+pub(super) const VECH: [(usize, usize); 10] = [
     (0, 0),
     (1, 0),
     (2, 0),
@@ -195,6 +196,36 @@ pub fn dense<R: Ring>(ring: &R, rows: &SparseRows<R::Elem>, cols: usize) -> Matr
         }
     }
     matrix
+}
+
+/// The paper's J_P: rank 11n - 15 exactly for finite solvable graphs (its Theorem 1).
+#[derive(Clone, Copy, Debug)]
+pub struct Skew;
+
+impl<F: Field> Formulation<F> for Skew {
+    fn name(&self) -> &'static str {
+        "skew"
+    }
+
+    fn source(&self) -> &'static str {
+        "Arrigoni, Kohn, Fusiello, Pajdla, Theorem 1"
+    }
+
+    fn size_formula(&self) -> [&'static str; 2] {
+        ["10m", "12n"]
+    }
+
+    fn size(&self, graph: &Graph) -> (usize, usize) {
+        (10 * graph.edges().len(), 12 * graph.nodes())
+    }
+
+    fn trivial_kernel(&self, graph: &Graph) -> usize {
+        graph.nodes() + 15
+    }
+
+    fn matrix(&self, field: &F, graph: &Graph, cameras: &[Camera<F::Elem>]) -> SparseRows<F::Elem> {
+        jacobian(field, graph, cameras)
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,83 @@
+//! Degrees and connectivity.
+
+use super::Witness;
+use crate::graph::{Adjacency, Graph};
+
+/// The first node with fewer than two neighbours.
+pub(super) fn below_two(adjacency: &Adjacency) -> Option<Witness> {
+    (0..adjacency.nodes() as u32)
+        .map(|v| (v, adjacency.degree(v)))
+        .find(|&(_, degree)| degree < 2)
+        .map(|(v, degree)| Witness::Degree(v, degree))
+}
+
+/// The first edge between two nodes of degree two.
+pub(super) fn adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Option<Witness> {
+    graph
+        .edges()
+        .iter()
+        .find(|&&(i, j)| adjacency.degree(i) == 2 && adjacency.degree(j) == 2)
+        .map(|&(i, j)| Witness::Adjacent(i, j))
+}
+
+/// The nodes reachable from `start` without passing through `without`, increasing.
+fn reach(adjacency: &Adjacency, start: u32, without: Option<u32>) -> Vec<u32> {
+    let mut seen = vec![false; adjacency.nodes()];
+    let mut open = vec![start];
+    seen[start as usize] = true;
+    let mut reached = Vec::new();
+    while let Some(v) = open.pop() {
+        reached.push(v);
+        for &w in adjacency.neighbours(v) {
+            if Some(w) != without && !std::mem::replace(&mut seen[w as usize], true) {
+                open.push(w);
+            }
+        }
+    }
+    reached.sort_unstable();
+    reached
+}
+
+/// A part that is not connected with the rest, or is only through one node: the first such
+/// node, and the smaller side. O(n m).
+pub(super) fn cut(adjacency: &Adjacency) -> Option<Witness> {
+    let nodes = adjacency.nodes() as u32;
+    let side = |start: u32, without: Option<u32>| {
+        let reached = reach(adjacency, start, without);
+        let total = nodes as usize - usize::from(without.is_some());
+        (reached.len() < total).then(|| {
+            if 2 * reached.len() <= total {
+                return reached;
+            }
+            let inside = |v: &u32| reached.binary_search(v).is_err() && Some(*v) != without;
+            (0..nodes).filter(inside).collect()
+        })
+    };
+    if let Some(part) = side(0, None) {
+        return Some(Witness::Apart(part));
+    }
+    (0..nodes)
+        .filter(|_| nodes > 2)
+        .find_map(|v| Some(Witness::Cut(v, side(u32::from(v == 0), Some(v))?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(nodes: u32, pairs: &[(u32, u32)]) -> Option<Witness> {
+        let (graph, _) = Graph::from_pairs(nodes, pairs.to_vec()).unwrap();
+        cut(&Adjacency::new(&graph))
+    }
+
+    #[test]
+    fn connectivity_by_hand() {
+        assert_eq!(found(2, &[(0, 1)]), None);
+        assert_eq!(found(3, &[(0, 1), (1, 2), (0, 2)]), None);
+        assert_eq!(found(3, &[(0, 1)]), Some(Witness::Apart(vec![2])));
+        // Two triangles that share node 0, and a path through it.
+        let bowtie = [(0, 1), (0, 2), (1, 2), (0, 3), (0, 4), (3, 4)];
+        assert_eq!(found(5, &bowtie), Some(Witness::Cut(0, vec![1, 2])));
+        assert_eq!(found(3, &[(0, 1), (1, 2)]), Some(Witness::Cut(1, vec![0])));
+    }
+}

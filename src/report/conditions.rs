@@ -1,0 +1,190 @@
+//! The conditions of the literature with their witnesses.
+
+use crate::conditions::moves::Move;
+use crate::conditions::{Answer, Condition, Witness, refuted, solvable};
+use crate::graph::NamedGraph;
+use serde::Serialize;
+use std::io::{self, Write};
+
+fn answer(condition: &Condition) -> &'static str {
+    match condition.answer {
+        Answer::Yes => "yes",
+        Answer::No => "no",
+        Answer::NotApplicable(_) => "not applicable",
+    }
+}
+
+/// What decided a condition, a line a step.
+fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
+    if let Answer::NotApplicable(why) = &condition.answer {
+        return vec![why.clone()];
+    }
+    let label = |v: u32| input.labels.display(v).to_string();
+    let list = |nodes: &[u32]| {
+        let names: Vec<String> = nodes.iter().map(|&v| label(v)).collect();
+        names.join(" ")
+    };
+    match &condition.witness {
+        None => Vec::new(),
+        Some(Witness::Degree(v, degree)) => vec![format!("{} has degree {degree}", label(*v))],
+        Some(Witness::Adjacent(i, j)) => {
+            vec![format!("{} and {} have degree 2", label(*i), label(*j))]
+        }
+        Some(Witness::Cut(v, part)) => vec![format!("{} cuts off {}", label(*v), list(part))],
+        Some(Witness::Apart(part)) => vec![format!("not connected with the rest: {}", list(part))],
+        Some(Witness::Count(text)) => vec![text.clone()],
+        Some(Witness::Vertices(nodes, d, whole)) => {
+            vec![format!("d is {d} on {}, and {whole} on all", list(nodes))]
+        }
+        Some(Witness::Partition(blocks, bound)) => {
+            let required = 11 * input.graph.nodes() - 15;
+            let head = format!("rank at most {bound} of {required}, by the blocks:");
+            std::iter::once(head)
+                .chain(blocks.iter().map(|block| list(block)))
+                .collect()
+        }
+        Some(Witness::Growth((i, j), steps)) => {
+            let start = format!("{} - {}", label(*i), label(*j));
+            let step = |&[v, a, b]: &[u32; 3]| {
+                format!(
+                    "{} joins, seen from {} and {}",
+                    label(v),
+                    label(a),
+                    label(b)
+                )
+            };
+            std::iter::once(start)
+                .chain(steps.iter().map(step))
+                .collect()
+        }
+        Some(Witness::Reached(count)) => {
+            let nodes = input.graph.nodes();
+            vec![format!("at most {count} of {nodes} cameras are reached")]
+        }
+        Some(Witness::Moves(moves)) => moves.iter().map(|step| describe(step, &label)).collect(),
+        Some(Witness::Missing(count)) => {
+            vec![format!("{count} edges of the complete graph missing")]
+        }
+    }
+}
+
+fn describe(step: &Move, label: &impl Fn(u32) -> String) -> String {
+    match step {
+        Move::Solid([a, b], [i, j]) => format!(
+            "solid {} - {}, triangles with {} - {}",
+            label(*a),
+            label(*b),
+            label(*i),
+            label(*j)
+        ),
+        Move::Dashed([a, b], [k, l]) => format!(
+            "dashed {} -> {}, by way of {} and {}",
+            label(*a),
+            label(*b),
+            label(*k),
+            label(*l)
+        ),
+        Move::Upgrade([a, b], [x, y, z]) => format!(
+            "solid {} - {}, from dashed by {}, {} and {}",
+            label(*a),
+            label(*b),
+            label(*x),
+            label(*y),
+            label(*z)
+        ),
+    }
+}
+
+fn conclusion(conditions: &[Condition]) -> &'static str {
+    if refuted(conditions) {
+        "not solvable: a necessary condition fails"
+    } else if solvable(conditions) {
+        "solvable: a sufficient condition holds"
+    } else {
+        "open: the conditions do not decide; `verify GRAPH` does"
+    }
+}
+
+/// How many lines of a witness are shown to people.
+const SHOWN: usize = 12;
+
+/// Writes a few lines a condition.
+///
+/// # Errors
+/// Those of the writer.
+pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
+    writeln!(out, "{}", input.name)?;
+    let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+    writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    for condition in found {
+        let kind = if condition.necessary {
+            "necessary"
+        } else {
+            "sufficient"
+        };
+        writeln!(
+            out,
+            "  {kind:10}  {:30} {:14} ({})",
+            condition.name,
+            answer(condition),
+            condition.source
+        )?;
+        let lines = witness(condition, input);
+        for line in lines.iter().take(SHOWN) {
+            writeln!(out, "                {line}")?;
+        }
+        if lines.len() > SHOWN {
+            let more = lines.len() - SHOWN;
+            writeln!(out, "                and {more} more, with --json")?;
+        }
+    }
+    writeln!(out, "  result      {}", conclusion(found))
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    graph: &'a str,
+    nodes: usize,
+    edges: usize,
+    result: &'static str,
+    conditions: Vec<JsonCondition>,
+}
+
+#[derive(Serialize)]
+struct JsonCondition {
+    name: &'static str,
+    source: &'static str,
+    kind: &'static str,
+    answer: &'static str,
+    witness: Vec<String>,
+}
+
+/// Writes one line of JSON.
+///
+/// # Errors
+/// Those of the writer.
+pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
+    let conditions = found
+        .iter()
+        .map(|condition| JsonCondition {
+            name: condition.name,
+            source: condition.source,
+            kind: if condition.necessary {
+                "necessary"
+            } else {
+                "sufficient"
+            },
+            answer: answer(condition),
+            witness: witness(condition, input),
+        })
+        .collect();
+    let line = Json {
+        graph: &input.name,
+        nodes: input.graph.nodes(),
+        edges: input.graph.edges().len(),
+        result: conclusion(found),
+        conditions,
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}
