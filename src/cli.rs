@@ -2,6 +2,7 @@
 
 mod atomic;
 mod catalog;
+mod audit;
 mod certificates;
 mod check;
 mod compare;
@@ -38,6 +39,8 @@ enum Command {
     Catalog(Box<catalog::Arguments>),
     /// Repeat an experiment of the paper.
     Experiment(experiment::Arguments),
+    /// Hold floating point, or claims of others, against the exact verdict.
+    Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
     Compare(compare::CompareArguments),
     /// Check the necessary and sufficient conditions of the literature.
@@ -51,6 +54,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Catalog(arguments)) => catalog::run(&arguments),
         Some(Command::Experiment(arguments)) => experiment::run(&arguments),
+        Some(Command::Audit(arguments)) => audit::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Conditions(arguments)) => conditions::run(&arguments),
         None => verify::run(&arguments.verify),

@@ -5,6 +5,7 @@
 //! set in some [`formulation`], its [`component`]s are found and upper [`bound`]s are
 //! counted; the [`verdict`] leaves with its [`evidence`].
 
+pub mod audit;
 pub mod body;
 pub mod bound;
 pub mod camera;

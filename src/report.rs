@@ -1,10 +1,13 @@
 //! Reports: text for people, JSON for programs, tables and pictures.
 
+pub mod audit;
 pub mod bars;
 pub mod canvas;
 pub mod catalog_page;
+pub mod claims;
 pub mod comparison;
 pub mod conditions;
+pub mod curves;
 pub mod json;
 pub mod layout;
 pub mod plot;

@@ -76,7 +76,7 @@ pub fn block<F: Field>(
         .find_map(|at| field.inv(&f[at]).map(|inv| (at, inv)))
         .expect("centres are distinct");
     let affine = f.clone().map(|x| field.mul(&x, &inverse));
-    let mut derivative = vec![Vec::with_capacity(22); 8];
+    let mut derivative = vec![Vec::new(); 8];
     for (second, from) in [(false, p_i), (true, p_j)] {
         for at in free(12, from.fixed) {
             let mut stepped = from.camera.clone();

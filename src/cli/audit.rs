@@ -1,0 +1,196 @@
+//! `verify audit GRAPH...`: exact and float side by side; `--claims`: other people's
+//! results.
+
+mod claims;
+mod sweep;
+
+use super::certificates::Target;
+use super::{BAD_INPUT, GOOD, NOT};
+use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
+use crate::graph::{NamedGraph, ReadOptions, read_graphs};
+use crate::report::audit::{self as report, Audit};
+use crate::verdict::{self, Value};
+use anyhow::{Context, Result, ensure};
+use clap::{Args, ValueEnum};
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Options of the audit.
+#[derive(Args)]
+pub(super) struct AuditArguments {
+    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
+    /// standard input.
+    #[arg(required_unless_present = "claims", value_name = "GRAPH")]
+    graphs: Vec<String>,
+    /// Decide a table of claims again: CSV with a head, or a JSON list of objects, with a
+    /// graph (columns graph, file, name) and a verdict, components, a rank a row.
+    #[arg(long, value_name = "FILE", conflicts_with = "graphs")]
+    claims: Option<PathBuf>,
+    /// The folder of the graphs that claims name.
+    #[arg(
+        long = "graphs",
+        id = "folder",
+        value_name = "DIR",
+        requires = "claims"
+    )]
+    folder: Option<PathBuf>,
+    /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
+    #[arg(long, value_name = "T", default_value_t = TOLERANCE, conflicts_with = "claims")]
+    tolerance: f64,
+    /// How floating point gets at the smallest singular value.
+    #[arg(long, value_enum, default_value_t = MethodName::Auto, conflicts_with = "claims")]
+    method: MethodName,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Repeat the float side over this many draws of cameras.
+    #[arg(long, value_name = "K", default_value_t = 1, conflicts_with = "claims")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    draws: u64,
+    /// Print, as CSV, how often each tolerance misjudges the given graphs.
+    #[arg(long, conflicts_with_all = ["claims", "json", "certificate"])]
+    sweep_tolerance: bool,
+    /// Draw the two populations and the errors to this file.
+    #[arg(long, value_name = "FILE", requires = "sweep_tolerance")]
+    svg: Option<PathBuf>,
+    /// Write the exact side's certificate to this file, or for every graph to this folder
+    /// (with --claims: of every refuted row).
+    #[arg(long, value_name = "PATH")]
+    certificate: Option<PathBuf>,
+    /// Print one JSON object a graph or claim.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    /// Dense for small graphs, sparse for others.
+    Auto,
+    /// All singular values of J.
+    Dense,
+    /// Inverse iteration with a sparse Cholesky factor of J^T J.
+    Sparse,
+}
+
+impl AuditArguments {
+    fn options(&self) -> audit::Options {
+        audit::Options {
+            tolerance: self.tolerance,
+            method: match self.method {
+                MethodName::Auto => Method::Auto,
+                MethodName::Dense => Method::Dense,
+                MethodName::Sparse => Method::Sparse,
+            },
+            seed: self.seed,
+        }
+    }
+
+    fn exact(&self) -> verdict::Options {
+        verdict::Options {
+            seed: self.seed,
+            ..verdict::Options::default()
+        }
+    }
+
+    fn target(&self) -> Option<Target> {
+        let path = self.certificate.as_deref()?;
+        Some(Target::new(path, false))
+    }
+}
+
+/// Audits every graph in turn, or every claim.
+pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+    ensure!(
+        arguments.tolerance.is_finite() && arguments.tolerance > 0.0,
+        "--tolerance: take a positive number"
+    );
+    if let Some(path) = &arguments.claims {
+        return claims::run(arguments, path);
+    }
+    if arguments.sweep_tolerance {
+        return sweep::run(arguments);
+    }
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut target = arguments.target();
+    let mut code = GOOD;
+    for path in &arguments.graphs {
+        for input in read_graphs(path, &ReadOptions::default()) {
+            let done = input
+                .map_err(Into::into)
+                .and_then(|input| one(arguments, &input, target.as_mut(), &mut out));
+            code = code.max(match done {
+                Ok(true) => GOOD,
+                Ok(false) => NOT,
+                Err(error) => {
+                    writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    BAD_INPUT
+                }
+            });
+            out.flush().context("standard output")?;
+        }
+    }
+    Ok(ExitCode::from(code))
+}
+
+/// Audits one graph; whether both sides agree.
+fn one(
+    arguments: &AuditArguments,
+    input: &NamedGraph,
+    target: Option<&mut Target>,
+    out: &mut impl Write,
+) -> Result<bool> {
+    let name = || input.name.clone();
+    let options = arguments.options();
+    let start = Instant::now();
+    let exact = verdict::decide(&input.graph, &arguments.exact()).with_context(name)?;
+    let exact_time = start.elapsed();
+    let certificate = target
+        .map(|target| target.write(input, &exact))
+        .transpose()?;
+
+    let start = Instant::now();
+    let outcome = audit::decide(&input.graph, &options, 0).with_context(name)?;
+    let parts = match outcome.verdict {
+        FloatVerdict::Solvable => Some(1),
+        FloatVerdict::NotSolvable => {
+            let found = components::components(&input.graph, &options, 0).with_context(name)?;
+            Some(components::count(&found))
+        }
+        FloatVerdict::Undecided => None,
+    };
+    let float_time = start.elapsed();
+    let draws = study::eigenvalues(&input.graph, &options, arguments.draws).with_context(name)?;
+    let solvable = exact.value != Value::NotFiniteSolvable;
+    let right = if solvable {
+        FloatVerdict::Solvable
+    } else {
+        FloatVerdict::NotSolvable
+    };
+    let verdicts = draws
+        .iter()
+        .map(|&value| FloatVerdict::by_tolerance(value, options.tolerance));
+    let misjudged = verdicts.filter(|&verdict| verdict != right).count();
+    let found = Audit {
+        input,
+        exact: &exact,
+        exact_time,
+        tolerance: options.tolerance,
+        outcome,
+        components: parts,
+        float_time,
+        agrees: misjudged == 0 && parts == Some(exact.components.len()),
+        draws: draws.len(),
+        misjudged,
+    };
+    if arguments.json {
+        report::json(out, &found)?;
+    } else {
+        report::text(out, &found)?;
+        if let Some(path) = certificate {
+            writeln!(out, "  certificate {}", path.display())?;
+        }
+    }
+    Ok(found.agrees)
+}

@@ -1,0 +1,95 @@
+//! `--sweep-tolerance`: the errors of every tolerance, over all graphs and draws.
+
+use super::super::{BAD_INPUT, GOOD, atomic};
+use super::AuditArguments;
+use crate::audit::study::{self, Populations};
+use crate::graph::{NamedGraph, ReadOptions, read_graphs};
+use crate::report::curves::{self, Picture};
+use crate::verdict::{self, Value};
+use anyhow::{Context, Result};
+use std::io::{BufWriter, Write};
+use std::process::ExitCode;
+
+/// Sweeps over all graphs together.
+pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+    let mut populations = Populations::default();
+    let mut code = GOOD;
+    for path in &arguments.graphs {
+        for input in read_graphs(path, &ReadOptions::default()) {
+            let done = input
+                .map_err(Into::into)
+                .and_then(|input| add(arguments, &input, &mut populations));
+            if let Err(error) = done {
+                writeln!(std::io::stderr(), "verify: {error:#}")?;
+                code = BAD_INPUT;
+            }
+        }
+    }
+    let sweep = populations.sweep();
+    let share = |count: usize, of: &[f64]| count as f64 / of.len().max(1) as f64;
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    writeln!(
+        out,
+        "tolerance,not_solvable_draws,false_solvable,false_solvable_rate,solvable_draws,\
+         false_not_solvable,false_not_solvable_rate"
+    )?;
+    for errors in std::iter::once(populations.errors(arguments.tolerance)).chain(sweep.clone()) {
+        writeln!(
+            out,
+            "{:e},{},{},{:.6},{},{},{:.6}",
+            errors.tolerance,
+            populations.not_solvable.len(),
+            errors.false_solvable,
+            share(errors.false_solvable, &populations.not_solvable),
+            populations.solvable.len(),
+            errors.false_not_solvable,
+            share(errors.false_not_solvable, &populations.solvable),
+        )?;
+    }
+    out.flush().context("standard output")?;
+    if populations.undecided > 0 {
+        writeln!(
+            std::io::stderr(),
+            "verify: {} draws were undecided: not numbers, or infinite",
+            populations.undecided
+        )?;
+    }
+    if let Some(path) = &arguments.svg {
+        let errors = sweep
+            .iter()
+            .map(|errors| {
+                let not_solvable = share(errors.false_solvable, &populations.not_solvable);
+                let solvable = share(errors.false_not_solvable, &populations.solvable);
+                (errors.tolerance, [not_solvable, solvable])
+            })
+            .collect();
+        let picture = curves::draw(&Picture {
+            title: "Smallest eigenvalue of J^T J by exact verdict, and the errors by tolerance"
+                .into(),
+            axis: "eigenvalue, tolerance".into(),
+            populations: [
+                ("not finite solvable".into(), populations.not_solvable),
+                ("finite solvable".into(), populations.solvable),
+            ],
+            errors,
+            mark: arguments.tolerance,
+        });
+        atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
+    }
+    Ok(ExitCode::from(code))
+}
+
+fn add(
+    arguments: &AuditArguments,
+    input: &NamedGraph,
+    populations: &mut Populations,
+) -> Result<()> {
+    let name = || input.name.clone();
+    let exact = verdict::decide(&input.graph, &arguments.exact()).with_context(name)?;
+    let values = study::eigenvalues(&input.graph, &arguments.options(), arguments.draws);
+    populations.add(
+        exact.value != Value::NotFiniteSolvable,
+        &values.with_context(name)?,
+    );
+    Ok(())
+}

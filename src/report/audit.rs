@@ -1,0 +1,178 @@
+//! Exact and float side by side.
+
+use crate::audit::{FloatVerdict, Outcome};
+use crate::graph::NamedGraph;
+use crate::verdict::Verdict;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+
+/// Both sides of one graph.
+#[derive(Clone, Debug)]
+pub struct Audit<'a> {
+    /// The graph.
+    pub input: &'a NamedGraph,
+    /// The exact side.
+    pub exact: &'a Verdict,
+    /// Its time.
+    pub exact_time: Duration,
+    /// The tolerance of the float side.
+    pub tolerance: f64,
+    /// The float side at the first draw.
+    pub outcome: Outcome,
+    /// Components of the float side; `None` if it is undecided.
+    pub components: Option<usize>,
+    /// Its time, components included.
+    pub float_time: Duration,
+    /// Whether both sides agree at every draw, and on the number of components at the
+    /// first.
+    pub agrees: bool,
+    /// How many draws there were.
+    pub draws: usize,
+    /// At how many of them the float verdict was not the exact one.
+    pub misjudged: usize,
+}
+
+impl Audit<'_> {
+    /// The margin in decades; `None` if it is not a number.
+    fn margin(&self) -> Option<f64> {
+        let margin = self.outcome.margin(self.tolerance);
+        (!margin.is_nan()).then_some(margin)
+    }
+}
+
+/// Writes a few lines.
+///
+/// # Errors
+/// Those of the writer.
+pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let graph = &audit.input.graph;
+    let exact = audit.exact;
+    writeln!(out, "{}", audit.input.name)?;
+    let (nodes, edges) = (graph.nodes(), graph.edges().len());
+    writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    writeln!(
+        out,
+        "  exact       {} ({}), components {}, {:.3} s",
+        exact.value.name(),
+        exact.strength.name(),
+        exact.components.len(),
+        audit.exact_time.as_secs_f64()
+    )?;
+    let components = match audit.components {
+        Some(count) => count.to_string(),
+        None => "undecided".into(),
+    };
+    writeln!(
+        out,
+        "  float       {}, components {components}, {:.3} s",
+        audit.outcome.verdict.name(),
+        audit.float_time.as_secs_f64()
+    )?;
+    write!(
+        out,
+        "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {:e}",
+        audit.outcome.smallest,
+        audit.outcome.eigenvalue(),
+        audit.tolerance
+    )?;
+    match audit.margin() {
+        Some(margin) => writeln!(out, ", margin {margin:+.1} decades")?,
+        None => writeln!(out, ", no margin")?,
+    }
+    if let (Some(rank), Some(verdict)) = (audit.outcome.matlab_rank, audit.outcome.by_rank()) {
+        writeln!(
+            out,
+            "  MATLAB rank {rank} of {}: {}",
+            audit.outcome.columns,
+            verdict.name()
+        )?;
+    }
+    if audit.draws > 1 {
+        writeln!(
+            out,
+            "  draws       {} of {} misjudged ({:.2} %)",
+            audit.misjudged,
+            audit.draws,
+            100.0 * audit.misjudged as f64 / audit.draws as f64
+        )?;
+    }
+    let result = match (audit.agrees, audit.outcome.verdict) {
+        (true, _) => "agree",
+        (false, FloatVerdict::Undecided) => "undecided: floating point gave no number",
+        (false, _) => "DISAGREE",
+    };
+    writeln!(out, "  result      {result}")
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    graph: &'a str,
+    nodes: usize,
+    edges: usize,
+    exact: Side,
+    float: Float,
+    agree: bool,
+    draws: usize,
+    misjudged: usize,
+}
+
+#[derive(Serialize)]
+struct Side {
+    verdict: &'static str,
+    strength: &'static str,
+    components: usize,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Float {
+    verdict: &'static str,
+    method: &'static str,
+    tolerance: f64,
+    smallest_singular_value: f64,
+    smallest_eigenvalue: f64,
+    margin_decades: Option<f64>,
+    matlab_rank: Option<usize>,
+    matlab_verdict: Option<&'static str>,
+    columns: usize,
+    components: Option<usize>,
+    seconds: f64,
+}
+
+/// Writes one line of JSON; numbers that are none become `null`.
+///
+/// # Errors
+/// Those of the writer.
+pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let outcome = &audit.outcome;
+    let line = Json {
+        graph: &audit.input.name,
+        nodes: audit.input.graph.nodes(),
+        edges: audit.input.graph.edges().len(),
+        exact: Side {
+            verdict: audit.exact.value.name(),
+            strength: audit.exact.strength.name(),
+            components: audit.exact.components.len(),
+            seconds: audit.exact_time.as_secs_f64(),
+        },
+        float: Float {
+            verdict: outcome.verdict.name(),
+            method: if outcome.dense { "dense" } else { "sparse" },
+            tolerance: audit.tolerance,
+            smallest_singular_value: outcome.smallest,
+            smallest_eigenvalue: outcome.eigenvalue(),
+            margin_decades: audit.margin(),
+            matlab_rank: outcome.matlab_rank,
+            matlab_verdict: outcome.by_rank().map(FloatVerdict::name),
+            columns: outcome.columns,
+            components: audit.components,
+            seconds: audit.float_time.as_secs_f64(),
+        },
+        agree: audit.agrees,
+        draws: audit.draws,
+        misjudged: audit.misjudged,
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

@@ -1,0 +1,100 @@
+//! Rulings on claims.
+
+use crate::audit::claims::Ruling;
+use crate::graph::NamedGraph;
+use crate::verdict::Verdict;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// The ruling on one row.
+#[derive(Clone, Copy, Debug)]
+pub struct Ruled<'a> {
+    /// The row, from 1.
+    pub number: usize,
+    /// What was found.
+    pub ruling: &'a Ruling,
+    /// The graph and its exact verdict.
+    pub decided: (&'a NamedGraph, &'a Verdict),
+    /// The certificate, where one was written.
+    pub certificate: Option<&'a Path>,
+}
+
+fn word(ruling: &Ruling) -> &'static str {
+    match ruling {
+        Ruling::Confirmed => "confirmed",
+        Ruling::Refuted(_) => "REFUTED",
+        Ruling::NotDecidable(_) => "not decidable",
+    }
+}
+
+fn reasons(ruling: &Ruling) -> String {
+    match ruling {
+        Ruling::Confirmed => String::new(),
+        Ruling::Refuted(wrong) => wrong.join("; "),
+        Ruling::NotDecidable(why) => why.clone(),
+    }
+}
+
+/// Writes one line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+    write!(out, "row {:4}  {:13}", ruled.number, word(ruled.ruling))?;
+    let (input, exact) = ruled.decided;
+    write!(
+        out,
+        "  {}: {} ({}), components {}, rank {}",
+        input.name,
+        exact.value.name(),
+        exact.strength.name(),
+        exact.components.len(),
+        exact.rank
+    )?;
+    match ruled.ruling {
+        Ruling::Confirmed => writeln!(out)?,
+        other => writeln!(out, "; {}", reasons(other))?,
+    }
+    if let Some(path) = ruled.certificate {
+        writeln!(out, "          certificate {}", path.display())?;
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    row: usize,
+    ruling: &'static str,
+    reason: String,
+    graph: &'a str,
+    verdict: &'static str,
+    strength: &'static str,
+    components: usize,
+    rank: usize,
+    certificate: Option<String>,
+}
+
+/// Writes one line of JSON.
+///
+/// # Errors
+/// Those of the writer.
+pub fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+    let (input, exact) = ruled.decided;
+    let line = Json {
+        row: ruled.number,
+        ruling: match ruled.ruling {
+            Ruling::Refuted(_) => "refuted",
+            other => word(other),
+        },
+        reason: reasons(ruled.ruling),
+        graph: &input.name,
+        verdict: exact.value.name(),
+        strength: exact.strength.name(),
+        components: exact.components.len(),
+        rank: exact.rank,
+        certificate: ruled.certificate.map(|path| path.display().to_string()),
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

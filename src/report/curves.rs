@@ -1,0 +1,119 @@
+//! Two populations on a logarithmic axis, and the errors of every threshold between them.
+
+use super::canvas::{Anchor, COLOURS, Svg};
+
+/// What is drawn.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// The heading.
+    pub title: String,
+    /// The name of the axis.
+    pub axis: String,
+    /// The populations, each with its name; zeros stand at the left edge.
+    pub populations: [(String, Vec<f64>); 2],
+    /// Threshold and the share of wrong members of each population.
+    pub errors: Vec<(f64, [f64; 2])>,
+    /// A threshold to mark.
+    pub mark: f64,
+}
+
+const LEFT: f64 = 60.0;
+const WIDTH: f64 = 640.0;
+const TOP: f64 = 60.0;
+const HEIGHT: f64 = 160.0;
+const SECOND: f64 = TOP + HEIGHT + 60.0;
+/// The decades of the axis.
+const DECADES: (f64, f64) = (-36.0, 4.0);
+
+fn x(value: f64) -> f64 {
+    let (low, high) = DECADES;
+    LEFT + WIDTH * ((value.log10().clamp(low, high) - low) / (high - low))
+}
+
+/// Draws a histogram of each population, a decade a bar and each to its own total, above
+/// the shares of errors by threshold.
+pub fn draw(picture: &Picture) -> String {
+    let bottom = SECOND + HEIGHT;
+    let mut svg = Svg::new(LEFT + WIDTH + 30.0, bottom + 50.0);
+    svg.text((LEFT, 22.0), Anchor::Start, &picture.title);
+    for (k, (name, values)) in picture.populations.iter().enumerate() {
+        let place = LEFT + 330.0 * k as f64;
+        svg.rectangle(place, 34.0, 10.0, 10.0, COLOURS[k]);
+        let text = format!("{name} ({})", values.len());
+        svg.text((place + 15.0, 43.0), Anchor::Start, &text);
+    }
+    for (top, label) in [(TOP, "share a decade"), (SECOND, "share misjudged")] {
+        svg.line((LEFT, top), (LEFT, top + HEIGHT), "#000000");
+        svg.line(
+            (LEFT, top + HEIGHT),
+            (LEFT + WIDTH, top + HEIGHT),
+            "#000000",
+        );
+        svg.text((LEFT, top - 6.0), Anchor::Start, label);
+        for (y, text) in [(top, "1"), (top + HEIGHT / 2.0, "0.5"), (top + HEIGHT, "0")] {
+            svg.text((LEFT - 6.0, y + 4.0), Anchor::End, text);
+        }
+        for decade in (-36..=4).step_by(4) {
+            let at = (f64::from(decade), top + HEIGHT + 16.0);
+            svg.text(
+                (x(10f64.powf(at.0)), at.1),
+                Anchor::Middle,
+                &format!("1e{decade}"),
+            );
+        }
+    }
+    svg.text(
+        (LEFT + WIDTH / 2.0, bottom + 36.0),
+        Anchor::Middle,
+        &picture.axis,
+    );
+    let mark = x(picture.mark);
+    svg.line((mark, TOP), (mark, bottom), "#888888");
+    let bar = WIDTH / (DECADES.1 - DECADES.0) / 2.0;
+    for (k, (_, values)) in picture.populations.iter().enumerate() {
+        let total = values.len().max(1) as f64;
+        for decade in -36..4 {
+            let start = f64::from(decade);
+            let inside = |value: &&f64| {
+                let log = value.log10().clamp(DECADES.0, DECADES.1 - 1e-9);
+                log.floor() == start
+            };
+            let share = values.iter().filter(inside).count() as f64 / total;
+            if share > 0.0 {
+                let left = x(10f64.powf(start)) + bar * k as f64;
+                // One member of many still shows.
+                let height = (HEIGHT * share).max(1.5);
+                svg.rectangle(left, TOP + HEIGHT - height, bar - 0.5, height, COLOURS[k]);
+            }
+        }
+    }
+    for (k, colour) in COLOURS.iter().enumerate().take(2) {
+        let points: Vec<(f64, f64)> = picture
+            .errors
+            .iter()
+            .map(|(threshold, shares)| (x(*threshold), bottom - HEIGHT * shares[k]))
+            .collect();
+        svg.path(&points, colour);
+    }
+    svg.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn histograms_and_curves() {
+        let svg = draw(&Picture {
+            title: "T".into(),
+            axis: "A".into(),
+            populations: [("a".into(), vec![0.0, 5.0]), ("b".into(), vec![1e-30])],
+            errors: vec![(1e-36, [0.0, 1.0]), (1e4, [1.0, 0.0])],
+            mark: 1e-10,
+        });
+        // Zero stands in the leftmost decade, 5 in that of 1; each is half of two.
+        assert!(svg.contains("<rect x=\"60.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
+        assert!(svg.contains("<rect x=\"636.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
+        assert!(svg.contains("points=\"60.0,440.0 700.0,280.0 \""));
+    }
+}
