@@ -168,10 +168,7 @@ fn claims_confirmed_refuted_open_and_bad() {
     for line in lines(&run) {
         assert_eq!(line["ruling"], "refuted");
         let certificate = line["certificate"].as_str().unwrap();
-        let check = verify(&["check", certificate]);
-        // The checker is a program of its own; here it is enough that there is one file a
-        // refutation.
-        assert!(Path::new(certificate).is_file(), "{}", check.err);
+        assert!(Path::new(certificate).is_file());
     }
 
     let run = audit("name,verdict,components,nodes\nsquare,,4,5\n");

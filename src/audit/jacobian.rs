@@ -21,6 +21,9 @@ const VECH: [(usize, usize); 10] = [
 /// The rows of one edge: 12 columns of the first camera, then 12 of the second.
 pub type EdgeRows = [[f64; 24]; 10];
 
+/// A block of J^T J, row by row.
+pub type GramBlock = [[f64; 12]; 12];
+
 /// Rows and columns of J.
 pub fn size(graph: &Graph) -> (usize, usize) {
     let nodes = graph.nodes();
@@ -105,12 +108,10 @@ impl<'a> Jacobian<'a> {
                 }
             }
         }
-        let mut row = 10 * self.blocks.edges.len();
-        for columns in self.gauge() {
+        for (row, columns) in (10 * self.blocks.edges.len()..).zip(self.gauge()) {
             for column in columns {
                 matrix[(row, column)] = 1.0;
             }
-            row += 1;
         }
         matrix
     }
@@ -151,7 +152,7 @@ impl<'a> Jacobian<'a> {
 
     /// The 12 x 12 blocks of the lower triangle of J^T J: on the diagonal one a node, and
     /// below it one an edge, with rows of the larger node.
-    pub fn gram(&self) -> (Vec<[[f64; 12]; 12]>, Vec<[[f64; 12]; 12]>) {
+    pub fn gram(&self) -> (Vec<GramBlock>, Vec<GramBlock>) {
         let nodes = self.blocks.graph.nodes();
         let mut diagonal = vec![[[0.0; 12]; 12]; nodes];
         let mut below = vec![[[0.0; 12]; 12]; self.blocks.edges.len()];
