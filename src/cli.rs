@@ -19,8 +19,9 @@ use std::process::ExitCode;
 /// For every graph: is the set of cameras that its fundamental matrices determine unique,
 /// finite, or infinite, and which maximal parts of it are determined?
 ///
-/// Exit codes: 0 all graphs are solvable or finite solvable (check: verified), 1 some are
-/// not (check: rejected), 2 bad usage or input.
+/// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
+/// compare: all agree; conditions: no necessary one fails), 1 some are not (check:
+/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input.
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]

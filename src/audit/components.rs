@@ -1,7 +1,7 @@
 //! Components by the rows of a null space that vanish (the paper's section 4.2).
 
 use super::jacobian::{Blocks, Jacobian};
-use super::{AuditError, Options, cameras, dense, jacobian, sparse};
+use super::{AuditError, Method, Options, cameras, dense, jacobian, sparse};
 use crate::formulation::augmented::reference;
 use crate::graph::Graph;
 
@@ -22,17 +22,16 @@ pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usi
     if edges.is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let is_dense = options.method.is_dense(jacobian::size(graph))?;
+    let method = options.method.choose(jacobian::size(graph))?;
     let cameras = cameras::draw(graph, options.seed, draw);
     let blocks = Blocks::new(graph, &cameras);
     let mut component = vec![None; edges.len()];
     let mut frame = reference(graph);
     for number in 0.. {
         let j = Jacobian::new(&blocks, frame);
-        let null = if is_dense {
-            dense::null_space(&j, options.tolerance)?
-        } else {
-            sparse::null_space(&j, options.tolerance)?
+        let null = match method {
+            Method::Sparse => sparse::null_space(&j, options.tolerance)?,
+            _ => dense::null_space(&j, options.tolerance)?,
         };
         let vanishes: Vec<bool> = (0..graph.nodes())
             .map(|v| {
@@ -62,7 +61,7 @@ pub fn count(components: &[usize]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Method, TOLERANCE};
+    use super::super::TOLERANCE;
     use super::*;
 
     /// Two triangles at a node and a tail: three components, by both methods.

@@ -1,8 +1,8 @@
 //! All singular values of J as a dense matrix.
 
 use super::AuditError;
-use super::jacobian::Jacobian;
-use faer::Mat;
+use super::jacobian::{GramBlock, Jacobian};
+use faer::{Mat, Side};
 
 /// The singular values, falling, one a column of J.
 ///
@@ -12,6 +12,33 @@ pub fn singular_values(j: &Jacobian) -> Result<Vec<f64>, AuditError> {
     j.dense()
         .singular_values()
         .map_err(|_| AuditError::NoConvergence)
+}
+
+/// The smallest eigenvalue of J^T J, formed as a matrix.
+///
+/// # Errors
+/// As for [`singular_values`].
+pub fn gram_eigenvalue(j: &Jacobian) -> Result<f64, AuditError> {
+    let (diagonal, below) = j.gram();
+    let columns = j.size().1;
+    let mut gram = Mat::zeros(columns, columns);
+    let mut put = |v: usize, w: usize, block: &GramBlock| {
+        for (r, line) in block.iter().enumerate() {
+            for (c, &x) in line.iter().enumerate() {
+                gram[(12 * v + r, 12 * w + c)] = x;
+            }
+        }
+    };
+    for (v, block) in diagonal.iter().enumerate() {
+        put(v, v, block);
+    }
+    for (&(i, j), block) in j.blocks.graph.edges().iter().zip(&below) {
+        put(j as usize, i as usize, block);
+    }
+    let values = gram
+        .self_adjoint_eigenvalues(Side::Lower)
+        .map_err(|_| AuditError::NoConvergence)?;
+    Ok(values.first().copied().unwrap_or(f64::NAN))
 }
 
 /// The rank by MATLAB's default tolerance, max(rows, columns) eps(sigma_1), where eps(x) is

@@ -34,6 +34,9 @@ pub enum Method {
     Auto,
     /// All singular values of J as a dense matrix.
     Dense,
+    /// All eigenvalues of J^T J, formed as a dense matrix: what the published code hands to
+    /// its eigenvalue solver. Rounding in J^T J hides eigenvalues below eps |J|^2.
+    Gram,
     /// The smallest ones, by inverse iteration with a sparse Cholesky factor of J^T J.
     Sparse,
 }
@@ -93,32 +96,42 @@ impl FloatVerdict {
 pub struct Outcome {
     /// By the tolerance on the smallest eigenvalue.
     pub verdict: FloatVerdict,
-    /// The smallest singular value of J.
-    pub smallest: f64,
+    /// The smallest eigenvalue of J^T J: the square of a singular value of J, or computed
+    /// from J^T J itself, and then possibly negative by rounding.
+    pub eigenvalue: f64,
     /// The rank as MATLAB's `rank` takes it: singular values above
     /// max(rows, columns) eps(sigma_1). Dense method only.
     pub matlab_rank: Option<usize>,
     /// 12n.
     pub columns: usize,
-    /// Whether the dense method was used.
-    pub dense: bool,
+    /// The method that was used, which is not `Auto`.
+    pub method: Method,
 }
 
 impl Outcome {
-    /// The smallest eigenvalue of J^T J.
-    pub fn eigenvalue(&self) -> f64 {
-        self.smallest * self.smallest
+    /// The smallest singular value of J, zero for a negative eigenvalue.
+    pub fn smallest(&self) -> f64 {
+        if self.eigenvalue < 0.0 {
+            0.0
+        } else {
+            self.eigenvalue.sqrt()
+        }
     }
 
-    /// By how many decades the eigenvalue lies above (below: negative) the tolerance.
+    /// By how many decades the eigenvalue lies above (below: negative) the tolerance; minus
+    /// infinity for zero and below.
     pub fn margin(&self, tolerance: f64) -> f64 {
-        (self.eigenvalue() / tolerance).log10()
+        if self.eigenvalue <= 0.0 {
+            f64::NEG_INFINITY
+        } else {
+            (self.eigenvalue / tolerance).log10()
+        }
     }
 
-    /// The verdict by MATLAB's rank; `None` for the sparse method.
+    /// The verdict by MATLAB's rank; `None` where it was not computed.
     pub fn by_rank(&self) -> Option<FloatVerdict> {
         let rank = self.matlab_rank?;
-        Some(if !self.smallest.is_finite() {
+        Some(if !self.eigenvalue.is_finite() {
             FloatVerdict::Undecided
         } else if rank == self.columns {
             FloatVerdict::Solvable
@@ -155,17 +168,27 @@ pub enum AuditError {
 }
 
 impl Method {
-    /// Whether to use the dense method for a matrix of this size.
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Dense => "dense",
+            Self::Gram => "gram",
+            Self::Sparse => "sparse",
+        }
+    }
+
+    /// The method to use for a matrix of this size, which is not `Auto`.
     ///
     /// # Errors
-    /// The matrix is too large for the dense method, which was asked for.
-    fn is_dense(self, (rows, columns): (usize, usize)) -> Result<bool, AuditError> {
+    /// The matrix is too large for a dense method, which was asked for.
+    fn choose(self, (rows, columns): (usize, usize)) -> Result<Self, AuditError> {
         let entries = rows.saturating_mul(columns);
         match self {
-            Self::Auto => Ok(entries <= DENSE_BY_DEFAULT),
-            Self::Sparse => Ok(false),
-            Self::Dense if entries <= MAX_DENSE => Ok(true),
-            Self::Dense => Err(AuditError::TooLarge {
+            Self::Auto if entries <= DENSE_BY_DEFAULT => Ok(Self::Dense),
+            Self::Auto | Self::Sparse => Ok(Self::Sparse),
+            Self::Dense | Self::Gram if entries <= MAX_DENSE => Ok(self),
+            Self::Dense | Self::Gram => Err(AuditError::TooLarge {
                 rows,
                 columns,
                 gib: entries.div_ceil(1 << 27),
@@ -182,24 +205,27 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
     if graph.edges().is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let dense = options.method.is_dense(jacobian::size(graph))?;
+    let method = options.method.choose(jacobian::size(graph))?;
     let cameras = cameras::draw(graph, options.seed, draw);
     let blocks = Blocks::new(graph, &cameras);
     let j = Jacobian::new(&blocks, reference(graph));
     let columns = 12 * graph.nodes();
-    let (smallest, matlab_rank) = if dense {
-        let values = dense::singular_values(&j)?;
-        let rank = dense::matlab_rank(&values, j.size());
-        (*values.last().unwrap_or(&f64::NAN), Some(rank))
-    } else {
-        (sparse::smallest(&j, 1)?.values[0], None)
+    let (eigenvalue, matlab_rank) = match method {
+        Method::Gram => (dense::gram_eigenvalue(&j)?, None),
+        Method::Sparse => (sparse::smallest(&j, 1)?.values[0].powi(2), None),
+        Method::Auto | Method::Dense => {
+            let values = dense::singular_values(&j)?;
+            let rank = dense::matlab_rank(&values, j.size());
+            let smallest = values.last().copied().unwrap_or(f64::NAN);
+            (smallest * smallest, Some(rank))
+        }
     };
     Ok(Outcome {
-        verdict: FloatVerdict::by_tolerance(smallest * smallest, options.tolerance),
-        smallest,
+        verdict: FloatVerdict::by_tolerance(eigenvalue, options.tolerance),
+        eigenvalue,
         matlab_rank,
         columns,
-        dense,
+        method,
     })
 }
 
@@ -214,10 +240,10 @@ mod tests {
             assert_eq!(verdict, FloatVerdict::Undecided);
             let outcome = Outcome {
                 verdict,
-                smallest: value,
+                eigenvalue: value,
                 matlab_rank: Some(12),
                 columns: 12,
-                dense: true,
+                method: Method::Dense,
             };
             assert_eq!(outcome.by_rank(), Some(FloatVerdict::Undecided));
         }
@@ -252,7 +278,11 @@ mod tests {
             );
             assert_eq!(dense.verdict, FloatVerdict::Solvable);
             assert_eq!(dense.by_rank(), Some(FloatVerdict::Solvable));
-            assert!((dense.smallest / sparse.smallest - 1.0).abs() < 1e-6);
+            assert!((dense.eigenvalue / sparse.eigenvalue - 1.0).abs() < 1e-6);
+            // J^T J loses what is below eps |J|^2, some 1e-11.
+            let gram = outcome(&complete, Method::Gram);
+            assert_eq!(gram.verdict, FloatVerdict::Solvable);
+            assert!((gram.eigenvalue - dense.eigenvalue).abs() < 1e-9);
             let (dense, sparse) = (
                 outcome(&square, Method::Dense),
                 outcome(&square, Method::Sparse),
@@ -260,7 +290,8 @@ mod tests {
             assert_eq!(dense.verdict, FloatVerdict::NotSolvable);
             assert_eq!(dense.matlab_rank, Some(47));
             assert_eq!(sparse.verdict, FloatVerdict::NotSolvable);
-            assert!(dense.smallest < 1e-11 && sparse.smallest < 1e-11);
+            assert!(dense.smallest() < 1e-11 && sparse.smallest() < 1e-11);
+            assert!(outcome(&square, Method::Gram).eigenvalue.abs() < 1e-9);
         }
     }
 

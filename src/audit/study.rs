@@ -11,7 +11,7 @@ use rayon::prelude::*;
 pub fn eigenvalues(graph: &Graph, options: &Options, draws: u64) -> Result<Vec<f64>, AuditError> {
     (0..draws)
         .into_par_iter()
-        .map(|draw| Ok(decide(graph, options, draw)?.eigenvalue()))
+        .map(|draw| Ok(decide(graph, options, draw)?.eigenvalue))
         .collect()
 }
 

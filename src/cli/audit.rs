@@ -39,7 +39,7 @@ pub(super) struct AuditArguments {
     /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
     #[arg(long, value_name = "T", default_value_t = TOLERANCE, conflicts_with = "claims")]
     tolerance: f64,
-    /// How floating point gets at the smallest singular value.
+    /// How floating point gets at the smallest eigenvalue of J^T J.
     #[arg(long, value_enum, default_value_t = MethodName::Auto, conflicts_with = "claims")]
     method: MethodName,
     /// Seed of all random cameras.
@@ -70,6 +70,8 @@ enum MethodName {
     Auto,
     /// All singular values of J.
     Dense,
+    /// All eigenvalues of J^T J.
+    Gram,
     /// Inverse iteration with a sparse Cholesky factor of J^T J.
     Sparse,
 }
@@ -81,6 +83,7 @@ impl AuditArguments {
             method: match self.method {
                 MethodName::Auto => Method::Auto,
                 MethodName::Dense => Method::Dense,
+                MethodName::Gram => Method::Gram,
                 MethodName::Sparse => Method::Sparse,
             },
             seed: self.seed,

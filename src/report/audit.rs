@@ -72,8 +72,8 @@ pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     write!(
         out,
         "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {:e}",
-        audit.outcome.smallest,
-        audit.outcome.eigenvalue(),
+        audit.outcome.smallest(),
+        audit.outcome.eigenvalue,
         audit.tolerance
     )?;
     match audit.margin() {
@@ -158,10 +158,10 @@ pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         },
         float: Float {
             verdict: outcome.verdict.name(),
-            method: if outcome.dense { "dense" } else { "sparse" },
+            method: outcome.method.name(),
             tolerance: audit.tolerance,
-            smallest_singular_value: outcome.smallest,
-            smallest_eigenvalue: outcome.eigenvalue(),
+            smallest_singular_value: outcome.smallest(),
+            smallest_eigenvalue: outcome.eigenvalue,
             margin_decades: audit.margin(),
             matlab_rank: outcome.matlab_rank,
             matlab_verdict: outcome.by_rank().map(FloatVerdict::name),
