@@ -22,6 +22,9 @@ const ITERATIONS: usize = 100;
 /// Relative change at which a value has converged.
 const SETTLED: f64 = 1e-10;
 
+/// The same where only the side of a tolerance matters.
+const ROUGHLY: f64 = 1e-3;
+
 /// The smallest singular values, rising, with their vectors as columns.
 #[derive(Debug)]
 pub struct Spectrum {
@@ -73,6 +76,11 @@ fn shifted_gram(j: &Jacobian) -> (SparseColMat<usize, f64>, f64) {
 /// # Errors
 /// If J^T J cannot be factored at any shift, or values are not numbers.
 pub fn smallest(j: &Jacobian, count: usize) -> Result<Spectrum, AuditError> {
+    iterate(j, count, SETTLED)
+}
+
+/// The `count` smallest singular values, to a relative change of `settled`.
+fn iterate(j: &Jacobian, count: usize, settled: f64) -> Result<Spectrum, AuditError> {
     let (mut gram, largest) = shifted_gram(j);
     let columns = gram.ncols();
     let failed = |error: &dyn std::fmt::Debug| AuditError::NoFactor(format!("{error:?}"));
@@ -116,13 +124,13 @@ pub fn smallest(j: &Jacobian, count: usize) -> Result<Spectrum, AuditError> {
         if found.iter().any(|x| !x.is_finite()) {
             return Err(AuditError::NoConvergence);
         }
-        let settled = found
+        let done = found
             .iter()
             .zip(&values)
             .take(count)
-            .all(|(new, old)| *new <= floor || (new - old).abs() <= SETTLED * new);
+            .all(|(new, old)| *new <= floor || (new - old).abs() <= settled * new);
         values = found;
-        if settled {
+        if done {
             break;
         }
     }
@@ -138,7 +146,7 @@ pub fn null_space(j: &Jacobian, tolerance: f64) -> Result<Mat<f64>, AuditError> 
     let columns = j.size().1;
     let mut count = 8.min(columns);
     loop {
-        let spectrum = smallest(j, count)?;
+        let spectrum = iterate(j, count, ROUGHLY)?;
         let small = spectrum
             .values
             .iter()
