@@ -1,6 +1,5 @@
 //! Reports: text for people, JSON for programs, tables and pictures.
 
-pub mod audit;
 pub mod bars;
 pub mod canvas;
 pub mod catalog_page;

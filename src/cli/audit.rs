@@ -2,13 +2,15 @@
 //! results.
 
 mod claims;
+mod report;
+mod rulings;
 mod sweep;
 
+use self::report::Audit;
 use super::certificates::Target;
 use super::{BAD_INPUT, GOOD, NOT};
 use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
 use crate::graph::{NamedGraph, ReadOptions, read_graphs};
-use crate::report::audit::{self as report, Audit};
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};

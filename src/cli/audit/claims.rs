@@ -2,10 +2,10 @@
 
 use super::super::{BAD_INPUT, GOOD, NOT};
 use super::AuditArguments;
+use super::rulings::{self, Ruled};
 use crate::audit::claims::{self, Claim, Named, Row, Ruling};
 use crate::graph::read::graphs;
 use crate::graph::{NamedGraph, ReadOptions, graph6, read_graphs};
-use crate::report::claims::{self as report, Ruled};
 use crate::verdict;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{BufWriter, Cursor, Write};
@@ -51,9 +51,9 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
             certificate: certificate.as_deref(),
         };
         if arguments.json {
-            report::json(&mut out, &line)?;
+            rulings::json(&mut out, &line)?;
         } else {
-            report::text(&mut out, &line)?;
+            rulings::text(&mut out, &line)?;
         }
         out.flush().context("standard output")?;
     }

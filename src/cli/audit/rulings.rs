@@ -9,15 +9,15 @@ use std::path::Path;
 
 /// The ruling on one row.
 #[derive(Clone, Copy, Debug)]
-pub struct Ruled<'a> {
+pub(super) struct Ruled<'a> {
     /// The row, from 1.
-    pub number: usize,
+    pub(super) number: usize,
     /// What was found.
-    pub ruling: &'a Ruling,
+    pub(super) ruling: &'a Ruling,
     /// The graph and its exact verdict.
-    pub decided: (&'a NamedGraph, &'a Verdict),
+    pub(super) decided: (&'a NamedGraph, &'a Verdict),
     /// The certificate, where one was written.
-    pub certificate: Option<&'a Path>,
+    pub(super) certificate: Option<&'a Path>,
 }
 
 fn word(ruling: &Ruling) -> &'static str {
@@ -40,7 +40,7 @@ fn reasons(ruling: &Ruling) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
     write!(out, "row {:4}  {:13}", ruled.number, word(ruled.ruling))?;
     let (input, exact) = ruled.decided;
     write!(
@@ -79,7 +79,7 @@ struct Json<'a> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
     let (input, exact) = ruled.decided;
     let line = Json {
         row: ruled.number,

@@ -9,28 +9,28 @@ use std::time::Duration;
 
 /// Both sides of one graph.
 #[derive(Clone, Debug)]
-pub struct Audit<'a> {
+pub(super) struct Audit<'a> {
     /// The graph.
-    pub input: &'a NamedGraph,
+    pub(super) input: &'a NamedGraph,
     /// The exact side.
-    pub exact: &'a Verdict,
+    pub(super) exact: &'a Verdict,
     /// Its time.
-    pub exact_time: Duration,
+    pub(super) exact_time: Duration,
     /// The tolerance of the float side.
-    pub tolerance: f64,
+    pub(super) tolerance: f64,
     /// The float side at the first draw.
-    pub outcome: Outcome,
+    pub(super) outcome: Outcome,
     /// Components of the float side; `None` if it is undecided.
-    pub components: Option<usize>,
+    pub(super) components: Option<usize>,
     /// Its time, components included.
-    pub float_time: Duration,
+    pub(super) float_time: Duration,
     /// Whether both sides agree at every draw, and on the number of components at the
     /// first.
-    pub agrees: bool,
+    pub(super) agrees: bool,
     /// How many draws there were.
-    pub draws: usize,
+    pub(super) draws: usize,
     /// At how many of them the float verdict was not the exact one.
-    pub misjudged: usize,
+    pub(super) misjudged: usize,
 }
 
 impl Audit<'_> {
@@ -45,7 +45,7 @@ impl Audit<'_> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let graph = &audit.input.graph;
     let exact = audit.exact;
     writeln!(out, "{}", audit.input.name)?;
@@ -144,7 +144,7 @@ struct Float {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let outcome = &audit.outcome;
     let line = Json {
         graph: &audit.input.name,
