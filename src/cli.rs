@@ -1,8 +1,8 @@
 //! The command line: arguments in, reports out; no mathematics.
 
 mod atomic;
-mod catalog;
 mod audit;
+mod catalog;
 mod certificates;
 mod check;
 mod compare;

@@ -1,9 +1,7 @@
 //! Reports: text for people, JSON for programs, tables and pictures.
 
 pub mod bars;
-pub mod canvas;
 pub mod catalog_page;
-pub mod claims;
 pub mod comparison;
 pub mod conditions;
 pub mod curves;

@@ -1,6 +1,6 @@
 //! Grouped bars on a logarithmic scale.
 
-use super::canvas::{Anchor, COLOURS, Svg};
+use super::svg::{COLOURS, Svg};
 
 /// What is drawn.
 #[derive(Clone, Debug)]
@@ -42,30 +42,30 @@ pub fn draw(chart: &Chart) -> String {
     let step = GAP + BAR * chart.series.len() as f64;
     let bottom = TOP + step * chart.groups.len() as f64;
     let place = |value: u64| LEFT + WIDTH * (value.max(1) as f64).log10() / f64::from(decades);
-    let mut svg = Svg::new(LEFT + WIDTH + 90.0, bottom + 40.0);
-    svg.text((LEFT, 22.0), Anchor::Start, &chart.title);
+    let mut svg = Svg::new((LEFT + WIDTH + 90.0) as u32, (bottom + 40.0) as u32);
+    svg.text([LEFT, 22.0], 12, "start", &chart.title);
     for (k, name) in chart.series.iter().enumerate() {
         let x = LEFT + 90.0 * k as f64;
-        svg.rectangle(x, 34.0, 10.0, 10.0, COLOURS[k % COLOURS.len()]);
-        svg.text((x + 15.0, 43.0), Anchor::Start, name);
+        svg.rectangle([x, 34.0], [10.0, 10.0], COLOURS[k % COLOURS.len()]);
+        svg.text([x + 15.0, 43.0], 12, "start", name);
     }
     for decade in 0..=decades {
         let x = place(10u64.saturating_pow(decade));
-        svg.line((x, TOP), (x, bottom), "#dddddd");
-        svg.text((x, bottom + 16.0), Anchor::Middle, &format!("1e{decade}"));
+        svg.line([x, TOP], [x, bottom], "stroke:#dddddd");
+        svg.text([x, bottom + 16.0], 12, "middle", &format!("1e{decade}"));
     }
     for (g, group) in chart.groups.iter().enumerate() {
         let y = TOP + step * g as f64 + GAP / 2.0;
         let middle = y + (step - GAP) / 2.0 + 4.0;
-        svg.text((LEFT - 8.0, middle), Anchor::End, &group.name);
+        svg.text([LEFT - 8.0, middle], 12, "end", &group.name);
         for (k, &value) in group.values.iter().enumerate() {
             let (y, end) = (y + BAR * k as f64, place(value));
-            svg.rectangle(LEFT, y, end - LEFT, BAR - 2.0, COLOURS[k % COLOURS.len()]);
-            svg.text(
-                (end + 4.0, y + BAR - 4.0),
-                Anchor::Start,
-                &value.to_string(),
+            svg.rectangle(
+                [LEFT, y],
+                [end - LEFT, BAR - 2.0],
+                COLOURS[k % COLOURS.len()],
             );
+            svg.text([end + 4.0, y + BAR - 4.0], 12, "start", &value.to_string());
         }
     }
     svg.finish()

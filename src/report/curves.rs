@@ -1,6 +1,6 @@
 //! Two populations on a logarithmic axis, and the errors of every threshold between them.
 
-use super::canvas::{Anchor, COLOURS, Svg};
+use super::svg::{COLOURS, Svg};
 
 /// What is drawn.
 #[derive(Clone, Debug)]
@@ -34,41 +34,43 @@ fn x(value: f64) -> f64 {
 /// the shares of errors by threshold.
 pub fn draw(picture: &Picture) -> String {
     let bottom = SECOND + HEIGHT;
-    let mut svg = Svg::new(LEFT + WIDTH + 30.0, bottom + 50.0);
-    svg.text((LEFT, 22.0), Anchor::Start, &picture.title);
+    let mut svg = Svg::new((LEFT + WIDTH + 30.0) as u32, (bottom + 50.0) as u32);
+    svg.text([LEFT, 22.0], 12, "start", &picture.title);
     for (k, (name, values)) in picture.populations.iter().enumerate() {
         let place = LEFT + 330.0 * k as f64;
-        svg.rectangle(place, 34.0, 10.0, 10.0, COLOURS[k]);
+        svg.rectangle([place, 34.0], [10.0, 10.0], COLOURS[k]);
         let text = format!("{name} ({})", values.len());
-        svg.text((place + 15.0, 43.0), Anchor::Start, &text);
+        svg.text([place + 15.0, 43.0], 12, "start", &text);
     }
     for (top, label) in [(TOP, "share a decade"), (SECOND, "share misjudged")] {
-        svg.line((LEFT, top), (LEFT, top + HEIGHT), "#000000");
+        svg.line([LEFT, top], [LEFT, top + HEIGHT], "stroke:#000000");
         svg.line(
-            (LEFT, top + HEIGHT),
-            (LEFT + WIDTH, top + HEIGHT),
-            "#000000",
+            [LEFT, top + HEIGHT],
+            [LEFT + WIDTH, top + HEIGHT],
+            "stroke:#000000",
         );
-        svg.text((LEFT, top - 6.0), Anchor::Start, label);
+        svg.text([LEFT, top - 6.0], 12, "start", label);
         for (y, text) in [(top, "1"), (top + HEIGHT / 2.0, "0.5"), (top + HEIGHT, "0")] {
-            svg.text((LEFT - 6.0, y + 4.0), Anchor::End, text);
+            svg.text([LEFT - 6.0, y + 4.0], 12, "end", text);
         }
         for decade in (-36..=4).step_by(4) {
             let at = (f64::from(decade), top + HEIGHT + 16.0);
             svg.text(
-                (x(10f64.powf(at.0)), at.1),
-                Anchor::Middle,
+                [x(10f64.powf(at.0)), at.1],
+                12,
+                "middle",
                 &format!("1e{decade}"),
             );
         }
     }
     svg.text(
-        (LEFT + WIDTH / 2.0, bottom + 36.0),
-        Anchor::Middle,
+        [LEFT + WIDTH / 2.0, bottom + 36.0],
+        12,
+        "middle",
         &picture.axis,
     );
     let mark = x(picture.mark);
-    svg.line((mark, TOP), (mark, bottom), "#888888");
+    svg.line([mark, TOP], [mark, bottom], "stroke:#888888");
     let bar = WIDTH / (DECADES.1 - DECADES.0) / 2.0;
     for (k, (_, values)) in picture.populations.iter().enumerate() {
         let total = values.len().max(1) as f64;
@@ -83,17 +85,22 @@ pub fn draw(picture: &Picture) -> String {
                 let left = x(10f64.powf(start)) + bar * k as f64;
                 // One member of many still shows.
                 let height = (HEIGHT * share).max(1.5);
-                svg.rectangle(left, TOP + HEIGHT - height, bar - 0.5, height, COLOURS[k]);
+                svg.rectangle(
+                    [left, TOP + HEIGHT - height],
+                    [bar - 0.5, height],
+                    COLOURS[k],
+                );
             }
         }
     }
     for (k, colour) in COLOURS.iter().enumerate().take(2) {
-        let points: Vec<(f64, f64)> = picture
+        let points: Vec<[f64; 2]> = picture
             .errors
             .iter()
-            .map(|(threshold, shares)| (x(*threshold), bottom - HEIGHT * shares[k]))
+            .map(|(threshold, shares)| [x(*threshold), bottom - HEIGHT * shares[k]])
             .collect();
-        svg.path(&points, colour);
+        let style = format!("fill:none;stroke-width:2;stroke:{colour}");
+        svg.polyline(&points, &style);
     }
     svg.finish()
 }
@@ -114,6 +121,6 @@ mod tests {
         // Zero stands in the leftmost decade, 5 in that of 1; each is half of two.
         assert!(svg.contains("<rect x=\"60.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
         assert!(svg.contains("<rect x=\"636.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
-        assert!(svg.contains("points=\"60.0,440.0 700.0,280.0 \""));
+        assert!(svg.contains("points=\"60.0,440.0 700.0,280.0\""));
     }
 }

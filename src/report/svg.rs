@@ -2,6 +2,12 @@
 
 use std::fmt::{Display, Write};
 
+/// Colours that are told apart by people who do not tell red from green (P. Tol's bright
+/// scheme).
+pub const COLOURS: [&str; 6] = [
+    "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377",
+];
+
 /// A picture: elements on a white ground.
 pub struct Svg {
     body: String,
@@ -41,6 +47,13 @@ impl Svg {
         self.element(format_args!(
             r#"<polyline points="{}" style="{style}"/>"#,
             text.join(" ")
+        ));
+    }
+
+    /// A filled rectangle: its upper left corner, width and height.
+    pub fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], fill: &str) {
+        self.element(format_args!(
+            r#"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" fill="{fill}"/>"#
         ));
     }
 
