@@ -1,151 +1,141 @@
-//! Cameras drawn from a seed (section 4 of the specification).
+//! Cameras drawn from a key stream, so that nobody can choose them (section 4 of the specification).
 
-use crate::chacha::Stream;
-use crate::modular::{Field, is_prime};
-use crate::rejection::{Checked, Rejection, ensure};
+use crate::algebra::{Field, Integers, Ring, is_prime};
+use crate::rejection::{Checked, ensure};
 use sha2::{Digest, Sha256};
 
-/// A 3 x 4 camera over some ring.
-pub(crate) type Camera<E> = [[E; 4]; 3];
-
-/// The key stream of a draw.
-fn stream(graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
-    stream_for(b"viewcert draw 1\n", graph, seed, draw)
+/// The key stream, as little-endian words of 64 bits.
+pub(crate) struct Stream {
+    key: [u32; 8],
+    block: [u64; 8],
+    /// How many words were taken; word 8 k is the first of block k.
+    taken: u64,
 }
 
-/// The key stream of the weights of plane flows at a draw.
-pub(crate) fn flow_weights(graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
-    stream_for(b"viewcert flow 1\n", graph, seed, draw)
-}
+impl Stream {
+    /// The stream of a draw; `label` is the line with which the key begins.
+    pub fn new(label: &str, graph: &[u8; 32], seed: u64, draw: u64) -> Checked<Stream> {
+        ensure!(draw < 1 << 53, "`draw` is 2^53 or more");
+        let key = [label.as_bytes(), graph, &seed.to_le_bytes(), &draw.to_le_bytes()].concat();
+        Ok(Stream::from_key(&Sha256::digest(key).into()))
+    }
 
-fn stream_for(purpose: &[u8; 16], graph: &[u8; 32], seed: u64, draw: u64) -> Stream {
-    let mut hash = Sha256::new();
-    hash.update(purpose);
-    hash.update(graph);
-    hash.update(seed.to_le_bytes());
-    hash.update(draw.to_le_bytes());
-    Stream::new(&hash.finalize().into())
-}
+    fn from_key(key: &[u8; 32]) -> Stream {
+        let word = |k| u32::from_le_bytes(std::array::from_fn(|byte| key[4 * k + byte]));
+        Stream { key: std::array::from_fn(word), block: [0; 8], taken: 0 }
+    }
 
-/// Centres modulo p for `nodes` nodes. Rejects a void draw.
-pub(crate) fn centres(field: &Field, graph: &[u8; 32], seed: u64, draw: u64, nodes: usize) -> Checked<Vec<[u64; 3]>> {
-    centres_from(&mut stream(graph, seed, draw), field, nodes)
-}
+    fn word(&mut self) -> u64 {
+        if self.taken.is_multiple_of(8) {
+            self.block = block(&self.key, self.taken / 8);
+        }
+        self.taken += 1;
+        self.block[(self.taken - 1) as usize % 8]
+    }
 
-/// A draw that begins by choosing its own prime (section 9): the field and the centres, if it is not void.
-pub(crate) fn centres_and_prime(
-    graph: &[u8; 32],
-    seed: u64,
-    draw: u64,
-    nodes: usize,
-) -> Checked<(Field, Vec<[u64; 3]>)> {
-    let mut stream = stream(graph, seed, draw);
-    loop {
-        let p = (1 << 61) + 2 * stream.below(1 << 60) + 1;
-        if is_prime(p) {
-            let field = Field::new(p)?;
-            return Ok((field, centres_from(&mut stream, &field, nodes)?));
+    /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has, until below.
+    pub fn below(&mut self, limit: u64) -> u64 {
+        let mask = (limit - 1).checked_ilog2().map_or(0, |top| u64::MAX >> (63 - top));
+        loop {
+            let value = self.word() & mask;
+            if value < limit {
+                return value;
+            }
         }
     }
 }
 
-fn centres_from(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<[u64; 3]>> {
-    let mut centre = || std::array::from_fn(|_| field.element(stream.below(field.prime())));
-    let centres: Vec<_> = (0..nodes).map(|_| centre()).collect();
-    all_different(&centres)?;
+/// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then the start is added.
+fn block(key: &[u32; 8], counter: u64) -> [u64; 8] {
+    let mut start = [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    start[4..12].copy_from_slice(key);
+    (start[12], start[13]) = (counter as u32, (counter >> 32) as u32);
+    let mut state = start;
+    for _ in 0..10 {
+        (0..4).for_each(|k| quarter(&mut state, [k, 4 + k, 8 + k, 12 + k]));
+        (0..4).for_each(|k| quarter(&mut state, [k, 4 + (k + 1) % 4, 8 + (k + 2) % 4, 12 + (k + 3) % 4]));
+    }
+    let word = |k: usize| u64::from(state[k].wrapping_add(start[k]));
+    std::array::from_fn(|k| word(2 * k) | word(2 * k + 1) << 32)
+}
+
+fn quarter(state: &mut [u32; 16], [a, b, c, d]: [usize; 4]) {
+    for (add, turn, with, by) in [(b, d, a, 16), (d, b, c, 12), (b, d, a, 8), (d, b, c, 7)] {
+        state[with] = state[with].wrapping_add(state[add]);
+        state[turn] = (state[turn] ^ state[with]).rotate_left(by);
+    }
+}
+
+/// A 3 x 4 camera over some ring.
+pub(crate) type Camera<E> = [[E; 4]; 3];
+
+/// A draw that begins by choosing its own prime (section 9).
+pub(crate) fn prime(stream: &mut Stream) -> Checked<Field> {
+    let mut numbers = std::iter::repeat_with(|| (1 << 61) + 2 * stream.below(1 << 60) + 1);
+    Field::new(numbers.find(|&p| is_prime(p)).unwrap_or(0))
+}
+
+/// Centres modulo p.
+pub(crate) fn centres(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<[u64; 3]>> {
+    let centres: Vec<_> = (0..nodes).map(|_| [(); 3].map(|()| field.element(stream.below(field.p)))).collect();
+    check_different(centres.iter().copied().map(Some))?;
     Ok(centres)
 }
 
-fn all_different<C: Ord + Clone>(centres: &[C]) -> Checked<()> {
-    let mut sorted = centres.to_vec();
-    sorted.sort_unstable();
-    ensure!(sorted.windows(2).all(|pair| pair[0] != pair[1]), "the draw is void: two nodes have the same centre");
+/// General cameras modulo p.
+pub(crate) fn general(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<Camera<u64>>> {
+    let camera = |_| [(); 3].map(|()| [(); 4].map(|()| field.element(stream.below(field.p))));
+    let cameras: Vec<Camera<u64>> = (0..nodes).map(camera).collect();
+    check_different(cameras.iter().map(|camera| {
+        let centre = centre(field, camera);
+        let inverse = field.inverse(centre.into_iter().find(|&entry| entry != 0)?);
+        Some(centre.map(|entry| field.mul(entry, inverse)))
+    }))?;
+    Ok(cameras)
+}
+
+/// Integer cameras with bounds A <= 100, B <= 12. Entries are at most 100 lcm(1 .. 12) < 2^22; those of F at most 24 times a
+/// fourth power, and those of J_P at most six such entries times another entry: below 2^118.
+pub(crate) fn integer(stream: &mut Stream, (a, b): (u64, u64), nodes: usize) -> Checked<Vec<Camera<i128>>> {
+    ensure!((1..=100).contains(&a) && (1..=12).contains(&b), "`numerator` or `denominator` is out of range");
+    let mut entry = || (i128::from(stream.below(2 * a + 1)) - i128::from(a), i128::from(stream.below(b)) + 1);
+    let camera = |_| {
+        let drawn = [(); 3].map(|()| [(); 4].map(|()| entry()));
+        let scale = drawn.iter().flatten().fold(1, |lcm, &(_, below)| lcm / gcd(lcm, below) * below);
+        drawn.map(|row| row.map(|(above, below)| scale / below * above))
+    };
+    let cameras: Vec<Camera<i128>> = (0..nodes).map(camera).collect();
+    check_different(cameras.iter().map(|camera| {
+        let centre = centre(&Integers, camera);
+        let sign = centre.into_iter().find(|&entry| entry != 0)?.signum();
+        let divisor = sign * centre.into_iter().fold(0, gcd);
+        Some(centre.map(|entry| entry / divisor))
+    }))?;
+    Ok(cameras)
+}
+
+/// Rejects a void draw: centres in normal form of which two agree, or one is missing.
+fn check_different<C: Ord>(centres: impl Iterator<Item = Option<C>>) -> Checked<()> {
+    let mut centres: Vec<Option<C>> = centres.collect();
+    centres.sort_unstable();
+    ensure!(centres.first().is_none_or(Option::is_some), "the draw is void: a camera has rank below 3");
+    ensure!(centres.windows(2).all(|pair| pair[0] != pair[1]), "the draw is void: two nodes have the same centre");
     Ok(())
 }
 
-/// General cameras modulo p. Rejects a void draw.
-pub(crate) fn general(
-    field: &Field,
-    graph: &[u8; 32],
-    seed: u64,
-    draw: u64,
-    nodes: usize,
-) -> Checked<Vec<Camera<u64>>> {
-    let mut stream = stream(graph, seed, draw);
-    let mut entry = || field.element(stream.below(field.prime()));
-    let cameras: Vec<_> = (0..nodes).map(|_| camera(&mut entry)).collect();
-    let mut centres = Vec::new();
-    for camera in &cameras {
-        let centre = [0, 1, 2, 3].map(|left_out| {
-            let [x, y, z] = minor_columns(camera, left_out);
-            let product = |a, b, c| field.mul(a, field.mul(b, c));
-            let plus = [product(x[0], y[1], z[2]), product(x[1], y[2], z[0]), product(x[2], y[0], z[1])];
-            let minus = [product(x[2], y[1], z[0]), product(x[0], y[2], z[1]), product(x[1], y[0], z[2])];
-            let minor = (0..3).fold(0, |sum, k| field.add(sum, field.sub(plus[k], minus[k])));
-            if left_out % 2 == 0 { minor } else { field.neg(minor) }
-        });
-        let first = centre.iter().copied().find(|&entry| entry != 0).ok_or_else(deficient)?;
-        centres.push(centre.map(|entry| field.mul(entry, field.inverse(first))));
-    }
-    all_different(&centres)?;
-    Ok(cameras)
-}
-
-/// Integer cameras with bounds A, B. Rejects a void draw.
-pub(crate) fn integer(
-    bounds: (i64, i64),
-    graph: &[u8; 32],
-    seed: u64,
-    draw: u64,
-    nodes: usize,
-) -> Checked<Vec<Camera<i128>>> {
-    let (a, b) = bounds;
-    ensure!((1..=100).contains(&a), "`numerator` is not from 1 to 100");
-    ensure!((1..=12).contains(&b), "`denominator` is not from 1 to 12");
-    let mut stream = stream(graph, seed, draw);
-    let (mut cameras, mut centres) = (Vec::new(), Vec::new());
-    for _ in 0..nodes {
-        let drawn = camera(&mut || {
-            let numerator = stream.below(2 * a as u64 + 1) as i128 - i128::from(a);
-            (numerator, stream.below(b as u64) as i128 + 1)
-        });
-        let scale = drawn.iter().flatten().fold(1, |lcm, &(_, denominator)| lcm / gcd(lcm, denominator) * denominator);
-        let camera = drawn.map(|row| row.map(|(numerator, denominator)| scale / denominator * numerator));
-        // Entries are below 100 * lcm(1..12) < 2^22, so that these minors are below 2^69.
-        let centre = [0, 1, 2, 3].map(|left_out| {
-            let [x, y, z] = minor_columns(&camera, left_out);
-            let minor = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
-                + x[2] * (y[0] * z[1] - y[1] * z[0]);
-            if left_out % 2 == 0 { minor } else { -minor }
-        });
-        let first = centre.iter().copied().find(|&entry| entry != 0).ok_or_else(deficient)?;
-        let divisor = centre.iter().fold(0, |divisor, &entry| gcd(divisor, entry)) * first.signum();
-        centres.push(centre.map(|entry| entry / divisor));
-        cameras.push(camera);
-    }
-    all_different(&centres)?;
-    Ok(cameras)
-}
-
-fn deficient() -> Rejection {
-    Rejection::new("the draw is void: a camera has rank below 3")
-}
-
-/// The rows of a camera without one column.
-fn minor_columns<E: Copy>(camera: &Camera<E>, left_out: usize) -> [[E; 3]; 3] {
-    camera.map(|row| std::array::from_fn(|k| row[k + usize::from(k >= left_out)]))
-}
-
-/// Twelve entries, row by row.
-fn camera<E>(entry: &mut impl FnMut() -> E) -> Camera<E> {
-    std::array::from_fn(|_| std::array::from_fn(|_| entry()))
+/// The centre of a camera: entry c is (-1)^c det (camera without column c). All are zero if the rank is below 3.
+pub(crate) fn centre<R: Ring>(ring: &R, [x, y, z]: &Camera<R::E>) -> [R::E; 4] {
+    // Columns in an order that makes for the sign.
+    [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]].map(|[a, b, c]| {
+        let term = |a: usize, b: usize, c: usize| ring.mul(x[a], ring.sub(ring.mul(y[b], z[c]), ring.mul(y[c], z[b])));
+        ring.add(ring.add(term(a, b, c), term(b, c, a)), term(c, a, b))
+    })
 }
 
 /// The greatest common divisor, not negative.
 pub(crate) fn gcd(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    a as i128
+    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,9 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
-use crate::evidence::{Findings, Piece, Strength};
-use crate::json::{Members, Value};
-use crate::rank::Model;
+use crate::document::{Claims, GraphName};
+use crate::evidence::{Model, Piece};
 use crate::rejection::{Checked, Rejection, Within, ensure};
-use std::fmt;
+use std::fmt::{self, Display};
 
 /// Whether the cameras are determined by the pairs of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,13 +16,30 @@ pub enum Verdict {
     NotFiniteSolvable,
 }
 
-impl Verdict {
-    /// The value as it stands in certificates.
-    pub fn name(self) -> &'static str {
-        match self {
+impl Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
             Verdict::Solvable => "solvable",
             Verdict::FiniteSolvable => "finite-solvable",
             Verdict::NotFiniteSolvable => "not-finite-solvable",
+        })
+    }
+}
+
+/// How sure a statement is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strength {
+    /// It is proved.
+    Proof,
+    /// It is wrong with probability at most 2 to this (negative) power, over the draws of cameras.
+    ErrorBound(i64),
+}
+
+impl Display for Strength {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Strength::Proof => f.write_str("proof"),
+            Strength::ErrorBound(exponent) => write!(f, "error at most 2^{exponent} over the draws"),
         }
     }
 }
@@ -31,7 +47,7 @@ impl Verdict {
 /// What a certificate proves. There is no way to come by one but a check that passed.
 #[derive(Clone, Debug)]
 pub struct Verified {
-    graph: Identity,
+    graph: String,
     model: Model,
     verdict: (Verdict, Strength),
     rank: (i64, Strength),
@@ -40,125 +56,70 @@ pub struct Verified {
     notes: Vec<String>,
 }
 
-/// The graph that was checked.
-#[derive(Clone, Debug)]
-pub(crate) struct Identity {
-    pub nodes: usize,
-    pub edges: usize,
-    pub sha256: String,
-}
-
-/// The strength of a statement that rests on several pieces.
-fn together(strengths: impl Iterator<Item = Strength>) -> Checked<Strength> {
-    let exponents: Vec<i64> = strengths
-        .filter_map(|strength| match strength {
-            Strength::Proof => None,
-            Strength::ErrorBound(exponent) => Some(exponent),
-        })
-        .collect();
-    let Some(largest) = exponents.iter().max() else {
-        return Ok(Strength::Proof);
-    };
-    let bits = (exponents.len() as u64 - 1).checked_ilog2().map_or(0, |top| i64::from(top) + 1);
-    ensure!(largest + bits <= -100, "the error bounds sum up to 2^{}, more than 2^-100", largest + bits);
-    Ok(Strength::ErrorBound(largest + bits))
-}
-
 /// Compares the claim with what follows from the pieces.
-pub(crate) fn verify(claim: &Value, graph: Identity, model: Model, pieces: &[Piece]) -> Checked<Verified> {
-    let required = model.required(graph.nodes);
-    let found = || pieces.iter().filter_map(|piece| piece.findings.as_ref());
-    let of_piece = |piece: &Piece, of: &dyn Fn(&Findings) -> i64| {
-        piece.findings.as_ref().map_or_else(|| model.required(piece.nodes), of)
-    };
-    let sum = |of: &dyn Fn(&Findings) -> i64| pieces.iter().map(|piece| of_piece(piece, of)).sum::<i64>();
-    let whole = matches!(pieces, [piece] if piece.nodes == graph.nodes);
-    let (lower, upper) = (sum(&|f| f.lower), sum(&|f| f.upper));
-    let drawn = |f: &Findings| f.drawn.filter(|&(rank, _)| rank < f.upper);
-    let at_draws = sum(&|f| drawn(f).map_or(f.upper, |(rank, _)| rank));
+pub(crate) fn verify(claims: &Claims, graph: &GraphName, model: Model, pieces: &[Piece]) -> Checked<Verified> {
+    let (required, claimed) = (model.required(graph.nodes), &claims.verdict);
+    let by = (&*claimed.strength, claimed.error_log2);
+    let verdict = decide(model, pieces, required, graph.nodes);
+    let verdict = verdict.and_then(|(verdict, errors)| compare((&claimed.value, verdict), by, Ok(errors)));
 
-    let verdict = || {
-        if whole && (found().next().is_none() || model == Model::Calibrated && lower == required) {
-            Ok((Verdict::Solvable, Strength::Proof))
-        } else if whole && lower == required {
-            Ok((Verdict::FiniteSolvable, Strength::Proof))
-        } else if upper < required {
-            Ok((Verdict::NotFiniteSolvable, Strength::Proof))
-        } else if at_draws < required {
-            let errors = found().filter_map(drawn).map(|(_, exponent)| Strength::ErrorBound(exponent));
-            Ok((Verdict::NotFiniteSolvable, together(errors)?))
-        } else {
-            Err(Rejection::new("the evidence decides neither way"))
-        }
-    };
-    let rank = || {
-        let gaps: Checked<Vec<_>> = found()
-            .filter(|f| f.lower < f.upper)
-            .map(|f| match f.drawn {
-                Some((rank, exponent)) if rank == f.lower => Ok(Strength::ErrorBound(exponent)),
-                _ => Err(Rejection::new(format!("a piece has a rank from {} to {}", f.lower, f.upper))),
-            })
-            .collect();
-        Ok((lower, together(gaps?.into_iter())?))
-    };
-    let components = || {
-        let separated = found().flat_map(|f| &f.separated);
-        let separated: Option<Vec<Strength>> = separated.copied().collect();
-        let separated = separated.ok_or_else(|| Rejection::new("classes of a piece are not separated"))?;
-        let count: usize = pieces.iter().map(Piece::components).sum();
-        Ok((count, together(separated.into_iter())?))
-    };
+    let (rank, claimed) = (pieces.iter().map(|piece| piece.lower).sum::<i64>(), &claims.rank);
+    let by = (&*claimed.strength, claimed.error_log2);
+    let gaps = pieces.iter().filter(|piece| piece.lower < piece.upper).map(|piece| match piece.drawn {
+        Some((rank, error)) if rank == piece.lower => Ok(error),
+        _ => Err(Rejection::new(format!("a piece has a rank from {} to {}", piece.lower, piece.upper))),
+    });
+    ensure!(claimed.required == required, "rank.required is {required}, not {}", claimed.required);
+    let rank = compare((&claimed.value, rank), by, gaps.collect());
 
-    let mut members = claim.members()?;
-    let verdict = read(&mut members, "verdict", |members| {
-        let found = verdict()?;
-        let value = members.read("value", Value::text)?;
-        ensure!(value == found.0.name(), "`{value}` is claimed, but the evidence gives `{}`", found.0.name());
-        Ok(found)
-    })?;
-    let rank = read(&mut members, "rank", |members| {
-        let found = rank()?;
-        let claimed = (members.read("value", Value::int)?, members.read("required", Value::int)?);
-        let (value, of) = claimed;
-        ensure!(
-            claimed == (found.0, required),
-            "{value} of {of} is claimed, but the evidence gives {} of {required}",
-            found.0
-        );
-        Ok(found)
-    })?;
-    let components = read(&mut members, "components", |members| {
-        let found = components()?;
-        let value = members.read("value", Value::count)?;
-        ensure!(value == found.0 as u64, "{value} is claimed, but the evidence gives {}", found.0);
-        Ok(found)
-    })?;
-    members.end()?;
-    let notes = found().flat_map(|f| f.notes.clone()).collect();
-    Ok(Verified { graph, model, verdict, rank, required, components, notes })
+    let (components, claimed) = (pieces.iter().map(|piece| piece.components).sum::<usize>(), &claims.components);
+    let by = (&*claimed.strength, claimed.error_log2);
+    let errors = pieces.iter().map(|piece| piece.separated.clone()).collect::<Option<Vec<_>>>();
+    let errors = errors.ok_or_else(|| Rejection::new("classes of a piece are not separated"));
+    let components = compare((&claimed.value, components), by, errors.map(|errors| errors.concat()));
+
+    Ok(Verified {
+        graph: format!("{} nodes, {} edges, SHA-256 {}", graph.nodes, graph.edges, graph.sha256),
+        verdict: verdict.within(|| "verdict".into())?,
+        rank: rank.within(|| "rank".into())?,
+        components: components.within(|| "components".into())?,
+        notes: pieces.iter().flat_map(|piece| piece.notes.clone()).collect(),
+        model,
+        required,
+    })
 }
 
-/// Reads one of the claims and compares its strength.
-fn read<T>(
-    members: &mut Members,
-    name: &str,
-    value: impl Fn(&mut Members) -> Checked<(T, Strength)>,
-) -> Checked<(T, Strength)> {
-    members.read(name, |claim| {
-        let mut members = claim.members()?;
-        let found = value(&mut members)?;
-        let strength = members.read("strength", Value::text)?;
-        let error = members.take("error_log2")?;
-        let claimed = match strength {
-            "proof" if error.is_null() => Strength::Proof,
-            "error-bound" => Strength::ErrorBound(error.int().within(|| "error_log2".into())?),
-            "proof" => return Err(Rejection::new("a proof has no `error_log2`")),
-            _ => return Err(Rejection::new(format!("unknown strength `{strength}`"))),
-        };
-        ensure!(claimed == found.1, "the strength is not `{claimed}`, but `{}`", found.1);
-        members.end()?;
-        Ok(found)
-    })
+/// The verdict that the pieces give, with the errors on which it rests.
+fn decide(model: Model, pieces: &[Piece], required: i64, nodes: usize) -> Checked<(Verdict, Vec<i64>)> {
+    let whole = matches!(pieces, [piece] if (piece.nodes, piece.lower) == (nodes, required));
+    if whole {
+        let unique = pieces[0].is_rigid || model == Model::Calibrated;
+        return Ok((if unique { Verdict::Solvable } else { Verdict::FiniteSolvable }, Vec::new()));
+    }
+    let upper: i64 = pieces.iter().map(|piece| piece.upper).sum();
+    let by_draws = |piece: &Piece| piece.drawn.filter(|&(rank, _)| upper >= required && rank < piece.upper);
+    let at_draws: i64 = pieces.iter().map(|piece| by_draws(piece).map_or(piece.upper, |(rank, _)| rank)).sum();
+    ensure!(at_draws < required, "the evidence decides neither way");
+    Ok((Verdict::NotFiniteSolvable, pieces.iter().filter_map(by_draws).map(|(_, error)| error).collect()))
+}
+
+/// Compares a claimed with the found value, and the claimed strength with that of a statement that rests on these errors.
+fn compare<C: Display, F: Display>(
+    (value, found): (&C, F), (strength, error_log2): (&str, Option<i64>), errors: Checked<Vec<i64>>,
+) -> Checked<(F, Strength)> {
+    let same = value.to_string() == found.to_string();
+    ensure!(same, "`{value}` is claimed, but the evidence gives `{found}`");
+    let errors = errors?;
+    let sum = |largest| largest + (errors.len() - 1).checked_ilog2().map_or(0, |top| i64::from(top) + 1);
+    let given = errors.iter().max().map_or(Strength::Proof, |largest| Strength::ErrorBound(sum(largest)));
+    let claimed = match (strength, error_log2) {
+        ("proof", None) => Strength::Proof,
+        ("error-bound", Some(exponent)) => Strength::ErrorBound(exponent),
+        _ => return Err(Rejection::new(format!("`{strength}` is no strength with this `error_log2`"))),
+    };
+    ensure!(claimed == given, "the strength is not `{claimed}`, but `{given}`");
+    ensure!(!matches!(given, Strength::ErrorBound(-99..)), "an error of more than 2^-100");
+    Ok((found, given))
 }
 
 impl Verified {
@@ -188,36 +149,19 @@ impl Verified {
     }
 }
 
-impl fmt::Display for Strength {
+impl Display for Verified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Strength::Proof => f.write_str("proof"),
-            Strength::ErrorBound(exponent) => {
-                write!(f, "error at most 2^{exponent} over the draws")
-            }
-        }
-    }
-}
-
-impl fmt::Display for Verified {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Identity { nodes, edges, sha256 } = &self.graph;
-        writeln!(f, "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}")?;
-        let (given, answer) = match (self.model, self.verdict.0) {
-            (Model::Calibrated, Verdict::NotFiniteSolvable) => ("essential", "leave infinitely many possibilities for"),
-            (Model::Calibrated, _) => ("essential", "determine"),
-            (Model::Projective, Verdict::Solvable) => ("fundamental", "determine uniquely"),
-            (Model::Projective, Verdict::FiniteSolvable) => {
-                ("fundamental", "determine up to finitely many possibilities")
-            }
-            (Model::Projective, Verdict::NotFiniteSolvable) => {
-                ("fundamental", "leave infinitely many possibilities for")
-            }
+        let Verified { graph, model, verdict: (verdict, by), rank, required, components, notes } = self;
+        let given = if *model == Model::Projective { "fundamental" } else { "essential" };
+        let answer = match (verdict, model) {
+            (Verdict::NotFiniteSolvable, _) => "leave infinitely many possibilities for",
+            (Verdict::FiniteSolvable, _) => "determine up to finitely many possibilities",
+            (Verdict::Solvable, Model::Projective) => "determine uniquely",
+            (Verdict::Solvable, Model::Calibrated) => "determine",
         };
-        let (verdict, strength) = self.verdict;
-        writeln!(f, "{}: generic {given} matrices {answer} the cameras ({strength})", verdict.name())?;
-        writeln!(f, "rank: {} of {} required ({})", self.rank.0, self.required, self.rank.1)?;
-        write!(f, "components: {} maximal ({})", self.components.0, self.components.1)?;
-        self.notes.iter().try_for_each(|note| write!(f, "\nalso: {note}"))
+        writeln!(f, "graph: {graph}\n{verdict}: generic {given} matrices {answer} the cameras ({by})")?;
+        writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;
+        write!(f, "components: {} maximal ({})", components.0, components.1)?;
+        notes.iter().try_for_each(|note| write!(f, "\nalso: {note}"))
     }
 }

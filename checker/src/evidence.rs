@@ -1,104 +1,89 @@
-//! The evidence of one piece, and what it amounts to (section 7 of the specification).
+//! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification).
 
+use crate::algebra::Field;
 use crate::cameras;
-use crate::counting::counting;
-use crate::formulation::{calibrated_motion, projective_motion};
-use crate::json::{Members, Value};
-use crate::pieces::{Core, Layout, Part, Structure};
-use crate::rank::{Draw, Draws, Lower, Model, Setting, draws, lower, read_draw_modulo};
+use crate::cameras::Stream;
+use crate::counting::check_counting;
+use crate::document::{self, Evidence, Kernel, Members, big};
+use crate::lower::{Draw, Lower, check_draws, check_lower, own_centres};
+use crate::matrices::edge_motion;
+use crate::pieces::{Core, Part, Structure};
 use crate::rejection::{Checked, Rejection, Within, ensure};
 
-/// How sure a statement is.
+/// The question: unknown or known intrinsic parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Strength {
-    /// It is proved.
-    Proof,
-    /// It is wrong with probability at most 2 to this (negative) power, over the draws of cameras.
-    ErrorBound(i64),
+pub enum Model {
+    /// Finite or unique solvability from fundamental matrices.
+    Projective,
+    /// Solvability from essential matrices: parallel rigidity in space.
+    Calibrated,
 }
 
-/// A piece.
-pub(crate) struct Piece {
-    pub nodes: usize,
-    /// `None` for a single body or edge.
-    pub findings: Option<Findings>,
-}
-
-impl Piece {
-    /// The number of its components.
-    pub fn components(&self) -> usize {
-        self.findings.as_ref().map_or(1, |findings| findings.components)
+impl Model {
+    /// The rank at which n >= 2 nodes are solvable up to finitely many solutions.
+    pub(crate) fn required(self, nodes: usize) -> i64 {
+        match self {
+            Model::Projective => 11 * nodes as i64 - 15,
+            Model::Calibrated => 3 * nodes as i64 - 4,
+        }
     }
 }
 
-/// What the evidence of a piece amounts to. Ranks are those of the piece, not of its core.
-pub(crate) struct Findings {
+/// What all evidence refers to.
+pub(crate) struct Setting<'a> {
+    pub model: Model,
+    pub sha256: [u8; 32],
+    pub structure: &'a Structure<'a>,
+}
+
+impl Setting<'_> {
+    /// The stream of a draw of cameras ("draw") or flows ("flow").
+    pub fn stream(&self, label: &str, seed: u64, draw: u64) -> Checked<Stream> {
+        Stream::new(&format!("viewcert {label} 1\n"), &self.sha256, seed, draw)
+    }
+}
+
+/// What is verified of a piece. Ranks are those of the piece, not of its core; errors are exponents of 2.
+pub(crate) struct Piece {
+    pub nodes: usize,
+    /// A single body or a single edge.
+    pub is_rigid: bool,
     pub lower: i64,
     pub upper: i64,
-    /// The rank at random draws with the exponent of its error.
+    /// The rank at random draws, with its error.
     pub drawn: Option<(i64, i64)>,
     pub components: usize,
-    /// How the classes of the piece, and those of pieces inside of classes, are separated; `None` if they are not.
-    pub separated: Vec<Option<Strength>>,
+    /// The errors with which classes here and inside of classes are separated; `None` if some are not.
+    pub separated: Option<Vec<i64>>,
     pub notes: Vec<String>,
 }
 
-/// Verifies all evidence of a piece.
-fn evaluate(list: &Value, setting: Setting, structure: &Structure, piece: &Part) -> Checked<Findings> {
-    let core = structure.core(piece)?;
-    let required = setting.model.required(structure.size(piece));
-    let of_piece = |rank: i64| required - (setting.model.required(core.nodes) - rank);
-    let mut bounds: Vec<Lower> = Vec::new();
-    let (mut upper, mut drawn, mut classes, mut kernels) = (required, None, None, Vec::new());
-    for (k, value) in list.list().within(|| "evidence".into())?.iter().enumerate() {
-        let mut members = value.members().within(|| format!("evidence[{k}]"))?;
-        let kind = members.read("kind", Value::text).within(|| format!("evidence[{k}]"))?;
-        let read = || {
-            match kind {
-                "counting" => upper = upper.min(counting(&mut members, setting.model, structure, piece)?),
-                "draws" => {
-                    ensure!(drawn.is_none(), "a second `draws` in the piece");
-                    drawn = Some(draws(&mut members, setting, &core)?);
-                }
-                "classes" => {
-                    ensure!(classes.is_none(), "a second `classes` in the piece");
-                    classes = Some(read_classes(&mut members, setting, structure, piece)?);
-                }
-                // Kernels need the classes and draws, which may come later.
-                "kernel" => {
-                    kernels.push((k, value));
-                    return Ok(());
-                }
-                _ => match lower(kind, &mut members, setting, &core)? {
-                    Some(bound) => bounds.push(bound),
-                    None => return Err(Rejection::new("unknown kind of evidence")),
-                },
-            }
-            members.end()
-        };
-        read().within(|| format!("evidence[{k}] ({kind})"))?;
+/// Verifies `rigid` and `pieces`, into which a set of members falls (section 6).
+pub(crate) fn check_pieces(
+    rigid: &Members, pieces: &[document::Piece], setting: &Setting, whole: &Part,
+) -> Checked<Vec<Piece>> {
+    let structure = setting.structure;
+    let mut parts: Vec<Part> = Vec::new();
+    if !(rigid.bodies.is_empty() && rigid.edges.is_empty()) {
+        let members = structure.part(&rigid.bodies, &rigid.edges).within(|| "rigid".into())?;
+        parts.extend(members.into_iter().map(|member| vec![member]));
     }
-    let single = Classes { owner: vec![0; piece.len()], count: 1, components: 1, separated: Vec::new() };
-    let classes = classes.unwrap_or(single);
-    let mut at = Vec::new();
-    for (k, value) in kernels {
-        let place = kernel(value, setting, &core, &classes, drawn.as_ref());
-        at.push(place.within(|| format!("evidence[{k}] (kernel)"))?);
+    let singles = parts.len();
+    for (k, piece) in pieces.iter().enumerate() {
+        parts.push(structure.part(&piece.bodies, &piece.edges).within(|| format!("pieces[{k}]"))?);
+        ensure!(parts[singles + k].len() >= 2, "pieces[{k}] has fewer than two bodies and edges");
     }
-
-    let best = bounds.iter().map(|bound| of_piece(bound.rank)).max();
-    let lower = best.ok_or_else(|| Rejection::new("no lower bound on the rank"))?;
-    ensure!(lower <= upper, "the lower bound {lower} contradicts the upper bound {upper}");
-    ensure!(classes.count > 1 || lower == required, "rank {lower} is proved, but one component needs {required}");
-    let meets = |draw: &Draw| bounds.iter().any(|bound| bound.at == Some(*draw) && of_piece(bound.rank) == upper);
-    let proved = classes.count == 1 || at.iter().any(|place| matches!(place, Place::Centres(draw) if meets(draw)));
-    let at_draw = |number: &u64| at.contains(&Place::Draw(*number));
-    let bounded = drawn.as_ref().filter(|draws| draws.numbers.iter().all(at_draw));
-    let own = if proved { Some(Strength::Proof) } else { bounded.map(|draws| Strength::ErrorBound(draws.error_log2)) };
-    let separated = std::iter::once(own).chain(classes.separated).collect();
-    let drawn = drawn.map(|draws| (of_piece(draws.rank), draws.error_log2));
-    let notes = bounds.into_iter().filter_map(|bound| bound.note).collect();
-    Ok(Findings { lower, upper, drawn, components: classes.components, separated, notes })
+    let laid_out = structure.owners(whole, &parts).and_then(|_| structure.check_acyclic(&parts));
+    laid_out.within(|| "pieces".into())?;
+    let check = |(k, part): (usize, &Part)| match k.checked_sub(singles) {
+        Some(k) => check_piece(&pieces[k].evidence, setting, part).within(|| format!("pieces[{k}]")),
+        None => {
+            let nodes = structure.nodes(part).len();
+            let (rank, separated, notes) = (setting.model.required(nodes), Some(Vec::new()), Vec::new());
+            Ok(Piece { nodes, is_rigid: true, lower: rank, upper: rank, drawn: None, components: 1, separated, notes })
+        }
+    };
+    parts.iter().enumerate().map(check).collect()
 }
 
 /// The motion classes of a piece.
@@ -106,133 +91,134 @@ struct Classes {
     /// The class of each member of the piece.
     owner: Vec<usize>,
     count: usize,
-    components: usize,
-    /// How the classes inside of classes are separated.
-    separated: Vec<Option<Strength>>,
+    /// The pieces inside of classes that are split, and the number of the other classes.
+    inside: Vec<Piece>,
+    others: usize,
+}
+
+/// Verifies all evidence of a piece.
+fn check_piece(evidence: &[Evidence], setting: &Setting, piece: &Part) -> Checked<Piece> {
+    let core = setting.structure.core(piece)?;
+    let nodes = setting.structure.nodes(piece).len();
+    let required = setting.model.required(nodes);
+    let of_piece = |rank: i64| required - (setting.model.required(core.nodes) - rank);
+    let mut classes = Classes { owner: vec![0; piece.len()], count: 1, inside: Vec::new(), others: 1 };
+    let (mut bounds, mut upper, mut drawn) = (Vec::<Lower>::new(), required, None);
+    let mut shown = Vec::new();
+    // Kernels need the classes and draws, which may come later.
+    let (kernels, others): (Vec<_>, Vec<_>) =
+        evidence.iter().enumerate().partition(|(_, one)| matches!(one, Evidence::Kernel(_)));
+    for (k, one) in others.into_iter().chain(kernels) {
+        let mut check = || {
+            match one {
+                Evidence::Counting(blocks) => upper = upper.min(check_counting(blocks, setting, piece)?),
+                Evidence::Draws(draws) => {
+                    ensure!(drawn.is_none(), "a second `draws` in the piece");
+                    let (numbers, error) = check_draws(draws, setting, &core)?;
+                    drawn = Some((draws, numbers, error));
+                }
+                Evidence::Classes(list) => {
+                    ensure!(classes.count == 1, "a second `classes` in the piece");
+                    classes = check_classes(list, setting, piece)?;
+                }
+                Evidence::Kernel(kernel) => {
+                    let draws = drawn
+                        .as_ref()
+                        .filter(|(draws, numbers, _)| draws.seed == kernel.seed && numbers.contains(&kernel.draw));
+                    shown.push(check_kernel(kernel, setting, &core, &classes, draws.is_some())?);
+                }
+                _ => bounds.push(check_lower(one, setting, &core)?),
+            }
+            Ok(())
+        };
+        check().within(|| format!("evidence[{k}] ({})", one.kind()))?;
+    }
+
+    let best = bounds.iter().map(|bound| of_piece(bound.rank)).max();
+    let lower = best.ok_or_else(|| Rejection::new("no lower bound on the rank"))?;
+    ensure!(lower <= upper, "the lower bound {lower} contradicts the upper bound {upper}");
+    ensure!(classes.count > 1 || lower == required, "rank {lower} is proved, but one component needs {required}");
+    // A motion shown at cameras where the rank is the generic one separates as a proof; one at each draw with its error.
+    let generic = |at: &Option<Draw>| bounds.iter().any(|bound| bound.at == *at && of_piece(bound.rank) == upper);
+    let proved = classes.count == 1 || shown.iter().any(|(at, _)| at.is_some() && generic(at));
+    let at_each = |numbers: &[u64]| numbers.iter().all(|&number| shown.contains(&(None, number)));
+    let own = match &drawn {
+        _ if proved => Some(Vec::new()),
+        Some((_, numbers, error)) if at_each(numbers) => Some(vec![*error]),
+        _ => None,
+    };
+    let components = classes.others + classes.inside.iter().map(|piece| piece.components).sum::<usize>();
+    let inside = classes.inside.into_iter().map(|piece| piece.separated);
+    let separated = std::iter::once(own).chain(inside).collect::<Option<Vec<_>>>().map(|errors| errors.concat());
+    let drawn = drawn.map(|(draws, _, error)| (of_piece(draws.rank), error));
+    let notes = bounds.into_iter().filter_map(|bound| bound.note).collect();
+    Ok(Piece { nodes, is_rigid: false, lower, upper, drawn, components, separated, notes })
 }
 
 /// Verifies `classes`, all but their separation.
-fn read_classes(members: &mut Members, setting: Setting, structure: &Structure, piece: &Part) -> Checked<Classes> {
-    let (classes, owner) = structure.read_partition(piece, "classes", members, |members, class| {
-        let evidence = members.read("evidence", Value::list)?;
-        let split = members.take("split")?;
-        ensure!(evidence.is_empty() || split.is_null(), "a class with evidence is not split");
-        if class.len() == 1 {
-            ensure!(evidence.is_empty() && split.is_null(), "a single body or edge needs neither evidence nor a split");
-            return Ok(Vec::new());
-        }
-        if !split.is_null() {
-            ensure!(setting.model == Model::Projective, "a split class in the calibrated model");
-            return split_class(split, setting, structure, class).within(|| "split".into());
-        }
-        let core = structure.core(class)?;
-        let mut best = i64::MIN;
-        for (k, value) in evidence.iter().enumerate() {
-            let read = || {
-                let mut members = value.members()?;
-                let kind = members.read("kind", Value::text)?;
-                let bound = lower(kind, &mut members, setting, &core).within(|| format!("({kind})"))?;
-                members.end()?;
-                bound.ok_or_else(|| Rejection::new(format!("`{kind}` is not a lower bound")))
-            };
-            best = best.max(read().within(|| format!("evidence[{k}]"))?.rank);
-        }
-        let required = setting.model.required(core.nodes);
-        ensure!(best == required, "the class is not proved to have the rank {required} of its core");
-        Ok(Vec::new())
-    })?;
-    ensure!(classes.len() > 1, "fewer than two classes");
-    let components = |(_, inside): &(Part, Vec<Piece>)| inside.iter().map(Piece::components).sum::<usize>().max(1);
-    let inside = classes.iter().flat_map(|(_, inside)| inside).filter_map(|piece| piece.findings.as_ref());
-    let separated = inside.flat_map(|findings| findings.separated.clone()).collect();
-    Ok(Classes { owner, count: classes.len(), components: classes.iter().map(components).sum(), separated })
-}
-
-/// The pieces of a class that is not rigid.
-fn split_class(value: &Value, setting: Setting, structure: &Structure, class: &Part) -> Checked<Vec<Piece>> {
-    let mut members = value.members()?;
-    let pieces = read_pieces(&mut members, setting, structure, class)?;
-    members.end()?;
-    Ok(pieces)
-}
-
-/// Reads and verifies `rigid` and `pieces`, into which a set of members falls (section 6).
-pub(crate) fn read_pieces(
-    members: &mut Members,
-    setting: Setting,
-    structure: &Structure,
-    whole: &Part,
-) -> Checked<Vec<Piece>> {
-    let mut layout = Layout::new(structure, whole);
-    let mut pieces = members.read("rigid", |value| {
-        let mut members = value.members()?;
-        let all = structure.read_part(&mut members)?;
-        members.end()?;
-        let bodies = all.bodies.into_iter().map(|body| Part { bodies: vec![body], edges: Vec::new() });
-        let edges = all.edges.into_iter().map(|edge| Part { bodies: Vec::new(), edges: vec![edge] });
-        let place = |part: Part| {
-            layout.place(&part)?;
-            Ok(Piece { nodes: structure.size(&part), findings: None })
-        };
-        bodies.chain(edges).map(place).collect::<Checked<Vec<_>>>()
-    })?;
-    for (k, value) in members.read("pieces", Value::list)?.iter().enumerate() {
-        let mut read = || {
-            let mut members = value.members()?;
-            let part = structure.read_part(&mut members)?;
-            ensure!(part.len() >= 2, "a piece with fewer than two bodies and edges");
-            layout.place(&part)?;
-            let findings = evaluate(members.take("evidence")?, setting, structure, &part)?;
-            members.end()?;
-            Ok(Piece { nodes: structure.size(&part), findings: Some(findings) })
-        };
-        pieces.push(read().within(|| format!("pieces[{k}]"))?);
+fn check_classes(evidence: &document::Classes, setting: &Setting, piece: &Part) -> Checked<Classes> {
+    let list = evidence.classes.iter().map(|class| (&class.bodies, &class.edges));
+    let (parts, owner) = setting.structure.partition(piece, list).within(|| "classes".into())?;
+    ensure!(parts.len() >= 2, "fewer than two classes");
+    let mut classes = Classes { owner, count: parts.len(), inside: Vec::new(), others: 0 };
+    for (k, (part, class)) in parts.iter().zip(&evidence.classes).enumerate() {
+        let inside = check_class(class, setting, part).within(|| format!("classes[{k}]"))?;
+        classes.others += usize::from(inside.is_none());
+        classes.inside.extend(inside.into_iter().flatten());
     }
-    layout.end().within(|| "pieces".into())?;
-    Ok(pieces)
+    Ok(classes)
 }
 
-/// Where a kernel vector was verified.
-#[derive(PartialEq)]
-enum Place {
-    Centres(Draw),
-    /// At this one of the draws of `draws`.
-    Draw(u64),
-}
-
-/// Verifies `kernel`.
-fn kernel(value: &Value, setting: Setting, core: &Core, classes: &Classes, drawn: Option<&Draws>) -> Checked<Place> {
-    let mut members = value.members()?;
-    members.take("kind")?;
-    let (field, at) = read_draw_modulo(&mut members)?;
-    let (prime, seed, number) = at;
-    let drawn = drawn.filter(|draws| draws.seed == seed && draws.numbers.contains(&number));
-    let at_draw = drawn.and_then(|_| cameras::centres_and_prime(setting.graph, seed, number, core.nodes).ok());
-    let (place, centres) = match at_draw {
-        Some((own, centres)) if own.prime() == prime => (Place::Draw(number), centres),
-        _ => (Place::Centres(at), cameras::centres(&field, setting.graph, seed, number, core.nodes)?),
-    };
-    let vector = members.read("vector", |list| {
-        let residue = |entry: &Value| {
-            let residue = entry.big()?;
-            ensure!(residue < prime, "{residue} is not a residue modulo {prime}");
-            Ok(field.element(residue))
+/// Verifies a class; returns the pieces into which it is split, if it is.
+fn check_class(class: &document::Class, setting: &Setting, part: &Part) -> Checked<Option<Vec<Piece>>> {
+    if part.len() == 1 || class.split.is_some() {
+        ensure!(class.evidence.is_empty(), "evidence for a class that is single or split");
+    }
+    if let Some(split) = &class.split {
+        ensure!(part.len() > 1 && setting.model == Model::Projective, "a split class that is single, or calibrated");
+        return check_pieces(&split.rigid, &split.pieces, setting, part).within(|| "split".into()).map(Some);
+    }
+    if part.len() > 1 {
+        let core = setting.structure.core(part)?;
+        let bound = |(k, one): (usize, &Evidence)| {
+            let lower = check_lower(one, setting, &core).within(|| format!("evidence[{k}] ({})", one.kind()))?;
+            Ok(lower.rank)
         };
-        list.list()?.iter().map(residue).collect::<Checked<Vec<u64>>>()
-    })?;
-    members.end()?;
-    let (motion_of, width): (fn(&_, &_, &_, &_, _) -> _, _) = match setting.model {
-        Model::Projective => (projective_motion, 12 * core.nodes),
-        Model::Calibrated => (calibrated_motion, 3 * core.nodes),
+        let ranks = class.evidence.iter().enumerate().map(bound).collect::<Checked<Vec<i64>>>()?;
+        let required = setting.model.required(core.nodes);
+        ensure!(ranks.contains(&required), "the class is not proved to have the rank {required} of its core");
+    }
+    Ok(None)
+}
+
+/// Verifies `kernel`, which may be at one of the numbers of `draws`. Returns the draw that it names by prime, seed and number,
+/// or `None` if it is at the one of this number that `draws` means.
+fn check_kernel(
+    kernel: &Kernel, setting: &Setting, core: &Core, classes: &Classes, may_be_drawn: bool,
+) -> Checked<(Option<Draw>, u64)> {
+    let (prime, seed, draw) = (big(&kernel.prime)?, big(&kernel.seed)?, kernel.draw);
+    let field = &Field::new(prime).within(|| "prime".into())?;
+    let own = may_be_drawn.then(|| own_centres(setting, seed, draw, core)).transpose()?;
+    let (at, centres) = match own {
+        Some((own, centres)) if own.p == prime => (None, centres),
+        _ => {
+            let mut stream = setting.stream("draw", seed, draw)?;
+            (Some((prime, seed, draw)), cameras::centres(&mut stream, field, core.nodes)?)
+        }
     };
-    ensure!(vector.len() == width, "`vector` has {} entries instead of {width}", vector.len());
+    let width = if setting.model == Model::Projective { 12 * core.nodes } else { 3 * core.nodes };
+    ensure!(kernel.vector.len() == width, "`vector` has {} entries instead of {width}", kernel.vector.len());
+    let vector = kernel.vector.iter().map(|entry| big(entry)).collect::<Checked<Vec<u64>>>()?;
+    let too_large = vector.iter().find(|&&entry| entry >= prime);
+    ensure!(too_large.is_none(), "{} is not a residue modulo {prime}", too_large.unwrap_or(&0));
+    let vector: Vec<u64> = vector.into_iter().map(|entry| field.element(entry)).collect();
     let mut motions: Vec<Option<Vec<u64>>> = vec![None; classes.count];
     for (edge, &member) in core.member.iter().enumerate() {
-        let motion = motion_of(&field, core, &centres, &vector, edge)?;
-        let known = motions[classes.owner[member]].get_or_insert_with(|| motion.clone());
-        ensure!(*known == motion, "class {} does not move as one", classes.owner[member]);
+        let (motion, class) = (edge_motion(field, core, &centres, &vector, edge)?, classes.owner[member]);
+        let same = *motions[class].get_or_insert_with(|| motion.clone()) == motion;
+        ensure!(same, "class {class} does not move as one");
     }
     motions.sort_unstable();
     ensure!(motions.windows(2).all(|pair| pair[0] != pair[1]), "two classes move alike");
-    Ok(place)
+    Ok((at, draw))
 }

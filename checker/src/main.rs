@@ -1,12 +1,9 @@
-//! `viewcert-check CERT [GRAPH]`: verifies a certificate; `-` is standard input.
-//!
-//! Exit codes: 0 verified, 1 rejected, 2 anything else (usage, files, a graph that cannot be read, output that nobody takes).
+//! `viewcert-check CERT [GRAPH]`: verifies a certificate.
 
 use std::ffi::OsString;
-use std::fs;
 use std::io::{self, Read, Write};
 use std::process::ExitCode;
-use viewcert_check::{Certificate, Graph};
+use viewcert_check::{Graph, check, graph_sha256};
 
 const USAGE: &str = "usage: viewcert-check CERT [GRAPH]
 
@@ -17,56 +14,38 @@ Exit codes: 0 verified, 1 rejected, 2 usage, files, or a graph that cannot be re
 
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
-    match run(&arguments) {
-        Ok((code, text)) => {
-            let mut output = io::stdout().lock();
-            // Nobody who reads the exit code only may take a lost answer for a good one.
-            match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-                Ok(()) => code,
-                Err(_) => ExitCode::from(2),
-            }
-        }
-        Err(message) => {
-            let _ = writeln!(io::stderr(), "viewcert-check: {message}");
-            ExitCode::from(2)
-        }
-    }
+    let printed = run(&arguments).and_then(|(code, text)| {
+        let mut output = io::stdout().lock();
+        // Nobody who reads the exit code only may take a lost answer for a good one.
+        output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(|error| error.to_string())?;
+        Ok(ExitCode::from(code))
+    });
+    printed.unwrap_or_else(|message| {
+        let _ = writeln!(io::stderr(), "viewcert-check: {message}");
+        ExitCode::from(2)
+    })
 }
 
-/// The answer with its exit code, or what kept the program from giving one.
-fn run(arguments: &[OsString]) -> Result<(ExitCode, String), String> {
+/// The exit code with the answer, or what kept the program from giving one.
+fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
     let (certificate, graph) = match arguments {
         // Also for --help: exit code 0 says that something was verified.
-        [option, ..] if option != "-" && option.as_encoded_bytes().starts_with(b"-") => {
-            return Err(USAGE.into());
-        }
-        [certificate] => (certificate, None),
-        [certificate, graph] => (certificate, Some(graph)),
+        [option, ..] if option != "-" && option.as_encoded_bytes().starts_with(b"-") => return Err(USAGE.into()),
+        [certificate] => (read(certificate)?, None),
+        [certificate, graph] if certificate == "-" && graph == "-" => return Err("both are standard input".into()),
+        [certificate, graph] => (read(certificate)?, Some((read(graph)?, graph.display()))),
         _ => return Err(USAGE.into()),
     };
-    if certificate == "-" && graph.is_some_and(|graph| graph == "-") {
-        return Err("the certificate and the graph cannot both be standard input".into());
-    }
-    let text = read(certificate)?;
-    let parsed = Certificate::parse(&text);
-    let outcome = match (parsed, graph) {
-        (Err(rejection), _) => Err(rejection),
-        (Ok(parsed), None) => parsed.check(None),
-        (Ok(parsed), Some(path)) => {
-            let graph = Graph::read(&read(path)?, parsed.graph_sha256());
-            parsed.check(Some(&graph.map_err(|error| format!("{}: {error}", path.display()))?))
-        }
-    };
-    Ok(match outcome {
-        Ok(verified) => {
-            (ExitCode::SUCCESS, verified.to_string().lines().map(|line| format!("VERIFIED {line}\n")).collect())
-        }
-        Err(rejection) => (ExitCode::from(1), format!("REJECTED: {rejection}\n")),
+    let graph = graph
+        .map(|(file, path)| Graph::read(&file, graph_sha256(&certificate)).map_err(|error| format!("{path}: {error}")));
+    Ok(match check(&certificate, graph.transpose()?.as_ref()) {
+        Ok(verified) => (0, verified.to_string().lines().map(|line| format!("VERIFIED {line}\n")).collect()),
+        Err(rejection) => (1, format!("REJECTED: {rejection}\n")),
     })
 }
 
 fn read(path: &OsString) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let outcome = if path == "-" { io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes) } else { fs::read(path) };
-    outcome.map_err(|error| format!("{}: {error}", path.display()))
+    let all = if path == "-" { io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes) } else { std::fs::read(path) };
+    all.map_err(|error| format!("{}: {error}", path.display()))
 }

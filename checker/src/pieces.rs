@@ -1,272 +1,216 @@
-//! Final bodies and loose edges, the pieces they form, and the cores of pieces (section 6 of the specification).
+//! Rigid bodies, rebuilt step by step (section 5 of the specification), the pieces between them, and their cores (section 6).
 
-use crate::bodies::read_edge;
+use crate::document::{Body, Merge, Pair, Source};
 use crate::graph::Graph;
-use crate::json::{Members, Value};
 use crate::rejection::{Checked, Rejection, Within, ensure};
+use std::collections::HashSet;
 
-/// A set of members: final bodies and loose edges, both in increasing order.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Part {
-    pub bodies: Vec<usize>,
-    pub edges: Vec<(u32, u32)>,
+type Nodes = HashSet<u32>;
+
+fn build(body: &Body, graph: &Graph, earlier: &mut [Option<Nodes>]) -> Checked<Nodes> {
+    let mut nodes = take(body.seed, graph, earlier).within(|| "seed".into())?;
+    for (k, &[v, a, b]) in body.add.iter().enumerate() {
+        add(&mut nodes, graph, v, [a, b]).within(|| format!("add[{k}]"))?;
+    }
+    for (k, step) in body.merge.iter().enumerate() {
+        merge(&mut nodes, graph, earlier, step).within(|| format!("merge[{k}]"))?;
+    }
+    Ok(nodes)
 }
 
-impl Part {
-    /// The number of members.
-    pub fn len(&self) -> usize {
-        self.bodies.len() + self.edges.len()
-    }
-
-    /// The positions here of the members of another part, bodies first.
-    fn positions(&self, other: &Part) -> impl Iterator<Item = Option<usize>> {
-        let edge = |edge| self.edges.binary_search(edge).ok().map(|position| self.bodies.len() + position);
-        let bodies = other.bodies.iter().map(|body| self.bodies.binary_search(body).ok());
-        bodies.chain(other.edges.iter().map(edge))
-    }
-
-    fn describe(&self, position: usize) -> String {
-        match self.bodies.get(position) {
-            Some(body) => format!("body {body}"),
-            None => format!("the edge {:?}", self.edges[position - self.bodies.len()]),
+/// An earlier body, which is consumed by this, or an edge.
+fn take(source: Source, graph: &Graph, earlier: &mut [Option<Nodes>]) -> Checked<Nodes> {
+    match source {
+        Source::Edge(pair) => graph.edge(pair).map(|_| Nodes::from(pair)),
+        Source::Body(k) => {
+            ensure!((k as usize) < earlier.len(), "{k} is not an earlier body");
+            earlier[k as usize].take().ok_or_else(|| Rejection::new(format!("body {k} is used a second time")))
         }
     }
 }
 
-/// The parts of a partition with what else was read of each, and for each member of the whole its part's number.
-type Partition<T> = (Vec<(Part, T)>, Vec<usize>);
-
-/// A final body. Only contacts matter to the rest: nodes that lie in another member, too.
-struct Body {
-    contacts: Vec<u32>,
-    /// The number of the other nodes.
-    inner: usize,
+fn add(nodes: &mut Nodes, graph: &Graph, v: u32, [a, b]: [u32; 2]) -> Checked<()> {
+    ensure!(a != b, "the two nodes of the body are the same");
+    for node in [a, b] {
+        ensure!(nodes.contains(&node), "node {node} is not in the body");
+        let joined = graph.edge([v.min(node), v.max(node)]).is_ok();
+        ensure!(joined, "{v} and {node} are not joined by an edge");
+    }
+    ensure!(nodes.insert(v), "node {v} is in the body already");
+    Ok(())
 }
 
-/// All members of the graph.
+fn merge(nodes: &mut Nodes, graph: &Graph, earlier: &mut [Option<Nodes>], step: &Merge) -> Checked<()> {
+    ensure!(step.with.len() < 2 || step.with[0] != step.with[1], "the two parts of the merge are the same");
+    let parts = step.with.iter().map(|&source| take(source, graph, earlier)).collect::<Checked<Vec<Nodes>>>()?;
+    let shared = match (parts.as_slice(), step.at.as_slice()) {
+        ([x], &[a, b]) => vec![(&*nodes, a), (x, a), (&*nodes, b), (x, b)],
+        ([x, y], &[a, b, c]) => vec![(&*nodes, a), (x, a), (&*nodes, b), (y, b), (x, c), (y, c)],
+        _ => return Err(Rejection::new("`with` and `at` have one and two, or two and three entries")),
+    };
+    ensure!(step.at.iter().collect::<HashSet<_>>().len() == step.at.len(), "the nodes of `at` are not different");
+    for (part, node) in shared {
+        ensure!(part.contains(&node), "node {node} is not where the merge needs it");
+    }
+    for mut part in parts {
+        // The smaller set goes into the larger one, so that all unions together take n log n steps.
+        if part.len() > nodes.len() {
+            std::mem::swap(nodes, &mut part);
+        }
+        nodes.extend(part);
+    }
+    Ok(())
+}
+
+/// A set of members, in increasing order. The number of a final body is its position in the list of bodies; that of a loose
+/// edge is the length of this list plus the edge's number.
+pub(crate) type Part = Vec<usize>;
+
+/// The members of the graph.
 pub(crate) struct Structure<'a> {
     graph: &'a Graph,
-    bodies: Vec<Option<Body>>,
-    /// The final bodies of every node, in increasing order.
-    bodies_of: Vec<Vec<u32>>,
-    /// All final bodies and loose edges.
+    /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
+    bodies: Vec<Option<Vec<u32>>>,
     pub everything: Part,
 }
 
-/// Pieces being laid out within a set of members: each member once, and no cycle of pieces.
-pub(crate) struct Layout<'s> {
-    structure: &'s Structure<'s>,
-    whole: &'s Part,
-    placed: Vec<bool>,
-    /// The nodes at which pieces can touch, and a union-find over their positions (first) and the pieces.
-    nodes: Vec<u32>,
-    touching: Forest,
-}
-
-/// The graph on which a piece or part is computed.
+/// The graph on which a part is computed; `member` is for each edge the position of its member in the part.
 pub(crate) struct Core {
     pub nodes: usize,
     pub edges: Vec<(usize, usize)>,
-    /// For each edge the position of its member in the part (bodies come first).
     pub member: Vec<usize>,
 }
 
-/// Union-find with path halving.
-pub(crate) struct Forest(Vec<usize>);
-
-impl Forest {
-    pub fn new(size: usize) -> Forest {
-        Forest((0..size).collect())
-    }
-
-    /// Adds one element.
-    fn add(&mut self) -> usize {
-        self.0.push(self.0.len());
-        self.0.len() - 1
-    }
-
-    pub fn find(&mut self, mut at: usize) -> usize {
-        while self.0[at] != at {
-            self.0[at] = self.0[self.0[at]];
-            at = self.0[at];
-        }
-        at
-    }
-
-    /// Whether the two were not connected before.
-    pub fn unite(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        // The smaller index stays the root: cheap, and short paths for what occurs here.
-        self.0[a.max(b)] = a.min(b);
-        a != b
-    }
-}
-
-impl<'s> Layout<'s> {
-    pub fn new(structure: &'s Structure<'s>, whole: &'s Part) -> Layout<'s> {
-        let mut nodes = structure.ends(whole);
-        nodes.dedup();
-        let touching = Forest::new(nodes.len());
-        Layout { structure, whole, placed: vec![false; whole.len()], nodes, touching }
-    }
-
-    /// Places one piece.
-    pub fn place(&mut self, part: &Part) -> Checked<()> {
-        for position in self.whole.positions(part) {
-            let position = position.ok_or_else(|| Rejection::new("a body or edge from elsewhere"))?;
-            ensure!(!std::mem::replace(&mut self.placed[position], true), "a body or edge that stands in two pieces");
-        }
-        let mut ends = self.structure.ends(part);
-        ends.dedup();
-        let piece = self.touching.add();
-        for node in ends {
-            let new = self.touching.unite(self.nodes.partition_point(|&other| other < node), piece);
-            ensure!(new, "the piece closes a cycle of pieces at node {node}");
-        }
-        Ok(())
-    }
-
-    /// Rejects if a member is in no piece.
-    pub fn end(self) -> Checked<()> {
-        let missing = self.placed.iter().position(|&placed| !placed);
-        ensure!(missing.is_none(), "{} is in no piece", self.whole.describe(missing.unwrap_or_default()));
-        Ok(())
-    }
-}
-
 impl<'a> Structure<'a> {
-    /// Finds which edges each body covers; rejects an edge covered twice.
-    pub fn new(graph: &'a Graph, finals: Vec<Option<Vec<u32>>>) -> Checked<Structure<'a>> {
-        let mut bodies_of = vec![Vec::new(); graph.nodes()];
-        for (k, nodes) in finals.iter().enumerate() {
-            for &node in nodes.iter().flatten() {
-                bodies_of[node as usize].push(k as u32);
-            }
+    /// Rebuilds all bodies and finds which edges each of them covers; rejects an edge covered twice.
+    pub fn new(graph: &'a Graph, list: &[Body]) -> Checked<Structure<'a>> {
+        let mut bodies = Vec::new();
+        for (k, body) in list.iter().enumerate() {
+            let nodes = build(body, graph, &mut bodies).within(|| format!("bodies[{k}]"))?;
+            bodies.push(Some(nodes));
         }
-        let mut touched = vec![false; graph.nodes()];
-        let mut everything = Part::default();
-        for (i, j) in graph.pairs() {
+        let bodies: Vec<_> = bodies.into_iter().map(|nodes| nodes.map(sorted)).collect();
+        let mut bodies_of = vec![Vec::new(); graph.nodes()];
+        for (k, nodes) in bodies.iter().enumerate() {
+            nodes.iter().flatten().for_each(|&node| bodies_of[node as usize].push(k));
+        }
+        let mut everything: Part = (0..bodies.len()).filter(|&k| bodies[k].is_some()).collect();
+        for (number, &[i, j]) in graph.pairs().iter().enumerate() {
             let (a, b) = (&bodies_of[i as usize], &bodies_of[j as usize]);
             // The shorter list is walked, the longer one searched: hubs in many bodies stay cheap.
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
-            let covering = short.iter().filter(|&body| long.binary_search(body).is_ok()).count();
+            let covering = short.iter().filter(|body| long.binary_search(body).is_ok()).count();
             ensure!(covering <= 1, "the edge [{i}, {j}] is covered by two bodies");
-            if covering == 0 {
-                everything.edges.push((i, j));
-                touched[i as usize] = true;
-                touched[j as usize] = true;
-            }
+            everything.extend((covering == 0).then_some(bodies.len() + number));
         }
-        let contact = |node: &u32| touched[*node as usize] || bodies_of[*node as usize].len() > 1;
-        let body = |nodes: Vec<u32>| {
-            let contacts: Vec<u32> = nodes.iter().copied().filter(contact).collect();
-            Body { inner: nodes.len() - contacts.len(), contacts }
-        };
-        everything.bodies = (0..finals.len()).filter(|&k| finals[k].is_some()).collect();
-        let bodies = finals.into_iter().map(|nodes| nodes.map(body)).collect();
-        Ok(Structure { graph, bodies, bodies_of, everything })
+        Ok(Structure { graph, bodies, everything })
     }
 
-    /// Reads the members `bodies` and `edges`. That they belong together is for `place` or `partition` to see.
-    pub fn read_part(&self, members: &mut Members) -> Checked<Part> {
-        let bodies = members.read("bodies", |list| list.increasing(self.bodies.len()))?;
-        let edges = members.read("edges", |list| {
-            let edges: Checked<Vec<_>> = list.list()?.iter().map(|edge| Ok(read_edge(edge, self.graph)?.0)).collect();
-            edges.and_then(|edges| {
-                ensure!(edges.windows(2).all(|pair| pair[0] < pair[1]), "the list is not increasing");
-                Ok(edges)
-            })
-        })?;
-        for &body in &bodies {
-            ensure!(self.bodies[body].is_some(), "body {body} is not a final one");
+    /// The part with these final bodies and edges. Whether the edges are loose is for `partition` to see.
+    pub fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
+        let mut part: Part = bodies.iter().map(|&body| body as usize).collect();
+        let wrong = part.iter().find(|&&body| self.bodies.get(body).is_none_or(|nodes| nodes.is_none()));
+        ensure!(wrong.is_none(), "{} is not a final body", wrong.unwrap_or(&0));
+        for &pair in edges {
+            part.push(self.bodies.len() + self.graph.edge(pair)?);
         }
-        Ok(Part { bodies, edges })
+        ensure!(part.is_sorted_by(|a, b| a < b), "the bodies or the edges are not increasing");
+        ensure!(!part.is_empty(), "neither bodies nor edges");
+        Ok(part)
     }
 
-    /// Takes a list of objects with `bodies` and `edges` that are a partition of a part; `rest` reads other members.
-    /// Returns the parts, and for each member of the whole (bodies first) the number of its part.
-    pub fn read_partition<T>(
-        &self,
-        whole: &Part,
-        name: &str,
-        members: &mut Members,
-        rest: impl Fn(&mut Members, &Part) -> Checked<T>,
-    ) -> Checked<Partition<T>> {
-        let mut parts = Vec::new();
-        let mut owner = vec![usize::MAX; whole.len()];
-        for (k, value) in members.read(name, Value::list)?.iter().enumerate() {
-            let mut read = || {
-                let mut members = value.members()?;
-                let part = self.read_part(&mut members)?;
-                ensure!(part.len() > 0, "no members");
-                for position in whole.positions(&part) {
-                    let position = position.ok_or_else(|| Rejection::new("a body or edge from elsewhere"))?;
-                    ensure!(owner[position] == usize::MAX, "a body or edge that stands in two parts");
-                    owner[position] = k;
-                }
-                let rest = rest(&mut members, &part)?;
-                members.end()?;
-                Ok((part, rest))
-            };
-            parts.push(read().within(|| format!("{name}[{k}]"))?);
-        }
-        ensure!(owner.iter().all(|&part| part != usize::MAX), "`{name}` leaves out a body or edge");
+    /// The parts of a list, which must be a partition of a whole, and the number of its part for each member of the whole.
+    pub fn partition<'p>(
+        &self, whole: &Part, list: impl Iterator<Item = (&'p Vec<u32>, &'p Vec<Pair>)>,
+    ) -> Checked<(Vec<Part>, Vec<usize>)> {
+        let parts = list.map(|(bodies, edges)| self.part(bodies, edges)).collect::<Checked<Vec<Part>>>()?;
+        let owner = self.owners(whole, &parts)?;
         Ok((parts, owner))
     }
 
-    /// The nodes of a part that matter: contacts of its bodies and ends of its edges, sorted, with repetitions.
-    fn ends(&self, part: &Part) -> Vec<u32> {
-        let mut ends: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
-        ends.extend(self.bodies_in(part).flat_map(|body| &body.contacts));
-        ends.sort_unstable();
-        ends
+    pub fn owners(&self, whole: &Part, parts: &[Part]) -> Checked<Vec<usize>> {
+        let mut owner = vec![usize::MAX; whole.len()];
+        for (k, &member) in parts.iter().enumerate().flat_map(|(k, part)| part.iter().map(move |member| (k, member))) {
+            let elsewhere = |_| Rejection::new(format!("{} is out of place", self.name(member)));
+            let owner = &mut owner[whole.binary_search(&member).map_err(elsewhere)?];
+            ensure!(*owner == usize::MAX, "{} is there twice", self.name(member));
+            *owner = k;
+        }
+        let missing = owner.iter().position(|&part| part == usize::MAX).map(|position| self.name(whole[position]));
+        ensure!(missing.is_none(), "{} is left out", missing.unwrap_or_default());
+        Ok(owner)
     }
 
-    fn bodies_in(&self, part: &Part) -> impl Iterator<Item = &Body> {
-        part.bodies.iter().filter_map(|&body| self.bodies[body].as_ref())
+    fn name(&self, member: usize) -> String {
+        let edge = member.checked_sub(self.bodies.len()).map(|edge| self.graph.pairs()[edge]);
+        edge.map_or(format!("body {member}"), |edge| format!("the edge {edge:?}"))
     }
 
-    /// The number of nodes of a part.
-    pub fn size(&self, part: &Part) -> usize {
-        let mut ends = self.ends(part);
-        ends.dedup();
-        ends.len() + self.bodies_in(part).map(|body| body.inner).sum::<usize>()
+    pub fn nodes_of(&self, member: usize) -> &[u32] {
+        let edge = || &self.graph.pairs()[member - self.bodies.len()][..];
+        self.bodies.get(member).map_or_else(edge, |body| body.as_deref().unwrap_or_default())
     }
 
-    /// Whether a node lies in a part.
-    pub fn contains(&self, part: &Part, node: u32) -> bool {
-        let bodies = self.bodies_of.get(node as usize).map_or(&[][..], |list| list);
-        bodies.iter().any(|&body| part.bodies.binary_search(&(body as usize)).is_ok())
-            || part.edges.iter().any(|&(i, j)| i == node || j == node)
-    }
-
-    /// The contacts or ends of each member of a part, bodies first.
-    pub fn member_ends(&self, part: &Part) -> impl Iterator<Item = Vec<u32>> {
-        let bodies = self.bodies_in(part).map(|body| body.contacts.clone());
-        bodies.chain(part.edges.iter().map(|&(i, j)| vec![i, j]))
-    }
-
-    /// The core of a part.
-    pub fn core(&self, part: &Part) -> Checked<Core> {
-        // Ends of loose edges are in the core in any case: they count twice.
-        let mut ends = self.ends(part);
-        ends.extend(part.edges.iter().flat_map(|&(i, j)| [i, j]));
-        ends.sort_unstable();
-        let mut nodes: Vec<u32> = ends.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+    /// The nodes of several members, in increasing order.
+    pub fn nodes(&self, part: &[usize]) -> Vec<u32> {
+        let mut nodes = sorted(part.iter().flat_map(|&member| self.nodes_of(member)).copied());
         nodes.dedup();
-        let number = |node: &u32| nodes.binary_search(node).ok();
+        nodes
+    }
+
+    /// Rejects a cycle of pieces.
+    pub fn check_acyclic(&self, pieces: &[Part]) -> Checked<()> {
+        let nodes = self.nodes(&pieces.concat());
+        let mut forest: Vec<usize> = (0..nodes.len() + pieces.len()).collect();
+        for (k, piece) in pieces.iter().enumerate() {
+            for node in self.nodes(piece) {
+                let new = unite(&mut forest, nodes.partition_point(|&other| other < node), nodes.len() + k);
+                ensure!(new, "a piece closes a cycle of pieces at node {node}");
+            }
+        }
+        Ok(())
+    }
+
+    pub fn core(&self, part: &Part) -> Checked<Core> {
+        // Nodes that come twice; ends of loose edges are in the core in any case.
+        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
+        let all = part.iter().flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
+        let all = sorted(all.flatten().copied());
+        let mut nodes: Vec<u32> = all.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+        nodes.dedup();
         let mut edges = Vec::new();
-        for (member, ends) in self.member_ends(part).enumerate() {
-            let chain: Vec<usize> = ends.iter().filter_map(number).collect();
-            ensure!(chain.len() >= 2, "a body of the part has fewer than two nodes in the core");
+        for (position, &member) in part.iter().enumerate() {
+            let chain: Vec<usize> = self.nodes_of(member).iter().flat_map(|node| nodes.binary_search(node)).collect();
+            ensure!(chain.len() >= 2, "{} has fewer than two nodes in the core", self.name(member));
             for distance in [1, 2] {
-                edges.extend(chain.iter().zip(&chain[distance..]).map(|(&i, &j)| (i, j, member)));
+                edges.extend(chain.iter().zip(&chain[distance..]).map(|(&i, &j)| ((i, j), position)));
             }
         }
         edges.sort_unstable();
-        let repeated = edges.windows(2).any(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1));
-        ensure!(!repeated, "an edge of the core arises twice");
-        let member = edges.iter().map(|&(_, _, member)| member).collect();
-        Ok(Core { nodes: nodes.len(), edges: edges.into_iter().map(|(i, j, _)| (i, j)).collect(), member })
+        ensure!(edges.windows(2).all(|pair| pair[0].0 != pair[1].0), "an edge of the core arises twice");
+        let (edges, member) = edges.into_iter().unzip();
+        Ok(Core { nodes: nodes.len(), edges, member })
     }
+}
+
+fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
+    let mut nodes: Vec<u32> = nodes.into_iter().collect();
+    nodes.sort_unstable();
+    nodes
+}
+
+/// The smallest index connected to this one in a forest of parents (union-find with path halving).
+pub(crate) fn root(forest: &mut [usize], mut at: usize) -> usize {
+    while forest[at] != at {
+        forest[at] = forest[forest[at]];
+        at = forest[at];
+    }
+    at
+}
+
+/// Connects two indices; returns whether they were not connected before.
+pub(crate) fn unite(forest: &mut [usize], a: usize, b: usize) -> bool {
+    let (a, b) = (root(forest, a), root(forest, b));
+    forest[a.max(b)] = a.min(b);
+    a != b
 }

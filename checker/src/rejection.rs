@@ -2,35 +2,26 @@
 
 use std::fmt;
 
-/// A certificate was not verified: which step failed, and why.
+/// A certificate was not verified, or a graph not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rejection {
-    step: String,
-    reason: String,
+    /// Where in the certificate, for example `pieces[0].evidence[1] (plane-flow)`; empty if it is not in one place.
+    pub step: String,
+    /// What is wrong there.
+    pub reason: String,
 }
 
-/// What every step of the check returns.
 pub(crate) type Checked<T> = Result<T, Rejection>;
 
 impl Rejection {
     pub(crate) fn new(reason: impl Into<String>) -> Rejection {
         Rejection { step: String::new(), reason: reason.into() }
     }
-
-    /// Where in the certificate, for example `pieces[0].evidence[1] (plane-flow)`.
-    pub fn step(&self) -> &str {
-        if self.step.is_empty() { "document" } else { &self.step }
-    }
-
-    /// What is wrong there.
-    pub fn reason(&self) -> &str {
-        &self.reason
-    }
 }
 
 impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.step(), self.reason)
+        write!(f, "{}{}{}", self.step, if self.step.is_empty() { "" } else { ": " }, self.reason)
     }
 }
 
@@ -53,9 +44,9 @@ pub(crate) trait Within {
 
 impl<T> Within for Checked<T> {
     fn within(self, step: impl FnOnce() -> String) -> Self {
-        self.map_err(|inner| Rejection {
-            step: if inner.step.is_empty() { step() } else { format!("{}.{}", step(), inner.step) },
-            reason: inner.reason,
+        self.map_err(|Rejection { step: inner, reason }| {
+            let dot = if inner.is_empty() { "" } else { "." };
+            Rejection { step: step() + dot + &inner, reason }
         })
     }
 }

@@ -143,11 +143,20 @@ fn members_are_there_once() {
         for (name, whole, value) in members(&text) {
             let member = &text[whole.clone()];
             let twice = rejection(&replaced(&text, &whole, &format!("{member},{member}")));
-            assert!(twice.ends_with(&format!("member `{name}` stands twice")), "{path}: {twice}");
+            assert!(twice.starts_with(&format!("duplicate field `{name}`")), "{path}: {twice}");
             let unknown = rejection(&replaced(&text, &whole, &format!("{member},\"extra\":1")));
-            assert!(unknown.ends_with("unknown member `extra`"), "{path}: {unknown}");
+            assert!(unknown.starts_with("unknown field `extra`"), "{path}: {unknown}");
             let renamed = rejection(&replaced(&text, &whole, &format!("\"{name}s\":{}", &text[value.clone()])));
-            assert!(renamed.ends_with(&format!("member `{name}` is missing")), "{path}: {renamed}");
+            let kind = "missing field `kind`".to_string();
+            let reasons = [format!("unknown field `{name}s`"), kind.clone()];
+            assert!(reasons.iter().any(|reason| renamed.starts_with(reason)), "{path}: {renamed}");
+            let removed = match text[whole.end..].strip_prefix(',') {
+                Some(rest) => format!("{}{rest}", &text[..whole.start]),
+                None => format!("{}{}", text[..whole.start].trim_end().trim_end_matches(','), &text[whole.end..]),
+            };
+            let missing = rejection(&removed);
+            let reasons = [format!("missing field `{name}`"), kind, A_MEMBER_IS_MISSING.into()];
+            assert!(reasons.iter().any(|reason| missing.starts_with(reason)), "{path}: {missing}");
             for other in ["7", "\"7\"", "[]", "{}", "[[0,1]]", "[[]]", "[7]", "[{}]"] {
                 let changed = replaced(&text, &value, other);
                 // Without its kernel an integer minor is a lower bound still.
@@ -158,6 +167,90 @@ fn members_are_there_once() {
             }
         }
     }
+}
+
+const A_MEMBER_IS_MISSING: &str = "a member is missing, or a list stands in the place of an object";
+
+/// Every object written as the list of its members' values; derived readers of JSON would take that.
+#[test]
+fn lists_are_no_objects() {
+    for (path, text) in certificates() {
+        // A brace after a letter stands in a graph6 line.
+        for (at, _) in text.match_indices('{').filter(|(at, _)| !text[..*at].ends_with(char::is_alphanumeric)) {
+            let object = at..value_end(text.as_bytes(), at);
+            let is_own = |whole: &Range<usize>| {
+                let before = text.get(at + 1..whole.start).unwrap_or("{");
+                whole.end < object.end && before.matches(['{', '[']).count() == before.matches(['}', ']']).count()
+            };
+            let values = members(&text).into_iter().filter(|(_, whole, _)| is_own(whole));
+            let values: Vec<&str> = values.map(|(_, _, value)| &text[value]).collect();
+            let rejected = rejection(&replaced(&text, &object, &format!("[{}]", values.join(","))));
+            let reasons = ["invalid type: sequence", "invalid type: string", "invalid length", A_MEMBER_IS_MISSING];
+            assert!(reasons.iter().any(|reason| rejected.starts_with(reason)), "{path}: {rejected}");
+        }
+    }
+}
+
+/// Spellings that a reader of JSON may take for the same, and which the specification does not allow.
+#[test]
+fn one_spelling_of_everything() {
+    for (name, old, new, wanted) in [
+        ("pair", "\"version\":1", "\"version\":1.0", "invalid type: floating point `1.0`, expected u64"),
+        ("pair", "\"version\":1", "\"version\":1e0", "invalid type: floating point `1.0`, expected u64"),
+        ("pair", "\"version\":1", "\"version\":01", "invalid number"),
+        ("pair", "[[0,1]]", "[[-0,1]]", "invalid type: floating point `-0.0`, expected u32"),
+        ("pair", "[[0,1]]", "[[0,1,1]]", "trailing characters"),
+        ("pair", "\"projective\"", "{\"projective\":null}", "invalid type: map, expected a string"),
+        ("pair", "\"graph6\":\"A_\"", "\"graph6\":[\"A_\"]", "invalid type: sequence, expected a string"),
+        ("merges", "\"with\":[1,2]", "\"with\":[[1],2]", "data did not match any variant of untagged enum Source"),
+        ("theta", "\"kind\":\"plane-flow\"", "\"kind\":2", "invalid type: integer `2`, expected variant identifier"),
+        (
+            "square",
+            "\"prime\":\"1000003\"",
+            "\"prime\":\"01000003\"",
+            "pieces[0].evidence[0] (plane-flow): `01000003` is",
+        ),
+        (
+            "square",
+            "\"prime\":\"1000003\"",
+            "\"prime\":\"+1000003\"",
+            "pieces[0].evidence[0] (plane-flow): `+1000003` is",
+        ),
+        (
+            "square",
+            "\"seed\":\"1\"",
+            "\"seed\":\"18446744073709551616\"",
+            "pieces[0].evidence[0] (plane-flow): `18446744",
+        ),
+        (
+            "square",
+            "\"draw\":0",
+            "\"draw\":9007199254740992",
+            "pieces[0].evidence[0] (plane-flow): `draw` is 2^53 or more",
+        ),
+        (
+            "integer",
+            "\"determinant\":\"-",
+            "\"determinant\":\"-0",
+            "pieces[0].evidence[0] (integer-minor): `determinant` is",
+        ),
+    ] {
+        let text = named(name);
+        assert!(text.contains(old), "{name} has no {old}");
+        let rejected = rejection(&text.replacen(old, new, 1));
+        let rejected_all = rejection(&text.replace(old, new));
+        assert!(rejected.starts_with(wanted), "{name}: {old} -> {new}: {rejected}");
+        assert!(rejected_all.starts_with(wanted), "{name}: {old} -> {new}: {rejected_all}");
+    }
+    // Evidence inside of a class is read in another way than that of a piece: its kind is a string all the same.
+    let text = named("theta");
+    let inner = text.rfind("\"kind\":\"plane-flow\"").unwrap();
+    let changed = format!("{}\"kind\":2{}", &text[..inner], &text[inner + 19..]);
+    assert_eq!(rejection(&changed), A_MEMBER_IS_MISSING);
+    let nested = "[".repeat(100_000);
+    assert!(rejection(&nested).starts_with("invalid type: sequence"));
+    let deep = named("pair").replace("\"A_\"", &nested);
+    assert!(check(deep.as_bytes(), None).is_err());
 }
 
 /// Members may stand in any order.
@@ -176,7 +269,7 @@ fn truncated_anywhere() {
         for end in 0..text.trim_end().len() {
             assert!(check(&text.as_bytes()[..end], None).is_err(), "{path} up to byte {end}");
         }
-        assert_eq!(rejection(&format!("{text}x")).split(": ").last(), Some("something follows the text"));
+        assert!(rejection(&format!("{text}x")).starts_with("trailing characters"));
     }
 }
 
@@ -196,8 +289,8 @@ fn another_graph() {
 #[test]
 fn reasons() {
     for (name, old, new, wanted) in [
-        ("square", "projective", "affine", "model: unknown model `affine`"),
-        ("square", "\"version\":1", "\"version\":2", "document: version 2 is unknown to this program"),
+        ("square", "projective", "affine", "unknown model `affine`"),
+        ("square", "\"version\":1", "\"version\":2", "version 2 is unknown to this program"),
         (
             "square",
             "\"bound\":28",
@@ -208,23 +301,30 @@ fn reasons() {
             "square",
             "1000003",
             "1000001",
-            "pieces[0].evidence[0] (plane-flow).prime: 1000001 is not a prime with 5 <= p < 2^62",
+            "pieces[0].evidence[0] (plane-flow): 1000001 is not a prime with 5 <= p < 2^62",
         ),
-        ("square", "\"plane-flow\"", "\"plain-flow\"", "pieces[0].evidence[0] (plain-flow): unknown kind of evidence"),
-        ("pair", "\"edges\":[[0,1]]", "\"edges\":[]", "pieces: the edge (0, 1) is in no piece"),
-        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[1,0]]", "rigid.edges: [1, 0] is not an edge (i < j) of the graph"),
-        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[0,1],[0,1]]", "rigid.edges: the list is not increasing"),
+        (
+            "square",
+            "\"plane-flow\"",
+            "\"plain-flow\"",
+            "unknown variant `plain-flow`, expected one of `minor`, `integer-minor`, `plane-flow`, `counting`, `draws`, \
+             `classes`, `kernel` at line 10 column 33",
+        ),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[]", "pieces: the edge [0, 1] is left out"),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[1,0]]", "rigid: [1, 0] is not an edge (i < j) of the graph"),
+        ("pair", "\"edges\":[[0,1]]", "\"edges\":[[0,1],[0,1]]", "rigid: the bodies or the edges are not increasing"),
         (
             "pair",
             "\"solvable\"",
             "\"finite-solvable\"",
             "claim.verdict: `finite-solvable` is claimed, but the evidence gives `solvable`",
         ),
-        ("pair", "\"value\":7", "\"value\":6", "claim.rank: 6 of 7 is claimed, but the evidence gives 7 of 7"),
-        ("path", "\"value\":2", "\"value\":1", "claim.components: 1 is claimed, but the evidence gives 2"),
+        ("pair", "\"value\":7", "\"value\":6", "claim.rank: `6` is claimed, but the evidence gives `7`"),
+        ("path", "\"value\":2", "\"value\":1", "claim.components: `1` is claimed, but the evidence gives `2`"),
         ("triangle", "[[2,0,1]]", "[[2,0,0]]", "bodies[0].add[0]: the two nodes of the body are the same"),
-        ("triangle", "[[2,0,1]]", "[[1,0,2]]", "bodies[0].add[0]: node 1 is in the body already"),
-        ("triangle", "\"bodies\":[0]", "\"bodies\":[1]", "rigid.bodies: 1 is out of range (0 to 1, exclusive)"),
+        ("triangle", "[[2,0,1]]", "[[2,0,1],[2,0,1]]", "bodies[0].add[1]: node 2 is in the body already"),
+        ("triangle", "[[2,0,1]]", "[[1,0,2]]", "bodies[0].add[0]: node 2 is not in the body"),
+        ("triangle", "\"bodies\":[0]", "\"bodies\":[1]", "rigid: 1 is not a final body"),
         ("merges", "\"with\":[1,2]", "\"with\":[1,1]", "bodies[3].merge[0]: the two parts of the merge are the same"),
         ("merges", "\"at\":[2,0,4]", "\"at\":[2,1,4]", "bodies[3].merge[0]: node 1 is not where the merge needs it"),
         ("merges", "\"with\":[[1,6],[5,6]]", "\"with\":[1,[5,6]]", "bodies[3].merge[1]: body 1 is used a second time"),
@@ -234,7 +334,7 @@ fn reasons() {
             "\"with\":[[1,5],[5,6]]",
             "bodies[3].merge[1]: [1, 5] is not an edge (i < j) of the graph",
         ),
-        ("merges", "\"bodies\":[3]", "\"bodies\":[0]", "rigid: body 0 is not a final one"),
+        ("merges", "\"bodies\":[3]", "\"bodies\":[0]", "rigid: 0 is not a final body"),
         (
             "integer",
             "\"determinant\":\"-",
@@ -275,16 +375,19 @@ fn hubs() {
     for (old, new, wanted) in [
         ("\"split\":[0,1]", "\"split\":[0,2]", ": part 2 is split, but does not contain node 0"),
         ("\"split\":[0,1]", "\"split\":[0]", ": the split graph has 1 components, not 2"),
-        ("\"split\":[0,1]", "\"split\":[1,0]", ".split: the list is not increasing"),
+        ("\"split\":[0,1]", "\"split\":[1,0]", ": `split` is not an increasing list of parts"),
         ("\"components\":2", "\"components\":1", ": the split graph has 2 components, not 1"),
         ("\"less\":1", "\"less\":2", ": the hub takes off 1, not 2"),
         ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2]]", ": a part is in no group"),
         ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2],[3],[0]]", ": part 0 stands in two groups"),
-        ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0],[1],[2],[3],[]]", ": a group without parts"),
+        (
+            "\"groups\":[[0],[1],[2],[3]]",
+            "\"groups\":[[0],[1],[2],[3],[]]",
+            ": groups[4] is not an increasing list of parts",
+        ),
         // One group of both edges at node 0 has four nodes, two of them copies: s = 8 + 2 + 2 - 8 = 4, 2 - 1 - 3 s = -11.
         ("\"groups\":[[0],[1],[2],[3]]", "\"groups\":[[0,1],[2],[3]]", ": the hub takes off -11, not 1"),
         ("\"node\":0", "\"node\":1", ": part 1 is split, but does not contain node 1"),
-        ("\"node\":0", "\"node\":4294967296", ": 4294967296 is not a node"),
     ] {
         let text = named("hub");
         assert!(text.contains(old), "no {old}");
@@ -299,15 +402,20 @@ fn classes() {
     let step = "pieces[0].evidence[2] (classes).classes[0]";
     for (name, old, new, wanted) in [
         ("pentagon-split", split, "null", ": the class is not proved to have the rank 18 of its core"),
-        ("pentagon-split", "[[0,1],[1,2]]},", "[[0,1]]},", ".split.pieces: the edge (1, 2) is in no piece"),
-        ("pentagon-split", "[[0,1],[1,2]]},", "[[0,1],[2,3]]},", ".split.rigid: a body or edge from elsewhere"),
+        ("pentagon-split", "[[0,1],[1,2]]},", "[[0,1]]},", ".split.pieces: the edge [1, 2] is left out"),
+        ("pentagon-split", "[[0,1],[1,2]]},", "[[0,1],[2,3]]},", ".split.pieces: the edge [2, 3] is out of place"),
         (
             "theta",
             "\"bound\":28",
             "\"bound\":27",
             ".split.pieces[0].evidence[1] (counting): the bound is 27, but the blocks sum up to 28",
         ),
-        ("rigid-class", "\"draw\":1", "\"draw\":-1", ".evidence[0].(plane-flow).draw: -1 is negative"),
+        (
+            "rigid-class",
+            "\"seed\":\"0\",\"draw\":1",
+            "\"seed\":\"x\",\"draw\":1",
+            ".evidence[0] (plane-flow): `x` is not an integer in range",
+        ),
     ] {
         let text = named(name);
         assert!(text.replace("\n ", "").contains(old), "{name} has no {old}");
@@ -331,5 +439,5 @@ fn kernel_vectors_that_prove_nothing() {
     let shifted: Vec<String> = (0..48).map(|k| format!("\"{}\"", u8::from(k == 0))).collect();
     assert!(with(shifted.join(",")).starts_with(&format!("{step}: not a kernel vector at the core edge")));
     assert_eq!(with(["\"0\""; 47].join(",")), format!("{step}: `vector` has 47 entries instead of 48"));
-    assert_eq!(with(["\"1000003\""; 48].join(",")), format!("{step}.vector: 1000003 is not a residue modulo 1000003"));
+    assert_eq!(with(["\"1000003\""; 48].join(",")), format!("{step}: 1000003 is not a residue modulo 1000003"));
 }

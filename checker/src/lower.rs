@@ -1,0 +1,231 @@
+//! Lower bounds on the rank of a core, and its rank at random draws (sections 7 and 9 of the specification).
+
+use crate::algebra::{Echelon, check_diagonal};
+use crate::algebra::{Field, Integers, Ring};
+use crate::cameras::{self, gcd};
+use crate::document::{Draws, Evidence, IntegerMinor, Minor, PlaneFlow, big};
+use crate::evidence::{Model, Setting};
+use crate::matrices::{bearings, camera_at, dot, jacobian, map_motion, scale_motion};
+use crate::pieces::Core;
+use crate::rejection::{Checked, Rejection, Within, ensure};
+use num_bigint::BigInt;
+use std::collections::HashSet;
+
+/// Prime, seed and number of a draw of centres.
+pub(crate) type Draw = (u64, u64, u64);
+
+/// A lower bound on the rank of a core.
+pub(crate) struct Lower {
+    pub rank: i64,
+    /// Where the rank is reached, if centres modulo p were drawn.
+    pub at: Option<Draw>,
+    /// For people: what else was verified.
+    pub note: Option<String>,
+}
+
+/// Verifies a lower bound.
+pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -> Checked<Lower> {
+    let lower = match evidence {
+        Evidence::PlaneFlow(flow) => check_plane_flow(flow, setting, core)?,
+        _ if setting.model == Model::Calibrated => return Err(Rejection::new("not evidence in the calibrated model")),
+        Evidence::Minor(minor) => check_minor(minor, setting, core)?,
+        Evidence::IntegerMinor(minor) => check_integer_minor(minor, setting, core)?,
+        _ => return Err(Rejection::new("not a lower bound")),
+    };
+    let most = setting.model.required(core.nodes);
+    ensure!(lower.rank <= most, "a rank of {} is impossible for {} nodes", lower.rank, core.nodes);
+    Ok(lower)
+}
+
+/// Sees that pivots are different rows and different columns of a matrix.
+fn check_pivots((rows, height): (&[usize], usize), (cols, width): (&[usize], usize)) -> Checked<()> {
+    ensure!(rows.len() == cols.len(), "{} pivot rows, but {} pivot columns", rows.len(), cols.len());
+    for (list, limit) in [(rows, height), (cols, width)] {
+        let different: HashSet<&usize> = list.iter().filter(|&&index| index < limit).collect();
+        ensure!(different.len() == list.len(), "the pivots are not different indices below {limit}");
+    }
+    Ok(())
+}
+
+/// A minor of J_P that does not vanish modulo p.
+fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> {
+    let (field, seed) = (&Field::new(big(&minor.prime)?)?, big(&minor.seed)?);
+    let mut stream = setting.stream("draw", seed, minor.draw)?;
+    let (cameras, at) = match minor.cameras.as_str() {
+        "general" => (cameras::general(&mut stream, field, core.nodes)?, None),
+        "centres" => {
+            let centres = cameras::centres(&mut stream, field, core.nodes)?;
+            let cameras = centres.iter().map(|centre| camera_at(field, centre)).collect();
+            (cameras, Some((field.p, seed, minor.draw)))
+        }
+        other => return Err(Rejection::new(format!("unknown kind of cameras `{other}`"))),
+    };
+    check_pivots((&minor.rows, 10 * core.edges.len()), (&minor.cols, 12 * core.nodes))?;
+    let mut echelon = Echelon::new(field, 12 * core.nodes);
+    for (k, (&row, &column)) in minor.rows.iter().zip(&minor.cols).enumerate() {
+        ensure!(echelon.push(jacobian(field, core, &cameras, row), Some(column)), "pivot {k} vanishes");
+    }
+    Ok(Lower { rank: minor.rows.len() as i64, at, note: None })
+}
+
+/// The ranks of N and of Lambda at centres modulo p.
+fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Checked<Lower> {
+    let PlaneFlow { rows, cols, flows, lambda_rows, lambda_cols, draw, .. } = evidence;
+    let (field, seed) = (&Field::new(big(&evidence.prime)?)?, big(&evidence.seed)?);
+    let centres = cameras::centres(&mut setting.stream("draw", seed, *draw)?, field, core.nodes)?;
+    let (edges, height, width) = (core.edges.len(), 2 * core.edges.len(), 3 * core.nodes);
+    check_pivots((rows, height), (cols, width)).within(|| "N".into())?;
+    // The left kernel of the pivots' columns has no more dimensions than this.
+    ensure!(*flows <= height - rows.len(), "{flows} flows, but only {} rows are not pivots", height - rows.len());
+    ensure!(setting.model == Model::Projective || *flows == 0, "flows in the calibrated model");
+    check_pivots((lambda_rows, 4 * flows), (lambda_cols, edges)).within(|| "Lambda".into())?;
+
+    let n = bearings(field, core, &centres);
+    let mut echelon = Echelon::new(field, width);
+    for (k, (&row, &column)) in rows.iter().zip(cols).enumerate() {
+        ensure!(echelon.push(n[row], Some(column)), "N: pivot {k} vanishes");
+    }
+    let mut is_pivot = vec![false; height];
+    rows.iter().for_each(|&row| is_pivot[row] = true);
+    let mut stream = setting.stream("flow", seed, *draw)?;
+    let mut lambda = vec![Vec::new(); 4 * flows];
+    for k in 0..*flows {
+        let prescribed = |&is_pivot: &bool| if is_pivot { 0 } else { field.element(stream.below(field.p)) };
+        let mut flow: Vec<u64> = is_pivot.iter().map(prescribed).collect();
+        let mut product = vec![0; width];
+        for (row, &weight) in n.iter().zip(&flow) {
+            row.iter().for_each(|&(at, value)| product[at] = field.add(product[at], field.mul(weight, value)));
+        }
+        // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
+        rows.iter().zip(echelon.solve(&mut product)).for_each(|(&row, entry)| flow[row] = field.neg(entry));
+        ensure!(product.iter().all(|&entry| entry == 0), "flow {k} does not vanish in all columns of N");
+        for &e in lambda_cols {
+            let term = |row: usize| n[row].map(|(_, value)| field.mul(flow[row], value));
+            let (a, b) = (term(2 * e), term(2 * e + 1));
+            let omega = [0, 1, 2].map(|k| field.add(a[k], b[k]));
+            let last = field.neg(dot(field, omega, centres[core.edges[e].1]));
+            (0..4).for_each(|entry| lambda[4 * k + entry].push(*omega.get(entry).unwrap_or(&last)));
+        }
+    }
+    let mut lambda: Vec<_> = lambda_rows.iter().map(|&row| std::mem::take(&mut lambda[row])).collect();
+    check_diagonal(field, &mut lambda).within(|| "Lambda".into())?;
+    let projective = 4 * rows.len() as i64 + lambda_rows.len() as i64 - edges as i64;
+    let rank = if setting.model == Model::Projective { projective } else { rows.len() as i64 };
+    Ok(Lower { rank, at: Some((field.p, seed, *draw)), note: None })
+}
+
+/// An exact minor of the integer J_P, and kernel vectors over the integers.
+fn check_integer_minor(evidence: &IntegerMinor, setting: &Setting, core: &Core) -> Checked<Lower> {
+    let IntegerMinor { numerator, denominator, rows, cols, draw, .. } = evidence;
+    let seed = big(&evidence.seed)?;
+    let mut stream = setting.stream("draw", seed, *draw)?;
+    let cameras = cameras::integer(&mut stream, (*numerator, *denominator), core.nodes)?;
+    let (nodes, height, width) = (core.nodes, 10 * core.edges.len(), 12 * core.nodes);
+    check_pivots((rows, height), (cols, width))?;
+    let entries = |row: usize| {
+        let entries = jacobian(&Integers, core, &cameras, row);
+        let content = entries.iter().fold(0, |content, &(_, value)| gcd(content, value)).max(1);
+        entries.into_iter().map(move |(column, value)| (column, value / content))
+    };
+    let dense_row = |&row: &usize| {
+        let mut dense = vec![0; width];
+        entries(row).for_each(|(column, value)| dense[column] = value);
+        cols.iter().map(|&column| dense[column].into()).collect()
+    };
+    match (&evidence.determinant, &evidence.prime) {
+        (Some(claimed), None) => {
+            let determinant = determinant(rows.iter().map(dense_row).collect())?;
+            ensure!(determinant.to_string() == *claimed, "`determinant` is not that of the minor");
+        }
+        (None, Some(prime)) => {
+            let field = &Field::new(big(prime)?)?;
+            let mut echelon = Echelon::new(field, width);
+            for (k, (&row, &column)) in rows.iter().zip(cols).enumerate() {
+                let row = entries(row).map(|(at, value)| (at, residue(field, &value.into())));
+                ensure!(echelon.push(row.collect::<Vec<_>>(), Some(column)), "pivot {k} vanishes");
+            }
+        }
+        _ => return Err(Rejection::new("one of `determinant` and `prime` is null, and one is not")),
+    }
+
+    let read = |vector: &Vec<String>| vector.iter().map(|entry| big(entry)).collect::<Checked<Vec<BigInt>>>();
+    let kernel = evidence.kernel.iter().map(read).collect::<Checked<Vec<_>>>().within(|| "kernel".into())?;
+    for (k, vector) in kernel.iter().enumerate() {
+        ensure!(vector.len() == width, "kernel[{k}] has {} entries instead of {width}", vector.len());
+        let product = |row| entries(row).map(|(column, value)| &vector[column] * value).sum::<BigInt>();
+        let inside = (0..height).all(|row| product(row) == BigInt::ZERO);
+        ensure!(inside, "kernel[{k}] is not in the kernel");
+    }
+    // Vectors that are independent modulo a prime are independent.
+    let field = &Field::new((1 << 61) - 1)?;
+    let residue = |value: &BigInt| residue(field, value);
+    let cameras: Vec<_> =
+        cameras.iter().map(|camera| camera.map(|row| row.map(|entry| residue(&entry.into())))).collect();
+    let scales = (0..nodes).map(|v| scale_motion(&cameras, v));
+    let listed = kernel.iter().map(|vector| vector.iter().map(residue).enumerate().collect());
+    let mut vectors = scales.chain((0..15).map(|ab| map_motion(&cameras, 4, ab))).chain(listed);
+    let mut echelon = Echelon::new(field, width);
+    let independent = kernel.is_empty() || vectors.all(|vector| echelon.push(vector, None));
+    ensure!(independent, "the kernel vectors depend on each other or on the trivial ones");
+    let r = rows.len();
+    let exact = r + nodes + 15 + kernel.len() == width;
+    let place = format!("integer cameras (seed {seed}, draw {draw})");
+    let note = exact.then(|| format!("a core of {nodes} nodes has rank exactly {r} over Q at {place}"));
+    Ok(Lower { rank: r as i64, at: None, note })
+}
+
+fn residue(field: &Field, value: &BigInt) -> u64 {
+    let residue = ((value % field.p) + field.p) % field.p;
+    field.element(residue.try_into().unwrap_or(0))
+}
+
+/// The determinant by fraction-free elimination (Bareiss 1968): all divisions are exact. Rejects a pivot that vanishes.
+fn determinant(mut matrix: Vec<Vec<BigInt>>) -> Checked<BigInt> {
+    let mut previous = BigInt::from(1);
+    for k in 0..matrix.len() {
+        let (done, rest) = matrix.split_at_mut(k + 1);
+        let pivot = &done[k][k];
+        ensure!(*pivot != BigInt::ZERO, "pivot {k} vanishes");
+        for row in rest {
+            let factor = std::mem::take(&mut row[k]);
+            for (entry, above) in row[k + 1..].iter_mut().zip(&done[k][k + 1..]) {
+                *entry = (&*entry * pivot - &factor * above) / &previous;
+            }
+        }
+        previous = pivot.clone();
+    }
+    Ok(previous)
+}
+
+/// Verifies `draws`; returns the numbers of the draws, and the exponent of the probability that the rank is larger.
+pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> Checked<(Vec<u64>, i64)> {
+    ensure!(setting.model == Model::Projective, "not evidence in the calibrated model");
+    let seed = big(&evidence.seed)?;
+    let bits = u64::from((setting.model.required(core.nodes) as u64).ilog2()) + 1;
+    ensure!(bits <= 36, "the core is too large for an error bound");
+    let count = 120u64.div_ceil(56 - bits);
+    ensure!(evidence.count == count, "`count` must be {count}");
+    // Void draws are rarer than 2^-50: a few more than wanted are enough.
+    let drawn = (0..count + 10).filter_map(|draw| Some((draw, own_centres(setting, seed, draw, core).ok()?)));
+    let (mut numbers, mut largest) = (Vec::new(), 0);
+    for (draw, (field, centres)) in drawn.take(count as usize) {
+        let cameras: Vec<_> = centres.iter().map(|centre| camera_at(&field, centre)).collect();
+        let mut echelon = Echelon::new(&field, 12 * core.nodes);
+        let found = (0..10 * core.edges.len()).filter(|&row| echelon.push(jacobian(&field, core, &cameras, row), None));
+        let found = found.count() as i64;
+        ensure!(found <= evidence.rank, "the rank at draw {draw} is {found}, larger than {}", evidence.rank);
+        largest = found.max(largest);
+        numbers.push(draw);
+    }
+    ensure!(numbers.len() as u64 == count, "too many draws are void");
+    ensure!(largest == evidence.rank, "no draw has rank {}", evidence.rank);
+    Ok((numbers, -((count * (56 - bits)) as i64)))
+}
+
+/// The field and the centres of a draw that begins by choosing its own prime (section 9).
+pub(crate) fn own_centres(setting: &Setting, seed: u64, draw: u64, core: &Core) -> Checked<(Field, Vec<[u64; 3]>)> {
+    let mut stream = setting.stream("draw", seed, draw)?;
+    let field = cameras::prime(&mut stream)?;
+    let centres = cameras::centres(&mut stream, &field, core.nodes)?;
+    Ok((field, centres))
+}
