@@ -79,7 +79,7 @@ fn replaced(text: &str, range: &Range<usize>, with: &str) -> String {
 
 #[test]
 fn all_are_verified() {
-    assert_eq!(certificates().len(), 16);
+    assert_eq!(certificates().len(), 17);
     for (path, text) in certificates() {
         let verified = check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{path}: {error}"));
         let solvable = ["pair", "triangle", "merges", "bipartite", "square-calibrated"];
@@ -340,6 +340,18 @@ fn reasons() {
             "\"determinant\":\"-",
             "\"determinant\":\"",
             "pieces[0].evidence[0] (integer-minor): `determinant` is not that of the minor",
+        ),
+        (
+            "integer",
+            "\"prime\":null",
+            "\"prime\":\"2305843009213693951\"",
+            "pieces[0].evidence[0] (integer-minor): one of `determinant` and `prime` is null, and one is not",
+        ),
+        (
+            "integer-prime",
+            "\"prime\":\"2305843009213693951\"",
+            "\"prime\":null",
+            "pieces[0].evidence[0] (integer-minor): one of `determinant` and `prime` is null, and one is not",
         ),
         ("draws", "\"count\":3", "\"count\":1", "pieces[0].evidence[1] (draws): `count` must be 3"),
         (
