@@ -346,7 +346,7 @@ fn too_large_is_said_at_once() {
         &["-", "--no-contraction", "--prime"],
     );
     assert_eq!(run.code, 2);
-    assert!(run.err.contains("GiB"), "{}", run.err);
+    assert!(run.err.contains("MiB"), "{}", run.err);
     let run = verify_with(
         cycle(2000).as_bytes(),
         &["-", "--no-contraction", "--rational"],

@@ -19,6 +19,10 @@ use crate::model::Model;
 /// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
 
+/// Largest matrix over the integers, in entries: J_P of 200 cameras and 250 pairs, or of 80
+/// cameras and 700 pairs; a minute or two.
+const MAX_INTEGERS: usize = 1 << 23;
+
 /// Largest matrix, in entries, that is eliminated whole over the integers: J_P of 14 cameras
 /// and 28 pairs.
 const MAX_FRACTION_FREE: usize = 168 * 280;
@@ -32,7 +36,7 @@ pub(super) fn modular(
     field: &PrimeField,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (_, cols) = size(graph)?;
+    let (_, cols) = size(graph, MAX_RESIDUES)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
     let matrix = skew::dense(field, &skew::jacobian(field, graph, &drawn.values), cols);
     let pivots = eliminate_mod(field, matrix).pivots();
@@ -53,7 +57,7 @@ pub(super) fn rational(
     denominator: u64,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (rows, cols) = size(graph)?;
+    let (rows, cols) = size(graph, MAX_INTEGERS)?;
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
@@ -115,16 +119,19 @@ fn witness(rows: &SparseRows<Integer>, cols: usize, pivots: Pivots) -> (Pivots, 
     (pivots, Witness::Determinant(done.determinant().clone()))
 }
 
-/// Rows and columns of J_P, unless it is too large for a dense elimination.
-fn size(graph: &Graph) -> Result<(usize, usize), VerdictError> {
+/// Rows and columns of J_P, unless it has more entries than the limit.
+fn size(graph: &Graph, limit: usize) -> Result<(usize, usize), VerdictError> {
     let (rows, cols) = (10 * graph.edges().len(), 12 * graph.nodes());
     let entries = rows.saturating_mul(cols);
-    if entries > MAX_RESIDUES {
+    if entries > limit {
         return Err(VerdictError::TooLarge {
             what: "the whole Jacobian",
             nodes: graph.nodes(),
             edges: graph.edges().len(),
-            needs: format!("{} GiB of memory", entries >> 27),
+            needs: format!(
+                "{} MiB of memory for residues alone, and an elimination in proportion",
+                entries >> 17
+            ),
             advice: "leave contraction on, and use --prime",
         });
     }
