@@ -70,6 +70,10 @@ impl Field {
         ((u128::from(residue) << 64) % u128::from(self.p)) as u64
     }
 
+    pub fn signed(&self, value: i128) -> u64 {
+        self.element(value.rem_euclid(i128::from(self.p)) as u64)
+    }
+
     pub fn neg(&self, a: u64) -> u64 {
         self.sub(0, a)
     }

@@ -58,41 +58,37 @@ pub struct Verified {
 
 /// Compares the claim with what follows from the pieces.
 pub(crate) fn verify(claims: &Claims, graph: &GraphName, model: Model, pieces: &[Piece]) -> Checked<Verified> {
-    let (required, claimed) = (model.required(graph.nodes), &claims.verdict);
-    let by = (&*claimed.strength, claimed.error_log2);
-    let verdict = decide(model, pieces, required, graph.nodes);
-    let verdict = verdict.and_then(|(verdict, errors)| compare((&claimed.value, verdict), by, Ok(errors)));
+    let (required, Claims { verdict, rank, components }) = (model.required(graph.nodes), claims);
+    let decided = decide(model, pieces, required, graph.nodes);
+    let compared = decided.and_then(|(found, errors)| {
+        compare((&verdict.value, found), (&verdict.strength, verdict.error_log2), Ok(errors))
+    });
+    let verdict = compared.within(|| "verdict".into())?;
 
-    let (rank, claimed) = (pieces.iter().map(|piece| piece.lower).sum::<i64>(), &claims.rank);
-    let by = (&*claimed.strength, claimed.error_log2);
+    ensure!(rank.required == required, "rank.required is {required}, not {}", rank.required);
     let gaps = pieces.iter().filter(|piece| piece.lower < piece.upper).map(|piece| match piece.drawn {
         Some((rank, error)) if rank == piece.lower => Ok(error),
         _ => Err(Rejection::new(format!("a piece has a rank from {} to {}", piece.lower, piece.upper))),
     });
-    ensure!(claimed.required == required, "rank.required is {required}, not {}", claimed.required);
-    let rank = compare((&claimed.value, rank), by, gaps.collect());
+    let found = pieces.iter().map(|piece| piece.lower).sum::<i64>();
+    let compared = compare((&rank.value, found), (&rank.strength, rank.error_log2), gaps.collect());
+    let rank = compared.within(|| "rank".into())?;
 
-    let (components, claimed) = (pieces.iter().map(|piece| piece.components).sum::<usize>(), &claims.components);
-    let by = (&*claimed.strength, claimed.error_log2);
     let errors = pieces.iter().map(|piece| piece.separated.clone()).collect::<Option<Vec<_>>>();
     let errors = errors.ok_or_else(|| Rejection::new("classes of a piece are not separated"));
-    let components = compare((&claimed.value, components), by, errors.map(|errors| errors.concat()));
+    let found = pieces.iter().map(|piece| piece.components).sum::<usize>();
+    let by = (&*components.strength, components.error_log2);
+    let compared = compare((&components.value, found), by, errors.map(|errors| errors.concat()));
+    let components = compared.within(|| "components".into())?;
 
-    Ok(Verified {
-        graph: format!("{} nodes, {} edges, SHA-256 {}", graph.nodes, graph.edges, graph.sha256),
-        verdict: verdict.within(|| "verdict".into())?,
-        rank: rank.within(|| "rank".into())?,
-        components: components.within(|| "components".into())?,
-        notes: pieces.iter().flat_map(|piece| piece.notes.clone()).collect(),
-        model,
-        required,
-    })
+    let notes = pieces.iter().flat_map(|piece| piece.notes.clone()).collect();
+    let graph = format!("{} nodes, {} edges, SHA-256 {}", graph.nodes, graph.edges, graph.sha256);
+    Ok(Verified { graph, model, verdict, rank, required, components, notes })
 }
 
 /// The verdict that the pieces give, with the errors on which it rests.
 fn decide(model: Model, pieces: &[Piece], required: i64, nodes: usize) -> Checked<(Verdict, Vec<i64>)> {
-    let whole = matches!(pieces, [piece] if (piece.nodes, piece.lower) == (nodes, required));
-    if whole {
+    if matches!(pieces, [piece] if (piece.nodes, piece.lower) == (nodes, required)) {
         let unique = pieces[0].is_rigid || model == Model::Calibrated;
         return Ok((if unique { Verdict::Solvable } else { Verdict::FiniteSolvable }, Vec::new()));
     }

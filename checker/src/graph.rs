@@ -3,6 +3,7 @@
 use crate::document::{GraphName, Pair};
 use crate::rejection::{Checked, Rejection, ensure};
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// A simple graph.
@@ -168,18 +169,13 @@ fn number(label: &[u8]) -> Option<u64> {
 }
 
 impl GraphName {
-    /// The graph that the certificate holds, which must be the one that it names.
-    pub fn embedded(&self) -> Checked<Option<Graph>> {
-        let graph = self.graph6.as_ref().map(|line| Graph::from_graph6(line.as_bytes())).transpose()?;
-        let hash = graph.as_ref().map(|graph| hex(&graph.sha256()));
-        ensure!(hash.is_none_or(|hash| hash == self.sha256), "`graph6` is not the graph with this `sha256`");
-        Ok(graph)
-    }
-
-    /// Sees that a graph is the named one; returns it with its hash.
-    pub fn identify<'g>(&self, graph: Option<&'g Graph>) -> Checked<(&'g Graph, [u8; 32])> {
+    /// The graph that the certificate is about, with its hash: the given one, or else the one that it holds (section 3).
+    pub fn find<'g>(&self, given: Option<&'g Graph>) -> Checked<(Cow<'g, Graph>, [u8; 32])> {
+        let held = self.graph6.as_ref().map(|line| Graph::from_graph6(line.as_bytes())).transpose()?;
+        let same = held.as_ref().is_none_or(|graph| hex(&graph.sha256()) == self.sha256);
+        ensure!(same, "`graph6` is not the graph with this `sha256`");
         let missing = || Rejection::new("the certificate does not hold the graph, and none is given");
-        let graph = graph.ok_or_else(missing)?;
+        let graph = given.map(Cow::Borrowed).or(held.map(Cow::Owned)).ok_or_else(missing)?;
         let (hash, nodes, edges) = (graph.sha256(), graph.nodes(), graph.edges());
         ensure!(hex(&hash) == self.sha256, "the graph has another hash than `sha256`");
         let same = (nodes, edges) == (self.nodes, self.edges) && edges >= 1;

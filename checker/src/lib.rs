@@ -46,28 +46,47 @@ use rejection::{Within, ensure};
 /// assert_eq!(verified.verdict().0, viewcert_check::Verdict::Solvable);
 /// ```
 pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Rejection> {
-    let document = &document::parse(certificate)?;
-    ensure!(document.format == "viewcert certificate", "`format` is not \"viewcert certificate\"");
-    ensure!(document.version == 1, "version {} is unknown to this program", document.version);
-    let model = match document.model.as_str() {
-        "projective" => Model::Projective,
-        "calibrated" => Model::Calibrated,
-        other => return Err(Rejection::new(format!("unknown model `{other}`"))),
-    };
-    let name = &document.graph;
-    let embedded = name.embedded().within(|| "graph".into())?;
-    let graph = graph.or(embedded.as_ref());
-    let (graph, sha256) = name.identify(graph).within(|| "graph".into())?;
-    let structure = &pieces::Structure::new(graph, &document.bodies)?;
-    let setting = evidence::Setting { model, sha256, structure };
-    let pieces = evidence::check_pieces(&document.rigid, &document.pieces, &setting, &structure.everything)?;
-    claim::verify(&document.claim, name, model, &pieces).within(|| "claim".into())
+    Certificate::parse(certificate)?.check(graph)
 }
 
-/// The hash of the graph that a certificate names, to find that graph in a file of many.
-pub fn graph_sha256(certificate: &[u8]) -> Option<[u8; 32]> {
-    let document = document::parse(certificate).ok()?;
-    let digits = document.graph.sha256.as_bytes().chunks(2);
-    let byte = |pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
-    digits.map(byte).collect::<Option<Vec<u8>>>()?.try_into().ok()
+/// A certificate that has been parsed, but not verified.
+#[derive(Debug)]
+pub struct Certificate(document::Document);
+
+impl Certificate {
+    /// Reads the JSON text.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &[u8]) -> Result<Certificate, Rejection> {
+        document::parse(text).map(Certificate)
+    }
+
+    /// The hash of the graph that the certificate names, to find that graph in a file of many.
+    pub fn graph_sha256(&self) -> Option<[u8; 32]> {
+        let digits = self.0.graph.sha256.as_bytes().chunks(2);
+        let byte = |pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
+        digits.map(byte).collect::<Option<Vec<u8>>>()?.try_into().ok()
+    }
+
+    /// See [`check`].
+    ///
+    /// # Errors
+    /// The first thing that cannot be verified.
+    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Rejection> {
+        let Certificate(document) = self;
+        ensure!(document.format == "viewcert certificate", "`format` is not \"viewcert certificate\"");
+        ensure!(document.version == 1, "version {} is unknown to this program", document.version);
+        let model = match document.model.as_str() {
+            "projective" => Model::Projective,
+            "calibrated" => Model::Calibrated,
+            other => return Err(Rejection::new(format!("unknown model `{other}`"))),
+        };
+        let name = &document.graph;
+        let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
+        let structure = &pieces::Structure::new(&graph, &document.bodies)?;
+        let setting = evidence::Setting { model, sha256, structure };
+        let pieces = evidence::check_pieces(&document.rigid, &document.pieces, &setting, &structure.everything)?;
+        claim::verify(&document.claim, name, model, &pieces).within(|| "claim".into())
+    }
 }

@@ -47,6 +47,18 @@ fn check_pivots((rows, height): (&[usize], usize), (cols, width): (&[usize], usi
     Ok(())
 }
 
+/// Eliminates along pivots, none of which may vanish.
+fn eliminate<'f, E: IntoIterator<Item = (usize, u64)>>(
+    field: &'f Field, (rows, height): (&[usize], usize), (cols, width): (&[usize], usize), row: impl Fn(usize) -> E,
+) -> Checked<Echelon<'f>> {
+    check_pivots((rows, height), (cols, width))?;
+    let mut echelon = Echelon::new(field, width);
+    for (k, (&number, &column)) in rows.iter().zip(cols).enumerate() {
+        ensure!(echelon.push(row(number), Some(column)), "pivot {k} vanishes");
+    }
+    Ok(echelon)
+}
+
 /// A minor of J_P that does not vanish modulo p.
 fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> {
     let (field, seed) = (&Field::new(big(&minor.prime)?)?, big(&minor.seed)?);
@@ -60,11 +72,8 @@ fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> 
         }
         other => return Err(Rejection::new(format!("unknown kind of cameras `{other}`"))),
     };
-    check_pivots((&minor.rows, 10 * core.edges.len()), (&minor.cols, 12 * core.nodes))?;
-    let mut echelon = Echelon::new(field, 12 * core.nodes);
-    for (k, (&row, &column)) in minor.rows.iter().zip(&minor.cols).enumerate() {
-        ensure!(echelon.push(jacobian(field, core, &cameras, row), Some(column)), "pivot {k} vanishes");
-    }
+    let (rows, cols) = ((&*minor.rows, 10 * core.edges.len()), (&*minor.cols, 12 * core.nodes));
+    eliminate(field, rows, cols, |row| jacobian(field, core, &cameras, row))?;
     Ok(Lower { rank: minor.rows.len() as i64, at, note: None })
 }
 
@@ -74,17 +83,13 @@ fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Che
     let (field, seed) = (&Field::new(big(&evidence.prime)?)?, big(&evidence.seed)?);
     let centres = cameras::centres(&mut setting.stream("draw", seed, *draw)?, field, core.nodes)?;
     let (edges, height, width) = (core.edges.len(), 2 * core.edges.len(), 3 * core.nodes);
-    check_pivots((rows, height), (cols, width)).within(|| "N".into())?;
+    let n = bearings(field, core, &centres);
+    let echelon = eliminate(field, (rows, height), (cols, width), |row| n[row]).within(|| "N".into())?;
     // The left kernel of the pivots' columns has no more dimensions than this.
     ensure!(*flows <= height - rows.len(), "{flows} flows, but only {} rows are not pivots", height - rows.len());
     ensure!(setting.model == Model::Projective || *flows == 0, "flows in the calibrated model");
     check_pivots((lambda_rows, 4 * flows), (lambda_cols, edges)).within(|| "Lambda".into())?;
 
-    let n = bearings(field, core, &centres);
-    let mut echelon = Echelon::new(field, width);
-    for (k, (&row, &column)) in rows.iter().zip(cols).enumerate() {
-        ensure!(echelon.push(n[row], Some(column)), "N: pivot {k} vanishes");
-    }
     let mut is_pivot = vec![false; height];
     rows.iter().for_each(|&row| is_pivot[row] = true);
     let mut stream = setting.stream("flow", seed, *draw)?;
@@ -121,29 +126,26 @@ fn check_integer_minor(evidence: &IntegerMinor, setting: &Setting, core: &Core) 
     let mut stream = setting.stream("draw", seed, *draw)?;
     let cameras = cameras::integer(&mut stream, (*numerator, *denominator), core.nodes)?;
     let (nodes, height, width) = (core.nodes, 10 * core.edges.len(), 12 * core.nodes);
-    check_pivots((rows, height), (cols, width))?;
     let entries = |row: usize| {
         let entries = jacobian(&Integers, core, &cameras, row);
         let content = entries.iter().fold(0, |content, &(_, value)| gcd(content, value)).max(1);
         entries.into_iter().map(move |(column, value)| (column, value / content))
     };
-    let dense_row = |&row: &usize| {
-        let mut dense = vec![0; width];
-        entries(row).for_each(|(column, value)| dense[column] = value);
-        cols.iter().map(|&column| dense[column].into()).collect()
-    };
+    check_pivots((rows, height), (cols, width))?;
     match (&evidence.determinant, &evidence.prime) {
         (Some(claimed), None) => {
-            let determinant = determinant(rows.iter().map(dense_row).collect())?;
-            ensure!(determinant.to_string() == *claimed, "`determinant` is not that of the minor");
+            let dense_row = |&row: &usize| {
+                let mut dense = vec![0; width];
+                entries(row).for_each(|(column, value)| dense[column] = value);
+                cols.iter().map(|&column| dense[column].into()).collect()
+            };
+            let found = determinant(rows.iter().map(dense_row).collect())?.to_string();
+            ensure!(found == *claimed, "`determinant` is not that of the minor");
         }
         (None, Some(prime)) => {
             let field = &Field::new(big(prime)?)?;
-            let mut echelon = Echelon::new(field, width);
-            for (k, (&row, &column)) in rows.iter().zip(cols).enumerate() {
-                let row = entries(row).map(|(at, value)| (at, residue(field, &value.into())));
-                ensure!(echelon.push(row.collect::<Vec<_>>(), Some(column)), "pivot {k} vanishes");
-            }
+            let modulo = |row| entries(row).map(|(column, value)| (column, field.signed(value)));
+            eliminate(field, (rows, height), (cols, width), modulo)?;
         }
         _ => return Err(Rejection::new("one of `determinant` and `prime` is null, and one is not")),
     }
@@ -158,9 +160,8 @@ fn check_integer_minor(evidence: &IntegerMinor, setting: &Setting, core: &Core) 
     }
     // Vectors that are independent modulo a prime are independent.
     let field = &Field::new((1 << 61) - 1)?;
-    let residue = |value: &BigInt| residue(field, value);
-    let cameras: Vec<_> =
-        cameras.iter().map(|camera| camera.map(|row| row.map(|entry| residue(&entry.into())))).collect();
+    let residue = |value: &BigInt| field.signed((value % field.p).try_into().unwrap_or(0));
+    let cameras: Vec<_> = cameras.iter().map(|camera| camera.map(|row| row.map(|entry| field.signed(entry)))).collect();
     let scales = (0..nodes).map(|v| scale_motion(&cameras, v));
     let listed = kernel.iter().map(|vector| vector.iter().map(residue).enumerate().collect());
     let mut vectors = scales.chain((0..15).map(|ab| map_motion(&cameras, 4, ab))).chain(listed);
@@ -172,11 +173,6 @@ fn check_integer_minor(evidence: &IntegerMinor, setting: &Setting, core: &Core) 
     let place = format!("integer cameras (seed {seed}, draw {draw})");
     let note = exact.then(|| format!("a core of {nodes} nodes has rank exactly {r} over Q at {place}"));
     Ok(Lower { rank: r as i64, at: None, note })
-}
-
-fn residue(field: &Field, value: &BigInt) -> u64 {
-    let residue = ((value % field.p) + field.p) % field.p;
-    field.element(residue.try_into().unwrap_or(0))
 }
 
 /// The determinant by fraction-free elimination (Bareiss 1968): all divisions are exact. Rejects a pivot that vanishes.

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::io::{self, Read, Write};
 use std::process::ExitCode;
-use viewcert_check::{Graph, check, graph_sha256};
+use viewcert_check::{Certificate, Graph};
 
 const USAGE: &str = "usage: viewcert-check CERT [GRAPH]
 
@@ -36,9 +36,14 @@ fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
         [certificate, graph] => (read(certificate)?, Some((read(graph)?, graph.display()))),
         _ => return Err(USAGE.into()),
     };
-    let graph = graph
-        .map(|(file, path)| Graph::read(&file, graph_sha256(&certificate)).map_err(|error| format!("{path}: {error}")));
-    Ok(match check(&certificate, graph.transpose()?.as_ref()) {
+    let checked = match (Certificate::parse(&certificate), graph) {
+        (Ok(certificate), Some((file, path))) => {
+            let graph = Graph::read(&file, certificate.graph_sha256());
+            certificate.check(Some(&graph.map_err(|error| format!("{path}: {error}"))?))
+        }
+        (certificate, _) => certificate.and_then(|certificate| certificate.check(None)),
+    };
+    Ok(match checked {
         Ok(verified) => (0, verified.to_string().lines().map(|line| format!("VERIFIED {line}\n")).collect()),
         Err(rejection) => (1, format!("REJECTED: {rejection}\n")),
     })

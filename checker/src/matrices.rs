@@ -1,8 +1,7 @@
 //! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the motions that a kernel
 //! vector gives to the edges.
 
-use crate::algebra::Echelon;
-use crate::algebra::{Field, Ring};
+use crate::algebra::{Echelon, Field, Ring};
 use crate::cameras::{Camera, centre};
 use crate::pieces::Core;
 use crate::rejection::{Checked, ensure};

@@ -453,3 +453,15 @@ fn kernel_vectors_that_prove_nothing() {
     assert_eq!(with(["\"0\""; 47].join(",")), format!("{step}: `vector` has 47 entries instead of 48"));
     assert_eq!(with(["\"1000003\""; 48].join(",")), format!("{step}: 1000003 is not a residue modulo 1000003"));
 }
+
+/// The certificate that the specification checks by hand.
+#[test]
+fn the_one_checked_by_hand() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/certificate.md");
+    let page = fs::read_to_string(page).unwrap();
+    let (_, section) = page.split_once("```json\n").unwrap();
+    let (text, _) = section.split_once("```").unwrap();
+    let verified = check(text.as_bytes(), None).unwrap();
+    assert_eq!((verified.rank().0, verified.required(), verified.components().0), (28, 29, 4));
+    assert!(check(text.replace("[1,2,4,5,7,8,0,3]", "[1,2,4,5,7,8,6,3]").as_bytes(), None).is_err(), "6 is zero there");
+}

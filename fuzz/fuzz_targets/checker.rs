@@ -5,7 +5,7 @@
 use libfuzzer_sys::fuzz_target;
 use serde_json::Value;
 use std::sync::LazyLock;
-use viewcert_check::{Graph, check, graph_sha256};
+use viewcert_check::{Certificate, Graph, check};
 
 /// Valid certificates, parsed, each with its graph.
 static VALID: LazyLock<Vec<(Value, Graph)>> = LazyLock::new(|| {
@@ -35,7 +35,7 @@ fuzz_target!(|data: &[u8]| {
     let outcomes = [check(data, None), check(data, Some(graph))];
     let _ = (
         outcomes.map(|outcome| outcome.map(|verified| verified.to_string())),
-        graph_sha256(data),
+        Certificate::parse(data).map(|certificate| certificate.graph_sha256()),
     );
     let _ = Graph::read(data, None);
 
