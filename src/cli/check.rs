@@ -11,7 +11,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert_check::{Graph, Rejection, Verified};
+use viewcert_check::{Certificate, Graph, Rejection, Verified};
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -71,6 +71,10 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
 /// Checks a certificate for the graph in a file. The checker reads edge lists and graph6 by
 /// itself; it does not read MATLAB files, which come through this program's reader.
 fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Rejection>> {
+    let certificate = match Certificate::parse(text) {
+        Ok(certificate) => certificate,
+        Err(rejection) => return Ok(Err(rejection)),
+    };
     let bytes = read(path)?;
     let graph = if matlab::is_matlab(&bytes) {
         let name = path
@@ -82,10 +86,10 @@ fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Rejection>> {
         let graph = input?.graph;
         Graph::new(graph.nodes(), graph.edges().to_vec())
     } else {
-        Graph::read(&bytes, viewcert_check::graph_sha256(text))
+        Graph::read(&bytes, certificate.graph_sha256())
     };
     let graph = graph.with_context(|| path.display().to_string())?;
-    Ok(viewcert_check::check(text, Some(&graph)))
+    Ok(certificate.check(Some(&graph)))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
