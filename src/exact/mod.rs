@@ -10,6 +10,7 @@ mod laws;
 pub mod modular;
 pub mod multimodular;
 pub mod prime;
+mod product;
 pub mod rational;
 #[cfg(test)]
 mod samples;

@@ -9,17 +9,11 @@ use super::Ring;
 use super::dense::Matrix;
 use super::gauss::Pivots;
 use super::prime::PrimeField;
-use rayon::prelude::*;
+use super::product::Product;
 
-/// Columns of a panel: enough products to hide the reduction of their sum, few enough
-/// for a tile of 4 * TILE columns (16 KiB) to stay in the first-level cache.
+/// Columns of a panel: enough products to hide the reduction of their sum, few enough for a
+/// tile of the product to stay in the first-level cache.
 const PANEL: usize = 64;
-
-/// Columns of a tile, in groups of four.
-const TILE: usize = 8;
-
-/// Below this many products a matrix product is not worth sharing among threads.
-const PARALLEL_PRODUCTS: usize = 1 << 19;
 
 /// A matrix modulo p with its elimination: for the rows in a suitable order, the matrix
 /// is L U with L unit lower trapezoidal and U in row echelon form.
@@ -187,61 +181,6 @@ fn pack_solved(
             let solved = field.dot4(four, multipliers, &packed[first..]);
             entries.copy_from_slice(&solved[..lanes]);
             packed.push(solved);
-        }
-    }
-}
-
-/// The left factor of a matrix product: rows of `depth` entries, `stride` apart.
-struct Product<'a> {
-    factors: &'a [u64],
-    stride: usize,
-    depth: usize,
-}
-
-impl Product<'_> {
-    /// Adds the product with the packed right factor to the columns from `start` on of
-    /// the rows in `target`, which have `cols` columns. `packed` holds `depth` entries
-    /// for each group of four columns; columns beyond its last group stay as they are.
-    fn add_to(
-        &self,
-        field: &PrimeField,
-        target: &mut [u64],
-        cols: usize,
-        start: usize,
-        packed: &[[u64; 4]],
-    ) {
-        if target.is_empty() || packed.is_empty() {
-            return;
-        }
-        let rows = target.len() / cols;
-        let chunk = |(target, factors): (&mut [u64], &[u64])| {
-            for (tile, packed) in packed.chunks(TILE * self.depth).enumerate() {
-                let begin = start + tile * TILE * 4;
-                let rows = target
-                    .chunks_exact_mut(cols)
-                    .zip(factors.chunks(self.stride));
-                for (row, factors) in rows {
-                    let end = cols.min(begin + TILE * 4);
-                    let groups = row[begin..end].chunks_mut(4);
-                    for (entries, packed) in groups.zip(packed.chunks_exact(self.depth)) {
-                        let mut four = [0; 4];
-                        four[..entries.len()].copy_from_slice(entries);
-                        let sums = field.dot4(four, &factors[..self.depth], packed);
-                        entries.copy_from_slice(&sums[..entries.len()]);
-                    }
-                }
-            }
-        };
-        let threads = rayon::current_num_threads();
-        if threads > 1 && rows * packed.len() * 4 >= PARALLEL_PRODUCTS {
-            // A few chunks a thread even out what else the machine is doing.
-            let height = rows.div_ceil(4 * threads).max(1);
-            target
-                .par_chunks_mut(height * cols)
-                .zip(self.factors.par_chunks(height * self.stride))
-                .for_each(chunk);
-        } else {
-            chunk((target, self.factors));
         }
     }
 }
@@ -465,14 +404,16 @@ impl Echelon {
 
 #[cfg(test)]
 mod tests {
+    use super::super::gauss;
+    use super::super::prime::{DEFAULT_PRIME, SMALL_PRIME};
     use super::super::samples::{known_rank, multiply};
-    use super::super::{gauss, prime::DEFAULT_PRIME};
     use super::*;
     use proptest::prelude::*;
 
-    const MODULI: [u64; 5] = [
+    const MODULI: [u64; 6] = [
         5,
         7,
+        SMALL_PRIME,
         (1 << 31) - 1,
         DEFAULT_PRIME,
         4_611_686_018_427_387_847,
@@ -542,7 +483,7 @@ mod tests {
             (70, 200, 20),
             (150, 97, 97),
         ];
-        for p in [7, DEFAULT_PRIME, 4_611_686_018_427_387_847] {
+        for p in [7, SMALL_PRIME, DEFAULT_PRIME, 4_611_686_018_427_387_847] {
             let field = PrimeField::new(p).unwrap();
             for (seed, (rows, cols, rank)) in cases.into_iter().enumerate() {
                 let size = i64::MAX as u64 / 4;
@@ -562,14 +503,20 @@ mod tests {
 
     #[test]
     fn threads_do_not_change_the_result() {
-        let field = PrimeField::mersenne61();
-        let m = known_rank(&field, 300, 280, 270, 1, 1 << 60);
+        for p in [SMALL_PRIME, DEFAULT_PRIME] {
+            let field = PrimeField::new(p).unwrap();
+            one_thread_and_three(&field);
+        }
+    }
+
+    fn one_thread_and_three(field: &PrimeField) {
+        let m = known_rank(field, 300, 280, 270, 1, 1 << 60);
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| eliminate_mod(&field, m.clone()))
+            pool.install(|| eliminate_mod(field, m.clone()))
         };
         let (one, three) = (run(1), run(3));
         assert_eq!(one.rank(), 270);

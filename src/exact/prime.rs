@@ -9,6 +9,17 @@ use super::{Field, Ring};
 /// The default modulus, the Mersenne prime 2^61 - 1.
 pub const DEFAULT_PRIME: u64 = (1 << 61) - 1;
 
+/// The largest prime below 2^29. Sums of 64 products fit into a word, and a processor multiplies
+/// several such residues with one instruction: elimination modulo this prime is several
+/// times as fast as modulo [`DEFAULT_PRIME`].
+pub const SMALL_PRIME: u64 = (1 << 29) - 3;
+
+/// From here on products of residues do not fit into a word 64 times.
+const SMALL: u64 = 1 << 29;
+
+/// How many products of residues below [`SMALL`] are summed in a word.
+pub(super) const SMALL_PRODUCTS: usize = 64;
+
 /// The field of residues modulo a prime p, 5 <= p < 2^62.
 ///
 /// An element x is kept as x * 2^64 mod p (Montgomery form, always below p), so an
@@ -133,6 +144,11 @@ impl PrimeField {
         self.p
     }
 
+    /// Whether the modulus is below 2^29, so that 64 products of residues fit into a word.
+    pub(super) fn is_small(&self) -> bool {
+        self.p < SMALL
+    }
+
     /// The residue class of `value`.
     pub fn from_u64(&self, value: u64) -> u64 {
         self.redc(u128::from(value % self.p) * u128::from(self.r2))
@@ -185,6 +201,20 @@ impl PrimeField {
         let m = (t as u64).wrapping_mul(self.neg_inv);
         // t + m p < 2 p 2^64 < 2^127.
         let r = ((t + u128::from(m) * u128::from(self.p)) >> 64) as u64;
+        r.min(r.wrapping_sub(self.p))
+    }
+
+    /// `redc` of one word for p < 2^29, in two halves (T / 2^32 modulo p each) that multiply 32
+    /// bits by 32: for the vector unit.
+    #[inline(always)]
+    pub(super) fn redc_word(&self, t: u64) -> u64 {
+        let half = |t: u64| {
+            let m = low(low(t) * low(self.neg_inv));
+            // The low words add up to 2^32, or both are zero.
+            (t >> 32) + (m * self.p >> 32) + u64::from(low(t) != 0)
+        };
+        // The first is below 2^32 + p, the second at most p + 1.
+        let r = half(half(t));
         r.min(r.wrapping_sub(self.p))
     }
 
@@ -247,6 +277,14 @@ impl PrimeField {
     /// `c + sum_k a[k] b[k]`, reduced once for many products. The shorter slice counts.
     #[inline]
     pub fn dot(&self, c: u64, a: &[u64], b: &[u64]) -> u64 {
+        if self.is_small() {
+            let chunks = a.chunks(SMALL_PRODUCTS).zip(b.chunks(SMALL_PRODUCTS));
+            return chunks.fold(c, |sum, (a, b)| {
+                let products = a.iter().zip(b).map(|(&a, &b)| low(a) * low(b));
+                let acc = products.fold(0u64, u64::wrapping_add);
+                self.plus(sum, self.redc_word(acc))
+            });
+        }
         let mut acc = u128::from(c) << 64;
         for (a, b) in a.chunks(self.lazy).zip(b.chunks(self.lazy)) {
             for (&a, &b) in a.iter().zip(b) {
@@ -261,7 +299,7 @@ impl PrimeField {
     ///
     /// Four independent accumulators fill the multiplier's pipeline and the machine's
     /// registers; all dense kernels come down to this one.
-    #[inline]
+    #[inline(always)]
     pub fn dot4(&self, c: [u64; 4], a: &[u64], b: &[[u64; 4]]) -> [u64; 4] {
         let mut acc = c.map(|c| u128::from(c) << 64);
         for (a, b) in a.chunks(self.lazy).zip(b.chunks(self.lazy)) {
@@ -284,6 +322,12 @@ impl PrimeField {
             *y = self.plus(*y, self.times(a, x));
         }
     }
+}
+
+/// A residue below 2^32 as it is. Told so, the compiler uses the multiplier of the vector unit.
+#[inline(always)]
+pub(super) fn low(residue: u64) -> u64 {
+    residue & u64::from(u32::MAX)
 }
 
 impl Ring for PrimeField {
@@ -329,9 +373,18 @@ mod tests {
 
     /// The largest prime below 2^62.
     const LARGEST: u64 = 4_611_686_018_427_387_847;
-    /// Limits of the arithmetic: the smallest moduli, both sides of the change of
+    /// Limits of the arithmetic: the smallest moduli, both sides of 2^29, both sides of the change of
     /// accumulator length at 2^61, and the largest modulus.
-    const MODULI: [u64; 6] = [5, 7, (1 << 31) - 1, DEFAULT_PRIME, (1 << 61) + 15, LARGEST];
+    const MODULI: [u64; 8] = [
+        5,
+        7,
+        SMALL_PRIME,
+        SMALL + 11,
+        (1 << 31) - 1,
+        DEFAULT_PRIME,
+        (1 << 61) + 15,
+        LARGEST,
+    ];
 
     #[test]
     fn moduli_are_checked() {
@@ -409,6 +462,14 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn words_are_reduced(t: u64, p in prop::sample::select(vec![5, 7, 65537, SMALL_PRIME])) {
+            let f = PrimeField::new(p).unwrap();
+            for t in [t, 0, u64::MAX, t << 32, t >> 32] {
+                prop_assert_eq!(f.redc_word(t), f.redc(u128::from(t) % (u128::from(p) << 64)));
+            }
+        }
+
         #[test]
         fn laws(which in 0..MODULI.len(), a: u64, b: u64, c: u64, k: i64, l: i64) {
             let f = PrimeField::new(MODULI[which]).unwrap();
