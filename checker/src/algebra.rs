@@ -1,6 +1,7 @@
 //! Arithmetic modulo a prime, and elimination: sparse with prescribed or found pivots, and dense along the diagonal.
 
 use crate::rejection::{Checked, ensure};
+use std::ops::{Add, Mul};
 
 /// What the paper's Jacobian needs of its entries.
 pub(crate) trait Ring {
@@ -37,6 +38,9 @@ pub(crate) struct Field {
 
 /// How many products are summed before one reduction.
 const LANES: usize = 12;
+
+/// Columns that are computed together.
+const TILE: usize = 128;
 
 impl Ring for Field {
     type E = u64;
@@ -189,25 +193,40 @@ fn subtract(field: &Field, row: &mut [u64], multiple: u64, entries: &[(usize, u6
     entries.iter().for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
 }
 
-/// Sees that elimination along the diagonal of a square matrix meets no zero. `LANES` rows are subtracted at a time.
-pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checked<()> {
-    for first in (0..rows.len()).step_by(LANES) {
-        let (block, rest) = rows.split_at_mut(LANES.min(rows.len()));
+/// Sees that elimination along the diagonal of a square matrix meets no zero. So many rows are subtracted at a time that a sum of
+/// as many products of residues fits: 12 into 128 bits; 64 into a word, for which there are vector units, if p < 2^29.
+pub(crate) fn check_diagonal(field: &Field, rows: &mut [Vec<u64>]) -> Checked<()> {
+    if field.p < 1 << 29 {
+        check_blocks::<u64>(field, rows, 64, |residue| residue & 0xffff_ffff)
+    } else {
+        check_blocks::<u128>(field, rows, LANES, u128::from)
+    }
+}
+
+/// What products are summed in.
+trait Sum: Copy + Default + Into<u128> + Add<Output = Self> + Mul<Output = Self> + Send {}
+impl Sum for u64 {}
+impl Sum for u128 {}
+
+fn check_blocks<S: Sum>(
+    field: &Field, mut rows: &mut [Vec<u64>], height: usize, widen: impl Fn(u64) -> S + Copy + Sync,
+) -> Checked<()> {
+    for first in (0..rows.len()).step_by(height) {
+        let (block, rest) = rows.split_at_mut(height.min(rows.len()));
         let mut inverses = Vec::new();
         for k in 0..block.len() {
             let (done, row) = block.split_at_mut(k);
-            subtract_block(field, done, &inverses, first, &mut row[0]);
+            subtract_block(field, done, &inverses, first, &mut row[0], widen);
             ensure!(row[0][first + k] != 0, "pivot {} vanishes", first + k);
             inverses.push(field.inverse(row[0][first + k]));
         }
         // A second thread is not worth its start for a few rows.
         let half = if rest.len() < 64 { 0 } else { rest.len() / 2 };
         let (here, there) = rest.split_at_mut(rest.len() - half);
-        let work =
-            |part: &mut [Vec<u64>]| part.iter_mut().for_each(|row| subtract_block(field, block, &inverses, first, row));
+        let subtract = |row: &mut Vec<u64>| subtract_block(field, block, &inverses, first, row, widen);
         std::thread::scope(|scope| {
-            (half > 0).then(|| scope.spawn(|| work(there)));
-            work(here);
+            (half > 0).then(|| scope.spawn(|| there.iter_mut().for_each(subtract)));
+            here.iter_mut().for_each(subtract);
         });
         rows = rest;
     }
@@ -216,21 +235,32 @@ pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checke
 
 /// Subtracts multiples of rows so that a row would vanish at their pivots, the columns from `first` on; computes what is right
 /// of these.
-fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, row: &mut [u64]) {
-    let Some(first_lane) = block.first() else { return };
-    let mut factors = [0; LANES];
+fn subtract_block<S: Sum>(
+    field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, row: &mut [u64], widen: impl Fn(u64) -> S,
+) {
+    let mut factors: Vec<u64> = Vec::with_capacity(block.len());
     for (k, &inverse) in inverses.iter().enumerate() {
-        let terms = (0..k).map(|lane| field.mul(factors[lane], block[lane][first + k]));
+        let terms = factors.iter().zip(block).map(|(&factor, lane)| field.mul(factor, lane[first + k]));
         let entry = terms.fold(row[first + k], |sum, term| field.add(sum, term));
-        factors[k] = field.neg(field.mul(entry, inverse));
+        factors.push(field.neg(field.mul(entry, inverse)));
     }
     let from = first + block.len();
-    let row = &mut row[from..];
-    // Lanes that are missing have factor zero: the first one does instead.
-    let lanes: [&[u64]; LANES] = std::array::from_fn(|k| &block.get(k).unwrap_or(first_lane)[from..][..row.len()]);
-    for (k, entry) in row.iter_mut().enumerate() {
-        let products = (0..LANES).map(|lane| u128::from(factors[lane]) * u128::from(lanes[lane][k]));
-        *entry = field.add_products(*entry, products.sum());
+    for (tile, entries) in row[from..].chunks_mut(TILE).enumerate() {
+        let mut sums = [S::default(); TILE];
+        for (factors, lanes) in factors.chunks(4).zip(block.chunks(4)) {
+            // Lanes that are missing have factor zero: the first one does instead.
+            let factor: [S; 4] = std::array::from_fn(|k| widen(factors.get(k).copied().unwrap_or(0)));
+            let lane: [&[u64]; 4] =
+                std::array::from_fn(|k| &lanes.get(k).unwrap_or(&lanes[0])[from + tile * TILE..][..entries.len()]);
+            let [a, b, c, d] = lane;
+            for ((((sum, &a), &b), &c), &d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                let pairs = (factor[0] * widen(a) + factor[1] * widen(b), factor[2] * widen(c) + factor[3] * widen(d));
+                *sum = *sum + pairs.0 + pairs.1;
+            }
+        }
+        for (entry, sum) in entries.iter_mut().zip(sums) {
+            *entry = field.add_products(*entry, sum.into());
+        }
     }
 }
 
