@@ -11,7 +11,10 @@
 //! parallel-rigid components. At a node where t parts meet, the sets that can be
 //! split off with gain are those of at most (t - 1) / 3 parts, together with all the parts
 //! whose flow these determine. At most 20,000 such sets are looked at for a node: all of them
-//! where at most 16 parts meet. Rank is then taken off the block by the best single hub.
+//! where at most 16 parts meet. Rank is then taken off the block by the best single hub. Where that
+//! does not meet the lower bound and there are at most 64 components, all this is tried again with
+//! each one of them left out as a block of its own: what is rigid without it may be a smaller block
+//! that has a hub.
 
 mod hub;
 
@@ -22,6 +25,9 @@ use crate::model::Model;
 use crate::piece::{Assembly, Members};
 
 pub use hub::Hub;
+
+/// Up to so many components each is left out in turn.
+const MAX_LEFT_OUT: usize = 64;
 
 /// A partition of a piece's members and the bound on its rank that counting gives.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -87,27 +93,57 @@ pub fn count(
     if whole.bound <= target {
         return whole;
     }
-    let rigid = parallel_rigid_components(assembly, piece, field, random);
-    let by_block = rigid
-        .iter()
-        .map(|block| {
-            let inside: Vec<Members> = components
-                .iter()
-                .filter(|component| block.contains(component))
-                .cloned()
-                .collect();
-            let split = Counting::partition(model, assembly, &inside);
-            if inside.len() < 2 {
-                return split;
-            }
-            let one = with_hub(assembly, block, &inside, field, random);
-            if one.bound < split.bound { one } else { split }
-        })
-        .collect();
-    [partition, whole, Counting::join(by_block)]
-        .into_iter()
-        .min_by_key(|counting| counting.bound)
-        .expect("three bounds")
+    let mut best = by_rigid_blocks(assembly, piece, components, field, random);
+    for bound in [partition, whole] {
+        if bound.bound < best.bound {
+            best = bound;
+        }
+    }
+    if components.len() > MAX_LEFT_OUT {
+        return best;
+    }
+    for (k, left_out) in components.iter().enumerate() {
+        if best.bound <= target {
+            break;
+        }
+        let mut rest = Members::default();
+        let others: Vec<Members> = [&components[..k], &components[k + 1..]].concat();
+        others.iter().for_each(|component| rest.extend(component));
+        let joined = Counting::join(vec![
+            by_rigid_blocks(assembly, &rest, &others, field, random),
+            Counting::partition(model, assembly, std::slice::from_ref(left_out)),
+        ]);
+        if joined.bound < best.bound {
+            best = joined;
+        }
+    }
+    best
+}
+
+/// The parallel-rigid components of a part as blocks, each with a hub or else divided into
+/// the given components, whichever is better.
+fn by_rigid_blocks(
+    assembly: &Assembly,
+    part: &Members,
+    components: &[Members],
+    field: &PrimeField,
+    random: &mut dyn FnMut() -> u64,
+) -> Counting {
+    let rigid = parallel_rigid_components(assembly, part, field, random);
+    let blocks = rigid.iter().map(|block| {
+        let inside: Vec<Members> = components
+            .iter()
+            .filter(|component| block.contains(component))
+            .cloned()
+            .collect();
+        let split = Counting::partition(Model::Projective, assembly, &inside);
+        if inside.len() < 2 {
+            return split;
+        }
+        let one = with_hub(assembly, block, &inside, field, random);
+        if one.bound < split.bound { one } else { split }
+    });
+    Counting::join(blocks.collect())
 }
 
 /// One block, with the best hub that the search finds.

@@ -23,7 +23,7 @@ pub struct Entry {
     pub components: usize,
     /// How strong the claim of the components is.
     pub components_strength: Strength,
-    /// Whether the upper bound on the rank takes a hub.
+    /// Whether the refutation takes a hub: the partition into components does not refute.
     pub hub: bool,
 }
 
@@ -42,7 +42,8 @@ impl Entry {
             rank_strength: verdict.rank_strength,
             components: verdict.components.len(),
             components_strength: verdict.components_strength,
-            hub: verdict.pieces.iter().any(uses_hub),
+            hub: partition_bound(verdict) >= verdict.required
+                && verdict.pieces.iter().any(uses_hub),
         }
     }
 
@@ -73,6 +74,14 @@ impl Entry {
             u8::from(self.hub),
         )
     }
+}
+
+/// The partition bound of the components.
+fn partition_bound(verdict: &Verdict) -> usize {
+    let components = verdict.components.iter();
+    components
+        .map(|component| verdict.model.required(component.nodes))
+        .sum()
 }
 
 /// Whether the bound of a piece has a block with a hub.
@@ -108,7 +117,7 @@ pub struct Summary {
     pub refuted: u64,
     /// Not finite solvable, up to an error bound.
     pub unproved: u64,
-    /// Refuted graphs whose bound takes a hub.
+    /// Refuted graphs whose refutation takes a hub.
     pub hub: u64,
     /// Graphs whose exact rank is proved.
     pub rank_proved: u64,

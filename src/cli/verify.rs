@@ -105,6 +105,11 @@ impl VerifyArguments {
             },
             arithmetic,
             field: PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?,
+            small_prime_from: if self.prime.is_some() {
+                usize::MAX
+            } else {
+                Options::default().small_prime_from
+            },
             contraction: !self.no_contraction,
             counting: !self.no_counting,
             seed: self.seed,

@@ -78,7 +78,7 @@ fn decide(
         }
     }
     Err(VerdictError::Undecided {
-        prime: options.field.modulus(),
+        prime: options.field_for(core.graph.nodes()).modulus(),
         draws: ATTEMPTS,
     })
 }
@@ -126,7 +126,8 @@ impl Piece<'_> {
     }
 
     fn draw(&self, from: u64) -> Result<Centres, VerdictError> {
-        draw(&self.options.field, self.core.graph.nodes(), self.key(from))
+        let nodes = self.core.graph.nodes();
+        draw(&self.options.field_for(nodes), nodes, self.key(from))
     }
 
     /// The verdict on a piece of full rank.
@@ -271,14 +272,16 @@ impl Piece<'_> {
         let core = self.assembly.core(part);
         let required = self.options.model.required(core.graph.nodes());
         let mut next = from;
-        // Modulo a large prime one draw tells; a small one deserves more.
-        let attempts = if self.options.field.modulus() >> 40 > 0 {
+        let nodes = core.graph.nodes();
+        let field = self.options.field_for(nodes);
+        // Where bad luck is rare one draw tells: what it misses is looked at as a graph of its own.
+        let attempts = if field.modulus() >> 10 > 22 * nodes as u64 {
             1
         } else {
             ATTEMPTS
         };
         for _ in 0..attempts {
-            let at = draw(&self.options.field, core.graph.nodes(), self.key(next))?;
+            let at = draw(&field, nodes, self.key(next))?;
             let ranks = ranks(self.options.model, &at, &core);
             if ranks.rank == required {
                 return Ok(Some(ranks.evidence(at.draw)));
