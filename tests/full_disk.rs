@@ -59,7 +59,7 @@ fn path(path: &Path) -> &str {
 }
 
 /// All candidates with 9 nodes in 11 parts; one shard.
-fn run<'a>(out: &'a Path) -> [&'a str; 7] {
+fn run(out: &Path) -> [&str; 7] {
     let out = path(out);
     ["catalog", "--nodes", "9", "--part", "40", "--out", out]
 }
