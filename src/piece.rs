@@ -29,11 +29,14 @@ impl Members {
 
     /// The members of each class, classes in the order of their first members. Members
     /// are counted bodies first, then edges, as in [`Core::owner`].
+    ///
+    /// # Panics
+    /// If a class is not named by a number below that of the members.
     pub fn grouped(&self, mut class: impl FnMut(usize) -> usize) -> Vec<Self> {
-        let mut position = std::collections::BTreeMap::new();
+        let mut position = vec![None; self.len()];
         let mut groups: Vec<Self> = Vec::new();
         for member in 0..self.len() {
-            let at = *position.entry(class(member)).or_insert_with(|| {
+            let at = *position[class(member)].get_or_insert_with(|| {
                 groups.push(Self::default());
                 groups.len() - 1
             });

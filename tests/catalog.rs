@@ -142,6 +142,34 @@ fn a_malformed_line_is_named_and_the_rest_goes_on() {
     assert!(errors.contains("-:2: graph6"), "{errors}");
 }
 
+/// A stream of 100,003 lines, in which three are malformed: across batches, beyond
+/// 2^16, and the last one, which has no end of line.
+#[test]
+fn malformed_lines_of_a_long_stream_are_named() {
+    let bad = [4097, 70_001, 100_003];
+    let mut stream = Vec::new();
+    for line in 1..=100_003 {
+        if bad.contains(&line) {
+            stream.extend(b"C^^");
+        } else {
+            stream.extend(if line % 2 == 0 { b"Bw" } else { b"C^" });
+        }
+        stream.extend(if line < 100_003 { &b"\n"[..] } else { b"" });
+    }
+    let run = with_input(&["catalog", "--from", "-"], &stream);
+    assert_eq!(run.status.code(), Some(2));
+    assert_eq!(counts(&text(&run.stdout)), [[100_000, 100_000, 0]]);
+    let errors = text(&run.stderr);
+    let named: Vec<&str> = errors
+        .lines()
+        .filter(|line| line.contains("graph6"))
+        .collect();
+    assert_eq!(named.len(), 3, "{errors}");
+    for (line, number) in named.iter().zip(bad) {
+        assert!(line.contains(&format!("-:{number}: graph6")), "{line}");
+    }
+}
+
 #[test]
 fn impossible_sizes_are_bad_usage() {
     for (arguments, message) in [

@@ -82,27 +82,32 @@ impl Candidates {
     /// How many candidates there are, where counting them takes no longer than a small
     /// part of deciding them.
     pub fn count(&self) -> Option<u64> {
-        self.kernels.is_some().then(|| {
-            let mut count = 0;
-            self.for_each(&mut |_| {
+        let kernels = self.kernels.as_ref()?;
+        let mut count = 0;
+        for kernel in kernels {
+            self.subdivisions(kernel).for_each(&mut |_| {
                 count += 1;
                 true
             });
-            count
-        })
+        }
+        Some(count)
+    }
+
+    fn subdivisions(&self, kernel: &Multigraph) -> Subdivisions {
+        let edges = if self.necessary {
+            Edges::Once
+        } else {
+            Edges::Any
+        };
+        Subdivisions::new(kernel, self.nodes, edges)
     }
 
     /// Calls `each` for every candidate, in a fixed order, until it returns false.
     pub fn for_each(&self, each: &mut impl FnMut(Graph) -> bool) {
         match &self.kernels {
             Some(kernels) => {
-                let edges = if self.necessary {
-                    Edges::Once
-                } else {
-                    Edges::Any
-                };
                 for kernel in kernels {
-                    let subdivisions = Subdivisions::new(kernel, self.nodes, edges);
+                    let subdivisions = self.subdivisions(kernel);
                     if !subdivisions.for_each(&mut |subdivision| each(subdivision.graph())) {
                         return;
                     }

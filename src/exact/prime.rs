@@ -116,27 +116,35 @@ impl PrimeField {
         if !is_prime(p) {
             return Err(ModulusError::Composite(p));
         }
+        Ok(Self::with_constants(p))
+    }
+
+    /// The field modulo [`DEFAULT_PRIME`]. Free: that this is a prime is not tested again.
+    pub fn mersenne61() -> Self {
+        const FIELD: PrimeField = PrimeField::with_constants(DEFAULT_PRIME);
+        FIELD
+    }
+
+    /// The constants of the arithmetic modulo a prime 5 <= p < 2^62.
+    const fn with_constants(p: u64) -> Self {
         // Newton's iteration doubles the correct low bits: 3, 6, 12, 24, 48, 96.
         let mut inverse = p;
-        for _ in 0..5 {
+        let mut step = 0;
+        while step < 5 {
             inverse = inverse.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inverse)));
+            step += 1;
         }
-        let one = ((1u128 << 64) % u128::from(p)) as u64;
-        let r2 = (u128::from(one) * u128::from(one) % u128::from(p)) as u64;
+        let one = ((1u128 << 64) % p as u128) as u64;
+        let r2 = (one as u128 * one as u128 % p as u128) as u64;
         // p 2^64 + lazy p^2 must not pass 2^128: 2^126 + 12 * 2^124 or 2^125 + 56 * 2^122.
         let lazy = if p < 1 << 61 { 56 } else { 12 };
-        Ok(Self {
+        Self {
             p,
             neg_inv: inverse.wrapping_neg(),
             one,
             r2,
             lazy,
-        })
-    }
-
-    /// The field modulo [`DEFAULT_PRIME`].
-    pub fn mersenne61() -> Self {
-        Self::new(DEFAULT_PRIME).expect("2^61 - 1 is a prime")
+        }
     }
 
     /// The modulus p.
@@ -402,6 +410,7 @@ mod tests {
         for p in MODULI {
             assert_eq!(PrimeField::new(p).unwrap().modulus(), p);
         }
+        assert_eq!(PrimeField::new(DEFAULT_PRIME), Ok(PrimeField::mersenne61()));
     }
 
     #[test]

@@ -26,8 +26,6 @@ const SPARSE_COST: usize = 24;
 /// Right-hand sides that share one pass over the sparse factors.
 const LANES: usize = 8;
 
-type Lanes = [u64; LANES];
-
 /// An eliminated sparse matrix modulo p.
 ///
 /// ```
@@ -70,11 +68,21 @@ struct Active {
     /// Columns with at least one entry, by their number of entries.
     by_count: BTreeSet<(usize, usize)>,
     nonempty: usize,
+    /// The memory of the row that was replaced last, for the next one.
+    spare: SparseRow,
 }
 
 impl Active {
     fn new(field: &PrimeField, rows: Vec<SparseRow>, cols: usize) -> Self {
-        let mut members = vec![Vec::new(); cols];
+        let mut counts = vec![0; cols];
+        for &(col, _) in rows.iter().flatten() {
+            counts[col] += 1;
+        }
+        // With room to fill in.
+        let mut members: Vec<Vec<usize>> = counts
+            .into_iter()
+            .map(|count: usize| Vec::with_capacity(2 * count))
+            .collect();
         for (r, row) in rows.iter().enumerate() {
             for &(col, _) in row {
                 members[col].push(r);
@@ -92,6 +100,7 @@ impl Active {
             members,
             by_count,
             nonempty,
+            spare: Vec::new(),
         }
     }
 
@@ -116,28 +125,29 @@ impl Active {
         fill * SPARSE_COST > self.nonempty * self.by_count.len()
     }
 
-    fn insert(&mut self, col: usize, row: usize) {
-        let count = self.members[col].len();
-        self.by_count.remove(&(count, col));
-        self.by_count.insert((count + 1, col));
-        self.members[col].push(row);
-    }
-
+    /// Takes a row off a column's list. (The order of a list does not matter.)
     fn remove(&mut self, col: usize, row: usize) {
-        let count = self.members[col].len();
-        self.by_count.remove(&(count, col));
-        if count > 1 {
-            self.by_count.insert((count - 1, col));
+        let members = &mut self.members[col];
+        if let Some(at) = members.iter().position(|&member| member == row) {
+            members.swap_remove(at);
         }
-        self.members[col].retain(|&member| member != row);
     }
 
-    /// Eliminates a column with a row; returns the row without the pivot, the inverse of
-    /// the pivot, and for each other row how often the pivot row was added to it.
-    fn eliminate(&mut self, row: usize, col: usize) -> (SparseRow, u64, Vec<(usize, u64)>) {
+    /// Eliminates a column with a row, the pivot of the given step, and notes in `lower`
+    /// how often the pivot row was added to which rows; returns the row without the
+    /// pivot, and the inverse of the pivot.
+    fn eliminate(
+        &mut self,
+        row: usize,
+        col: usize,
+        step: usize,
+        lower: &mut [SparseRow],
+    ) -> (SparseRow, u64) {
         let mut pivot_row = std::mem::take(&mut self.rows[row]);
         self.nonempty -= 1;
+        // Only columns of the pivot row change: they are counted again at the end.
         for &(c, _) in &pivot_row {
+            self.by_count.remove(&(self.members[c].len(), c));
             self.remove(c, row);
         }
         let place = pivot_row
@@ -148,13 +158,17 @@ impl Active {
             .field
             .inverse(pivot)
             .unwrap_or_else(|| unreachable!("a pivot is not zero"));
-        let mut factors = Vec::new();
-        for target in self.members[col].clone() {
+        for target in std::mem::take(&mut self.members[col]) {
             let factor = self.add_multiple(target, col, &pivot_row, inverse);
-            self.remove(col, target);
-            factors.push((target, factor));
+            lower[target].push((step, factor));
         }
-        (pivot_row, inverse, factors)
+        for &(c, _) in &pivot_row {
+            let count = self.members[c].len();
+            if count > 0 {
+                self.by_count.insert((count, c));
+            }
+        }
+        (pivot_row, inverse)
     }
 
     /// Clears column `col` of a row with the multiple of the pivot row that does it.
@@ -171,12 +185,14 @@ impl Active {
             .binary_search_by_key(&col, |&(c, _)| c)
             .unwrap_or_else(|_| unreachable!("a column's list holds rows with an entry there"));
         let factor = f.negate(f.times(old[place].1, inverse));
-        let mut sum = Vec::with_capacity(old.len() + pivot_row.len());
+        let mut sum = std::mem::take(&mut self.spare);
+        sum.clear();
+        sum.reserve(old.len() + pivot_row.len());
         let mut added = pivot_row.iter().peekable();
         for &(c, value) in &old {
             while let Some(&&(new, x)) = added.peek().filter(|&&&(new, _)| new < c) {
                 sum.push((new, f.times(factor, x)));
-                self.insert(new, target);
+                self.members[new].push(target);
                 added.next();
             }
             if let Some(&(_, x)) = added.next_if(|&&(same, _)| same == c) {
@@ -192,12 +208,13 @@ impl Active {
         }
         for &(new, x) in added {
             sum.push((new, f.times(factor, x)));
-            self.insert(new, target);
+            self.members[new].push(target);
         }
         if sum.is_empty() {
             self.nonempty -= 1;
         }
         self.rows[target] = sum;
+        self.spare = old;
         factor
     }
 }
@@ -229,10 +246,7 @@ impl Factorisation {
             if active.is_dense(fill) {
                 break;
             }
-            let (pivot_row, inverse, factors) = active.eliminate(row, col);
-            for (target, factor) in factors {
-                lower[target].push((sparse.rank(), factor));
-            }
+            let (pivot_row, inverse) = active.eliminate(row, col, sparse.rank(), &mut lower);
             upper.push(pivot_row);
             inverses.push(inverse);
             sparse.rows.push(row);
@@ -358,7 +372,7 @@ impl Factorisation {
                     weight
                 };
                 let mut sums = vec![[0; LANES]; self.sparse.rank()];
-                let spread = |sums: &mut [Lanes], row: usize, weight: &Lanes| {
+                let spread = |sums: &mut [[u64; LANES]], row: usize, weight: &[u64; LANES]| {
                     for &(k, factor) in &self.lower[row] {
                         self.add_lanes(&mut sums[k], factor, weight);
                     }
@@ -464,20 +478,16 @@ impl Factorisation {
             return None;
         }
         let dense = self.dense.solve(&rest)?;
-        let mut x = vec![[0; LANES]; self.cols];
+        let mut x = vec![[0]; self.cols];
         for (&col, value) in self.dense_cols.iter().zip(dense) {
-            x[col][0] = value;
+            x[col] = [value];
         }
-        self.substitute(&mut x, |k| {
-            let mut right = [0; LANES];
-            right[0] = reduced[k];
-            right
-        });
-        Some(x.into_iter().map(|lanes| lanes[0]).collect())
+        self.substitute(&mut x, |k| [reduced[k]]);
+        Some(x.into_iter().flatten().collect())
     }
 
     /// Solves for the sparse pivots' columns, last pivot first.
-    fn substitute(&self, x: &mut [Lanes], right: impl Fn(usize) -> Lanes) {
+    fn substitute<const N: usize>(&self, x: &mut [[u64; N]], right: impl Fn(usize) -> [u64; N]) {
         for (k, &col) in self.sparse.cols.iter().enumerate().rev() {
             let mut sum = right(k);
             for &(other, value) in &self.upper[k] {
@@ -488,14 +498,14 @@ impl Factorisation {
     }
 
     #[inline]
-    fn add_lanes(&self, sum: &mut Lanes, factor: u64, x: &Lanes) {
+    fn add_lanes<const N: usize>(&self, sum: &mut [u64; N], factor: u64, x: &[u64; N]) {
         for (sum, &x) in sum.iter_mut().zip(x) {
             *sum = self.field.plus(*sum, self.field.times(factor, x));
         }
     }
 
     /// Writes one entry of every vector that is there.
-    fn store(&self, out: &mut [u64], length: usize, at: usize, lanes: &Lanes) {
+    fn store(&self, out: &mut [u64], length: usize, at: usize, lanes: &[u64; LANES]) {
         for (vector, &value) in out.chunks_exact_mut(length).zip(lanes) {
             vector[at] = value;
         }
