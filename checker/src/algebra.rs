@@ -36,8 +36,9 @@ pub(crate) struct Field {
     pub one: u64,
 }
 
-/// How many products are summed before one reduction.
+/// How many products are summed before one reduction: in 128 bits, or in 64 if p < 2^29.
 const LANES: usize = 12;
+const SMALL_LANES: usize = 64;
 
 /// Columns that are computed together.
 const TILE: usize = 128;
@@ -76,6 +77,10 @@ impl Field {
 
     pub fn signed(&self, value: i128) -> u64 {
         self.element(value.rem_euclid(i128::from(self.p)) as u64)
+    }
+
+    fn is_small(&self) -> bool {
+        self.p < 1 << 29
     }
 
     pub fn neg(&self, a: u64) -> u64 {
@@ -193,37 +198,22 @@ fn subtract(field: &Field, row: &mut [u64], multiple: u64, entries: &[(usize, u6
     entries.iter().for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
 }
 
-/// Sees that elimination along the diagonal of a square matrix meets no zero. So many rows are subtracted at a time that a sum of
-/// as many products of residues fits: 12 into 128 bits; 64 into a word, for which there are vector units, if p < 2^29.
-pub(crate) fn check_diagonal(field: &Field, rows: &mut [Vec<u64>]) -> Checked<()> {
-    if field.p < 1 << 29 {
-        check_blocks::<u64>(field, rows, 64, |residue| residue & 0xffff_ffff)
-    } else {
-        check_blocks::<u128>(field, rows, LANES, u128::from)
-    }
-}
-
-/// What products are summed in.
-trait Sum: Copy + Default + Into<u128> + Add<Output = Self> + Mul<Output = Self> + Send {}
-impl Sum for u64 {}
-impl Sum for u128 {}
-
-fn check_blocks<S: Sum>(
-    field: &Field, mut rows: &mut [Vec<u64>], height: usize, widen: impl Fn(u64) -> S + Copy + Sync,
-) -> Checked<()> {
+/// Sees that elimination along the diagonal of a square matrix meets no zero. Rows are subtracted in blocks.
+pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checked<()> {
+    let height = if field.is_small() { SMALL_LANES } else { LANES };
     for first in (0..rows.len()).step_by(height) {
         let (block, rest) = rows.split_at_mut(height.min(rows.len()));
         let mut inverses = Vec::new();
         for k in 0..block.len() {
             let (done, row) = block.split_at_mut(k);
-            subtract_block(field, done, &inverses, first, &mut row[0], widen);
+            subtract_block(field, done, &inverses, first, &mut row[0]);
             ensure!(row[0][first + k] != 0, "pivot {} vanishes", first + k);
             inverses.push(field.inverse(row[0][first + k]));
         }
         // A second thread is not worth its start for a few rows.
         let half = if rest.len() < 64 { 0 } else { rest.len() / 2 };
         let (here, there) = rest.split_at_mut(rest.len() - half);
-        let subtract = |row: &mut Vec<u64>| subtract_block(field, block, &inverses, first, row, widen);
+        let subtract = |row: &mut Vec<u64>| subtract_block(field, block, &inverses, first, row);
         std::thread::scope(|scope| {
             (half > 0).then(|| scope.spawn(|| there.iter_mut().for_each(subtract)));
             here.iter_mut().for_each(subtract);
@@ -235,33 +225,40 @@ fn check_blocks<S: Sum>(
 
 /// Subtracts multiples of rows so that a row would vanish at their pivots, the columns from `first` on; computes what is right
 /// of these.
-fn subtract_block<S: Sum>(
-    field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, row: &mut [u64], widen: impl Fn(u64) -> S,
-) {
+fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, row: &mut [u64]) {
     let mut factors: Vec<u64> = Vec::with_capacity(block.len());
     for (k, &inverse) in inverses.iter().enumerate() {
         let terms = factors.iter().zip(block).map(|(&factor, lane)| field.mul(factor, lane[first + k]));
         let entry = terms.fold(row[first + k], |sum, term| field.add(sum, term));
         factors.push(field.neg(field.mul(entry, inverse)));
     }
-    let from = first + block.len();
-    for (tile, entries) in row[from..].chunks_mut(TILE).enumerate() {
-        let mut sums = [S::default(); TILE];
-        for (factors, lanes) in factors.chunks(4).zip(block.chunks(4)) {
-            // Lanes that are missing have factor zero: the first one does instead.
-            let factor: [S; 4] = std::array::from_fn(|k| widen(factors.get(k).copied().unwrap_or(0)));
-            let lane: [&[u64]; 4] =
-                std::array::from_fn(|k| &lanes.get(k).unwrap_or(&lanes[0])[from + tile * TILE..][..entries.len()]);
-            let [a, b, c, d] = lane;
-            for ((((sum, &a), &b), &c), &d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                let pairs = (factor[0] * widen(a) + factor[1] * widen(b), factor[2] * widen(c) + factor[3] * widen(d));
-                *sum = *sum + pairs.0 + pairs.1;
-            }
+    let mut from = first + block.len();
+    for entries in row[from..].chunks_mut(TILE) {
+        let lanes = factors.iter().zip(block).map(|(&factor, lane)| (factor, &lane[from..from + entries.len()]));
+        // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
+        if field.is_small() {
+            add_lanes::<u64>(field, entries, &lanes.collect::<Vec<_>>(), |residue| residue & 0xffff_ffff);
+        } else {
+            add_lanes::<u128>(field, entries, &lanes.collect::<Vec<_>>(), u128::from);
         }
-        for (entry, sum) in entries.iter_mut().zip(sums) {
-            *entry = field.add_products(*entry, sum.into());
+        from += TILE;
+    }
+}
+
+/// Adds multiples of lanes to at most `TILE` entries; products are summed in `S`.
+fn add_lanes<S: Copy + Default + Into<u128> + Add<Output = S> + Mul<Output = S>>(
+    field: &Field, entries: &mut [u64], lanes: &[(u64, &[u64])], widen: impl Fn(u64) -> S,
+) {
+    let mut sums = [S::default(); TILE];
+    for four in lanes.chunks(4) {
+        // Lanes that are missing have factor zero: the first one does instead.
+        let [(s, a), (t, b), (u, c), (v, d)] = [0, 1, 2, 3].map(|k| *four.get(k).unwrap_or(&(0, four[0].1)));
+        let [s, t, u, v] = [s, t, u, v].map(&widen);
+        for ((((sum, &a), &b), &c), &d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+            *sum = *sum + (s * widen(a) + t * widen(b)) + (u * widen(c) + v * widen(d));
         }
     }
+    entries.iter_mut().zip(sums).for_each(|(entry, sum)| *entry = field.add_products(*entry, sum.into()));
 }
 
 #[cfg(test)]

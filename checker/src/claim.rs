@@ -46,14 +46,22 @@ impl Display for Strength {
 
 /// What a certificate proves. There is no way to come by one but a check that passed.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Verified {
-    graph: String,
-    model: Model,
-    verdict: (Verdict, Strength),
-    rank: (i64, Strength),
-    required: i64,
-    components: (usize, Strength),
-    notes: Vec<String>,
+    /// The size of the graph, and its hash.
+    pub graph: String,
+    /// The model that the certificate is about.
+    pub model: Model,
+    /// The verdict and its strength.
+    pub verdict: (Verdict, Strength),
+    /// The generic rank of the whole graph and its strength.
+    pub rank: (i64, Strength),
+    /// The rank at which the graph is finite solvable.
+    pub required: i64,
+    /// The number of maximal components and its strength.
+    pub components: (usize, Strength),
+    /// For people: what else was verified.
+    pub notes: Vec<String>,
 }
 
 /// Compares the claim with what follows from the pieces.
@@ -116,33 +124,6 @@ fn compare<C: Display, F: Display>(
     ensure!(claimed == given, "the strength is not `{claimed}`, but `{given}`");
     ensure!(!matches!(given, Strength::ErrorBound(-99..)), "an error of more than 2^-100");
     Ok((found, given))
-}
-
-impl Verified {
-    /// The verdict and its strength.
-    pub fn verdict(&self) -> (Verdict, Strength) {
-        self.verdict
-    }
-
-    /// The generic rank of the whole graph and its strength.
-    pub fn rank(&self) -> (i64, Strength) {
-        self.rank
-    }
-
-    /// The rank at which the graph is finite solvable.
-    pub fn required(&self) -> i64 {
-        self.required
-    }
-
-    /// The number of maximal components and its strength.
-    pub fn components(&self) -> (usize, Strength) {
-        self.components
-    }
-
-    /// The model that the certificate is about.
-    pub fn model(&self) -> Model {
-        self.model
-    }
 }
 
 impl Display for Verified {

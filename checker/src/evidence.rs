@@ -1,8 +1,7 @@
 //! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification).
 
 use crate::algebra::Field;
-use crate::cameras;
-use crate::cameras::Stream;
+use crate::cameras::{self, Stream};
 use crate::counting::check_counting;
 use crate::document::{self, Evidence, Kernel, Members, big};
 use crate::lower::{Draw, Lower, check_draws, check_lower, own_centres};

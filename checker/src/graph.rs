@@ -103,17 +103,17 @@ impl Graph {
     }
 
     /// Reads a file: graph6, if every line that is not blank is a graph6 graph (the first line may have the header
-    /// `>>graph6<<`), or else an edge list. Of several graphs the one with the wanted hash is taken, or else the first.
+    /// `>>graph6<<`), or else an edge list. Of several graphs the one with the wanted hash (as in a certificate) is taken, or else the first.
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
-    pub fn read(file: &[u8], wanted: Option<[u8; 32]>) -> Result<Graph, Rejection> {
+    pub fn read(file: &[u8], wanted: Option<&str>) -> Result<Graph, Rejection> {
         let body = file.strip_prefix(b">>graph6<<");
         let mut first = None;
         for (number, line) in body.unwrap_or(file).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).enumerate() {
             match Graph::from_graph6(line) {
                 _ if line.is_empty() => {}
-                Ok(graph) if wanted == Some(graph.sha256()) => return Ok(graph),
+                Ok(graph) if wanted == Some(&hex(&graph.sha256())) => return Ok(graph),
                 Ok(graph) => first = first.or(Some(graph)),
                 Err(_) if body.is_none() => return Graph::from_edge_list(file),
                 Err(error) => return Err(Rejection::new(format!("line {}: {error}", number + 1))),
@@ -129,7 +129,9 @@ impl Graph {
         let mut provisional = |label| {
             let number = match number(label).and_then(|number| usize::try_from(number).ok()) {
                 Some(small) if small < text.len() => {
-                    table.resize(table.len().max(small + 1), u32::MAX);
+                    if small >= table.len() {
+                        table.resize(small + 1, u32::MAX);
+                    }
                     &mut table[small]
                 }
                 _ => map.entry(label).or_insert(u32::MAX),
@@ -146,11 +148,11 @@ impl Graph {
             let words = line.split(|byte| matches!(byte, b' ' | b'\t' | b',')).filter(|word| !word.is_empty());
             let mut words = words.take_while(|word| !matches!(word[0], b'#' | b'%'));
             let Some(first) = words.next() else { continue };
-            let second = words.next();
-            ensure!(second != Some(first), "line {}: a node paired with itself", number + 1);
             ensure!(pairs.len() < 1 << 31, "2^31 lines and more are too many");
+            let (first, second) = (provisional(first), words.next().map(&mut provisional));
+            ensure!(second != Some(first), "line {}: a node paired with itself", number + 1);
             // One label is an isolated node: a pair of equal ones until the end.
-            pairs.push((provisional(first), provisional(second.unwrap_or(first))));
+            pairs.push((first, second.unwrap_or(first)));
         }
         ensure!(!labels.is_empty(), "the file holds no graph");
         let all_numbers = labels.iter().all(|label| number(label).is_some());
@@ -165,10 +167,8 @@ impl Graph {
 
 /// A label that is a decimal integer without leading zeros below 2^64.
 fn number(label: &[u8]) -> Option<u64> {
-    let digit = |byte: &u8| byte.is_ascii_digit().then(|| u64::from(byte - b'0'));
-    let push = |value: u64, byte| value.checked_mul(10)?.checked_add(digit(byte)?);
-    let value = label.iter().try_fold(0, push);
-    value.filter(|_| label[0] != b'0' || label.len() == 1)
+    let value = std::str::from_utf8(label).ok()?.parse().ok();
+    value.filter(|_| label[0].is_ascii_digit() && (label[0] != b'0' || label.len() == 1))
 }
 
 impl GraphName {

@@ -43,7 +43,7 @@ use rejection::{Within, ensure};
 ///         "components": {"value": 1, "strength": "proof", "error_log2": null}},
 ///     "bodies": [], "rigid": {"bodies": [], "edges": [[0, 1]]}, "pieces": []}"#;
 /// let verified = viewcert_check::check(certificate, None).unwrap();
-/// assert_eq!(verified.verdict().0, viewcert_check::Verdict::Solvable);
+/// assert_eq!(verified.verdict.0, viewcert_check::Verdict::Solvable);
 /// ```
 pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Rejection> {
     Certificate::parse(certificate)?.check(graph)
@@ -63,10 +63,8 @@ impl Certificate {
     }
 
     /// The hash of the graph that the certificate names, to find that graph in a file of many.
-    pub fn graph_sha256(&self) -> Option<[u8; 32]> {
-        let digits = self.0.graph.sha256.as_bytes().chunks(2);
-        let byte = |pair| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
-        digits.map(byte).collect::<Option<Vec<u8>>>()?.try_into().ok()
+    pub fn graph_sha256(&self) -> &str {
+        &self.0.graph.sha256
     }
 
     /// See [`check`].

@@ -1,7 +1,6 @@
 //! Lower bounds on the rank of a core, and its rank at random draws (sections 7 and 9 of the specification).
 
-use crate::algebra::{Echelon, check_diagonal};
-use crate::algebra::{Field, Integers, Ring};
+use crate::algebra::{Echelon, Field, Integers, Ring, check_diagonal};
 use crate::cameras::{self, gcd};
 use crate::document::{Draws, Evidence, IntegerMinor, Minor, PlaneFlow, big};
 use crate::evidence::{Model, Setting};

@@ -38,7 +38,7 @@ fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
     };
     let checked = match (Certificate::parse(&certificate), graph) {
         (Ok(certificate), Some((file, path))) => {
-            let graph = Graph::read(&file, certificate.graph_sha256());
+            let graph = Graph::read(&file, Some(certificate.graph_sha256()));
             certificate.check(Some(&graph.map_err(|error| format!("{path}: {error}"))?))
         }
         (certificate, _) => certificate.and_then(|certificate| certificate.check(None)),
