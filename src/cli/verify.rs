@@ -21,7 +21,8 @@ pub(super) struct VerifyArguments {
     /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
-    /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1].
+    /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and
+    /// without this option 2^29 - 3 for cores of 256 cameras and more].
     #[arg(long, value_name = "P", num_args = 0..=1, require_equals = true)]
     #[arg(
         default_missing_value = "2305843009213693951",
