@@ -2,6 +2,7 @@
 """Takes the measurements of benches/README.md and prints its tables.
 
     python3 benches/measure.py table3   [--data DIR]
+    python3 benches/measure.py float    [--data DIR] [--seconds 600]
     python3 benches/measure.py rational
     python3 benches/measure.py cores    [--nodes 200 500 1000 3000] [--jacobian N] [--flint N]
     python3 benches/measure.py sequence [--nodes 1000000]
@@ -169,6 +170,45 @@ def table3(arguments, folder):
             f"{line['seconds_edge_based']} / {line['seconds_node_based']}")
 
 
+def float_side(arguments, folder):
+    """The float test of docs/audit.md beside the exact decision, on the paper's real graphs."""
+    data = Path(arguments.data)
+    with open(data / "table3.csv") as table:
+        published = list(csv.DictReader(table))
+    published.sort(key=lambda line: int(line["edges"]))
+    head("graph", "cameras", "pairs", "smallest eigenvalue", "components, float / exact",
+         "float, s", "exact, s", "ratio", "peak, GiB", "paper, s")
+    for line in published:
+        command = ["/usr/bin/timeout", arguments.seconds, VERIFY, "audit", "--json",
+                   "--method", "sparse", data / "table3" / line["file"]]
+        seconds = {"float": [], "exact": []}
+        peak = 0
+        for _ in range(arguments.runs):
+            with open(folder / "time", "w+") as report, open(folder / "audit", "w+") as out:
+                timed = ["/usr/bin/time", "-f", "%M", "-o", report.name, *map(str, command)]
+                code = subprocess.run(timed, stdout=out, check=False).returncode
+                if code not in (0, 1):
+                    break
+                out.seek(0)
+                audit = json.load(out)
+                peak = max(peak, 1024 * int(report.read().split()[-1]))
+            for side, its in seconds.items():
+                its.append(audit[side]["seconds"])
+            # What takes long scatters little.
+            if seconds["float"][-1] > 20:
+                break
+        paper = line["seconds_node_based"]
+        if not seconds["float"]:
+            why = f"over {arguments.seconds} s" if code == 124 else f"exit code {code}"
+            row(line["name"], line["nodes"], line["edges"], "-", "-", why, "-", "-", "-", paper)
+            continue
+        float_, exact = (statistics.median(seconds[side]) for side in ("float", "exact"))
+        row(line["name"], line["nodes"], line["edges"],
+            f"{audit['float']['smallest_eigenvalue']:.1e}",
+            f"{audit['float']['components']} / {audit['exact']['components']}",
+            sec(float_), sec(exact), f"{float_ / exact:.0f}", f"{peak / 2**30:.2f}", paper)
+
+
 def checked(certificate_and_graph, count, unit):
     """Wall-clock time of the checker, or that it does not accept."""
     [figures] = compare([[CHECK, *certificate_and_graph]], count)
@@ -256,15 +296,17 @@ def sequence(arguments, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    commands = parser.add_subparsers(required=True, metavar="table3 | rational | cores | sequence")
-    for name, function, runs in [("table3", table3, 11), ("rational", rational, 5),
+    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence")
+    for name, function, runs in [("table3", table3, 11), ("float", float_side, 3), ("rational", rational, 5),
                                  ("cores", cores, 3), ("sequence", sequence, 3)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
-        if name == "table3":
+        if name in ("table3", "float"):
             command.add_argument("--data", default=str(ROOT.parent / "shared" / "data"),
                                  help="folder of table3.csv and table3/*.mat")
+        if name == "float":
+            command.add_argument("--seconds", type=int, default=600, help="limit for one graph")
         if name == "cores":
             command.add_argument("--nodes", type=int, nargs="+", default=[200, 500, 1000, 3000])
             command.add_argument("--jacobian", type=int, default=500,
