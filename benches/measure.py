@@ -2,7 +2,7 @@
 """Takes the measurements of benches/README.md and prints its tables.
 
     python3 benches/measure.py table3   [--data DIR]
-    python3 benches/measure.py float    [--data DIR] [--seconds 600]
+    python3 benches/measure.py float    [--data DIR] [--seconds 600] [--least PAIRS]
     python3 benches/measure.py rational
     python3 benches/measure.py cores    [--nodes 200 500 1000 3000] [--jacobian N] [--flint N]
     python3 benches/measure.py sequence [--nodes 1000000]
@@ -176,6 +176,7 @@ def float_side(arguments, folder):
     with open(data / "table3.csv") as table:
         published = list(csv.DictReader(table))
     published.sort(key=lambda line: int(line["edges"]))
+    published = [line for line in published if int(line["edges"]) >= arguments.least]
     head("graph", "cameras", "pairs", "smallest eigenvalue", "components, float / exact",
          "float, s", "exact, s", "ratio", "peak, GiB", "paper, s")
     for line in published:
@@ -307,6 +308,8 @@ def main():
                                  help="folder of table3.csv and table3/*.mat")
         if name == "float":
             command.add_argument("--seconds", type=int, default=600, help="limit for one graph")
+            command.add_argument("--least", type=int, default=0,
+                                 help="leave out graphs with fewer pairs")
         if name == "cores":
             command.add_argument("--nodes", type=int, nargs="+", default=[200, 500, 1000, 3000])
             command.add_argument("--jacobian", type=int, default=500,

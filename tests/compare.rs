@@ -36,7 +36,8 @@ fn a_table_and_json_in_both_fields() {
         let done = verify(&[&["compare", &square], field].concat());
         assert_eq!(done.code, 0, "{}", done.out);
         assert!(
-            done.out.contains("all agree: at these cameras 1 dimensions"),
+            done.out
+                .contains("all agree: at these cameras 1 dimensions"),
             "{}",
             done.out
         );
@@ -134,7 +135,9 @@ fn the_format_can_be_said() {
 /// The candidates of a row of Table 1 by nauty's generator; `None` without it.
 fn candidates(nodes: usize, edges: usize) -> Option<Vec<Graph>> {
     let lines = geng(nodes, edges)?;
-    let graphs = lines.lines().map(|line| graph6::decode(line.as_bytes()).unwrap());
+    let graphs = lines
+        .lines()
+        .map(|line| graph6::decode(line.as_bytes()).unwrap());
     Some(graphs.collect())
 }
 
@@ -197,8 +200,7 @@ fn bareiss_finds_the_same_ranks() {
                         .iter()
                         .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denominator()));
                     for (column, x) in row {
-                        matrix[(r, *column)] =
-                            x.numerator().mul(&lcm.div_exact(x.denominator()));
+                        matrix[(r, *column)] = x.numerator().mul(&lcm.div_exact(x.denominator()));
                     }
                 }
                 let expected = bareiss::eliminate(matrix).pivots().rank();

@@ -257,7 +257,9 @@ fn plane_flow<F: RankField>(
 ) -> Line {
     let edges = graph.edges().len();
     let (rows, columns) = rigidity_size(graph);
-    let entries = field.lambda_entries(edges).max(rows.saturating_mul(columns));
+    let entries = field
+        .lambda_entries(edges)
+        .max(rows.saturating_mul(columns));
     let timed = (entries <= limit).then(|| {
         let start = Instant::now();
         let found = field.plane_ranks(graph, cameras, key);
@@ -279,7 +281,11 @@ fn plane_flow<F: RankField>(
                 size: Some((rows, columns)),
                 ..matrix("N", ["2m", "3n"], rigidity)
             },
-            matrix("Lambda", ["4 flows, at most 4(2m - rank N)", "m - n + parts"], lambda),
+            matrix(
+                "Lambda",
+                ["4 flows, at most 4(2m - rank N)", "m - n + parts"],
+                lambda,
+            ),
         ],
         rank: timed.map(|(found, time)| {
             // The trivial kernel of J_P has dimension n + 15.
@@ -409,7 +415,11 @@ mod tests {
             let pairs: Vec<(u32, u32)> = (0..nodes)
                 .flat_map(|j| (0..j).map(move |i| (i, j)))
                 .collect();
-            let most = if sparse { pairs.len().min(nodes as usize) } else { pairs.len() };
+            let most = if sparse {
+                pairs.len().min(nodes as usize)
+            } else {
+                pairs.len()
+            };
             proptest::sample::subsequence(pairs, 1..=most)
                 .prop_map(move |pairs| Graph::from_pairs(nodes, pairs).unwrap().0)
         })

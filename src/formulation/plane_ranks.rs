@@ -118,8 +118,7 @@ fn whole(row: &[Rational; 4]) -> [Integer; 4] {
 
 /// Two integer directions orthogonal to the difference of two centres.
 fn integer_directions(ci: &[Integer; 4], cj: &[Integer; 4]) -> [[Integer; 3]; 2] {
-    let d: [Integer; 3] =
-        std::array::from_fn(|k| ci[k].mul(&cj[3]).sub(&cj[k].mul(&ci[3])));
+    let d: [Integer; 3] = std::array::from_fn(|k| ci[k].mul(&cj[3]).sub(&cj[k].mul(&ci[3])));
     let gcd = d.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
     assert!(!gcd.is_zero(), "centres are distinct");
     let d = d.map(|x| x.div_exact(&gcd));
@@ -167,9 +166,7 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
         }
         // omega . c_j with c_j over its last coordinate: one denominator for the row.
         let ends: Vec<&[Integer; 4]> = cotree.iter().map(|&e| at(graph.edges()[e].1)).collect();
-        let lcm = ends
-            .iter()
-            .fold(Integer::one(), |lcm, c| lcm.lcm(&c[3]));
+        let lcm = ends.iter().fold(Integer::one(), |lcm, c| lcm.lcm(&c[3]));
         rows.push(sparse(normals.iter().zip(ends).map(|(omega, c)| {
             let dot = (0..3).fold(Integers.zero(), |sum, k| sum.add(&omega[k].mul(&c[k])));
             dot.mul(&lcm.div_exact(&c[3]))

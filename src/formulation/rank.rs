@@ -75,11 +75,11 @@ fn integer_rows(rows: &SparseRows<Rational>) -> Vec<IntegerRow> {
                 (*col, x.numerator().mul(&factor))
             });
             let whole: IntegerRow = whole.collect();
-            let gcd = whole
+            let gcd = whole.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
+            whole
                 .iter()
-                .fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
-            let divided = whole.iter().map(|(col, x)| (*col, x.div_exact(&gcd)));
-            divided.collect()
+                .map(|(col, x)| (*col, x.div_exact(&gcd)))
+                .collect()
         })
         .collect()
 }

@@ -52,8 +52,14 @@ fn formulation(out: &mut impl Write, line: &Line) -> io::Result<()> {
     writeln!(out, "  {:20} {blank:>29} {}", line.name, rank_cells(line))?;
     for matrix in &line.matrices {
         let name = format!("  {}", matrix.name.unwrap_or(""));
-        let rank = matrix.found.map_or_else(String::new, |(_, rank)| rank.to_string());
-        write!(out, "  {name:20} {} {rank:>8} {blank:>27}", matrix_cells(matrix))?;
+        let rank = matrix
+            .found
+            .map_or_else(String::new, |(_, rank)| rank.to_string());
+        write!(
+            out,
+            "  {name:20} {} {rank:>8} {blank:>27}",
+            matrix_cells(matrix)
+        )?;
         writeln!(out, "  {} x {}", matrix.formula[0], matrix.formula[1])?;
     }
     Ok(())
@@ -61,9 +67,10 @@ fn formulation(out: &mut impl Write, line: &Line) -> io::Result<()> {
 
 /// Size and entries.
 fn matrix_cells(matrix: &MatrixLine) -> String {
-    let size = matrix
-        .size
-        .map_or_else(|| "-".into(), |(rows, columns)| format!("{rows} x {columns}"));
+    let size = matrix.size.map_or_else(
+        || "-".into(),
+        |(rows, columns)| format!("{rows} x {columns}"),
+    );
     let nonzeros = matrix
         .found
         .map_or_else(|| "-".into(), |(nonzeros, _)| nonzeros.to_string());
