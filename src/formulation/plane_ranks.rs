@@ -54,13 +54,15 @@ pub fn admits<F: Field>(field: &F, cameras: &[Camera<F::Elem>]) -> bool {
         .all(|camera| !field.is_zero(&centre(field, camera)[3]))
 }
 
-/// Primes from here on are too large for random flows to miss a part of Lambda: that they
-/// stop too early has probability below 2^-62, at least two flows having to fall into a
-/// proper subspace.
-const FEW_FLOWS: u64 = 1 << 31;
+/// Below this prime a basis of all flows is taken. From here on as many random flows as the
+/// verifier takes, which miss a part of Lambda with probability below 2^-59: either all
+/// flows were asked for and the drawn ones are dependent, 1 / (p - 1), or two flows or more
+/// fell into a proper subspace, 1 / p^2.
+const FEW_FLOWS: u64 = 1 << 60;
 
-/// Modulo a prime, by the verifier's elimination. Below 2^31, where random flows might
-/// miss a part of Lambda, by all flows.
+/// Modulo a prime, by the verifier's elimination; below 2^60, where its random flows might
+/// miss a part of Lambda, by all flows. O(n^3) at worst for N, and O((m - n) m^2) for
+/// Lambda.
 ///
 /// # Panics
 /// If there is not one camera a node, a centre is not [admitted](admits), or those of an
@@ -126,7 +128,8 @@ fn integer_directions(ci: &[Integer; 4], cj: &[Integer; 4]) -> [[Integer; 3]; 2]
     directions(&Integers, &d, &zero).expect("the difference is not zero")
 }
 
-/// Over Q: rank and left kernel of N, and the rank of Lambda, each by [`rank_exact`].
+/// Over Q: rank and left kernel of N, and the rank of Lambda, each by [`rank_exact`], whose
+/// cost it is.
 ///
 /// # Panics
 /// As for [`modular`].
