@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod conditions;
 mod experiment;
+mod input;
 mod progress;
 mod verify;
 

@@ -217,3 +217,92 @@ fn table_3_is_confirmed() {
         run.out
     );
 }
+
+/// A MATLAB 5 file with two symmetric adjacency matrices of doubles, by the format's
+/// description: a header of 128 bytes, then a matrix element (type 14) each, of array flags
+/// (class 6, double), dimensions, name and values.
+fn two_matrices(folder: &Path) -> String {
+    fn element(kind: u32, data: &[u8]) -> Vec<u8> {
+        let mut bytes = [kind.to_le_bytes(), (data.len() as u32).to_le_bytes()].concat();
+        bytes.extend(data);
+        bytes.resize(bytes.len().next_multiple_of(8), 0);
+        bytes
+    }
+    let matrix = |name: &str, pairs: &[(usize, usize)]| {
+        let mut values = [0.0f64; 16];
+        for &(i, j) in pairs {
+            (values[4 * i + j], values[4 * j + i]) = (1.0, 1.0);
+        }
+        let parts = [
+            element(6, &[6u32, 0].map(u32::to_le_bytes).concat()),
+            element(5, &[4u32, 4].map(u32::to_le_bytes).concat()),
+            element(1, name.as_bytes()),
+            element(9, &values.map(f64::to_le_bytes).concat()),
+        ];
+        element(14, &parts.concat())
+    };
+    let mut file = b"MATLAB 5.0 MAT-file".to_vec();
+    file.resize(124, b' ');
+    file.extend([0, 1, b'I', b'M']);
+    file.extend(matrix("square", &[(0, 1), (1, 2), (2, 3), (0, 3)]));
+    let all = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
+    file.extend(matrix("complete", &all));
+    let path = folder.join("two.mat");
+    std::fs::write(&path, file).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// The variable and the format are taken as by the verifier itself, by every command that
+/// reads graphs.
+#[test]
+fn the_variable_and_the_format_can_be_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let two = two_matrices(folder.path());
+    for command in ["audit", "compare", "conditions"] {
+        // Which of the two is meant has to be said.
+        let run = verify(&[command, &two]);
+        assert_eq!(run.code, 2, "{}", run.out);
+        for (variable, pairs) in [("square", 4), ("complete", 6)] {
+            let run = verify(&[
+                command,
+                "--json",
+                "--variable",
+                variable,
+                "--format",
+                "matlab",
+                &two,
+            ]);
+            let json = &run.json()[0];
+            let graph = if command == "compare" {
+                &json["graph"]
+            } else {
+                json
+            };
+            assert_eq!(graph["edges"], pairs, "{command}: {}{}", run.out, run.err);
+        }
+        assert_eq!(verify(&[command, "--variable", "none", &two]).code, 2);
+        let run = verify(&[command, "--format", "graph6", &two]);
+        assert_eq!(run.code, 2, "{command}: {}", run.out);
+        assert_eq!(verify(&[command, "--format", "picture", &two]).code, 2);
+    }
+    // The sweep reads graphs, too: two draws of the square, which is not solvable.
+    let sweep = [
+        "audit",
+        "--sweep-tolerance",
+        "--draws",
+        "2",
+        "--variable",
+        "square",
+        &two,
+    ];
+    let run = verify(&sweep);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(
+        run.out.lines().nth(1),
+        Some("1e-10,2,0,0.000000,0,0,0.000000")
+    );
+    // Claims say themselves what their graphs are.
+    let run = verify(&["audit", "--claims", "x.csv", "--format", "graph6"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("cannot be used with"), "{}", run.err);
+}

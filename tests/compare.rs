@@ -1,19 +1,18 @@
 //! `verify compare`, through the binary; and all formulations on all candidates of the
-//! paper's Table 1.
+//! paper's Table 1, in both fields.
 
-use serde_json::Value;
+mod common;
+
+use common::{TABLE_1, geng, verify, verify_with};
 use std::path::Path;
-use std::process::{Command, Output};
+use viewcert::camera::{Camera, DrawKey, cameras_rational};
+use viewcert::exact::bareiss;
+use viewcert::exact::dense::Matrix;
+use viewcert::exact::integer::Integer;
 use viewcert::exact::prime::PrimeField;
-use viewcert::formulation::compare;
-use viewcert::graph::graph6;
-
-fn verify(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_verify"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use viewcert::exact::rational::{Rational, Rationals};
+use viewcert::formulation::{all, compare, rank::RankField};
+use viewcert::graph::{Graph, graph6};
 
 fn graph_file(folder: &Path, name: &str, pairs: &str) -> String {
     let path = folder.join(name);
@@ -30,33 +29,45 @@ fn a_table_and_json_in_both_fields() {
     let square = graph_file(folder.path(), "square.txt", SQUARE);
     for field in [
         &["--prime", "4611686018427387847"][..],
+        &["--prime", "1000003"],
         &["--rational"],
         &[],
     ] {
         let done = verify(&[&["compare", &square], field].concat());
-        let text = String::from_utf8(done.stdout).unwrap();
-        assert_eq!(done.status.code(), Some(0), "{text}");
+        assert_eq!(done.code, 0, "{}", done.out);
         assert!(
-            text.contains("all agree: at these cameras 1 dimensions"),
-            "{text}"
+            done.out
+                .contains("all agree: at these cameras 1 dimensions"),
+            "{}",
+            done.out
         );
-        // 10m + n + 15 = 59 rows, 12n = 48 columns.
-        assert!(text.contains("59 x 48"), "{text}");
+        // 10m + n + 15 = 59 rows, 12n = 48 columns; N has 2m = 8 rows, 3n = 12 columns.
+        assert!(done.out.contains("59 x 48"), "{}", done.out);
+        assert!(done.out.contains("8 x 12"), "{}", done.out);
 
         let done = verify(&[&["compare", "--json", &square], field].concat());
-        let json: Value = serde_json::from_slice(&done.stdout).unwrap();
+        let json = &done.json()[0];
         assert_eq!(json["agree"], true);
         assert_eq!(json["excess"], 1);
         assert_eq!(json["kernel_is_f"], 4);
         assert_eq!(json["implicit_identity"], 4);
-        let ranks: Vec<u64> = json["formulations"]
-            .as_array()
-            .unwrap()
+        let lines = json["formulations"].as_array().unwrap();
+        let ranks: Vec<u64> = lines
             .iter()
             .map(|line| line["rank"].as_u64().unwrap())
             .collect();
-        // One less than 16m, 16m, 11n - 15, 11n - 15, 12n and 11n - 15 + m.
-        assert_eq!(ranks, [63, 63, 28, 28, 47, 32]);
+        // One less than 16m, 16m, 11n - 15, 11n - 15, 12n and 11n - 15.
+        assert_eq!(ranks, [63, 63, 28, 28, 47, 28]);
+        // A closed polygon of four sides in general position is parallel rigid: N has rank
+        // 3n - 4 = 8, so that there are no flows, and Lambda has no rows: 4 * 8 + 0 - 4.
+        let matrices = &lines[5]["matrices"];
+        assert_eq!(
+            (&matrices[0]["name"], &matrices[0]["rank"]),
+            (&"N".into(), &8.into())
+        );
+        for (member, value) in [("rows", 0), ("columns", 1), ("nonzeros", 0), ("rank", 0)] {
+            assert_eq!(matrices[1][member], value, "{member}");
+        }
     }
 }
 
@@ -66,9 +77,10 @@ fn a_picture() {
     let square = graph_file(folder.path(), "square.txt", SQUARE);
     let svg = folder.path().join("sizes.svg");
     let done = verify(&["compare", &square, "--svg", svg.to_str().unwrap()]);
-    assert_eq!(done.status.code(), Some(0));
+    assert_eq!(done.code, 0);
     let svg = std::fs::read_to_string(svg).unwrap();
     assert!(svg.starts_with("<svg") && svg.contains(">edge-based, full</text>"));
+    assert!(svg.contains(">plane flow: Lambda</text>"));
 }
 
 #[test]
@@ -76,98 +88,130 @@ fn bad_input_is_said_and_the_rest_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let square = graph_file(folder.path(), "square.txt", SQUARE);
     let done = verify(&["compare", "/nonexistent", &square]);
-    assert_eq!(done.status.code(), Some(2));
-    assert!(
-        String::from_utf8(done.stdout)
-            .unwrap()
-            .contains("all agree")
-    );
-    assert!(
-        String::from_utf8(done.stderr)
-            .unwrap()
-            .starts_with("verify: ")
-    );
+    assert_eq!(done.code, 2);
+    assert!(done.out.contains("all agree"));
+    assert!(done.err.starts_with("verify: "));
     let done = verify(&["compare", "--prime", "91", &square]);
-    assert_eq!(done.status.code(), Some(2));
-    // 400 cameras in a row: too large for fraction-free elimination.
+    assert_eq!(done.code, 2);
+    // 400 cameras in a row: too large over the rationals.
     let path: String = (0..400).map(|k| format!("{k} {}\n", k + 1)).collect();
     let path = graph_file(folder.path(), "path.txt", &path);
     let done = verify(&["compare", "--rational", &path]);
-    assert_eq!(done.status.code(), Some(2));
-    assert!(
-        String::from_utf8(done.stderr)
-            .unwrap()
-            .contains("too large")
-    );
+    assert_eq!(done.code, 2);
+    assert!(done.err.contains("too large"), "{}", done.err);
 }
 
-/// The candidates with `nodes` nodes, from nauty's generator; `None` without it.
-fn candidates(nodes: usize) -> Option<Vec<viewcert::graph::Graph>> {
-    let edges = (11 * nodes - 15).div_ceil(7);
-    let range = format!("{edges}:{edges}");
-    let found = ["nauty-geng", "geng"].iter().find_map(|program| {
-        Command::new(program)
-            .args(["-Cq", &nodes.to_string(), &range])
-            .output()
-            .ok()
-    });
-    let Some(found) = found else {
-        eprintln!("SKIPPED: neither nauty-geng nor geng is installed");
-        return None;
-    };
-    let lines = found.stdout.split(|&b| b == b'\n');
-    Some(
-        lines
-            .filter(|line| !line.is_empty())
-            .map(|line| graph6::decode(line).unwrap())
-            .collect(),
-    )
-}
-
-/// All formulations agree on every candidate of Table 1 up to 9 nodes modulo a prime, and
-/// as many as published have full rank.
+/// What is too large for some of the matrices is compared by the others.
 #[test]
-fn table_1_modulo_a_prime() {
-    let field = PrimeField::mersenne61();
-    let table = [
-        (3, 1, 1),
-        (4, 1, 1),
-        (5, 2, 1),
-        (6, 9, 4),
-        (7, 20, 3),
-        (8, 161, 36),
-        (9, 433, 27),
-    ];
-    for (nodes, count, solvable) in table {
-        let Some(graphs) = candidates(nodes) else {
+fn the_large_matrices_are_left_out() {
+    // A star of 60 pairs: 10 * (60^2 + 60) - 19 * 60 + 15 = 35,475 rows by 960 columns
+    // for all equations of two pairs, and 120 x 183 for N.
+    let star: String = (1..=60).map(|leaf| format!("0 {leaf}\n")).collect();
+    let run = verify_with(star.as_bytes(), &["compare", "--rational", "--json", "-"]);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    let json = &run.json()[0];
+    let lines = json["formulations"].as_array().unwrap();
+    assert_eq!(lines[0]["matrices"][0]["rows"], 35_475);
+    assert!(lines[0]["rank"].is_null() && lines[0]["matrices"][0]["rank"].is_null());
+    // Every pair adds 7, and N two rows; there are no flows.
+    assert_eq!(lines[5]["rank"], 7 * 60);
+    assert_eq!(lines[5]["matrices"][0]["rank"], 120);
+    assert_eq!(json["excess"], 11 * 61 - 15 - 7 * 60);
+}
+
+/// The format and the MATLAB variable are taken as by the verifier itself.
+#[test]
+fn the_format_can_be_said() {
+    // "Cl" is the 4-cycle in graph6, and an edge list of nothing.
+    let run = verify_with(b"Cl\n", &["compare", "--format", "graph6", "-"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("4 cameras, 4 pairs"), "{}", run.out);
+    let run = verify_with(b"Cl\n", &["compare", "--format", "edge-list", "-"]);
+    assert_eq!(run.code, 2);
+    let run = verify_with(b"0 1\n", &["compare", "--format", "picture", "-"]);
+    assert_eq!(run.code, 2);
+}
+
+/// The candidates of a row of Table 1 by nauty's generator; `None` without it.
+fn candidates(nodes: usize, edges: usize) -> Option<Vec<Graph>> {
+    let lines = geng(nodes, edges)?;
+    let graphs = lines
+        .lines()
+        .map(|line| graph6::decode(line.as_bytes()).unwrap());
+    Some(graphs.collect())
+}
+
+/// Compares on every candidate with up to 9 nodes: all formulations run and agree, and as
+/// many graphs as published have full rank.
+fn table_1(compare: impl Fn(&Graph) -> compare::Comparison) {
+    for (nodes, edges, count, solvable) in TABLE_1.into_iter().filter(|row| row.0 <= 9) {
+        let Some(graphs) = candidates(nodes, edges) else {
             return;
         };
         assert_eq!(graphs.len(), count);
         let mut full = 0;
         for graph in &graphs {
-            let found = compare::modular(&field, graph, 1).unwrap();
+            let found = compare(graph);
             assert!(found.agrees(graph), "{}: {found:?}", graph6::encode(graph));
+            assert!(found.lines.iter().all(|line| line.rank.is_some()));
             full += usize::from(found.excess() == Some(0));
         }
         assert_eq!(full, solvable, "{nodes} nodes");
     }
 }
 
-/// The same over the rationals, up to 6 nodes: fraction-free elimination of the large
-/// matrices of the edge-based formulations grows fast.
+#[test]
+fn table_1_modulo_a_prime() {
+    let field = PrimeField::mersenne61();
+    table_1(|graph| compare::modular(&field, graph, 1).unwrap());
+}
+
 #[test]
 fn table_1_over_the_rationals() {
-    for (nodes, solvable) in [(3, 1), (4, 1), (5, 1), (6, 4)] {
-        let Some(graphs) = candidates(nodes) else {
+    table_1(|graph| compare::rational(graph, (3, 1), 1).unwrap());
+}
+
+/// Fraction-free elimination, which shares nothing with the ranks by a prime and verified
+/// kernel vectors, finds the same ranks over Q; up to 6 nodes, since it grows fast on the
+/// matrices of the edge-based formulations.
+#[test]
+fn bareiss_finds_the_same_ranks() {
+    for (nodes, edges, ..) in TABLE_1.into_iter().filter(|row| row.0 <= 6) {
+        let Some(graphs) = candidates(nodes, edges) else {
             return;
         };
-        let mut full = 0;
+        let key = DrawKey {
+            graph_sha256: [0; 32],
+            seed: 7,
+            draw: 0,
+        };
+        let whole = cameras_rational(nodes, 3, 1, &key).unwrap().values;
+        let cameras: Vec<Camera<Rational>> = whole
+            .into_iter()
+            .map(|camera| camera.map(|row| row.map(Rational::from)))
+            .collect();
         for graph in &graphs {
-            let found = compare::rational(graph, (9, 4), 1).unwrap();
-            assert!(found.agrees(graph), "{}: {found:?}", graph6::encode(graph));
-            assert!(found.lines.iter().all(|line| line.rank.is_some()));
-            full += usize::from(found.excess() == Some(0));
+            for formulation in all::<Rationals>() {
+                let rows = formulation.matrix(&Rationals, graph, &cameras);
+                let (height, width) = formulation.size(graph);
+                let mut matrix = Matrix::from_fn(height, width, |_, _| Integer::zero());
+                for (r, row) in rows.iter().enumerate() {
+                    let lcm = row
+                        .iter()
+                        .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denominator()));
+                    for (column, x) in row {
+                        matrix[(r, *column)] = x.numerator().mul(&lcm.div_exact(x.denominator()));
+                    }
+                }
+                let expected = bareiss::eliminate(matrix).pivots().rank();
+                assert_eq!(
+                    Rationals.rank(rows, width),
+                    expected,
+                    "{} {}",
+                    formulation.name(),
+                    graph6::encode(graph)
+                );
+            }
         }
-        assert_eq!(full, solvable, "{nodes} nodes");
     }
 }

@@ -139,3 +139,13 @@ fn what_does_not_apply_says_why() {
     let output = conditions(b"alone\n", &[]);
     assert_eq!(output.status.code(), Some(2));
 }
+
+/// The 4-cycle in graph6 is no edge list.
+#[test]
+fn the_format_can_be_said() {
+    let output = conditions(b"Cl\n", &["--json", "--format", "graph6"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(lines(&output)[0]["edges"], 4);
+    let output = conditions(b"Cl\n", &["--format", "edge-list"]);
+    assert_eq!(output.status.code(), Some(2));
+}

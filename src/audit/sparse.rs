@@ -76,66 +76,83 @@ fn shifted_gram(j: &Jacobian) -> (SparseColMat<usize, f64>, f64) {
 /// # Errors
 /// If J^T J cannot be factored at any shift, or values are not numbers.
 pub fn smallest(j: &Jacobian, count: usize) -> Result<Spectrum, AuditError> {
-    iterate(j, count, SETTLED)
+    Inverse::new(j)?.iterate(count, SETTLED)
 }
 
-/// The `count` smallest singular values, to a relative change of `settled`.
-fn iterate(j: &Jacobian, count: usize, settled: f64) -> Result<Spectrum, AuditError> {
-    let (mut gram, largest) = shifted_gram(j);
-    let columns = gram.ncols();
-    let failed = |error: &dyn std::fmt::Debug| AuditError::NoFactor(format!("{error:?}"));
-    if !largest.is_finite() {
-        return Err(AuditError::NoConvergence);
-    }
-    let symbolic =
-        SymbolicLlt::try_new(gram.symbolic(), Side::Lower).map_err(|error| failed(&error))?;
-    let starts: Vec<usize> = gram.symbolic().col_ptr()[..columns].to_vec();
-    let mut shift = 1e-15 * largest;
-    let mut added = 0.0;
-    let factor = loop {
-        for &at in &starts {
-            gram.val_mut()[at] += shift - added;
-        }
-        added = shift;
-        match Llt::try_new_with_symbolic(symbolic.clone(), gram.as_ref(), Side::Lower) {
-            Ok(factor) => break factor,
-            Err(error) if shift > 1e-6 * largest => return Err(failed(&error)),
-            Err(_) => shift *= 10.0,
-        }
-    };
+/// J with the factor of J^T J + shift.
+struct Inverse<'a> {
+    j: &'a Jacobian<'a>,
+    factor: Llt<usize, f64>,
+    /// Singular values below are zero up to rounding.
+    floor: f64,
+}
 
-    let size = (count + GUARD).min(columns);
-    let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
-    let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
-    let mut vectors = Mat::from_fn(columns, size, |_, _| uniform());
-    let mut values: Vec<f64> = vec![f64::INFINITY; size];
-    let floor = 1e-15 * largest.sqrt();
-    for _ in 0..ITERATIONS {
-        factor.solve_in_place(vectors.as_mut());
-        let basis = vectors.qr().compute_thin_Q();
-        let image = j.times(&basis);
-        let svd = image.thin_svd().map_err(|_| AuditError::NoConvergence)?;
-        // Rising values: the last right singular vector first.
-        let turn = Mat::from_fn(size, size, |r, c| svd.V()[(r, size - 1 - c)]);
-        vectors = &basis * &turn;
-        let found: Vec<f64> = (0..size)
-            .map(|k| svd.S().column_vector()[size - 1 - k])
-            .collect();
-        if found.iter().any(|x| !x.is_finite()) {
+impl<'a> Inverse<'a> {
+    fn new(j: &'a Jacobian<'a>) -> Result<Self, AuditError> {
+        let (mut gram, largest) = shifted_gram(j);
+        let columns = gram.ncols();
+        let failed = |error: &dyn std::fmt::Debug| AuditError::NoFactor(format!("{error:?}"));
+        if !largest.is_finite() {
             return Err(AuditError::NoConvergence);
         }
-        let done = found
-            .iter()
-            .zip(&values)
-            .take(count)
-            .all(|(new, old)| *new <= floor || (new - old).abs() <= settled * new);
-        values = found;
-        if done {
-            break;
-        }
+        let symbolic =
+            SymbolicLlt::try_new(gram.symbolic(), Side::Lower).map_err(|error| failed(&error))?;
+        let starts: Vec<usize> = gram.symbolic().col_ptr()[..columns].to_vec();
+        let mut shift = 1e-15 * largest;
+        let mut added = 0.0;
+        let factor = loop {
+            for &at in &starts {
+                gram.val_mut()[at] += shift - added;
+            }
+            added = shift;
+            match Llt::try_new_with_symbolic(symbolic.clone(), gram.as_ref(), Side::Lower) {
+                Ok(factor) => break factor,
+                Err(error) if shift > 1e-6 * largest => return Err(failed(&error)),
+                Err(_) => shift *= 10.0,
+            }
+        };
+        Ok(Self {
+            j,
+            factor,
+            floor: 1e-15 * largest.sqrt(),
+        })
     }
-    values.truncate(count);
-    Ok(Spectrum { values, vectors })
+
+    /// The `count` smallest singular values, to a relative change of `settled`.
+    fn iterate(&self, count: usize, settled: f64) -> Result<Spectrum, AuditError> {
+        let columns = self.j.size().1;
+        let size = (count + GUARD).min(columns);
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let mut uniform = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
+        let mut vectors = Mat::from_fn(columns, size, |_, _| uniform());
+        let mut values: Vec<f64> = vec![f64::INFINITY; size];
+        for _ in 0..ITERATIONS {
+            self.factor.solve_in_place(vectors.as_mut());
+            let basis = vectors.qr().compute_thin_Q();
+            let image = self.j.times(&basis);
+            let svd = image.thin_svd().map_err(|_| AuditError::NoConvergence)?;
+            // Rising values: the last right singular vector first.
+            let turn = Mat::from_fn(size, size, |r, c| svd.V()[(r, size - 1 - c)]);
+            vectors = &basis * &turn;
+            let found: Vec<f64> = (0..size)
+                .map(|k| svd.S().column_vector()[size - 1 - k])
+                .collect();
+            if found.iter().any(|x| !x.is_finite()) {
+                return Err(AuditError::NoConvergence);
+            }
+            let done = found
+                .iter()
+                .zip(&values)
+                .take(count)
+                .all(|(new, old)| *new <= self.floor || (new - old).abs() <= settled * new);
+            values = found;
+            if done {
+                break;
+            }
+        }
+        values.truncate(count);
+        Ok(Spectrum { values, vectors })
+    }
 }
 
 /// Orthonormal vectors with |J v|^2 at most `tolerance`, one a column.
@@ -144,9 +161,10 @@ fn iterate(j: &Jacobian, count: usize, settled: f64) -> Result<Spectrum, AuditEr
 /// As for [`smallest`].
 pub fn null_space(j: &Jacobian, tolerance: f64) -> Result<Mat<f64>, AuditError> {
     let columns = j.size().1;
+    let inverse = Inverse::new(j)?;
     let mut count = 8.min(columns);
     loop {
-        let spectrum = iterate(j, count, ROUGHLY)?;
+        let spectrum = inverse.iterate(count, ROUGHLY)?;
         let small = spectrum
             .values
             .iter()

@@ -3,13 +3,18 @@
 use super::{AuditError, Options, decide};
 use crate::graph::Graph;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// The smallest eigenvalues of J^T J at the first `draws` draws.
+/// The smallest eigenvalues of J^T J at the given draws.
 ///
 /// # Errors
 /// See [`AuditError`].
-pub fn eigenvalues(graph: &Graph, options: &Options, draws: u64) -> Result<Vec<f64>, AuditError> {
-    (0..draws)
+pub fn eigenvalues(
+    graph: &Graph,
+    options: &Options,
+    draws: Range<u64>,
+) -> Result<Vec<f64>, AuditError> {
+    draws
         .into_par_iter()
         .map(|draw| Ok(decide(graph, options, draw)?.eigenvalue))
         .collect()

@@ -8,9 +8,10 @@ mod sweep;
 
 use self::report::Audit;
 use super::certificates::Target;
+use super::input::InputArguments;
 use super::{BAD_INPUT, GOOD, NOT};
 use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
-use crate::graph::{NamedGraph, ReadOptions, read_graphs};
+use crate::graph::{NamedGraph, read_graphs};
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
@@ -26,9 +27,11 @@ pub(super) struct AuditArguments {
     /// standard input.
     #[arg(required_unless_present = "claims", value_name = "GRAPH")]
     graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
     /// Decide a table of claims again: CSV with a head, or a JSON list of objects, with a
     /// graph (columns graph, file, name) and a verdict, components, a rank a row.
-    #[arg(long, value_name = "FILE", conflicts_with = "graphs")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["graphs", "format", "variable"])]
     claims: Option<PathBuf>,
     /// The folder of the graphs that claims name.
     #[arg(
@@ -120,8 +123,9 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut target = arguments.target();
     let mut code = GOOD;
+    let read_options = arguments.input.read_options();
     for path in &arguments.graphs {
-        for input in read_graphs(path, &ReadOptions::default()) {
+        for input in read_graphs(path, &read_options) {
             let done = input
                 .map_err(Into::into)
                 .and_then(|input| one(arguments, &input, target.as_mut(), &mut out));
@@ -166,7 +170,8 @@ fn one(
         FloatVerdict::Undecided => None,
     };
     let float_time = start.elapsed();
-    let draws = study::eigenvalues(&input.graph, &options, arguments.draws).with_context(name)?;
+    let further = study::eigenvalues(&input.graph, &options, 1..arguments.draws);
+    let draws = [vec![outcome.eigenvalue], further.with_context(name)?].concat();
     let solvable = exact.value != Value::NotFiniteSolvable;
     let right = if solvable {
         FloatVerdict::Solvable

@@ -1,9 +1,10 @@
 //! `verify compare GRAPH...`: every formulation side by side.
 
+use super::input::InputArguments;
 use super::{BAD_INPUT, GOOD, NOT, atomic};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
 use crate::formulation::compare::{self, Comparison};
-use crate::graph::{NamedGraph, ReadOptions, read_graphs};
+use crate::graph::{NamedGraph, read_graphs};
 use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -18,6 +19,8 @@ pub(super) struct CompareArguments {
     /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
     /// Modulo which prime, 5 <= P < 2^62.
     #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME, conflicts_with = "rational")]
     prime: u64,
@@ -48,8 +51,9 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut svg = arguments.svg.as_deref();
     let mut code = GOOD;
+    let options = arguments.input.read_options();
     for path in &arguments.graphs {
-        for input in read_graphs(path, &ReadOptions::default()) {
+        for input in read_graphs(path, &options) {
             let done = input.map_err(Into::into).and_then(|input| {
                 let found = compare(arguments, &field, &input)?;
                 if arguments.json {

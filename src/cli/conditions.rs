@@ -1,8 +1,9 @@
 //! `verify conditions GRAPH...`: what the literature's conditions say.
 
+use super::input::InputArguments;
 use super::{BAD_INPUT, GOOD, NOT};
 use crate::conditions;
-use crate::graph::{ReadOptions, read_graphs};
+use crate::graph::read_graphs;
 use crate::report::conditions as report;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -16,6 +17,8 @@ pub(super) struct ConditionArguments {
     /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
     /// Print one JSON object a graph.
     #[arg(long)]
     json: bool,
@@ -25,8 +28,9 @@ pub(super) struct ConditionArguments {
 pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut code = GOOD;
+    let options = arguments.input.read_options();
     for path in &arguments.graphs {
-        for input in read_graphs(path, &ReadOptions::default()) {
+        for input in read_graphs(path, &options) {
             code = code.max(match input {
                 Ok(input) => {
                     let found = conditions::decide(&input.graph);

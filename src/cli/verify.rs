@@ -1,9 +1,10 @@
 //! `verify GRAPH...`: decide, report, certify.
 
 use super::certificates::Target;
+use super::input::InputArguments;
 use super::{BAD_INPUT, GOOD, NOT};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
-use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
+use crate::graph::{NamedGraph, read_graphs};
 use crate::model::Model;
 use crate::report::{self, Report};
 use crate::verdict::{self, Arithmetic, Options, Value};
@@ -50,12 +51,8 @@ pub(super) struct VerifyArguments {
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Format of the graphs [default: what they look like].
-    #[arg(long, value_enum)]
-    format: Option<FormatName>,
-    /// Variable of a MATLAB file [default: A, or the only square matrix].
-    #[arg(long, value_name = "NAME")]
-    variable: Option<String>,
+    #[command(flatten)]
+    input: InputArguments,
     /// Write a certificate to this file, or for every graph to this folder.
     #[arg(long, value_name = "PATH")]
     certificate: Option<PathBuf>,
@@ -76,16 +73,6 @@ enum ModelName {
     Projective,
     /// Edges carry essential matrices: known intrinsics.
     Calibrated,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum FormatName {
-    /// One pair a line.
-    EdgeList,
-    /// One graph a line.
-    Graph6,
-    /// Adjacency matrix, MATLAB 5.
-    Matlab,
 }
 
 impl VerifyArguments {
@@ -116,23 +103,12 @@ impl VerifyArguments {
             seed: self.seed,
         })
     }
-
-    fn read_options(&self) -> ReadOptions {
-        ReadOptions {
-            format: self.format.map(|format| match format {
-                FormatName::EdgeList => Format::EdgeList,
-                FormatName::Graph6 => Format::Graph6,
-                FormatName::Matlab => Format::Matlab,
-            }),
-            variable: self.variable.clone(),
-        }
-    }
 }
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
-    let read_options = arguments.read_options();
+    let read_options = arguments.input.read_options();
     let mut target = arguments
         .certificate
         .as_deref()

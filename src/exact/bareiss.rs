@@ -116,7 +116,14 @@ impl FractionFree {
 /// Divides a vector by the greatest common divisor of its entries, with the sign that
 /// makes the entry at `leader`, which is not zero, positive.
 pub(crate) fn primitive(vector: &mut [Integer], leader: usize) {
-    let mut gcd = vector.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
+    let mut gcd = Integer::zero();
+    for x in vector.iter() {
+        gcd = gcd.gcd(x);
+        // The usual case; the greatest common divisor of one and a long number takes long.
+        if gcd == Integer::one() {
+            break;
+        }
+    }
     if vector[leader].sign() == Ordering::Less {
         gcd = gcd.neg();
     }

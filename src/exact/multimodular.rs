@@ -159,8 +159,10 @@ fn kernel(
                     vector[col] = x.clone();
                 }
                 vector[free] = denominator.clone();
-                primitive(&mut vector, free);
-                in_kernel(rows, &vector).then_some(vector)
+                in_kernel(rows, &vector).then(|| {
+                    primitive(&mut vector, free);
+                    vector
+                })
             })
         })
         .collect()

@@ -80,6 +80,17 @@ fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
     [x, y, z, dot]
 }
 
+/// The edges outside a spanning forest, ascending: an edge is in the forest if it joins
+/// parts that the edges before it do not.
+pub fn cotree(graph: &Graph) -> Vec<usize> {
+    let mut forest = UnionFind::new(graph.nodes());
+    (0..)
+        .zip(graph.edges())
+        .filter(|&(_, &(i, j))| !forest.union(i as usize, j as usize))
+        .map(|(e, _)| e)
+        .collect()
+}
+
 /// Flows that are computed beyond those needed at full rank.
 const SPARE_FLOWS: usize = 2;
 
@@ -197,12 +208,7 @@ impl<'a> PlaneFlows<'a> {
     /// rows, so that about a quarter as many flows as columns are enough at full rank; more
     /// are taken until they no longer raise the rank.
     pub fn lambda(&self, mut weights: impl FnMut() -> u64) -> Lambda {
-        let mut forest = UnionFind::new(self.graph.nodes());
-        let cotree: Vec<usize> = (0..)
-            .zip(self.graph.edges())
-            .filter(|&(_, &(i, j))| !forest.union(i as usize, j as usize))
-            .map(|(e, _)| e)
-            .collect();
+        let cotree = cotree(self.graph);
         let dimension = self.rigidity.free_rows().len();
         let mut flows = 0;
         let mut rows = Vec::new();
@@ -226,6 +232,22 @@ impl<'a> PlaneFlows<'a> {
                 };
             }
             rank = Some(found);
+        }
+    }
+
+    /// Eliminates Lambda with the rows of a basis of all flows: certain at any prime, at up
+    /// to four times the cost of [`lambda`](Self::lambda).
+    pub fn lambda_of_all_flows(&self) -> Lambda {
+        let cotree = cotree(self.graph);
+        let dimension = self.rigidity.free_rows().len();
+        let one = self.field.one();
+        let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
+        let rows = self.lambda_rows(&unit, &cotree);
+        let rows = Matrix::new(4 * dimension, cotree.len(), rows);
+        Lambda {
+            echelon: eliminate_mod(self.field, rows.clone()),
+            rows,
+            cotree,
         }
     }
 
@@ -390,6 +412,16 @@ impl Lambda {
     /// The rank of Lambda.
     pub fn rank(&self) -> usize {
         self.echelon.rank()
+    }
+
+    /// Rows and columns of the matrix that was eliminated.
+    pub fn size(&self) -> (usize, usize) {
+        (self.rows.rows(), self.rows.cols())
+    }
+
+    /// Its entries that are not zero.
+    pub fn nonzeros(&self) -> usize {
+        self.rows.data().iter().filter(|&&x| x != 0).count()
     }
 
     /// A uniformly random lambda of the kernel that vanishes on the spanning forest, one

@@ -1,18 +1,32 @@
 //! The rank of a sparse matrix over each of the two fields.
 
+use super::plane_ranks::{self, PlaneRanks};
 use super::skew::SparseRows;
+use crate::camera::{Camera, DrawKey};
 use crate::exact::Field;
-use crate::exact::bareiss;
-use crate::exact::dense::Matrix;
 use crate::exact::integer::Integer;
+use crate::exact::multimodular::{IntegerRow, rank_exact};
 use crate::exact::prime::PrimeField;
-use crate::exact::rational::Rationals;
+use crate::exact::rational::{Rational, Rationals};
 use crate::exact::sparse::Factorisation;
+use crate::graph::Graph;
 
 /// A field with an elimination of its own.
 pub trait RankField: Field + 'static {
     /// The rank of a matrix with `cols` columns.
     fn rank(&self, rows: SparseRows<Self::Elem>, cols: usize) -> usize;
+
+    /// The ranks of N and Lambda at cameras that [`plane_ranks::admits`] takes, with
+    /// distinct centres on edges.
+    fn plane_ranks(
+        &self,
+        graph: &Graph,
+        cameras: &[Camera<Self::Elem>],
+        key: &DrawKey,
+    ) -> PlaneRanks;
+
+    /// How many entries of Lambda to expect for a graph with this number of edges.
+    fn lambda_entries(&self, edges: usize) -> usize;
 }
 
 impl RankField for PrimeField {
@@ -20,35 +34,60 @@ impl RankField for PrimeField {
     fn rank(&self, rows: SparseRows<u64>, cols: usize) -> usize {
         Factorisation::new(self, rows, cols).rank()
     }
+
+    fn plane_ranks(&self, graph: &Graph, cameras: &[Camera<u64>], key: &DrawKey) -> PlaneRanks {
+        plane_ranks::modular(self, graph, cameras, key)
+    }
+
+    /// About as many rows as columns.
+    fn lambda_entries(&self, edges: usize) -> usize {
+        edges.saturating_mul(edges + 16)
+    }
 }
 
 impl RankField for Rationals {
-    /// Every row is multiplied to integers without a common divisor, then fraction-free
-    /// elimination.
+    /// Every row is multiplied to integers without a common divisor. Then elimination
+    /// modulo a prime for the lower bound, and verified integer kernel vectors for the
+    /// upper one.
     fn rank(&self, rows: SparseRows<Self::Elem>, cols: usize) -> usize {
-        let mut matrix = Matrix::from_fn(rows.len(), cols, |_, _| Integer::zero());
-        for (i, row) in rows.iter().enumerate() {
+        rank_exact(&integer_rows(&rows), cols).rank()
+    }
+
+    fn plane_ranks(&self, graph: &Graph, cameras: &[Camera<Rational>], _: &DrawKey) -> PlaneRanks {
+        plane_ranks::rational(graph, cameras)
+    }
+
+    /// Four rows for each of at most 2m flows.
+    fn lambda_entries(&self, edges: usize) -> usize {
+        edges.saturating_mul(8 * edges)
+    }
+}
+
+/// The rows over their greatest common divisors, as integers.
+fn integer_rows(rows: &SparseRows<Rational>) -> Vec<IntegerRow> {
+    rows.iter()
+        .map(|row| {
             let denominator = row
                 .iter()
                 .fold(Integer::one(), |lcm, (_, x)| lcm.lcm(x.denominator()));
-            let whole: Vec<Integer> = row
+            let whole = row.iter().map(|(col, x)| {
+                let factor = denominator.div_exact(x.denominator());
+                (*col, x.numerator().mul(&factor))
+            });
+            let whole: IntegerRow = whole.collect();
+            let gcd = whole.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
+            whole
                 .iter()
-                .map(|(_, x)| x.numerator().mul(&denominator.div_exact(x.denominator())))
-                .collect();
-            let gcd = whole.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
-            for ((col, _), x) in row.iter().zip(&whole) {
-                matrix[(i, *col)] = x.div_exact(&gcd);
-            }
-        }
-        bareiss::eliminate(matrix).pivots().rank()
-    }
+                .map(|(col, x)| (*col, x.div_exact(&gcd)))
+                .collect()
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::Ring;
-    use crate::exact::rational::Rational;
 
     #[test]
     fn fractions_and_residues() {

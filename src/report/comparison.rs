@@ -1,7 +1,7 @@
 //! The formulations side by side, as a table, as JSON, and as the bars of a chart.
 
 use super::bars::{Chart, Group};
-use crate::formulation::compare::{Comparison, Line};
+use crate::formulation::compare::{Comparison, Line, MatrixLine};
 use crate::graph::NamedGraph;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -22,21 +22,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         "formulation", "non-zeros", "rank", "full", "excess", "seconds"
     )?;
     for line in &found.lines {
-        let size = format!("{} x {}", line.size.0, line.size.1);
-        write!(out, "  {:20} {size:>18}", line.name)?;
-        match line.rank {
-            Some(rank) => write!(
-                out,
-                " {:>10} {:>8} {:>8} {:>7} {:>10.4}",
-                rank.nonzeros,
-                rank.rank,
-                rank.full,
-                rank.excess,
-                rank.time.as_secs_f64()
-            )?,
-            None => write!(out, " {:>47}", "not run: too large")?,
-        }
-        writeln!(out, "  {} x {}", line.formula[0], line.formula[1])?;
+        formulation(out, line)?;
     }
     writeln!(
         out,
@@ -52,6 +38,53 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         _ => "DISAGREE".to_owned(),
     };
     writeln!(out, "  result      {verdict}")
+}
+
+/// A line for a formulation of one matrix; of several, one for what they decide together
+/// and one for each.
+fn formulation(out: &mut impl Write, line: &Line) -> io::Result<()> {
+    if let [matrix] = &line.matrices[..] {
+        write!(out, "  {:20} {}", line.name, matrix_cells(matrix))?;
+        write!(out, " {}", rank_cells(line))?;
+        return writeln!(out, "  {} x {}", matrix.formula[0], matrix.formula[1]);
+    }
+    let blank = "";
+    writeln!(out, "  {:20} {blank:>29} {}", line.name, rank_cells(line))?;
+    for matrix in &line.matrices {
+        let name = format!("  {}", matrix.name.unwrap_or(""));
+        let rank = matrix
+            .found
+            .map_or_else(String::new, |(_, rank)| rank.to_string());
+        write!(
+            out,
+            "  {name:20} {} {rank:>8} {blank:>27}",
+            matrix_cells(matrix)
+        )?;
+        writeln!(out, "  {} x {}", matrix.formula[0], matrix.formula[1])?;
+    }
+    Ok(())
+}
+
+/// Size and entries.
+fn matrix_cells(matrix: &MatrixLine) -> String {
+    let size = matrix.size.map_or_else(
+        || "-".into(),
+        |(rows, columns)| format!("{rows} x {columns}"),
+    );
+    let nonzeros = matrix
+        .found
+        .map_or_else(|| "-".into(), |(nonzeros, _)| nonzeros.to_string());
+    format!("{size:>18} {nonzeros:>10}")
+}
+
+/// Rank, full rank, excess and time.
+fn rank_cells(line: &Line) -> String {
+    let Some(rank) = line.rank else {
+        return format!("{:>36}", "not run: too large");
+    };
+    let seconds = rank.time.as_secs_f64();
+    let (rank, full, excess) = (rank.rank, rank.full, rank.excess);
+    format!("{rank:>8} {full:>8} {excess:>7} {seconds:>10.4}")
 }
 
 #[derive(Serialize)]
@@ -76,15 +109,36 @@ struct JsonGraph<'a> {
 struct JsonLine {
     name: &'static str,
     source: &'static str,
-    rows: usize,
-    columns: usize,
-    rows_formula: &'static str,
-    columns_formula: &'static str,
-    nonzeros: Option<usize>,
+    matrices: Vec<JsonMatrix>,
     rank: Option<usize>,
     rank_full: Option<usize>,
     excess: Option<usize>,
     seconds: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct JsonMatrix {
+    name: Option<&'static str>,
+    rows: Option<usize>,
+    columns: Option<usize>,
+    rows_formula: &'static str,
+    columns_formula: &'static str,
+    nonzeros: Option<usize>,
+    rank: Option<usize>,
+}
+
+impl From<&MatrixLine> for JsonMatrix {
+    fn from(matrix: &MatrixLine) -> Self {
+        Self {
+            name: matrix.name,
+            rows: matrix.size.map(|(rows, _)| rows),
+            columns: matrix.size.map(|(_, columns)| columns),
+            rows_formula: matrix.formula[0],
+            columns_formula: matrix.formula[1],
+            nonzeros: matrix.found.map(|(nonzeros, _)| nonzeros),
+            rank: matrix.found.map(|(_, rank)| rank),
+        }
+    }
 }
 
 impl From<&Line> for JsonLine {
@@ -92,11 +146,7 @@ impl From<&Line> for JsonLine {
         Self {
             name: line.name,
             source: line.source,
-            rows: line.size.0,
-            columns: line.size.1,
-            rows_formula: line.formula[0],
-            columns_formula: line.formula[1],
-            nonzeros: line.rank.map(|rank| rank.nonzeros),
+            matrices: line.matrices.iter().map(JsonMatrix::from).collect(),
             rank: line.rank.map(|rank| rank.rank),
             rank_full: line.rank.map(|rank| rank.full),
             excess: line.rank.map(|rank| rank.excess),
@@ -129,16 +179,24 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
 
 /// Rows and columns as a chart, as in the paper's figure of the sizes.
 pub fn sizes(input: &NamedGraph, found: &Comparison) -> Chart {
+    let group = |line: &Line, matrix: &MatrixLine| {
+        let (rows, columns) = matrix.size?;
+        let name = match matrix.name {
+            Some(name) => format!("{}: {name}", line.name),
+            None => line.name.into(),
+        };
+        Some(Group {
+            name,
+            values: vec![rows as u64, columns as u64],
+        })
+    };
+    let groups = found
+        .lines
+        .iter()
+        .flat_map(|line| line.matrices.iter().map(move |matrix| group(line, matrix)));
     Chart {
         title: format!("Rows and columns: {}", input.name),
         series: vec!["rows".into(), "columns".into()],
-        groups: found
-            .lines
-            .iter()
-            .map(|line| Group {
-                name: line.name.into(),
-                values: vec![line.size.0 as u64, line.size.1 as u64],
-            })
-            .collect(),
+        groups: groups.flatten().collect(),
     }
 }

@@ -3,7 +3,7 @@
 use super::super::{BAD_INPUT, GOOD, atomic};
 use super::AuditArguments;
 use crate::audit::study::{self, Populations};
-use crate::graph::{NamedGraph, ReadOptions, read_graphs};
+use crate::graph::{NamedGraph, read_graphs};
 use crate::report::curves::{self, Picture};
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result};
@@ -14,8 +14,9 @@ use std::process::ExitCode;
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     let mut populations = Populations::default();
     let mut code = GOOD;
+    let read_options = arguments.input.read_options();
     for path in &arguments.graphs {
-        for input in read_graphs(path, &ReadOptions::default()) {
+        for input in read_graphs(path, &read_options) {
             let done = input
                 .map_err(Into::into)
                 .and_then(|input| add(arguments, &input, &mut populations));
@@ -86,7 +87,7 @@ fn add(
 ) -> Result<()> {
     let name = || input.name.clone();
     let exact = verdict::decide(&input.graph, &arguments.exact()).with_context(name)?;
-    let values = study::eigenvalues(&input.graph, &arguments.options(), arguments.draws);
+    let values = study::eigenvalues(&input.graph, &arguments.options(), 0..arguments.draws);
     populations.add(
         exact.value != Value::NotFiniteSolvable,
         &values.with_context(name)?,
