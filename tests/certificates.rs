@@ -114,6 +114,46 @@ fn collect_kinds(value: &Value, kinds: &mut std::collections::BTreeSet<String>) 
     }
 }
 
+/// Two circulant graphs with 300 nodes and no triangles, each of rank 11 * 300 - 15 (a small prime is
+/// enough to see it), and two more edges between them: 2 * 3285 + 2 * 7 is one less than 11 * 600 - 15.
+#[test]
+fn large_cores_by_a_small_prime() {
+    let circulant = |first: usize| {
+        let pairs =
+            (0..300).flat_map(|k| [1, 17].map(|step| (first + k, first + (k + step) % 300)));
+        pairs.map(|(i, j)| format!("{i} {j}\n")).collect::<String>()
+    };
+    let both = format!("{}{}0 300\n150 440\n", circulant(0), circulant(300));
+    let graph = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(graph.path(), &both).unwrap();
+    let path = graph.path().to_str().unwrap();
+    let primes = |options: &[&str]| {
+        let text = certificate(&both, &[options, &["--embed-graph"]].concat());
+        let run = check(&text);
+        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+        let value: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(value["claim"]["rank"]["value"], 6584);
+        assert_eq!(value["claim"]["rank"]["required"], 6585);
+        assert_eq!(value["claim"]["rank"]["strength"], "proof");
+        assert_eq!(value["claim"]["components"]["value"], 4);
+        assert_eq!(value["claim"]["components"]["strength"], "proof");
+        let words = text.split("\"prime\":\"").skip(1);
+        words
+            .map(|rest| rest.split('"').next().unwrap().to_owned())
+            .collect::<std::collections::BTreeSet<_>>()
+    };
+    assert_eq!(primes(&[]), ["536870909".to_owned()].into());
+    assert_eq!(
+        primes(&["--prime"]),
+        ["2305843009213693951".to_owned()].into()
+    );
+    assert_eq!(
+        verify(&[path, "--prime=101"]).code,
+        1,
+        "a prime below the rank does as well"
+    );
+}
+
 /// Every scalar of every certificate changed, every member and item removed: rejected, or, where
 /// other cameras or pivots prove the very same statement, still true.
 #[test]
