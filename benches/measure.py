@@ -271,10 +271,13 @@ def cores(arguments, folder):
 
         show("plane flows: verdict, components, certificate",
              [VERIFY, "--json", "--certificate", certificate, graph], nodes > 1000)
-        show("checker", [CHECK, certificate, graph], nodes > 200)
+        show("checker", [CHECK, certificate, graph], nodes > 1000)
+        show("plane flows modulo 2^61 - 1", [VERIFY, "--json", "--prime", graph], nodes > 1000)
+        if nodes <= arguments.sparse:
+            show("J_P, sparse elimination",
+                 [VERIFY, "--json", "--no-contraction", "--prime", graph], nodes > 200)
         if nodes <= arguments.jacobian:
-            show("J_P modulo p, whole", [VERIFY, "--json", "--no-contraction", "--prime", graph],
-                 nodes > 200)
+            show("J_P, dense elimination", [EXAMPLES / "dense", graph], nodes > 200)
         if nodes <= arguments.flint:
             for kind, name in [("rigidity", "N"), ("residues", "J_P")]:
                 result = flint(kind, graph, folder)
@@ -316,8 +319,10 @@ def main():
                                  help="leave out graphs with fewer pairs")
         if name == "cores":
             command.add_argument("--nodes", type=int, nargs="+", default=[200, 500, 1000, 3000])
+            command.add_argument("--sparse", type=int, default=1000,
+                                 help="largest graph for sparse elimination of the whole Jacobian")
             command.add_argument("--jacobian", type=int, default=500,
-                                 help="largest graph for the whole Jacobian")
+                                 help="largest graph for its dense elimination")
             command.add_argument("--flint", type=int, default=500,
                                  help="largest graph for FLINT")
         if name == "sequence":

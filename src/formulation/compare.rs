@@ -104,7 +104,7 @@ pub enum CompareError {
     NoPairs,
     /// Every matrix is above the limit.
     #[error(
-        "the graph is too large: the smallest matrix has {rows} rows and {columns} columns, and          {limit} entries is the limit; decide it with `verify GRAPH`, which contracts first"
+        "the graph is too large: the smallest matrix has {rows} rows and {columns} columns, and {limit} entries is the limit; decide it with `verify GRAPH`, which contracts first"
     )]
     TooLarge {
         /// Rows of the smallest matrix.

@@ -7,7 +7,6 @@ use crate::exact::Ring;
 use crate::exact::bareiss;
 use crate::exact::gauss::Pivots;
 use crate::exact::integer::{Integer, Integers};
-use crate::exact::modular::eliminate_mod;
 use crate::exact::multimodular;
 use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
@@ -19,9 +18,9 @@ use crate::model::Model;
 /// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
 
-/// Largest matrix over the integers, in entries: J_P of 200 cameras and 250 pairs, or of 80
-/// cameras and 700 pairs; a minute or two.
-const MAX_INTEGERS: usize = 1 << 23;
+/// Largest matrix, in entries, whose exact kernel vectors are computed: J_P of 200 cameras and 250
+/// pairs, or of 80 cameras and 700 pairs; a minute or two. A matrix of full rank needs none.
+const MAX_LIFTED: usize = 1 << 23;
 
 /// Largest matrix, in entries, that is eliminated whole over the integers: J_P of 14 cameras
 /// and 28 pairs.
@@ -38,8 +37,8 @@ pub(super) fn modular(
 ) -> Result<(Evidence, usize), VerdictError> {
     let (_, cols) = size(graph, MAX_RESIDUES)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
-    let matrix = skew::dense(field, &skew::jacobian(field, graph, &drawn.values), cols);
-    let pivots = eliminate_mod(field, matrix).pivots();
+    let jacobian = skew::jacobian(field, graph, &drawn.values);
+    let pivots = Factorisation::new(field, jacobian, cols).pivots();
     let rank = pivots.rank();
     let draw = ModularDraw {
         prime: field.modulus(),
@@ -57,7 +56,7 @@ pub(super) fn rational(
     denominator: u64,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (rows, cols) = size(graph, MAX_INTEGERS)?;
+    let (rows, cols) = size(graph, MAX_RESIDUES)?;
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
@@ -71,6 +70,7 @@ pub(super) fn rational(
         let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
             Vec::new()
         } else {
+            size(graph, MAX_LIFTED)?;
             multimodular::rank_exact(&jacobian, cols).kernel().to_vec()
         };
         let (pivots, witness) = witness(&jacobian, cols, pivots);
