@@ -183,7 +183,9 @@ impl Problem {
             Self::SelfLoop(_) => "remove the pair",
             Self::NotText => "save it as UTF-8 with line feeds, or name the format with --format",
             Self::LineTooLong { .. } => "put one pair on a line, or name the format with --format",
-            Self::Graph6(_) => "write the line again, or name the format with --format",
+            Self::Graph6(_) => {
+                "write the line again (where other formats are read, --format names them)"
+            }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {

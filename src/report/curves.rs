@@ -9,7 +9,8 @@ pub struct Picture {
     pub title: String,
     /// The name of the axis.
     pub axis: String,
-    /// The populations, each with its name; zeros stand at the left edge.
+    /// The populations, each with its name; zeros, and what rounding makes negative, stand at the left
+    /// edge.
     pub populations: [(String, Vec<f64>); 2],
     /// Threshold and the share of wrong members of each population.
     pub errors: Vec<(f64, [f64; 2])>,
@@ -19,7 +20,7 @@ pub struct Picture {
 
 const LEFT: f64 = 60.0;
 const WIDTH: f64 = 640.0;
-const TOP: f64 = 60.0;
+const TOP: f64 = 70.0;
 const HEIGHT: f64 = 160.0;
 const SECOND: f64 = TOP + HEIGHT + 60.0;
 /// The decades of the axis.
@@ -27,7 +28,11 @@ const DECADES: (f64, f64) = (-36.0, 4.0);
 
 fn x(value: f64) -> f64 {
     let (low, high) = DECADES;
-    LEFT + WIDTH * ((value.log10().clamp(low, high) - low) / (high - low))
+    LEFT + WIDTH * ((log(value).clamp(low, high) - low) / (high - low))
+}
+
+fn log(value: f64) -> f64 {
+    value.max(0.0).log10()
 }
 
 /// Draws a histogram of each population, a decade a bar and each to its own total, above
@@ -76,10 +81,8 @@ pub fn draw(picture: &Picture) -> String {
         let total = values.len().max(1) as f64;
         for decade in -36..4 {
             let start = f64::from(decade);
-            let inside = |value: &&f64| {
-                let log = value.log10().clamp(DECADES.0, DECADES.1 - 1e-9);
-                log.floor() == start
-            };
+            let inside =
+                |value: &&f64| log(**value).clamp(DECADES.0, DECADES.1 - 1e-9).floor() == start;
             let share = values.iter().filter(inside).count() as f64 / total;
             if share > 0.0 {
                 let left = x(10f64.powf(start)) + bar * k as f64;
@@ -114,13 +117,13 @@ mod tests {
         let svg = draw(&Picture {
             title: "T".into(),
             axis: "A".into(),
-            populations: [("a".into(), vec![0.0, 5.0]), ("b".into(), vec![1e-30])],
+            populations: [("a".into(), vec![-1e-15, 5.0]), ("b".into(), vec![1e-30])],
             errors: vec![(1e-36, [0.0, 1.0]), (1e4, [1.0, 0.0])],
             mark: 1e-10,
         });
-        // Zero stands in the leftmost decade, 5 in that of 1; each is half of two.
-        assert!(svg.contains("<rect x=\"60.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
-        assert!(svg.contains("<rect x=\"636.0\" y=\"140.0\" width=\"7.5\" height=\"80.0\""));
-        assert!(svg.contains("points=\"60.0,440.0 700.0,280.0\""));
+        // What is below zero stands in the leftmost decade, 5 in that of 1; each is half of two.
+        assert!(svg.contains("<rect x=\"60.0\" y=\"150.0\" width=\"7.5\" height=\"80.0\""));
+        assert!(svg.contains("<rect x=\"636.0\" y=\"150.0\" width=\"7.5\" height=\"80.0\""));
+        assert!(svg.contains("points=\"60.0,450.0 700.0,290.0\""));
     }
 }
