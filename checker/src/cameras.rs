@@ -13,10 +13,11 @@ pub(crate) struct Stream {
 }
 
 impl Stream {
-    /// The stream of a draw; `label` is the line with which the key begins.
+    /// The stream of a draw of cameras ("draw") or flows ("flow").
     pub fn new(label: &str, graph: &[u8; 32], seed: u64, draw: u64) -> Checked<Stream> {
         ensure!(draw < 1 << 53, "`draw` is 2^53 or more");
-        let key = [label.as_bytes(), graph, &seed.to_le_bytes(), &draw.to_le_bytes()].concat();
+        let key =
+            [format!("viewcert {label} 1\n").as_bytes(), graph, &seed.to_le_bytes(), &draw.to_le_bytes()].concat();
         Ok(Stream::from_key(&Sha256::digest(key).into()))
     }
 

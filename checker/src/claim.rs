@@ -130,11 +130,10 @@ impl Display for Verified {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Verified { graph, model, verdict: (verdict, by), rank, required, components, notes } = self;
         let given = if *model == Model::Projective { "fundamental" } else { "essential" };
-        let answer = match (verdict, model) {
-            (Verdict::NotFiniteSolvable, _) => "leave infinitely many possibilities for",
-            (Verdict::FiniteSolvable, _) => "determine up to finitely many possibilities",
-            (Verdict::Solvable, Model::Projective) => "determine uniquely",
-            (Verdict::Solvable, Model::Calibrated) => "determine",
+        let answer = match verdict {
+            Verdict::NotFiniteSolvable => "leave infinitely many possibilities for",
+            Verdict::FiniteSolvable => "determine up to finitely many possibilities",
+            Verdict::Solvable => "determine uniquely",
         };
         writeln!(f, "graph: {graph}\n{verdict}: generic {given} matrices {answer} the cameras ({by})")?;
         writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;

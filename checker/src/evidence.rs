@@ -35,13 +35,6 @@ pub(crate) struct Setting<'a> {
     pub structure: &'a Structure<'a>,
 }
 
-impl Setting<'_> {
-    /// The stream of a draw of cameras ("draw") or flows ("flow").
-    pub fn stream(&self, label: &str, seed: u64, draw: u64) -> Checked<Stream> {
-        Stream::new(&format!("viewcert {label} 1\n"), &self.sha256, seed, draw)
-    }
-}
-
 /// What is verified of a piece. Ranks are those of the piece, not of its core; errors are exponents of 2.
 pub(crate) struct Piece {
     pub nodes: usize,
@@ -201,7 +194,7 @@ fn check_kernel(
     let (at, centres) = match own {
         Some((own, centres)) if own.p == prime => (None, centres),
         _ => {
-            let mut stream = setting.stream("draw", seed, draw)?;
+            let mut stream = Stream::new("draw", &setting.sha256, seed, draw)?;
             (Some((prime, seed, draw)), cameras::centres(&mut stream, field, core.nodes)?)
         }
     };

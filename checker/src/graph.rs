@@ -90,13 +90,12 @@ impl Graph {
         let fits = bits.len() as u128 == pairs.div_ceil(6);
         ensure!(fits, "graph6: {} bytes of edges do not fit {nodes} nodes", bits.len());
         let mut edges = Vec::new();
-        let (mut i, mut j) = (0, 1);
-        for is_edge in bits.iter().flat_map(|byte| (0..6).rev().map(move |bit| (byte - 63) >> bit & 1 == 1)) {
-            ensure!(!is_edge || u64::from(j) < nodes, "graph6: padding that is not zero");
-            edges.extend(is_edge.then_some((i, j)));
-            i += 1;
-            if i == j {
-                (i, j) = (0, j + 1);
+        for (k, byte) in bits.iter().enumerate().filter(|(_, byte)| **byte != 63) {
+            for index in (0..6).filter(|bit| (byte - 63) >> (5 - bit) & 1 == 1).map(|bit| 6 * k as u64 + bit) {
+                ensure!(u128::from(index) < pairs, "graph6: padding that is not zero");
+                // Column j of the upper triangle begins at j (j - 1) / 2.
+                let j = (1 + (8 * index + 1).isqrt()) / 2;
+                edges.push(((index - j * (j - 1) / 2) as u32, j as u32));
             }
         }
         Graph::new(usize::try_from(nodes).unwrap_or(usize::MAX), edges)
@@ -167,8 +166,12 @@ impl Graph {
 
 /// A label that is a decimal integer without leading zeros below 2^64.
 fn number(label: &[u8]) -> Option<u64> {
-    let value = std::str::from_utf8(label).ok()?.parse().ok();
-    value.filter(|_| label[0].is_ascii_digit() && (label[0] != b'0' || label.len() == 1))
+    let push = |value: u64, byte| 10u64.wrapping_mul(value).wrapping_add(u64::from(byte - b'0'));
+    let mut digits = label.iter().map(|byte| byte.is_ascii_digit().then_some(*byte));
+    let value = digits.try_fold(0, |value, digit| Some(push(value, digit?)))?;
+    // Nineteen digits are below 2^64; a longer number is right if it is written like this again.
+    let fits = label.len() < 20 || value.to_string().as_bytes() == label;
+    (fits && (label[0] != b'0' || label.len() == 1)).then_some(value)
 }
 
 impl GraphName {

@@ -1,7 +1,7 @@
 //! Lower bounds on the rank of a core, and its rank at random draws (sections 7 and 9 of the specification).
 
 use crate::algebra::{Echelon, Field, Integers, Ring, check_diagonal};
-use crate::cameras::{self, gcd};
+use crate::cameras::{self, Stream, gcd};
 use crate::document::{Draws, Evidence, IntegerMinor, Minor, PlaneFlow, big};
 use crate::evidence::{Model, Setting};
 use crate::matrices::{bearings, camera_at, dot, jacobian, map_motion, scale_motion};
@@ -61,7 +61,7 @@ fn eliminate<'f, E: IntoIterator<Item = (usize, u64)>>(
 /// A minor of J_P that does not vanish modulo p.
 fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> {
     let (field, seed) = (&Field::new(big(&minor.prime)?)?, big(&minor.seed)?);
-    let mut stream = setting.stream("draw", seed, minor.draw)?;
+    let mut stream = Stream::new("draw", &setting.sha256, seed, minor.draw)?;
     let (cameras, at) = match minor.cameras.as_str() {
         "general" => (cameras::general(&mut stream, field, core.nodes)?, None),
         "centres" => {
@@ -80,7 +80,7 @@ fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> 
 fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Checked<Lower> {
     let PlaneFlow { rows, cols, flows, lambda_rows, lambda_cols, draw, .. } = evidence;
     let (field, seed) = (&Field::new(big(&evidence.prime)?)?, big(&evidence.seed)?);
-    let centres = cameras::centres(&mut setting.stream("draw", seed, *draw)?, field, core.nodes)?;
+    let centres = cameras::centres(&mut Stream::new("draw", &setting.sha256, seed, *draw)?, field, core.nodes)?;
     let (edges, height, width) = (core.edges.len(), 2 * core.edges.len(), 3 * core.nodes);
     let n = bearings(field, core, &centres);
     let echelon = eliminate(field, (rows, height), (cols, width), |row| n[row]).within(|| "N".into())?;
@@ -91,7 +91,7 @@ fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Che
 
     let mut is_pivot = vec![false; height];
     rows.iter().for_each(|&row| is_pivot[row] = true);
-    let mut stream = setting.stream("flow", seed, *draw)?;
+    let mut stream = Stream::new("flow", &setting.sha256, seed, *draw)?;
     let mut lambda = vec![Vec::new(); 4 * flows];
     for k in 0..*flows {
         let prescribed = |&is_pivot: &bool| if is_pivot { 0 } else { field.element(stream.below(field.p)) };
@@ -122,7 +122,7 @@ fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Che
 fn check_integer_minor(evidence: &IntegerMinor, setting: &Setting, core: &Core) -> Checked<Lower> {
     let IntegerMinor { numerator, denominator, rows, cols, draw, .. } = evidence;
     let seed = big(&evidence.seed)?;
-    let mut stream = setting.stream("draw", seed, *draw)?;
+    let mut stream = Stream::new("draw", &setting.sha256, seed, *draw)?;
     let cameras = cameras::integer(&mut stream, (*numerator, *denominator), core.nodes)?;
     let (nodes, height, width) = (core.nodes, 10 * core.edges.len(), 12 * core.nodes);
     let entries = |row: usize| {
@@ -219,7 +219,7 @@ pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> C
 
 /// The field and the centres of a draw that begins by choosing its own prime (section 9).
 pub(crate) fn own_centres(setting: &Setting, seed: u64, draw: u64, core: &Core) -> Checked<(Field, Vec<[u64; 3]>)> {
-    let mut stream = setting.stream("draw", seed, draw)?;
+    let mut stream = Stream::new("draw", &setting.sha256, seed, draw)?;
     let field = cameras::prime(&mut stream)?;
     let centres = cameras::centres(&mut stream, &field, core.nodes)?;
     Ok((field, centres))
