@@ -125,6 +125,53 @@ fn hub_refutation_by_hand() {
     assert_eq!(line["rank"], 83);
 }
 
+/// The graphs of docs/theory.md, Example 5.10: each is the union of two parts whose ranks are proved, over
+/// a part whose rank is proved as well, and submodularity leaves no more than the rank that is found.
+#[test]
+fn three_graphs_refuted_by_parts_that_overlap() {
+    let graphs = [
+        (
+            "2-3 1-5 3-6 5-6 2-7 6-7 1-10 2-10 1-11 2-11 2-12 5-12",
+            "2-3 0-4 3-6 2-7 4-7 6-7 0-8 3-8 0-9 3-9 3-13 4-13",
+            4,
+        ),
+        (
+            "0-5 3-5 0-6 2-6 0-7 2-7 2-10 3-10 2-11 3-11 2-12 5-12",
+            "1-4 2-4 1-8 3-8 1-9 3-9 2-10 3-10 2-11 3-11 3-13 4-13",
+            4,
+        ),
+        (
+            "2-4 3-4 0-5 3-5 3-6 0-7 2-7 0-8 2-8 2-11 5-11 2-12 6-12 2-13 6-13",
+            "1-4 2-4 3-4 3-6 1-9 6-9 1-10 6-10 2-12 6-12 2-13 6-13",
+            7,
+        ),
+    ];
+    let rank = |pairs: &[&str]| {
+        let list = pairs.join("\n").replace('-', " ");
+        let run = verify_with(list.as_bytes(), &["-", "--json"]);
+        let line = run.json().remove(0);
+        let strength = line["rank_strength"].as_str().unwrap().to_owned();
+        (line["rank"].as_i64().unwrap(), strength)
+    };
+    for (one, other, in_common) in graphs {
+        let one: Vec<&str> = one.split(' ').collect();
+        let other: Vec<&str> = other.split(' ').collect();
+        let (common, rest): (Vec<&str>, Vec<&str>) =
+            other.iter().copied().partition(|pair| one.contains(pair));
+        assert_eq!(common.len(), in_common);
+        let all = [&one[..], &rest].concat();
+        assert_eq!(all.len(), 20);
+        let [a, b, c] = [&one, &other, &common].map(|part| {
+            let (rank, strength) = rank(part);
+            assert_eq!(strength, "proof");
+            rank
+        });
+        // 11 * 14 - 15 = 139.
+        assert_eq!(a + b - c, 138);
+        assert_eq!(rank(&all), (138, "error-bound".into()));
+    }
+}
+
 #[test]
 fn without_counting_a_negative_verdict_has_an_error_bound() {
     let run = verify_with(cycle(5).as_bytes(), &["-", "--json", "--no-counting"]);
