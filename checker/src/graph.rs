@@ -94,7 +94,7 @@ impl Graph {
             for index in (0..6).filter(|bit| (byte - 63) >> (5 - bit) & 1 == 1).map(|bit| 6 * k as u64 + bit) {
                 ensure!(u128::from(index) < pairs, "graph6: padding that is not zero");
                 // Column j of the upper triangle begins at j (j - 1) / 2.
-                let j = (1 + (8 * index + 1).isqrt()) / 2;
+                let j = (8 * index + 1).isqrt().div_ceil(2);
                 edges.push(((index - j * (j - 1) / 2) as u32, j as u32));
             }
         }

@@ -219,7 +219,7 @@ impl PrimeField {
         let half = |t: u64| {
             let m = low(low(t) * low(self.neg_inv));
             // The low words add up to 2^32, or both are zero.
-            (t >> 32) + (m * self.p >> 32) + u64::from(low(t) != 0)
+            (t >> 32) + ((m * self.p) >> 32) + u64::from(low(t) != 0)
         };
         // The first is below 2^32 + p, the second at most p + 1.
         let r = half(half(t));
