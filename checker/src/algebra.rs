@@ -38,7 +38,7 @@ pub(crate) struct Field {
 
 /// How many products are summed before one reduction: in 128 bits, or in 64 if p < 2^29.
 const LANES: usize = 12;
-const SMALL_LANES: usize = 64;
+const SMALL_LANES: usize = 32;
 
 /// Columns that are computed together.
 const TILE: usize = 128;
