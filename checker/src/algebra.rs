@@ -79,10 +79,6 @@ impl Field {
         self.element(value.rem_euclid(i128::from(self.p)) as u64)
     }
 
-    fn is_small(&self) -> bool {
-        self.p < 1 << 29
-    }
-
     pub fn neg(&self, a: u64) -> u64 {
         self.sub(0, a)
     }
@@ -198,9 +194,19 @@ fn subtract(field: &Field, row: &mut [u64], multiple: u64, entries: &[(usize, u6
     entries.iter().for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
 }
 
+/// Works on all items, with a second thread if they are so many that it is worth its start.
+pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync) {
+    let half = if items.len() < 64 { 0 } else { items.len() / 2 };
+    let (here, there) = items.split_at_mut(items.len() - half);
+    std::thread::scope(|scope| {
+        (half > 0).then(|| scope.spawn(|| there.iter_mut().for_each(&work)));
+        here.iter_mut().for_each(&work);
+    });
+}
+
 /// Sees that elimination along the diagonal of a square matrix meets no zero. Rows are subtracted in blocks.
 pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checked<()> {
-    let height = if field.is_small() { SMALL_LANES } else { LANES };
+    let height = if field.p < 1 << 29 { SMALL_LANES } else { LANES };
     for first in (0..rows.len()).step_by(height) {
         let (block, rest) = rows.split_at_mut(height.min(rows.len()));
         let mut inverses = Vec::new();
@@ -210,14 +216,7 @@ pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checke
             ensure!(row[0][first + k] != 0, "pivot {} vanishes", first + k);
             inverses.push(field.inverse(row[0][first + k]));
         }
-        // A second thread is not worth its start for a few rows.
-        let half = if rest.len() < 64 { 0 } else { rest.len() / 2 };
-        let (here, there) = rest.split_at_mut(rest.len() - half);
-        let subtract = |row: &mut Vec<u64>| subtract_block(field, block, &inverses, first, row);
-        std::thread::scope(|scope| {
-            (half > 0).then(|| scope.spawn(|| there.iter_mut().for_each(subtract)));
-            here.iter_mut().for_each(subtract);
-        });
+        for_all(rest, |row| subtract_block(field, block, &inverses, first, row));
         rows = rest;
     }
     Ok(())
@@ -236,7 +235,7 @@ fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: us
     for entries in row[from..].chunks_mut(TILE) {
         let lanes = factors.iter().zip(block).map(|(&factor, lane)| (factor, &lane[from..from + entries.len()]));
         // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
-        if field.is_small() {
+        if field.p < 1 << 29 {
             add_lanes::<u64>(field, entries, &lanes.collect::<Vec<_>>(), |residue| residue & 0xffff_ffff);
         } else {
             add_lanes::<u128>(field, entries, &lanes.collect::<Vec<_>>(), u128::from);

@@ -1,6 +1,6 @@
 //! Lower bounds on the rank of a core, and its rank at random draws (sections 7 and 9 of the specification).
 
-use crate::algebra::{Echelon, Field, Integers, Ring, check_diagonal};
+use crate::algebra::{Echelon, Field, Integers, Ring, check_diagonal, for_all};
 use crate::cameras::{self, Stream, gcd};
 use crate::document::{Draws, Evidence, IntegerMinor, Minor, PlaneFlow, big};
 use crate::evidence::{Model, Setting};
@@ -92,17 +92,22 @@ fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Che
     let mut is_pivot = vec![false; height];
     rows.iter().for_each(|&row| is_pivot[row] = true);
     let mut stream = Stream::new("flow", &setting.sha256, seed, *draw)?;
-    let mut lambda = vec![Vec::new(); 4 * flows];
-    for k in 0..*flows {
-        let prescribed = |&is_pivot: &bool| if is_pivot { 0 } else { field.element(stream.below(field.p)) };
-        let mut flow: Vec<u64> = is_pivot.iter().map(prescribed).collect();
+    let mut prescribed = |&is_pivot: &bool| if is_pivot { 0 } else { field.element(stream.below(field.p)) };
+    let mut all: Vec<Vec<u64>> = (0..*flows).map(|_| is_pivot.iter().map(&mut prescribed).collect()).collect();
+    for_all(&mut all, |flow| {
         let mut product = vec![0; width];
-        for (row, &weight) in n.iter().zip(&flow) {
+        for (row, &weight) in n.iter().zip(&*flow) {
             row.iter().for_each(|&(at, value)| product[at] = field.add(product[at], field.mul(weight, value)));
         }
         // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
         rows.iter().zip(echelon.solve(&mut product)).for_each(|(&row, entry)| flow[row] = field.neg(entry));
-        ensure!(product.iter().all(|&entry| entry == 0), "flow {k} does not vanish in all columns of N");
+        if product.iter().any(|&entry| entry != 0) {
+            flow.clear();
+        }
+    });
+    let mut lambda = vec![Vec::new(); 4 * flows];
+    for (k, flow) in all.iter().enumerate() {
+        ensure!(!flow.is_empty(), "flow {k} does not vanish in all columns of N");
         for &e in lambda_cols {
             let term = |row: usize| n[row].map(|(_, value)| field.mul(flow[row], value));
             let (a, b) = (term(2 * e), term(2 * e + 1));
