@@ -284,7 +284,7 @@ pub fn cameras_rational(
     let centre = |camera: &Camera<Integer>| {
         let mut centre = centre(&Integers, camera);
         let leader = centre.iter().position(|x| !x.is_zero())?;
-        let gcd = centre.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
+        let gcd = Integer::content(&centre);
         let scale = if centre[leader].sign().is_lt() {
             gcd.neg()
         } else {

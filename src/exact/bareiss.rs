@@ -116,14 +116,7 @@ impl FractionFree {
 /// Divides a vector by the greatest common divisor of its entries, with the sign that
 /// makes the entry at `leader`, which is not zero, positive.
 pub(crate) fn primitive(vector: &mut [Integer], leader: usize) {
-    let mut gcd = Integer::zero();
-    for x in vector.iter() {
-        gcd = gcd.gcd(x);
-        // The usual case; the greatest common divisor of one and a long number takes long.
-        if gcd == Integer::one() {
-            break;
-        }
-    }
+    let mut gcd = Integer::content(vector.iter());
     if vector[leader].sign() == Ordering::Less {
         gcd = gcd.neg();
     }

@@ -104,7 +104,7 @@ pub fn modular(
 fn homogeneous(camera: &Camera<Rational>) -> [Integer; 4] {
     let rows = camera.each_ref().map(whole);
     let point = centre(&Integers, &rows);
-    let gcd = point.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
+    let gcd = Integer::content(&point);
     point.map(|x| x.div_exact(&gcd))
 }
 
@@ -121,7 +121,7 @@ fn whole(row: &[Rational; 4]) -> [Integer; 4] {
 /// Two integer directions orthogonal to the difference of two centres.
 fn integer_directions(ci: &[Integer; 4], cj: &[Integer; 4]) -> [[Integer; 3]; 2] {
     let d: [Integer; 3] = std::array::from_fn(|k| ci[k].mul(&cj[3]).sub(&cj[k].mul(&ci[3])));
-    let gcd = d.iter().fold(Integer::zero(), |gcd, x| gcd.gcd(x));
+    let gcd = Integer::content(&d);
     assert!(!gcd.is_zero(), "centres are distinct");
     let d = d.map(|x| x.div_exact(&gcd));
     let zero = std::array::from_fn(|_| Integer::zero());

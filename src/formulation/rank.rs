@@ -75,7 +75,7 @@ fn integer_rows(rows: &SparseRows<Rational>) -> Vec<IntegerRow> {
                 (*col, x.numerator().mul(&factor))
             });
             let whole: IntegerRow = whole.collect();
-            let gcd = whole.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
+            let gcd = Integer::content(whole.iter().map(|(_, x)| x));
             whole
                 .iter()
                 .map(|(col, x)| (*col, x.div_exact(&gcd)))

@@ -142,7 +142,7 @@ fn size(graph: &Graph, limit: usize) -> Result<(usize, usize), VerdictError> {
 fn primitive_rows(graph: &Graph, cameras: &[Camera<Integer>]) -> SparseRows<Integer> {
     let mut rows = skew::jacobian(&Integers, graph, cameras);
     for row in &mut rows {
-        let gcd = row.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
+        let gcd = Integer::content(row.iter().map(|(_, x)| x));
         for (_, x) in row {
             *x = x.div_exact(&gcd);
         }

@@ -116,6 +116,19 @@ impl Integer {
         Self(backend::gcd(&self.0, &other.0))
     }
 
+    /// The greatest common divisor of all, never negative; 0 of none. Stops at one: the greatest common
+    /// divisor of one and a long number takes long.
+    pub fn content<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
+        let mut gcd = Self::zero();
+        for x in all {
+            gcd = gcd.gcd(x);
+            if gcd == Self::one() {
+                break;
+            }
+        }
+        gcd
+    }
+
     /// The least common multiple, never negative; 0 if either is 0.
     pub fn lcm(&self, other: &Self) -> Self {
         if self.is_zero() || other.is_zero() {
@@ -236,6 +249,18 @@ mod tests {
                 "{text}"
             );
         }
+    }
+
+    #[test]
+    fn contents() {
+        let content = |all: &[i64]| {
+            Integer::content(&all.iter().map(|&x| Integer::from(x)).collect::<Vec<_>>())
+        };
+        assert_eq!(content(&[12, -18, 30]), Integer::from(6i64));
+        assert_eq!(content(&[-4]), Integer::from(4i64));
+        assert_eq!(content(&[0, 3, 5, 0]), Integer::from(1i64));
+        assert_eq!(content(&[0, 0]), Integer::from(0i64));
+        assert_eq!(content(&[]), Integer::from(0i64));
     }
 
     #[test]
