@@ -13,44 +13,36 @@
 //! The first line of the output is `ROWS COLS MODULUS`, the modulus being 0 for integers; then
 //! come the non-zero entries, a line `ROW COL VALUE` each, counted from 0.
 
-use anyhow::{Context, Result, bail};
+mod input;
+
+use anyhow::{Result, bail};
 use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
-use viewcert::camera::{DrawKey, cameras_mod, cameras_rational, centres_mod};
+use viewcert::camera::{cameras_mod, cameras_rational, centres_mod};
 use viewcert::exact::integer::{Integer, Integers};
 use viewcert::exact::prime::PrimeField;
 use viewcert::formulation::{plane_flow, skew};
-use viewcert::graph::{ReadOptions, read_graphs, sha256};
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [kind, path] = arguments.as_slice() else {
         bail!("usage: matrix residues|integers|rigidity GRAPH");
     };
-    let input = read_graphs(path, &ReadOptions::default())
-        .next()
-        .context("no graph")??;
-    let graph = &input.graph;
-    // What `verify` takes by default.
-    let key = DrawKey {
-        graph_sha256: sha256(graph),
-        seed: 1,
-        draw: 0,
-    };
+    let (graph, key) = &input::graph_and_key(path)?;
     let field = PrimeField::mersenne61();
     let out = &mut BufWriter::new(io::stdout().lock());
     let cols = 12 * graph.nodes();
     match kind.as_str() {
         "residues" => {
-            let cameras = cameras_mod(&field, graph.nodes(), &key)?.values;
+            let cameras = cameras_mod(&field, graph.nodes(), key)?.values;
             let rows = skew::jacobian(&field, graph, &cameras);
             write(out, &rows, cols, field.modulus(), |&x| field.to_u64(x))?;
         }
         "integers" => {
-            let cameras = cameras_rational(graph.nodes(), 9, 4, &key)?.values;
+            let cameras = cameras_rational(graph.nodes(), 9, 4, key)?.values;
             let mut rows = skew::jacobian(&Integers, graph, &cameras);
             for row in &mut rows {
-                let content = row.iter().fold(Integer::zero(), |gcd, (_, x)| gcd.gcd(x));
+                let content = Integer::content(row.iter().map(|(_, x)| x));
                 for (_, x) in row {
                     *x = x.div_exact(&content);
                 }
@@ -58,7 +50,7 @@ fn main() -> Result<()> {
             write(out, &rows, cols, 0, Clone::clone)?;
         }
         "rigidity" => {
-            let centres = centres_mod(&field, graph.nodes(), &key)?.values;
+            let centres = centres_mod(&field, graph.nodes(), key)?.values;
             let rows = plane_flow::rigidity_rows(&field, graph, &centres);
             let cols = 3 * graph.nodes();
             write(out, &rows, cols, field.modulus(), |&x| field.to_u64(x))?;

@@ -9,27 +9,20 @@
 //! elimination of Lambda. The sparse part of N is not counted, and neither are components and
 //! certificate.
 
+mod input;
+
 use anyhow::{Context, Result};
-use viewcert::camera::{DrawKey, centres_mod};
+use viewcert::camera::centres_mod;
 use viewcert::exact::prime::PrimeField;
 use viewcert::exact::sparse::Factorisation;
 use viewcert::formulation::plane_flow::{PlaneFlows, rigidity_rows};
-use viewcert::graph::{ReadOptions, read_graphs, sha256};
 
 fn main() -> Result<()> {
     let path = std::env::args().nth(1).context("usage: operations GRAPH")?;
-    let input = read_graphs(&path, &ReadOptions::default())
-        .next()
-        .context("no graph")??;
-    let graph = &input.graph;
+    let (graph, key) = &input::graph_and_key(&path)?;
     let (nodes, edges) = (graph.nodes(), graph.edges().len());
-    let key = DrawKey {
-        graph_sha256: sha256(graph),
-        seed: 1,
-        draw: 0,
-    };
     let field = PrimeField::mersenne61();
-    let centres = centres_mod(&field, nodes, &key)?.values;
+    let centres = centres_mod(&field, nodes, key)?.values;
 
     let rigidity = rigidity_rows(&field, graph, &centres);
     let done = Factorisation::new(&field, rigidity, 3 * nodes);
