@@ -2,6 +2,7 @@
 
 mod atomic;
 mod audit;
+mod bounds;
 mod catalog;
 mod certificates;
 mod check;

@@ -9,9 +9,9 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{BAD_INPUT, GOOD, NOT};
+use super::{GOOD, NOT};
 use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
-use crate::graph::{NamedGraph, read_graphs};
+use crate::graph::NamedGraph;
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
@@ -122,24 +122,13 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     }
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut target = arguments.target();
-    let mut code = GOOD;
-    let read_options = arguments.input.read_options();
-    for path in &arguments.graphs {
-        for input in read_graphs(path, &read_options) {
-            let done = input
-                .map_err(Into::into)
-                .and_then(|input| one(arguments, &input, target.as_mut(), &mut out));
-            code = code.max(match done {
-                Ok(true) => GOOD,
-                Ok(false) => NOT,
-                Err(error) => {
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
-                    BAD_INPUT
-                }
-            });
-            out.flush().context("standard output")?;
-        }
-    }
+    let each = |out: &mut _, input: &NamedGraph| {
+        let agree = one(arguments, input, target.as_mut(), out)?;
+        Ok(if agree { GOOD } else { NOT })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

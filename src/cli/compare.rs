@@ -1,14 +1,15 @@
 //! `verify compare GRAPH...`: every formulation side by side.
 
+use super::bounds::BoundArguments;
 use super::input::InputArguments;
-use super::{BAD_INPUT, GOOD, NOT, atomic};
+use super::{GOOD, NOT, atomic};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
 use crate::formulation::compare::{self, Comparison};
-use crate::graph::{NamedGraph, read_graphs};
+use crate::graph::NamedGraph;
 use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::Args;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -27,12 +28,8 @@ pub(super) struct CompareArguments {
     /// Compute over the rationals, at cameras with small rational entries.
     #[arg(long)]
     rational: bool,
-    /// Bound on the numerators of rational cameras, at most 100.
-    #[arg(long, value_name = "A", default_value_t = 9, requires = "rational")]
-    numerator: u64,
-    /// Bound on the denominators of rational cameras, at most 12.
-    #[arg(long, value_name = "B", default_value_t = 4, requires = "rational")]
-    denominator: u64,
+    #[command(flatten)]
+    bounds: BoundArguments,
     /// Seed of the random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -50,35 +47,23 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut svg = arguments.svg.as_deref();
-    let mut code = GOOD;
-    let options = arguments.input.read_options();
-    for path in &arguments.graphs {
-        for input in read_graphs(path, &options) {
-            let done = input.map_err(Into::into).and_then(|input| {
-                let found = compare(arguments, &field, &input)?;
-                if arguments.json {
-                    comparison::json(&mut out, &input, &found)?;
-                } else {
-                    comparison::text(&mut out, &input, &found)?;
-                }
-                if let Some(path) = svg.take() {
-                    let picture = bars::draw(&comparison::sizes(&input, &found));
-                    atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
-                }
-                Ok(found.agrees(&input.graph))
-            });
-            code = code.max(match done {
-                Ok(true) => GOOD,
-                Ok(false) => NOT,
-                Err(error) => {
-                    let error: anyhow::Error = error;
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
-                    BAD_INPUT
-                }
-            });
-            out.flush().context("standard output")?;
+    let each = |out: &mut _, input: &NamedGraph| {
+        let found = compare(arguments, &field, input)?;
+        if arguments.json {
+            comparison::json(out, input, &found)?;
+        } else {
+            comparison::text(out, input, &found)?;
         }
-    }
+        if let Some(path) = svg.take() {
+            let picture = bars::draw(&comparison::sizes(input, &found));
+            atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
+        }
+        let agree = found.agrees(&input.graph);
+        Ok(if agree { GOOD } else { NOT })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -88,7 +73,7 @@ fn compare(
     input: &NamedGraph,
 ) -> Result<Comparison> {
     let found = if arguments.rational {
-        let bounds = (arguments.numerator, arguments.denominator);
+        let bounds = (arguments.bounds.numerator, arguments.bounds.denominator);
         compare::rational(&input.graph, bounds, arguments.seed)
     } else {
         compare::modular(field, &input.graph, arguments.seed)

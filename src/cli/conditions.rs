@@ -1,13 +1,13 @@
 //! `verify conditions GRAPH...`: what the literature's conditions say.
 
 use super::input::InputArguments;
-use super::{BAD_INPUT, GOOD, NOT};
+use super::{GOOD, NOT};
 use crate::conditions;
-use crate::graph::read_graphs;
+use crate::graph::NamedGraph;
 use crate::report::conditions as report;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::Args;
-use std::io::{BufWriter, Write};
+use std::io::BufWriter;
 use std::process::ExitCode;
 
 /// Options of the conditions.
@@ -27,31 +27,18 @@ pub(super) struct ConditionArguments {
 /// Decides the conditions on every graph in turn; a bad one does not stop the others.
 pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut code = GOOD;
-    let options = arguments.input.read_options();
-    for path in &arguments.graphs {
-        for input in read_graphs(path, &options) {
-            code = code.max(match input {
-                Ok(input) => {
-                    let found = conditions::decide(&input.graph);
-                    if arguments.json {
-                        report::json(&mut out, &input, &found)?;
-                    } else {
-                        report::text(&mut out, &input, &found)?;
-                    }
-                    if conditions::refuted(&found) {
-                        NOT
-                    } else {
-                        GOOD
-                    }
-                }
-                Err(error) => {
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
-                    BAD_INPUT
-                }
-            });
-            out.flush().context("standard output")?;
+    let each = |out: &mut _, input: &NamedGraph| {
+        let found = conditions::decide(&input.graph);
+        if arguments.json {
+            report::json(out, input, &found)?;
+        } else {
+            report::text(out, input, &found)?;
         }
-    }
+        let refuted = conditions::refuted(&found);
+        Ok(if refuted { NOT } else { GOOD })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

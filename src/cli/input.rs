@@ -1,7 +1,10 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use crate::graph::{Format, ReadOptions};
+use super::{BAD_INPUT, GOOD};
+use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
+use std::io::Write;
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -25,8 +28,38 @@ enum FormatName {
 }
 
 impl InputArguments {
+    /// Calls `each` for every graph of the files in turn, and flushes after it; a bad graph, or one with
+    /// which `each` fails, is reported and does not stop the others. Returns the worst exit code.
+    ///
+    /// # Errors
+    /// If the output is gone: nobody reads on, and the rest would be work for nothing.
+    pub(super) fn for_each<W: Write>(
+        &self,
+        paths: &[String],
+        out: &mut W,
+        mut each: impl FnMut(&mut W, &NamedGraph) -> Result<u8>,
+    ) -> Result<u8> {
+        let mut code = GOOD;
+        let options = self.read_options();
+        for path in paths {
+            for input in read_graphs(path, &options) {
+                let done = input.map_err(Into::into);
+                let done = done.and_then(|input| each(out, &input));
+                code = code.max(match done {
+                    Ok(code) => code,
+                    Err(error) => {
+                        writeln!(std::io::stderr(), "verify: {error:#}")?;
+                        BAD_INPUT
+                    }
+                });
+                out.flush().context("standard output")?;
+            }
+        }
+        Ok(code)
+    }
+
     /// The options of the readers.
-    pub(super) fn read_options(&self) -> ReadOptions {
+    fn read_options(&self) -> ReadOptions {
         ReadOptions {
             format: self.format.map(|format| match format {
                 FormatName::EdgeList => Format::EdgeList,

@@ -1,10 +1,11 @@
 //! `verify GRAPH...`: decide, report, certify.
 
+use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{BAD_INPUT, GOOD, NOT};
+use super::{GOOD, NOT};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
-use crate::graph::{NamedGraph, read_graphs};
+use crate::graph::NamedGraph;
 use crate::model::Model;
 use crate::report::{self, Report};
 use crate::verdict::{self, Arithmetic, Options, Value};
@@ -33,12 +34,8 @@ pub(super) struct VerifyArguments {
     /// Compute over the integers, at cameras with small rational entries.
     #[arg(long)]
     rational: bool,
-    /// Bound on the numerators of rational cameras, at most 100.
-    #[arg(long, value_name = "A", default_value_t = 9, requires = "rational")]
-    numerator: u64,
-    /// Bound on the denominators of rational cameras, at most 12.
-    #[arg(long, value_name = "B", default_value_t = 4, requires = "rational")]
-    denominator: u64,
+    #[command(flatten)]
+    bounds: BoundArguments,
     /// What is known of the cameras.
     #[arg(long, value_enum, default_value_t = ModelName::Projective)]
     model: ModelName,
@@ -80,8 +77,8 @@ impl VerifyArguments {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         let arithmetic = if self.rational {
             Arithmetic::Rational {
-                numerator: self.numerator,
-                denominator: self.denominator,
+                numerator: self.bounds.numerator,
+                denominator: self.bounds.denominator,
             }
         } else {
             Arithmetic::Prime
@@ -108,33 +105,23 @@ impl VerifyArguments {
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
-    let read_options = arguments.input.read_options();
     let mut target = arguments
         .certificate
         .as_deref()
         .map(|path| Target::new(path, arguments.embed_graph));
     let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut code = GOOD;
-    for path in &arguments.graphs {
-        let mut start = Instant::now();
-        for input in read_graphs(path, &read_options) {
-            let decided = input.map_err(Into::into).and_then(|input| {
-                let target = target.as_mut();
-                decide(arguments, &options, &input, target, start, &mut out)
-            });
-            code = code.max(match decided {
-                Ok(Value::NotFiniteSolvable) => NOT,
-                Ok(_) => GOOD,
-                Err(error) => {
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
-                    BAD_INPUT
-                }
-            });
-            // Nobody reads on: the rest would be work for nothing.
-            out.flush().context("standard output")?;
-            start = Instant::now();
-        }
-    }
+    let mut start = Instant::now();
+    let each = |out: &mut _, input: &NamedGraph| {
+        let decided = decide(arguments, &options, input, target.as_mut(), start, out);
+        start = Instant::now();
+        Ok(match decided? {
+            Value::NotFiniteSolvable => NOT,
+            _ => GOOD,
+        })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

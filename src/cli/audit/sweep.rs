@@ -1,9 +1,9 @@
 //! `--sweep-tolerance`: the errors of every tolerance, over all graphs and draws.
 
-use super::super::{BAD_INPUT, GOOD, atomic};
+use super::super::{GOOD, atomic};
 use super::AuditArguments;
 use crate::audit::study::{self, Populations};
-use crate::graph::{NamedGraph, read_graphs};
+use crate::graph::NamedGraph;
 use crate::report::curves::{self, Picture};
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result};
@@ -13,19 +13,13 @@ use std::process::ExitCode;
 /// Sweeps over all graphs together.
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     let mut populations = Populations::default();
-    let mut code = GOOD;
-    let read_options = arguments.input.read_options();
-    for path in &arguments.graphs {
-        for input in read_graphs(path, &read_options) {
-            let done = input
-                .map_err(Into::into)
-                .and_then(|input| add(arguments, &input, &mut populations));
-            if let Err(error) = done {
-                writeln!(std::io::stderr(), "verify: {error:#}")?;
-                code = BAD_INPUT;
-            }
-        }
-    }
+    let each = |_: &mut _, input: &NamedGraph| {
+        add(arguments, input, &mut populations)?;
+        Ok(GOOD)
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &mut std::io::sink(), each)?;
     let sweep = populations.sweep();
     let share = |count: usize, of: &[f64]| count as f64 / of.len().max(1) as f64;
     let mut out = BufWriter::new(std::io::stdout().lock());
