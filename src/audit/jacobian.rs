@@ -1,22 +1,9 @@
 //! The augmented Jacobian in double precision, by blocks.
 
 use super::cameras::{Camera, fundamental};
+use crate::formulation::skew::VECH;
 use crate::graph::Graph;
 use faer::Mat;
-
-/// Lower triangle, column by column.
-const VECH: [(usize, usize); 10] = [
-    (0, 0),
-    (1, 0),
-    (2, 0),
-    (3, 0),
-    (1, 1),
-    (2, 1),
-    (3, 1),
-    (2, 2),
-    (3, 2),
-    (3, 3),
-];
 
 /// The rows of one edge: 12 columns of the first camera, then 12 of the second.
 pub type EdgeRows = [[f64; 24]; 10];

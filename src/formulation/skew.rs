@@ -19,7 +19,7 @@ use crate::exact::{Field, Ring};
 use crate::graph::Graph;
 
 /// The places of the lower triangle in the order of vech.
-pub(super) const VECH: [(usize, usize); 10] = [
+pub(crate) const VECH: [(usize, usize); 10] = [
     (0, 0),
     (1, 0),
     (2, 0),
