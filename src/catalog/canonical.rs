@@ -248,14 +248,6 @@ mod tests {
 
     use super::*;
 
-    fn graph(nodes: usize, pairs: &[(usize, usize)]) -> Multigraph {
-        let mut graph = Multigraph::new(nodes);
-        for &(u, v) in pairs {
-            graph.add(u, v, 1);
-        }
-        graph
-    }
-
     fn cycle(nodes: usize) -> Vec<(usize, usize)> {
         (0..nodes).map(|v| (v, (v + 1) % nodes)).collect()
     }
@@ -288,7 +280,7 @@ mod tests {
             ),
         ];
         for (nodes, pairs, order) in known {
-            let found = canonical(&graph(nodes, &pairs));
+            let found = canonical(&Multigraph::with_pairs(nodes, &pairs));
             assert_eq!(found.group_order, order, "{pairs:?}");
             if order < 1000 {
                 assert_eq!(group(&found.generators).len() as u64, order);
@@ -298,7 +290,7 @@ mod tests {
 
     #[test]
     fn multiplicities_count() {
-        let mut one = graph(4, &cycle(4));
+        let mut one = Multigraph::with_pairs(4, &cycle(4));
         let mut two = one;
         one.add(0, 1, 1);
         one.add(2, 3, 1);

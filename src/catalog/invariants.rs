@@ -58,17 +58,9 @@ fn girth(graph: &Multigraph) -> Option<usize> {
 mod tests {
     use super::*;
 
-    fn graph(nodes: usize, pairs: &[(usize, usize)]) -> Multigraph {
-        let mut graph = Multigraph::new(nodes);
-        for &(u, v) in pairs {
-            graph.add(u, v, 1);
-        }
-        graph
-    }
-
     #[test]
     fn of_known_graphs() {
-        let house = graph(5, &[(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4)]);
+        let house = Multigraph::with_pairs(5, &[(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4)]);
         let expected = Invariants {
             degrees: vec![3, 3, 2, 2, 2],
             girth: Some(3),
@@ -76,16 +68,17 @@ mod tests {
             triangles: 1,
         };
         assert_eq!(Invariants::new(&house), expected);
-        let bipartite = graph(5, &[(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)]);
+        let bipartite =
+            Multigraph::with_pairs(5, &[(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)]);
         let found = Invariants::new(&bipartite);
         assert_eq!(
             (found.girth, found.triangles, found.group_order),
             (Some(4), 0, 12)
         );
-        let path = graph(3, &[(0, 1), (1, 2)]);
+        let path = Multigraph::with_pairs(3, &[(0, 1), (1, 2)]);
         assert_eq!(Invariants::new(&path).girth, None);
         let complete: Vec<_> = (0..5).flat_map(|v| (0..v).map(move |u| (u, v))).collect();
-        let found = Invariants::new(&graph(5, &complete));
+        let found = Invariants::new(&Multigraph::with_pairs(5, &complete));
         assert_eq!((found.triangles, found.group_order), (10, 120));
     }
 }

@@ -42,8 +42,8 @@ impl Entry {
             rank_strength: verdict.rank_strength,
             components: verdict.components.len(),
             components_strength: verdict.components_strength,
-            hub: partition_bound(verdict) >= verdict.required
-                && verdict.pieces.iter().any(uses_hub),
+            hub: verdict.pieces.iter().any(uses_hub)
+                && partition_bound(verdict) >= verdict.required,
         }
     }
 

@@ -21,6 +21,18 @@ pub struct Multigraph {
     neighbours: [u16; MAX_NODES],
 }
 
+#[cfg(test)]
+impl Multigraph {
+    /// A graph with the given edges, for tests.
+    pub fn with_pairs(nodes: usize, pairs: &[(usize, usize)]) -> Self {
+        let mut graph = Self::new(nodes);
+        for &(u, v) in pairs {
+            graph.add(u, v, 1);
+        }
+        graph
+    }
+}
+
 impl Multigraph {
     /// `nodes` nodes, no edges.
     ///
