@@ -67,10 +67,8 @@ pub struct Verified {
 /// Compares the claim with what follows from the pieces.
 pub(crate) fn verify(claims: &Claims, graph: &GraphName, model: Model, pieces: &[Piece]) -> Checked<Verified> {
     let (required, Claims { verdict, rank, components }) = (model.required(graph.nodes), claims);
-    let decided = decide(model, pieces, required, graph.nodes);
-    let compared = decided.and_then(|(found, errors)| {
-        compare((&verdict.value, found), (&verdict.strength, verdict.error_log2), Ok(errors))
-    });
+    let (found, errors) = decide(model, pieces, required, graph.nodes).within(|| "verdict".into())?;
+    let compared = compare((&verdict.value, found), (&verdict.strength, verdict.error_log2), Ok(errors));
     let verdict = compared.within(|| "verdict".into())?;
 
     ensure!(rank.required == required, "rank.required is {required}, not {}", rank.required);

@@ -29,9 +29,8 @@ fn hub_takes_off(hub: &Hub, structure: &Structure, block: &Part) -> Checked<i64>
     ensure!(increasing(&hub.split), "`split` is not an increasing list of parts");
     let contains: Vec<bool> = parts.iter().map(|part| structure.nodes(part).contains(&hub.node)).collect();
     let is_split: Vec<bool> = (0..parts.len()).map(|part| hub.split.contains(&part)).collect();
-    for part in &hub.split {
-        ensure!(contains[*part], "part {part} is split, but does not contain node {}", hub.node);
-    }
+    let split = hub.split.iter().all(|&part| contains[part]);
+    ensure!(split, "a part is split that does not contain node {}", hub.node);
     let remains = |part: usize| contains[part] && !is_split[part];
 
     ensure!(components(structure, block, hub.node, |_| 0) == 1, "the block is not connected");

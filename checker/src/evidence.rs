@@ -8,9 +8,11 @@ use crate::lower::{Draw, Lower, check_draws, check_lower, own_centres};
 use crate::matrices::edge_motion;
 use crate::pieces::{Core, Part, Structure};
 use crate::rejection::{Checked, Rejection, Within, ensure};
+use serde::{Deserialize, Serialize};
 
 /// The question: unknown or known intrinsic parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Model {
     /// Finite or unique solvability from fundamental matrices.
     Projective,
@@ -163,9 +165,8 @@ fn check_classes(evidence: &document::Classes, setting: &Setting, piece: &Part) 
 
 /// Verifies a class; returns the pieces into which it is split, if it is.
 fn check_class(class: &document::Class, setting: &Setting, part: &Part) -> Checked<Option<Vec<Piece>>> {
-    if part.len() == 1 || class.split.is_some() {
-        ensure!(class.evidence.is_empty(), "evidence for a class that is single or split");
-    }
+    let bare = class.evidence.is_empty() || part.len() > 1 && class.split.is_none();
+    ensure!(bare, "evidence for a class that is single or split");
     if let Some(split) = &class.split {
         ensure!(part.len() > 1 && setting.model == Model::Projective, "a split class that is single, or calibrated");
         return check_pieces(&split.rigid, &split.pieces, setting, part).within(|| "split".into()).map(Some);
@@ -201,8 +202,7 @@ fn check_kernel(
     let width = if setting.model == Model::Projective { 12 * core.nodes } else { 3 * core.nodes };
     ensure!(kernel.vector.len() == width, "`vector` has {} entries instead of {width}", kernel.vector.len());
     let vector = kernel.vector.iter().map(|entry| big(entry)).collect::<Checked<Vec<u64>>>()?;
-    let too_large = vector.iter().find(|&&entry| entry >= prime);
-    ensure!(too_large.is_none(), "{} is not a residue modulo {prime}", too_large.unwrap_or(&0));
+    ensure!(vector.iter().all(|&entry| entry < prime), "an entry is not a residue modulo {prime}");
     let vector: Vec<u64> = vector.into_iter().map(|entry| field.element(entry)).collect();
     let mut motions: Vec<Option<Vec<u64>>> = vec![None; classes.count];
     for (edge, &member) in core.member.iter().enumerate() {

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graph {
     /// [i, j], i < j, in lexicographic order.
-    edges: Vec<Pair>,
+    pub(crate) pairs: Vec<Pair>,
     /// Where the edges of node i begin, and in the end where those of the last node end.
     start: Vec<usize>,
 }
@@ -20,18 +20,18 @@ impl Graph {
     ///
     /// # Errors
     /// A self-loop, an end point that is not a node, or 2^32 or more nodes.
-    pub fn new(nodes: usize, edges: Vec<(u32, u32)>) -> Result<Graph, Rejection> {
+    pub fn new(nodes: usize, edges: impl IntoIterator<Item = (u32, u32)>) -> Result<Graph, Rejection> {
         ensure!(u32::try_from(nodes).is_ok(), "{nodes} nodes are too many");
         let mut edges: Vec<Pair> = edges.into_iter().map(|(i, j)| [i.min(j), i.max(j)]).collect();
         let wrong = edges.iter().find(|[i, j]| i == j || *j as usize >= nodes);
         ensure!(wrong.is_none(), "{wrong:?} is not a pair of different nodes below {nodes}");
         // Graphs come in long runs that are sorted already, which this sort makes use of.
-        edges.sort();
+        edges.sort_by_key(|&[i, j]| u64::from(i) << 32 | u64::from(j));
         edges.dedup();
         let mut start = vec![0; nodes + 1];
         edges.iter().for_each(|[i, _]| start[*i as usize + 1] += 1);
         (0..nodes).for_each(|i| start[i + 1] += start[i]);
-        Ok(Graph { edges, start })
+        Ok(Graph { pairs: edges, start })
     }
 
     /// The number of nodes.
@@ -41,19 +41,14 @@ impl Graph {
 
     /// The number of edges.
     pub fn edges(&self) -> usize {
-        self.edges.len()
-    }
-
-    /// The edges in order.
-    pub(crate) fn pairs(&self) -> &[Pair] {
-        &self.edges
+        self.pairs.len()
     }
 
     /// The number of an edge, which must be there.
     pub(crate) fn edge(&self, [i, j]: Pair) -> Checked<usize> {
-        let from = self.start.get(i as usize).copied().unwrap_or(self.edges.len());
+        let from = self.start.get(i as usize).copied().unwrap_or(self.pairs.len());
         let to = self.start.get(i as usize + 1).copied().unwrap_or(from);
-        let offset = self.edges[from..to].binary_search(&[i, j]);
+        let offset = self.pairs[from..to].binary_search(&[i, j]);
         let missing = |_| Rejection::new(format!("[{i}, {j}] is not an edge (i < j) of the graph"));
         Ok(from + offset.map_err(missing)?)
     }
@@ -64,7 +59,7 @@ impl Graph {
         hash.update(b"viewcert graph 1\n");
         hash.update((self.nodes() as u64).to_le_bytes());
         hash.update((self.edges() as u64).to_le_bytes());
-        for edges in self.edges.chunks(1 << 13) {
+        for edges in self.pairs.chunks(1 << 13) {
             bytes.clear();
             edges.iter().flatten().for_each(|node| bytes.extend_from_slice(&node.to_le_bytes()));
             hash.update(&bytes);
@@ -83,22 +78,25 @@ impl Graph {
             [126, rest @ ..] => (3, rest),
             _ => (1, line),
         };
-        ensure!(rest.len() >= size, "graph6: the line ends within the number of nodes");
-        let (size, bits) = rest.split_at(size);
+        let short = || Rejection::new("graph6: the line ends within the number of nodes");
+        let (size, bits) = rest.split_at_checked(size).ok_or_else(short)?;
         let nodes = size.iter().fold(0, |n, &byte| n << 6 | u64::from(byte - 63));
         let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
         let fits = bits.len() as u128 == pairs.div_ceil(6);
         ensure!(fits, "graph6: {} bytes of edges do not fit {nodes} nodes", bits.len());
-        let mut edges = Vec::new();
+        // Column j of the upper triangle begins at bit j (j - 1) / 2.
+        let (mut rows, mut column, mut end) = (vec![Vec::new(); nodes as usize], 0, 0);
         for (k, byte) in bits.iter().enumerate().filter(|(_, byte)| **byte != 63) {
-            for index in (0..6).filter(|bit| (byte - 63) >> (5 - bit) & 1 == 1).map(|bit| 6 * k as u64 + bit) {
+            for index in (0..6).filter(|bit| (byte - 63) << bit & 32 != 0).map(|bit| 6 * k as u64 + bit) {
                 ensure!(u128::from(index) < pairs, "graph6: padding that is not zero");
-                // Column j of the upper triangle begins at j (j - 1) / 2.
-                let j = (8 * index + 1).isqrt().div_ceil(2);
-                edges.push(((index - j * (j - 1) / 2) as u32, j as u32));
+                while end <= index {
+                    column += 1;
+                    end += column;
+                }
+                rows[(index + column - end) as usize].push(column as u32);
             }
         }
-        Graph::new(usize::try_from(nodes).unwrap_or(usize::MAX), edges)
+        Graph::new(rows.len(), rows.iter().zip(0..).flat_map(|(row, i)| row.iter().map(move |&j| (i, j))))
     }
 
     /// Reads a file: graph6, if every line that is not blank is a graph6 graph (the first line may have the header
@@ -106,13 +104,13 @@ impl Graph {
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
-    pub fn read(file: &[u8], wanted: Option<&str>) -> Result<Graph, Rejection> {
+    pub fn read<'w>(file: &[u8], wanted: impl Fn() -> Option<&'w str>) -> Result<Graph, Rejection> {
         let body = file.strip_prefix(b">>graph6<<");
         let mut first = None;
         for (number, line) in body.unwrap_or(file).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).enumerate() {
             match Graph::from_graph6(line) {
                 _ if line.is_empty() => {}
-                Ok(graph) if wanted == Some(&hex(&graph.sha256())) => return Ok(graph),
+                Ok(graph) if wanted() == Some(&hex(&graph.sha256())) => return Ok(graph),
                 Ok(graph) => first = first.or(Some(graph)),
                 Err(_) if body.is_none() => return Graph::from_edge_list(file),
                 Err(error) => return Err(Rejection::new(format!("line {}: {error}", number + 1))),
@@ -122,18 +120,16 @@ impl Graph {
     }
 
     fn from_edge_list(file: &[u8]) -> Checked<Graph> {
-        let text = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
+        let mut rest = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
         // Labels are numbered as they come: small numbers by a table, which is fast, and all others by a map.
         let (mut table, mut map, mut labels) = (Vec::new(), HashMap::new(), Vec::new());
-        let mut provisional = |label| {
-            let number = match number(label).and_then(|number| usize::try_from(number).ok()) {
-                Some(small) if small < text.len() => {
-                    if small >= table.len() {
-                        table.resize(small + 1, u32::MAX);
-                    }
-                    &mut table[small]
+        let mut provisional = |label: (Option<u64>, _)| {
+            let number = match label.0 {
+                Some(small) if small < file.len() as u64 => {
+                    table.resize(table.len().max(small as usize + 1), u32::MAX);
+                    &mut table[small as usize]
                 }
-                _ => map.entry(label).or_insert(u32::MAX),
+                _ => map.entry(label.1).or_insert(u32::MAX),
             };
             if *number == u32::MAX {
                 *number = labels.len() as u32;
@@ -141,45 +137,56 @@ impl Graph {
             }
             *number
         };
-        let mut pairs = Vec::new();
-        for (number, line) in text.split(|&byte| byte == b'\n').enumerate() {
-            let line = line.strip_suffix(b"\r").unwrap_or(line);
-            let words = line.split(|byte| matches!(byte, b' ' | b'\t' | b',')).filter(|word| !word.is_empty());
-            let mut words = words.take_while(|word| !matches!(word[0], b'#' | b'%'));
-            let Some(first) = words.next() else { continue };
+        let (mut pairs, mut line) = (Vec::new(), 0);
+        while !rest.is_empty() {
+            line += 1;
+            let first = next_label(&mut rest).map(&mut provisional);
+            let second = next_label(&mut rest).map(&mut provisional);
+            rest = rest.iter().position(|&byte| byte == b'\n').map_or(&[], |end| &rest[end + 1..]);
+            let Some(first) = first else { continue };
             ensure!(pairs.len() < 1 << 31, "2^31 lines and more are too many");
-            let (first, second) = (provisional(first), words.next().map(&mut provisional));
-            ensure!(second != Some(first), "line {}: a node paired with itself", number + 1);
+            ensure!(second != Some(first), "line {line}: a node paired with itself");
             // One label is an isolated node: a pair of equal ones until the end.
             pairs.push((first, second.unwrap_or(first)));
         }
         ensure!(!labels.is_empty(), "the file holds no graph");
-        let all_numbers = labels.iter().all(|label| number(label).is_some());
+        let all_numbers = labels.iter().all(|(number, _)| number.is_some());
         let mut order: Vec<usize> = (0..labels.len()).collect();
-        order.sort_unstable_by_key(|&k| (number(labels[k]).filter(|_| all_numbers), labels[k]));
+        order.sort_unstable_by_key(|&k| (labels[k].0.filter(|_| all_numbers), labels[k].1));
         let mut node = vec![0; labels.len()];
         order.into_iter().zip(0..).for_each(|(k, position)| node[k] = position);
-        pairs.retain(|(a, b)| a != b);
-        Graph::new(labels.len(), pairs.into_iter().map(|(a, b)| (node[a as usize], node[b as usize])).collect())
+        let pairs = pairs.into_iter().filter(|(a, b)| a != b);
+        Graph::new(labels.len(), pairs.map(|(a, b)| (node[a as usize], node[b as usize])))
     }
 }
 
-/// A label that is a decimal integer without leading zeros below 2^64.
-fn number(label: &[u8]) -> Option<u64> {
-    let push = |value: u64, byte| 10u64.wrapping_mul(value).wrapping_add(u64::from(byte - b'0'));
-    let mut digits = label.iter().map(|byte| byte.is_ascii_digit().then_some(*byte));
-    let value = digits.try_fold(0, |value, digit| Some(push(value, digit?)))?;
+/// Takes the next label of a line, with its value if it is a decimal integer without leading zeros below 2^64.
+#[inline(always)]
+fn next_label<'t>(rest: &mut &'t [u8]) -> Option<(Option<u64>, &'t [u8])> {
+    let blanks = rest.iter().take_while(|byte| matches!(byte, b' ' | b'\t' | b',' | b'\r')).count();
+    let text = &rest[blanks..];
+    let (mut value, mut digits) = (0u64, 0);
+    while let Some(byte @ b'0'..=b'9') = text.get(digits) {
+        value = value.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
+        digits += 1;
+    }
+    let is_inside = |byte: &&u8| !matches!(byte, b' ' | b'\t' | b',' | b'\r' | b'\n');
+    let (label, after) = text.split_at(digits + text[digits..].iter().take_while(is_inside).count());
+    let first = label.first().filter(|first| !matches!(first, b'#' | b'%'))?;
+    *rest = after;
     // Nineteen digits are below 2^64; a longer number is right if it is written like this again.
-    let fits = label.len() < 20 || value.to_string().as_bytes() == label;
-    (fits && (label[0] != b'0' || label.len() == 1)).then_some(value)
+    let is_number = digits == label.len() && (digits < 20 || value.to_string().as_bytes() == label);
+    Some(((is_number && (*first != b'0' || digits == 1)).then_some(value), label))
 }
 
 impl GraphName {
     /// The graph that the certificate is about, with its hash: the given one, or else the one that it holds (section 3).
     pub fn find<'g>(&self, given: Option<&'g Graph>) -> Checked<(Cow<'g, Graph>, [u8; 32])> {
         let held = self.graph6.as_ref().map(|line| Graph::from_graph6(line.as_bytes())).transpose()?;
-        let same = held.as_ref().is_none_or(|graph| hex(&graph.sha256()) == self.sha256);
-        ensure!(same, "`graph6` is not the graph with this `sha256`");
+        ensure!(
+            held.is_none() || given.is_none() || given == held.as_ref(),
+            "the graph given is not the one in `graph6`"
+        );
         let missing = || Rejection::new("the certificate does not hold the graph, and none is given");
         let graph = given.map(Cow::Borrowed).or(held.map(Cow::Owned)).ok_or_else(missing)?;
         let (hash, nodes, edges) = (graph.sha256(), graph.nodes(), graph.edges());

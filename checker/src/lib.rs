@@ -75,12 +75,7 @@ impl Certificate {
         let Certificate(document) = self;
         ensure!(document.format == "viewcert certificate", "`format` is not \"viewcert certificate\"");
         ensure!(document.version == 1, "version {} is unknown to this program", document.version);
-        let model = match document.model.as_str() {
-            "projective" => Model::Projective,
-            "calibrated" => Model::Calibrated,
-            other => return Err(Rejection::new(format!("unknown model `{other}`"))),
-        };
-        let name = &document.graph;
+        let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
         let structure = &pieces::Structure::new(&graph, &document.bodies)?;
         let setting = evidence::Setting { model, sha256, structure };

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::io::{self, Read, Write};
 use std::process::ExitCode;
+use std::sync::LazyLock;
 use viewcert_check::{Certificate, Graph};
 
 const USAGE: &str = "usage: viewcert-check CERT [GRAPH]
@@ -28,20 +29,25 @@ fn main() -> ExitCode {
 
 /// The exit code with the answer, or what kept the program from giving one.
 fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
-    let (certificate, graph) = match arguments {
+    let (text, graph) = match arguments {
         // Also for --help: exit code 0 says that something was verified.
         [option, ..] if option != "-" && option.as_encoded_bytes().starts_with(b"-") => return Err(USAGE.into()),
         [certificate] => (read(certificate)?, None),
-        [certificate, graph] if certificate == "-" && graph == "-" => return Err("both are standard input".into()),
         [certificate, graph] => (read(certificate)?, Some((read(graph)?, graph.display()))),
         _ => return Err(USAGE.into()),
     };
-    let checked = match (Certificate::parse(&certificate), graph) {
-        (Ok(certificate), Some((file, path))) => {
-            let graph = Graph::read(&file, Some(certificate.graph_sha256()));
-            certificate.check(Some(&graph.map_err(|error| format!("{path}: {error}"))?))
-        }
-        (certificate, _) => certificate.and_then(|certificate| certificate.check(None)),
+    let certificate = LazyLock::new(|| Certificate::parse(&text));
+    // Large files are read side by side; whoever needs the certificate waits for it.
+    let graph = graph.map(|(file, path)| {
+        let read = std::thread::scope(|scope| {
+            scope.spawn(|| LazyLock::force(&certificate));
+            Graph::read(&file, || certificate.as_ref().ok().map(Certificate::graph_sha256))
+        });
+        read.map_err(|error| format!("{path}: {error}"))
+    });
+    let checked = match certificate.as_ref() {
+        Ok(certificate) => certificate.check(graph.transpose()?.as_ref()),
+        Err(rejection) => Err(rejection.clone()),
     };
     Ok(match checked {
         Ok(verified) => (0, verified.to_string().lines().map(|line| format!("VERIFIED {line}\n")).collect()),

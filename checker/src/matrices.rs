@@ -39,11 +39,8 @@ pub(crate) fn jacobian<R: Ring>(ring: &R, core: &Core, cameras: &[Camera<R::E>],
         let m = |column: usize| dot(ring, q.map(|row| row[column]), f.map(|row| row[r]));
         let k = |column: usize| dot(ring, f[r], p.map(|row| row[column]));
         for (node, of_a, of_b) in [(i, m(a), m(b)), (j, k(a), k(b))] {
-            if a == b {
-                entries.push((12 * node + 3 * a + r, ring.add(of_a, of_b)));
-            } else {
-                entries.extend([(12 * node + 3 * b + r, of_a), (12 * node + 3 * a + r, of_b)]);
-            }
+            entries.push((12 * node + 3 * b + r, if a == b { ring.add(of_a, of_b) } else { of_a }));
+            entries.extend((a != b).then_some((12 * node + 3 * a + r, of_b)));
         }
     }
     entries

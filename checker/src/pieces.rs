@@ -95,7 +95,7 @@ impl<'a> Structure<'a> {
             nodes.iter().flatten().for_each(|&node| bodies_of[node as usize].push(k));
         }
         let mut everything: Part = (0..bodies.len()).filter(|&k| bodies[k].is_some()).collect();
-        for (number, &[i, j]) in graph.pairs().iter().enumerate() {
+        for (number, &[i, j]) in graph.pairs.iter().enumerate() {
             let (a, b) = (&bodies_of[i as usize], &bodies_of[j as usize]);
             // The shorter list is walked, the longer one searched: hubs in many bodies stay cheap.
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
@@ -142,12 +142,12 @@ impl<'a> Structure<'a> {
     }
 
     fn name(&self, member: usize) -> String {
-        let edge = member.checked_sub(self.bodies.len()).map(|edge| self.graph.pairs()[edge]);
+        let edge = member.checked_sub(self.bodies.len()).map(|edge| self.graph.pairs[edge]);
         edge.map_or(format!("body {member}"), |edge| format!("the edge {edge:?}"))
     }
 
     pub fn nodes_of(&self, member: usize) -> &[u32] {
-        let edge = || &self.graph.pairs()[member - self.bodies.len()][..];
+        let edge = || &self.graph.pairs[member - self.bodies.len()][..];
         self.bodies.get(member).map_or_else(edge, |body| body.as_deref().unwrap_or_default())
     }
 

@@ -86,7 +86,7 @@ fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Rejection>> {
         let graph = input?.graph;
         Graph::new(graph.nodes(), graph.edges().to_vec())
     } else {
-        Graph::read(&bytes, Some(certificate.graph_sha256()))
+        Graph::read(&bytes, || Some(certificate.graph_sha256()))
     };
     let graph = graph.with_context(|| path.display().to_string())?;
     Ok(certificate.check(Some(&graph)))
