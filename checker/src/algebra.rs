@@ -2,6 +2,7 @@
 
 use crate::rejection::{Checked, ensure};
 use std::ops::{Add, Mul};
+use std::sync::Mutex;
 
 /// What the paper's Jacobian needs of its entries.
 pub(crate) trait Ring {
@@ -38,10 +39,11 @@ pub(crate) struct Field {
 
 /// How many products are summed before one reduction: in 128 bits, or in 64 if p < 2^29.
 const LANES: usize = 12;
-const SMALL_LANES: usize = 32;
+const SMALL_LANES: usize = 64;
 
-/// Columns that are computed together.
-const TILE: usize = 128;
+/// Columns and rows that are computed together.
+const TILE: usize = 64;
+const GROUP: usize = 16;
 
 impl Ring for Field {
     type E = u64;
@@ -94,7 +96,8 @@ impl Field {
         ((t + u128::from(factor) * u128::from(self.p)) >> 64) as u64
     }
 
-    /// a + a sum of at most `LANES` products: one reduction, to below p + 12 p^2 / 2^64 < 4 p.
+    /// a + a sum of at most `LANES` products (or `SMALL_LANES`, if p < 2^29): one reduction, to below p + 12 p^2 / 2^64 < 4 p
+    /// (or to p at most).
     fn add_products(&self, a: u64, products: u128) -> u64 {
         let sum = self.reduce(products);
         self.add(a, self.below(sum.min(sum.wrapping_sub(2 * self.p))))
@@ -194,13 +197,15 @@ fn subtract(field: &Field, row: &mut [u64], multiple: u64, entries: &[(usize, u6
     entries.iter().for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
 }
 
-/// Works on all items, with a second thread if they are so many that it is worth its start.
-pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync) {
-    let half = if items.len() < 64 { 0 } else { items.len() / 2 };
-    let (here, there) = items.split_at_mut(items.len() - half);
+/// Works on all items, some at a time, with more threads if there are so many that it is worth their start.
+pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut [T]) + Sync) {
+    let threads = std::thread::available_parallelism().map_or(1, |most| most.get().min(items.len() / 32));
+    let groups = Mutex::new(items.chunks_mut(GROUP));
+    let next = || groups.lock().ok().and_then(|mut groups| groups.next());
+    let run = || std::iter::from_fn(next).for_each(&work);
     std::thread::scope(|scope| {
-        (half > 0).then(|| scope.spawn(|| there.iter_mut().for_each(&work)));
-        here.iter_mut().for_each(&work);
+        (1..threads).for_each(|_| drop(scope.spawn(run)));
+        run();
     });
 }
 
@@ -212,47 +217,54 @@ pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checke
         let mut inverses = Vec::new();
         for k in 0..block.len() {
             let (done, row) = block.split_at_mut(k);
-            subtract_block(field, done, &inverses, first, &mut row[0]);
+            subtract_block(field, done, &inverses, first, &mut row[..1]);
             ensure!(row[0][first + k] != 0, "pivot {} vanishes", first + k);
             inverses.push(field.inverse(row[0][first + k]));
         }
-        for_all(rest, |row| subtract_block(field, block, &inverses, first, row));
+        for_all(rest, |rows| subtract_block(field, block, &inverses, first, rows));
         rows = rest;
     }
     Ok(())
 }
 
-/// Subtracts multiples of rows so that a row would vanish at their pivots, the columns from `first` on; computes what is right
-/// of these.
-fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, row: &mut [u64]) {
-    let mut factors: Vec<u64> = Vec::with_capacity(block.len());
-    for (k, &inverse) in inverses.iter().enumerate() {
-        let terms = factors.iter().zip(block).map(|(&factor, lane)| field.mul(factor, lane[first + k]));
-        let entry = terms.fold(row[first + k], |sum, term| field.add(sum, term));
-        factors.push(field.neg(field.mul(entry, inverse)));
-    }
-    let mut from = first + block.len();
-    for entries in row[from..].chunks_mut(TILE) {
-        let lanes = factors.iter().zip(block).map(|(&factor, lane)| (factor, &lane[from..from + entries.len()]));
-        // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
-        if field.p < 1 << 29 {
-            add_lanes::<u64>(field, entries, &lanes.collect::<Vec<_>>(), |residue| residue & 0xffff_ffff);
-        } else {
-            add_lanes::<u128>(field, entries, &lanes.collect::<Vec<_>>(), u128::from);
+/// Subtracts multiples of rows of a block so that other rows would vanish at their pivots, the columns from `first` on; computes
+/// what is right of these.
+fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, rows: &mut [Vec<u64>]) {
+    let factors = |row: &Vec<u64>| {
+        let mut factors: Vec<u64> = Vec::with_capacity(block.len());
+        for (k, &inverse) in inverses.iter().enumerate() {
+            let terms = factors.iter().zip(block).map(|(&f, lane)| u128::from(f) * u128::from(lane[first + k]));
+            let entry = field.add_products(row[first + k], terms.sum());
+            factors.push(field.neg(field.mul(entry, inverse)));
         }
-        from += TILE;
+        factors
+    };
+    let factors: Vec<_> = rows.iter().map(factors).collect();
+    let width = rows[0].len();
+    // A tile of the block stays in the fastest cache for all rows.
+    for from in (first + block.len()..width).step_by(TILE) {
+        let tile: Vec<_> = block.iter().map(|lane| &lane[from..width.min(from + TILE)]).collect();
+        for (row, factors) in rows.iter_mut().zip(&factors) {
+            let entries = &mut row[from..width.min(from + TILE)];
+            // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
+            if field.p < 1 << 29 {
+                add_lanes::<u64>(field, entries, factors, &tile, |residue| residue & 0xffff_ffff);
+            } else {
+                add_lanes::<u128>(field, entries, factors, &tile, u128::from);
+            }
+        }
     }
 }
 
 /// Adds multiples of lanes to at most `TILE` entries; products are summed in `S`.
 fn add_lanes<S: Copy + Default + Into<u128> + Add<Output = S> + Mul<Output = S>>(
-    field: &Field, entries: &mut [u64], lanes: &[(u64, &[u64])], widen: impl Fn(u64) -> S,
+    field: &Field, entries: &mut [u64], factors: &[u64], lanes: &[&[u64]], widen: impl Fn(u64) -> S,
 ) {
     let mut sums = [S::default(); TILE];
-    for four in lanes.chunks(4) {
+    for (factors, lanes) in factors.chunks(4).zip(lanes.chunks(4)) {
         // Lanes that are missing have factor zero: the first one does instead.
-        let [(s, a), (t, b), (u, c), (v, d)] = [0, 1, 2, 3].map(|k| *four.get(k).unwrap_or(&(0, four[0].1)));
-        let [s, t, u, v] = [s, t, u, v].map(&widen);
+        let [s, t, u, v] = [0, 1, 2, 3].map(|k| widen(*factors.get(k).unwrap_or(&0)));
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| *lanes.get(k).unwrap_or(&lanes[0]));
         for ((((sum, &a), &b), &c), &d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
             *sum = *sum + (s * widen(a) + t * widen(b)) + (u * widen(c) + v * widen(d));
         }

@@ -109,8 +109,7 @@ fn decide(model: Model, pieces: &[Piece], required: i64, nodes: usize) -> Checke
 fn compare<C: Display, F: Display>(
     (value, found): (&C, F), (strength, error_log2): (&str, Option<i64>), errors: Checked<Vec<i64>>,
 ) -> Checked<(F, Strength)> {
-    let same = value.to_string() == found.to_string();
-    ensure!(same, "`{value}` is claimed, but the evidence gives `{found}`");
+    ensure!(value.to_string() == found.to_string(), "`{value}` is claimed, but the evidence gives `{found}`");
     let errors = errors?;
     let sum = |largest| largest + (errors.len() - 1).checked_ilog2().map_or(0, |top| i64::from(top) + 1);
     let given = errors.iter().max().map_or(Strength::Proof, |largest| Strength::ErrorBound(sum(largest)));

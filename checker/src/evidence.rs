@@ -165,18 +165,16 @@ fn check_classes(evidence: &document::Classes, setting: &Setting, piece: &Part) 
 
 /// Verifies a class; returns the pieces into which it is split, if it is.
 fn check_class(class: &document::Class, setting: &Setting, part: &Part) -> Checked<Option<Vec<Piece>>> {
-    let bare = class.evidence.is_empty() || part.len() > 1 && class.split.is_none();
-    ensure!(bare, "evidence for a class that is single or split");
+    let fine = part.len() > 1 && class.split.is_none() || class.evidence.is_empty();
+    ensure!(fine, "evidence for a class that is single or split");
     if let Some(split) = &class.split {
         ensure!(part.len() > 1 && setting.model == Model::Projective, "a split class that is single, or calibrated");
         return check_pieces(&split.rigid, &split.pieces, setting, part).within(|| "split".into()).map(Some);
     }
     if part.len() > 1 {
         let core = setting.structure.core(part)?;
-        let bound = |(k, one): (usize, &Evidence)| {
-            let lower = check_lower(one, setting, &core).within(|| format!("evidence[{k}] ({})", one.kind()))?;
-            Ok(lower.rank)
-        };
+        let rank = |one: &Evidence| check_lower(one, setting, &core).map(|lower| lower.rank);
+        let bound = |(k, one)| rank(one).within(|| format!("evidence[{k}] ({})", one.kind()));
         let ranks = class.evidence.iter().enumerate().map(bound).collect::<Checked<Vec<i64>>>()?;
         let required = setting.model.required(core.nodes);
         ensure!(ranks.contains(&required), "the class is not proved to have the rank {required} of its core");

@@ -46,8 +46,7 @@ impl Graph {
 
     /// The number of an edge, which must be there.
     pub(crate) fn edge(&self, [i, j]: Pair) -> Checked<usize> {
-        let from = self.start.get(i as usize).copied().unwrap_or(self.pairs.len());
-        let to = self.start.get(i as usize + 1).copied().unwrap_or(from);
+        let (from, to) = self.start.get(i as usize..i as usize + 2).map_or((0, 0), |ends| (ends[0], ends[1]));
         let offset = self.pairs[from..to].binary_search(&[i, j]);
         let missing = |_| Rejection::new(format!("[{i}, {j}] is not an edge (i < j) of the graph"));
         Ok(from + offset.map_err(missing)?)

@@ -94,29 +94,28 @@ fn check_plane_flow(evidence: &PlaneFlow, setting: &Setting, core: &Core) -> Che
     let mut stream = Stream::new("flow", &setting.sha256, seed, *draw)?;
     let mut prescribed = |&is_pivot: &bool| if is_pivot { 0 } else { field.element(stream.below(field.p)) };
     let mut all: Vec<Vec<u64>> = (0..*flows).map(|_| is_pivot.iter().map(&mut prescribed).collect()).collect();
-    for_all(&mut all, |flow| {
-        let mut product = vec![0; width];
-        for (row, &weight) in n.iter().zip(&*flow) {
-            row.iter().for_each(|&(at, value)| product[at] = field.add(product[at], field.mul(weight, value)));
-        }
-        // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
-        rows.iter().zip(echelon.solve(&mut product)).for_each(|(&row, entry)| flow[row] = field.neg(entry));
-        if product.iter().any(|&entry| entry != 0) {
-            flow.clear();
+    // Of each flow, its entries of Lambda are left: four in every column.
+    for_all(&mut all, |flows| {
+        for flow in flows {
+            let mut product = vec![0; width];
+            for (row, &weight) in n.iter().zip(&*flow) {
+                row.iter().for_each(|&(at, value)| product[at] = field.add(product[at], field.mul(weight, value)));
+            }
+            // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
+            rows.iter().zip(echelon.solve(&mut product)).for_each(|(&row, entry)| flow[row] = field.neg(entry));
+            let vanishes = product.iter().all(|&entry| entry == 0);
+            let column = |&e: &usize| {
+                let (f, [a, b]) = ([flow[2 * e], flow[2 * e + 1]], [n[2 * e], n[2 * e + 1]]);
+                let omega = [0, 1, 2].map(|k| dot(field, f, [a[k].1, b[k].1]));
+                [omega[0], omega[1], omega[2], field.neg(dot(field, omega, centres[core.edges[e].1]))]
+            };
+            *flow = lambda_cols.iter().filter(|_| vanishes).flat_map(column).collect();
         }
     });
-    let mut lambda = vec![Vec::new(); 4 * flows];
-    for (k, flow) in all.iter().enumerate() {
-        ensure!(!flow.is_empty(), "flow {k} does not vanish in all columns of N");
-        for &e in lambda_cols {
-            let term = |row: usize| n[row].map(|(_, value)| field.mul(flow[row], value));
-            let (a, b) = (term(2 * e), term(2 * e + 1));
-            let omega = [0, 1, 2].map(|k| field.add(a[k], b[k]));
-            let last = field.neg(dot(field, omega, centres[core.edges[e].1]));
-            (0..4).for_each(|entry| lambda[4 * k + entry].push(*omega.get(entry).unwrap_or(&last)));
-        }
-    }
-    let mut lambda: Vec<_> = lambda_rows.iter().map(|&row| std::mem::take(&mut lambda[row])).collect();
+    let wrong = all.iter().position(|flow| flow.len() != 4 * lambda_cols.len());
+    ensure!(wrong.is_none(), "flow {wrong:?} does not vanish in all columns of N");
+    let lambda_row = |&row: &usize| all[row / 4].iter().skip(row % 4).step_by(4).copied().collect();
+    let mut lambda: Vec<_> = lambda_rows.iter().map(lambda_row).collect();
     check_diagonal(field, &mut lambda).within(|| "Lambda".into())?;
     let projective = 4 * rows.len() as i64 + lambda_rows.len() as i64 - edges as i64;
     let rank = if setting.model == Model::Projective { projective } else { rows.len() as i64 };

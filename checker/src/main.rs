@@ -8,8 +8,7 @@ use viewcert_check::{Certificate, Graph};
 
 const USAGE: &str = "usage: viewcert-check CERT [GRAPH]
 
-Verifies a viewcert certificate (`-`: standard input) for the graph in the file GRAPH (an edge list or graph6),
-or for the graph that the certificate holds.
+Verifies a certificate (`-`: standard input) for the graph in the file GRAPH (edge list, graph6), or for the one it holds.
 Exit codes: 0 verified, 1 rejected, 2 usage, files, or a graph that cannot be read.
 ";
 
@@ -38,12 +37,10 @@ fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
     };
     let certificate = LazyLock::new(|| Certificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
-    let graph = graph.map(|(file, path)| {
-        let read = std::thread::scope(|scope| {
-            scope.spawn(|| LazyLock::force(&certificate));
-            Graph::read(&file, || certificate.as_ref().ok().map(Certificate::graph_sha256))
-        });
-        read.map_err(|error| format!("{path}: {error}"))
+    let wanted = || certificate.as_ref().ok().map(Certificate::graph_sha256);
+    let graph = std::thread::scope(|scope| {
+        scope.spawn(|| LazyLock::force(&certificate));
+        graph.map(|(file, path)| Graph::read(&file, wanted).map_err(|error| format!("{path}: {error}")))
     });
     let checked = match certificate.as_ref() {
         Ok(certificate) => certificate.check(graph.transpose()?.as_ref()),

@@ -89,9 +89,7 @@ pub(crate) fn edge_motion(
     let ends = [core.edges[edge].0, core.edges[edge].1];
     let cameras = ends.map(|v| camera_at(field, &centres[v]));
     let mut motions: Vec<_> = (0..4 * columns).map(|ab| map_motion(&cameras, columns, ab)).collect();
-    if columns == 4 {
-        motions.push(scale_motion(&cameras, 1));
-    }
+    motions.extend((columns == 4).then(|| scale_motion(&cameras, 1)));
     let mut echelon = Echelon::new(field, 6 * columns);
     let independent = motions.into_iter().all(|motion| echelon.push(motion, None));
     let mut moved = ends.map(|v| &vector[3 * columns * v..3 * columns * (v + 1)]).concat();

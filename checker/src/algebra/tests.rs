@@ -94,9 +94,9 @@ fn the_difference_is_left() {
 /// The same leading minors by both kinds of elimination, at sizes around multiples of the lanes and of the threads' start.
 #[test]
 fn diagonal_is_that_of_prescribed_pivots() {
-    for p in [5, 1_000_003, (1 << 62) - 57] {
+    for p in [5, 1_000_003, (1 << 29) - 3, (1 << 62) - 57] {
         let field = Field::new(p).unwrap();
-        for size in [0, 1, 2, 11, 12, 13, 24, 25, 77, 130] {
+        for size in [0, 1, 2, 11, 12, 13, 24, 25, 63, 64, 65, 77, 130, 200] {
             let matrix = random(&field, size, 100);
             let mut echelon = Echelon::new(&field, size);
             let vanishing = (0..size).find(|&k| !echelon.push(sparse(&matrix[k]), Some(k)));
@@ -104,6 +104,24 @@ fn diagonal_is_that_of_prescribed_pivots() {
             let wanted = vanishing.map(|k| format!("pivot {k} vanishes"));
             assert_eq!(found.err().map(|error| error.reason), wanted, "{p}, {size}");
         }
+    }
+}
+
+/// As many of the largest products as are summed before they are reduced, in words and in 128 bits.
+#[test]
+fn sums_do_not_overflow() {
+    for (p, most) in [((1 << 29) - 3, SMALL_LANES), ((1 << 62) - 57, LANES)] {
+        let field = Field::new(p).unwrap();
+        let (factors, lane) = (vec![p - 1; most], [p - 1; TILE]);
+        let term = field.mul(p - 1, p - 1);
+        let wanted = (0..most).fold(p - 1, |sum, _| field.add(sum, term));
+        let mut entries = [p - 1; TILE];
+        if p < 1 << 29 {
+            add_lanes::<u64>(&field, &mut entries, &factors, &vec![&lane[..]; most], |residue| residue & 0xffff_ffff);
+        } else {
+            add_lanes::<u128>(&field, &mut entries, &factors, &vec![&lane[..]; most], u128::from);
+        }
+        assert_eq!(entries, [wanted; TILE]);
     }
 }
 
