@@ -319,7 +319,7 @@ def main():
                                  help="leave out graphs with fewer pairs")
         if name == "cores":
             command.add_argument("--nodes", type=int, nargs="+", default=[200, 500, 1000, 3000])
-            command.add_argument("--sparse", type=int, default=1000,
+            command.add_argument("--sparse", type=int, default=3000,
                                  help="largest graph for sparse elimination of the whole Jacobian")
             command.add_argument("--jacobian", type=int, default=500,
                                  help="largest graph for its dense elimination")

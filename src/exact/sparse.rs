@@ -227,6 +227,23 @@ impl Factorisation {
     /// # Panics
     /// If a row is not ascending, or has a column beyond the last or a zero.
     pub fn new(field: &PrimeField, rows: Vec<SparseRow>, cols: usize) -> Self {
+        Self::within(field, rows, cols, usize::MAX)
+            .unwrap_or_else(|_| unreachable!("no part of a matrix has more entries than that"))
+    }
+
+    /// The same, if the part that is eliminated as a dense matrix has at most `limit` entries.
+    ///
+    /// # Errors
+    /// The size of that part, rows and columns, if it is larger. It has not been stored then.
+    ///
+    /// # Panics
+    /// As [`Factorisation::new`].
+    pub fn within(
+        field: &PrimeField,
+        rows: Vec<SparseRow>,
+        cols: usize,
+        limit: usize,
+    ) -> Result<Self, (usize, usize)> {
         for row in &rows {
             assert!(
                 row.is_sorted_by(|a, b| a.0 < b.0),
@@ -262,6 +279,9 @@ impl Factorisation {
             place[col] = k;
         }
         let width = dense_cols.len();
+        if dense_rows.len().saturating_mul(width) > limit {
+            return Err((dense_rows.len(), width));
+        }
         let mut rest = Matrix::new(dense_rows.len(), width, vec![0; dense_rows.len() * width]);
         for (k, &row) in dense_rows.iter().enumerate() {
             for &(col, value) in &active.rows[row] {
@@ -286,7 +306,7 @@ impl Factorisation {
         let pivots = done.pivots();
         done.free_rows = pivots.free_rows(count);
         done.free_cols = pivots.free_cols(cols);
-        done
+        Ok(done)
     }
 
     /// The rank modulo p.
@@ -602,6 +622,16 @@ mod tests {
             "{:?}",
             done.dense_size()
         );
+    }
+
+    #[test]
+    fn the_dense_part_is_limited() {
+        let field = PrimeField::mersenne61();
+        let m = scattered(&field, 260, 200, 4, 3);
+        let (rows, cols) = Factorisation::new(&field, sparse(&m), 200).dense_size();
+        let within = |limit| Factorisation::within(&field, sparse(&m), 200, limit);
+        assert!(within(rows * cols).is_ok());
+        assert_eq!(within(rows * cols - 1).unwrap_err(), (rows, cols));
     }
 
     #[test]

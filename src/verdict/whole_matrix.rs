@@ -15,7 +15,11 @@ use crate::formulation::skew::{self, SparseRows};
 use crate::graph::Graph;
 use crate::model::Model;
 
-/// Largest dense matrix of residues, in entries of 8 bytes: 4 GiB.
+/// Largest matrix that is eliminated sparsely, in entries at its density: 2.2 million pairs, and
+/// 4 GiB to begin with.
+const MAX_SPARSE: usize = 1 << 28;
+
+/// Largest dense matrix that is left of it, in entries of 8 bytes: 4 GiB.
 const MAX_RESIDUES: usize = 1 << 29;
 
 /// Largest matrix, in entries, whose exact kernel vectors are computed: J_P of 200 cameras and 250
@@ -35,10 +39,10 @@ pub(super) fn modular(
     field: &PrimeField,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (_, cols) = size(graph, MAX_RESIDUES)?;
+    check_sparse(graph)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
     let jacobian = skew::jacobian(field, graph, &drawn.values);
-    let pivots = Factorisation::new(field, jacobian, cols).pivots();
+    let pivots = pivots(graph, field, jacobian)?;
     let rank = pivots.rank();
     let draw = ModularDraw {
         prime: field.modulus(),
@@ -56,7 +60,8 @@ pub(super) fn rational(
     denominator: u64,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    let (rows, cols) = size(graph, MAX_RESIDUES)?;
+    check_sparse(graph)?;
+    let (rows, cols) = size(graph);
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
@@ -65,12 +70,15 @@ pub(super) fn rational(
         let witness = Witness::Determinant(done.determinant().clone());
         (done.pivots().clone(), witness, done.kernel())
     } else {
-        let pivots = sparse_pivots(&jacobian, cols);
+        let pivots = sparse_pivots(graph, &jacobian)?;
         // The trivial motions alone account for the rest of a full rank.
         let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
             Vec::new()
         } else {
-            size(graph, MAX_LIFTED)?;
+            if rows * cols > MAX_LIFTED {
+                let what = "an exact kernel of the whole Jacobian";
+                return Err(too_large(graph, what, (rows, cols)));
+            }
             multimodular::rank_exact(&jacobian, cols).kernel().to_vec()
         };
         let (pivots, witness) = witness(&jacobian, cols, pivots);
@@ -90,7 +98,7 @@ pub(super) fn rational(
 }
 
 /// Pivots modulo 2^61 - 1, in an order that keeps the elimination sparse.
-fn sparse_pivots(rows: &SparseRows<Integer>, cols: usize) -> Pivots {
+fn sparse_pivots(graph: &Graph, rows: &SparseRows<Integer>) -> Result<Pivots, VerdictError> {
     let field = PrimeField::mersenne61();
     let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
     let residues = rows
@@ -100,7 +108,20 @@ fn sparse_pivots(rows: &SparseRows<Integer>, cols: usize) -> Pivots {
             entries.filter(|&(_, x)| x != 0).collect()
         })
         .collect();
-    Factorisation::new(&field, residues, cols).pivots()
+    pivots(graph, &field, residues)
+}
+
+/// Pivots of J_P, unless it fills in too much.
+fn pivots(
+    graph: &Graph,
+    field: &PrimeField,
+    jacobian: SparseRows<u64>,
+) -> Result<Pivots, VerdictError> {
+    let (_, cols) = size(graph);
+    let done = Factorisation::within(field, jacobian, cols, MAX_RESIDUES);
+    let what = "the whole Jacobian, as far as it fills in,";
+    done.map(|done| done.pivots())
+        .map_err(|size| too_large(graph, what, size))
 }
 
 /// Why the minor with pivots modulo 2^61 - 1 is not zero: its determinant, by fraction-free
@@ -119,23 +140,30 @@ fn witness(rows: &SparseRows<Integer>, cols: usize, pivots: Pivots) -> (Pivots, 
     (pivots, Witness::Determinant(done.determinant().clone()))
 }
 
-/// Rows and columns of J_P, unless it has more entries than the limit.
-fn size(graph: &Graph, limit: usize) -> Result<(usize, usize), VerdictError> {
-    let (rows, cols) = (10 * graph.edges().len(), 12 * graph.nodes());
-    let entries = rows.saturating_mul(cols);
-    if entries > limit {
-        return Err(VerdictError::TooLarge {
-            what: "the whole Jacobian",
-            nodes: graph.nodes(),
-            edges: graph.edges().len(),
-            needs: format!(
-                "{} MiB of memory for residues alone, and an elimination in proportion",
-                entries >> 17
-            ),
-            advice: "leave contraction on, and use --prime",
-        });
+/// Rows and columns of J_P.
+fn size(graph: &Graph) -> (usize, usize) {
+    (10 * graph.edges().len(), 12 * graph.nodes())
+}
+
+/// Refuses a J_P that should not even be written down: it has at most twelve entries a row.
+fn check_sparse(graph: &Graph) -> Result<(), VerdictError> {
+    let (rows, _) = size(graph);
+    if rows.saturating_mul(12) > MAX_SPARSE {
+        return Err(too_large(graph, "the whole Jacobian", (rows, 24)));
     }
-    Ok((rows, cols))
+    Ok(())
+}
+
+/// A matrix with this many rows and columns, of 8 bytes an entry, does not fit.
+fn too_large(graph: &Graph, what: &'static str, (rows, cols): (usize, usize)) -> VerdictError {
+    let needs = rows.saturating_mul(cols) >> 17;
+    VerdictError::TooLarge {
+        what,
+        nodes: graph.nodes(),
+        edges: graph.edges().len(),
+        needs: format!("{needs} MiB of memory to begin with, and an elimination in proportion"),
+        advice: "leave contraction on, and use --prime",
+    }
 }
 
 /// J_P with every row divided by the greatest common divisor of its entries.
