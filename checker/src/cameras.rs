@@ -37,12 +37,7 @@ impl Stream {
     /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has, until below.
     pub fn below(&mut self, limit: u64) -> u64 {
         let mask = (limit - 1).checked_ilog2().map_or(0, |top| u64::MAX >> (63 - top));
-        loop {
-            let value = self.word() & mask;
-            if value < limit {
-                return value;
-            }
-        }
+        std::iter::repeat_with(|| self.word() & mask).find(|&value| value < limit).unwrap_or(0)
     }
 }
 

@@ -15,10 +15,9 @@ Exit codes: 0 verified, 1 rejected, 2 usage, files, or a graph that cannot be re
 fn main() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
     let printed = run(&arguments).and_then(|(code, text)| {
-        let mut output = io::stdout().lock();
         // Nobody who reads the exit code only may take a lost answer for a good one.
-        output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(|error| error.to_string())?;
-        Ok(ExitCode::from(code))
+        let done = write!(io::stdout(), "{text}").and_then(|()| io::stdout().flush());
+        done.map(|()| ExitCode::from(code)).map_err(|error| error.to_string())
     });
     printed.unwrap_or_else(|message| {
         let _ = writeln!(io::stderr(), "viewcert-check: {message}");

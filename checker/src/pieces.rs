@@ -23,8 +23,8 @@ fn take(source: Source, graph: &Graph, earlier: &mut [Option<Nodes>]) -> Checked
     match source {
         Source::Edge(pair) => graph.edge(pair).map(|_| Nodes::from(pair)),
         Source::Body(k) => {
-            ensure!((k as usize) < earlier.len(), "{k} is not an earlier body");
-            earlier[k as usize].take().ok_or_else(|| Rejection::new(format!("body {k} is used a second time")))
+            let body = earlier.get_mut(k as usize).and_then(Option::take);
+            body.ok_or_else(|| Rejection::new(format!("body {k} is not an earlier one, or is used a second time")))
         }
     }
 }
@@ -41,7 +41,6 @@ fn add(nodes: &mut Nodes, graph: &Graph, v: u32, [a, b]: [u32; 2]) -> Checked<()
 }
 
 fn merge(nodes: &mut Nodes, graph: &Graph, earlier: &mut [Option<Nodes>], step: &Merge) -> Checked<()> {
-    ensure!(step.with.len() < 2 || step.with[0] != step.with[1], "the two parts of the merge are the same");
     let parts = step.with.iter().map(|&source| take(source, graph, earlier)).collect::<Checked<Vec<Nodes>>>()?;
     let shared = match (parts.as_slice(), step.at.as_slice()) {
         ([x], &[a, b]) => vec![(&*nodes, a), (x, a), (&*nodes, b), (x, b)],
@@ -90,13 +89,21 @@ impl<'a> Structure<'a> {
             bodies.push(Some(nodes));
         }
         let bodies: Vec<_> = bodies.into_iter().map(|nodes| nodes.map(sorted)).collect();
-        let mut bodies_of = vec![Vec::new(); graph.nodes()];
+        // The bodies of all nodes: those of node i from end[i] to end[i + 1], which is where its next one goes until all are there.
+        let mut end = vec![0; graph.nodes() + 2];
+        bodies.iter().flatten().flatten().for_each(|&node| end[node as usize + 2] += 1);
+        (2..end.len()).for_each(|i| end[i] += end[i - 1]);
+        let mut all = vec![0; end[graph.nodes() + 1]];
         for (k, nodes) in bodies.iter().enumerate() {
-            nodes.iter().flatten().for_each(|&node| bodies_of[node as usize].push(k));
+            nodes.iter().flatten().for_each(|&node| {
+                all[end[node as usize + 1]] = k;
+                end[node as usize + 1] += 1;
+            });
         }
+        let bodies_of = |node: u32| &all[end[node as usize]..end[node as usize + 1]];
         let mut everything: Part = (0..bodies.len()).filter(|&k| bodies[k].is_some()).collect();
         for (number, &[i, j]) in graph.pairs.iter().enumerate() {
-            let (a, b) = (&bodies_of[i as usize], &bodies_of[j as usize]);
+            let (a, b) = (bodies_of(i), bodies_of(j));
             // The shorter list is walked, the longer one searched: hubs in many bodies stay cheap.
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
             let covering = short.iter().filter(|body| long.binary_search(body).is_ok()).count();

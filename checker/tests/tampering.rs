@@ -333,9 +333,25 @@ fn reasons() {
         ("triangle", "[[2,0,1]]", "[[2,0,1],[2,0,1]]", "bodies[0].add[1]: node 2 is in the body already"),
         ("triangle", "[[2,0,1]]", "[[1,0,2]]", "bodies[0].add[0]: node 2 is not in the body"),
         ("triangle", "\"bodies\":[0]", "\"bodies\":[1]", "rigid: 1 is not a final body"),
-        ("merges", "\"with\":[1,2]", "\"with\":[1,1]", "bodies[3].merge[0]: the two parts of the merge are the same"),
+        (
+            "merges",
+            "\"with\":[1,2]",
+            "\"with\":[1,1]",
+            "bodies[3].merge[0]: body 1 is not an earlier one, or is used a second time",
+        ),
+        (
+            "merges",
+            "\"with\":[1,2]",
+            "\"with\":[9,2]",
+            "bodies[3].merge[0]: body 9 is not an earlier one, or is used a second time",
+        ),
         ("merges", "\"at\":[2,0,4]", "\"at\":[2,1,4]", "bodies[3].merge[0]: node 1 is not where the merge needs it"),
-        ("merges", "\"with\":[[1,6],[5,6]]", "\"with\":[1,[5,6]]", "bodies[3].merge[1]: body 1 is used a second time"),
+        (
+            "merges",
+            "\"with\":[[1,6],[5,6]]",
+            "\"with\":[1,[5,6]]",
+            "bodies[3].merge[1]: body 1 is not an earlier one, or is used a second time",
+        ),
         (
             "merges",
             "\"with\":[[1,6],[5,6]]",
