@@ -97,3 +97,65 @@ fn synthetic_graphs_and_their_true_components() {
         }
     }
 }
+
+/// Two programs read edge lists, the prover and the checker, without a line in common. What the first accepts, the second
+/// must read as the same graph (the first refuses more: control characters, graphs without pairs).
+mod two_readers {
+    use super::*;
+    use proptest::prelude::*;
+    use viewcert::graph::sha256;
+
+    fn text() -> impl Strategy<Value = String> {
+        let label = prop_oneof![
+            (0..30u32).prop_map(|number| number.to_string()),
+            prop::sample::select(vec![
+                "00",
+                "07",
+                "-3",
+                "1.5",
+                "a",
+                "b7",
+                "7b",
+                "x#y",
+                "\u{e9}",
+                "4294967296",
+                "9999999999999999999",
+                "18446744073709551615",
+                "18446744073709551616",
+                "99999999999999999999",
+            ])
+            .prop_map(String::from),
+        ];
+        let separator = prop::sample::select(vec![" ", "\t", ",", " , ", "  "]);
+        let end = prop::sample::select(vec![
+            "\n", "\r\n", " \n", " # c\n", "%c\n", " 0.5 x\n", "\n\n", "",
+        ]);
+        let line = (label.clone(), separator, label, end, 0..20u8);
+        let lines = prop::collection::vec(line, 0..12);
+        lines.prop_map(|lines| {
+            let mut text = String::new();
+            for (first, separator, second, end, kind) in lines {
+                match kind {
+                    0 => text += &format!("{separator}{first}{end}"),
+                    1 => text += &format!("#{first}{separator}{second}\n"),
+                    2 => text += end,
+                    _ => text += &format!("{first}{separator}{second}{end}"),
+                }
+            }
+            text
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+        #[test]
+        fn agree(text in text()) {
+            let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/two-readers.txt");
+            std::fs::write(path, &text).unwrap();
+            if let Some(Ok(named)) = read_graphs(path, &ReadOptions::default()).next() {
+                let checked = viewcert_check::Graph::read(text.as_bytes(), || None);
+                prop_assert_eq!(checked.unwrap().sha256(), sha256(&named.graph));
+            }
+        }
+    }
+}

@@ -94,7 +94,8 @@ impl Graph {
     }
 
     /// Reads a file: graph6, if every line that is not blank is a graph6 graph (the first line may have the header
-    /// `>>graph6<<`), or else an edge list. Of several graphs the one with the wanted hash (as in a certificate) is taken, or else the first.
+    /// `>>graph6<<`), or else an edge list. Of several graphs the one with the
+    /// wanted hash (as in a certificate), which is asked for once graph6 was read, is taken, or else the first.
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
