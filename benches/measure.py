@@ -305,7 +305,7 @@ def sequence(arguments, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence")
-    for name, function, runs in [("table3", table3, 11), ("float", float_side, 3), ("rational", rational, 5),
+    for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
                                  ("cores", cores, 3), ("sequence", sequence, 3)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
