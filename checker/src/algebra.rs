@@ -37,9 +37,10 @@ pub(crate) struct Field {
     pub one: u64,
 }
 
-/// How many products are summed before one reduction: in 128 bits, or in 64 if p < 2^29.
+/// How many products are summed before one reduction: in 128 bits, or in 64 if p is below `SMALL`.
 const LANES: usize = 12;
 const SMALL_LANES: usize = 64;
+const SMALL: u64 = 1 << 29;
 
 /// Columns and rows that are computed together.
 const TILE: usize = 64;
@@ -212,7 +213,7 @@ pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut [T]) + Sync) 
 
 /// Sees that elimination along the diagonal of a square matrix meets no zero. Rows are subtracted in blocks.
 pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checked<()> {
-    let height = if field.p < 1 << 29 { SMALL_LANES } else { LANES };
+    let height = if field.p < SMALL { SMALL_LANES } else { LANES };
     for first in (0..rows.len()).step_by(height) {
         let (block, rest) = rows.split_at_mut(height.min(rows.len()));
         let mut inverses = Vec::new();
@@ -248,7 +249,7 @@ fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: us
         for (row, factors) in rows.iter_mut().zip(&factors) {
             let entries = &mut row[from..width.min(from + TILE)];
             // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
-            if field.p < 1 << 29 {
+            if field.p < SMALL {
                 add_lanes::<u64>(field, entries, factors, &tile, |residue| residue & 0xffff_ffff);
             } else {
                 add_lanes::<u128>(field, entries, factors, &tile, u128::from);

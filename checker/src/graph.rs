@@ -78,7 +78,7 @@ impl Graph {
         let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
         let fits = bits.len() as u128 == pairs.div_ceil(6);
         ensure!(fits, "graph6: {} bytes of edges do not fit {nodes} nodes", bits.len());
-        // Column j of the upper triangle begins at bit j (j - 1) / 2.
+        // Column j of the upper triangle begins at bit j (j - 1) / 2. Rows, so that nothing is left to be sorted.
         let (mut rows, mut column, mut end) = (vec![Vec::new(); nodes as usize], 0, 0);
         for (k, byte) in bits.iter().enumerate().filter(|(_, byte)| **byte != 63) {
             for index in (0..6).filter(|bit| (byte - 63) << bit & 32 != 0).map(|bit| 6 * k as u64 + bit) {

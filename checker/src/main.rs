@@ -38,7 +38,7 @@ fn run(arguments: &[OsString]) -> Result<(u8, String), String> {
     // Large files are read side by side; whoever needs the certificate waits for it.
     let wanted = || certificate.as_ref().ok().map(Certificate::graph_sha256);
     let graph = std::thread::scope(|scope| {
-        scope.spawn(|| LazyLock::force(&certificate));
+        graph.is_some().then(|| scope.spawn(|| LazyLock::force(&certificate)));
         graph.map(|(file, path)| Graph::read(&file, wanted).map_err(|error| format!("{path}: {error}")))
     });
     let checked = match certificate.as_ref() {

@@ -122,7 +122,7 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     }
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut target = arguments.target();
-    let each = |out: &mut _, input: &NamedGraph| {
+    let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };

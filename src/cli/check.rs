@@ -84,7 +84,7 @@ fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Rejection>> {
             bail!("{name}: no graph");
         };
         let graph = input?.graph;
-        Graph::new(graph.nodes(), graph.edges().to_vec())
+        Graph::new(graph.nodes(), graph.edges().iter().copied())
     } else {
         Graph::read(&bytes, || Some(certificate.graph_sha256()))
     };

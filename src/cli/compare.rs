@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut svg = arguments.svg.as_deref();
-    let each = |out: &mut _, input: &NamedGraph| {
+    let each = |out: &mut _, input: &NamedGraph, _| {
         let found = compare(arguments, &field, input)?;
         if arguments.json {
             comparison::json(out, input, &found)?;

@@ -27,7 +27,7 @@ pub(super) struct ConditionArguments {
 /// Decides the conditions on every graph in turn; a bad one does not stop the others.
 pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
-    let each = |out: &mut _, input: &NamedGraph| {
+    let each = |out: &mut _, input: &NamedGraph, _| {
         let found = conditions::decide(&input.graph);
         if arguments.json {
             report::json(out, input, &found)?;

@@ -5,6 +5,7 @@ use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use std::io::Write;
+use std::time::Instant;
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -28,8 +29,8 @@ enum FormatName {
 }
 
 impl InputArguments {
-    /// Calls `each` for every graph of the files in turn, and flushes after it; a bad graph, or one with
-    /// which `each` fails, is reported and does not stop the others. Returns the worst exit code.
+    /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
+    /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
     ///
     /// # Errors
     /// If the output is gone: nobody reads on, and the rest would be work for nothing.
@@ -37,14 +38,15 @@ impl InputArguments {
         &self,
         paths: &[String],
         out: &mut W,
-        mut each: impl FnMut(&mut W, &NamedGraph) -> Result<u8>,
+        mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
         let mut code = GOOD;
         let options = self.read_options();
         for path in paths {
+            let mut start = Instant::now();
             for input in read_graphs(path, &options) {
                 let done = input.map_err(Into::into);
-                let done = done.and_then(|input| each(out, &input));
+                let done = done.and_then(|input| each(out, &input, start));
                 code = code.max(match done {
                     Ok(code) => code,
                     Err(error) => {
@@ -53,6 +55,7 @@ impl InputArguments {
                     }
                 });
                 out.flush().context("standard output")?;
+                start = Instant::now();
             }
         }
         Ok(code)

@@ -110,10 +110,8 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         .as_deref()
         .map(|path| Target::new(path, arguments.embed_graph));
     let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut start = Instant::now();
-    let each = |out: &mut _, input: &NamedGraph| {
+    let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
-        start = Instant::now();
         Ok(match decided? {
             Value::NotFiniteSolvable => NOT,
             _ => GOOD,

@@ -39,10 +39,10 @@ pub(super) fn modular(
     field: &PrimeField,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    check_sparse(graph)?;
+    let (_, cols) = size(graph)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
     let jacobian = skew::jacobian(field, graph, &drawn.values);
-    let pivots = pivots(graph, field, jacobian)?;
+    let pivots = pivots(graph, field, jacobian, cols)?;
     let rank = pivots.rank();
     let draw = ModularDraw {
         prime: field.modulus(),
@@ -60,8 +60,7 @@ pub(super) fn rational(
     denominator: u64,
     key: &DrawKey,
 ) -> Result<(Evidence, usize), VerdictError> {
-    check_sparse(graph)?;
-    let (rows, cols) = size(graph);
+    let (rows, cols) = size(graph)?;
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
@@ -70,7 +69,7 @@ pub(super) fn rational(
         let witness = Witness::Determinant(done.determinant().clone());
         (done.pivots().clone(), witness, done.kernel())
     } else {
-        let pivots = sparse_pivots(graph, &jacobian)?;
+        let pivots = sparse_pivots(graph, &jacobian, cols)?;
         // The trivial motions alone account for the rest of a full rank.
         let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
             Vec::new()
@@ -98,7 +97,11 @@ pub(super) fn rational(
 }
 
 /// Pivots modulo 2^61 - 1, in an order that keeps the elimination sparse.
-fn sparse_pivots(graph: &Graph, rows: &SparseRows<Integer>) -> Result<Pivots, VerdictError> {
+fn sparse_pivots(
+    graph: &Graph,
+    rows: &SparseRows<Integer>,
+    cols: usize,
+) -> Result<Pivots, VerdictError> {
     let field = PrimeField::mersenne61();
     let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
     let residues = rows
@@ -108,7 +111,7 @@ fn sparse_pivots(graph: &Graph, rows: &SparseRows<Integer>) -> Result<Pivots, Ve
             entries.filter(|&(_, x)| x != 0).collect()
         })
         .collect();
-    pivots(graph, &field, residues)
+    pivots(graph, &field, residues, cols)
 }
 
 /// Pivots of J_P, unless it fills in too much.
@@ -116,8 +119,8 @@ fn pivots(
     graph: &Graph,
     field: &PrimeField,
     jacobian: SparseRows<u64>,
+    cols: usize,
 ) -> Result<Pivots, VerdictError> {
-    let (_, cols) = size(graph);
     let done = Factorisation::within(field, jacobian, cols, MAX_RESIDUES);
     let what = "the whole Jacobian, as far as it fills in,";
     done.map(|done| done.pivots())
@@ -140,18 +143,13 @@ fn witness(rows: &SparseRows<Integer>, cols: usize, pivots: Pivots) -> (Pivots, 
     (pivots, Witness::Determinant(done.determinant().clone()))
 }
 
-/// Rows and columns of J_P.
-fn size(graph: &Graph) -> (usize, usize) {
-    (10 * graph.edges().len(), 12 * graph.nodes())
-}
-
-/// Refuses a J_P of which nobody would wait for the end.
-fn check_sparse(graph: &Graph) -> Result<(), VerdictError> {
-    let (rows, cols) = size(graph);
+/// Rows and columns of J_P, unless nobody would wait for the end of its elimination.
+fn size(graph: &Graph) -> Result<(usize, usize), VerdictError> {
+    let (rows, cols) = (10 * graph.edges().len(), 12 * graph.nodes());
     if (rows as u64).saturating_mul(cols as u64) > MAX_SPARSE {
         return Err(too_large(graph, "the whole Jacobian", (rows, cols)));
     }
-    Ok(())
+    Ok((rows, cols))
 }
 
 /// A matrix with this many rows and columns, of 8 bytes an entry, does not fit.

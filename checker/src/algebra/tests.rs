@@ -116,7 +116,7 @@ fn sums_do_not_overflow() {
         let term = field.mul(p - 1, p - 1);
         let wanted = (0..most).fold(p - 1, |sum, _| field.add(sum, term));
         let mut entries = [p - 1; TILE];
-        if p < 1 << 29 {
+        if p < SMALL {
             add_lanes::<u64>(&field, &mut entries, &factors, &vec![&lane[..]; most], |residue| residue & 0xffff_ffff);
         } else {
             add_lanes::<u128>(&field, &mut entries, &factors, &vec![&lane[..]; most], u128::from);

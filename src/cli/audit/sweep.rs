@@ -13,7 +13,7 @@ use std::process::ExitCode;
 /// Sweeps over all graphs together.
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     let mut populations = Populations::default();
-    let each = |_: &mut _, input: &NamedGraph| {
+    let each = |_: &mut _, input: &NamedGraph, _| {
         add(arguments, input, &mut populations)?;
         Ok(GOOD)
     };
