@@ -1,7 +1,7 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
-use crate::document::{Claims, GraphName};
-use crate::evidence::{Model, Piece};
+use crate::document::{Claims, GraphName, Model};
+use crate::evidence::Piece;
 use crate::rejection::{Checked, Rejection, Within, ensure};
 use std::fmt::{self, Display};
 

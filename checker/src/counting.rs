@@ -1,7 +1,7 @@
 //! Upper bounds on the rank by counting nodes of blocks, and hubs (section 7 of the specification).
 
-use crate::document::{Counting, Hub};
-use crate::evidence::{Model, Setting};
+use crate::document::{Counting, Hub, Model};
+use crate::evidence::Setting;
 use crate::pieces::{Part, Structure, root, unite};
 use crate::rejection::{Checked, Within, ensure};
 

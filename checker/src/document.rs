@@ -1,6 +1,5 @@
 //! The JSON text as typed values, by the grammar of sections 1, 3 and 5 to 7 of the specification.
 
-use crate::evidence::Model;
 use crate::rejection::{Checked, Rejection, ensure};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
@@ -71,6 +70,16 @@ objects! {
     Class { bodies: Vec<u32>, edges: Vec<Pair>, evidence: Vec<Evidence>, split: Option<Split> }
     Split { rigid: Members, pieces: Vec<Piece> }
     Kernel { prime: String, seed: String, draw: u64, vector: Vec<String> }
+}
+
+/// The question: unknown or known intrinsic parameters.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Model {
+    /// Finite or unique solvability from fundamental matrices.
+    Projective,
+    /// Solvability from essential matrices: parallel rigidity in space.
+    Calibrated,
 }
 
 /// An earlier body or an edge.

@@ -3,22 +3,11 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::counting::check_counting;
-use crate::document::{self, Evidence, Kernel, Members, big};
+use crate::document::{self, Evidence, Kernel, Members, Model, big};
 use crate::lower::{Draw, Lower, check_draws, check_lower, own_centres};
 use crate::matrices::edge_motion;
 use crate::pieces::{Core, Part, Structure};
 use crate::rejection::{Checked, Rejection, Within, ensure};
-use serde::{Deserialize, Serialize};
-
-/// The question: unknown or known intrinsic parameters.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Model {
-    /// Finite or unique solvability from fundamental matrices.
-    Projective,
-    /// Solvability from essential matrices: parallel rigidity in space.
-    Calibrated,
-}
 
 impl Model {
     /// The rank at which n >= 2 nodes are solvable up to finitely many solutions.

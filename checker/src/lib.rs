@@ -20,7 +20,7 @@ mod pieces;
 mod rejection;
 
 pub use claim::{Strength, Verdict, Verified};
-pub use evidence::Model;
+pub use document::Model;
 pub use graph::Graph;
 pub use rejection::Rejection;
 

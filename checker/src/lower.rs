@@ -2,8 +2,8 @@
 
 use crate::algebra::{Echelon, Field, Integers, Ring, check_diagonal, for_all};
 use crate::cameras::{self, Stream, gcd};
-use crate::document::{Draws, Evidence, IntegerMinor, Minor, PlaneFlow, big};
-use crate::evidence::{Model, Setting};
+use crate::document::{Draws, Evidence, IntegerMinor, Minor, Model, PlaneFlow, big};
+use crate::evidence::Setting;
 use crate::matrices::{bearings, camera_at, dot, jacobian, map_motion, scale_motion};
 use crate::pieces::Core;
 use crate::rejection::{Checked, Rejection, Within, ensure};
