@@ -23,7 +23,8 @@ use std::process::ExitCode;
 ///
 /// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
 /// compare: all agree; conditions: no necessary one fails), 1 some are not (check:
-/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input.
+/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input,
+/// 3 too large for the limits.
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]
@@ -81,3 +82,5 @@ const GOOD: u8 = 0;
 const NOT: u8 = 1;
 /// Bad usage or input.
 const BAD_INPUT: u8 = 2;
+/// Too large for the limits.
+const TOO_LARGE: u8 = 3;

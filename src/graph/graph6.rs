@@ -45,6 +45,34 @@ pub enum Graph6Error {
     Padding,
 }
 
+/// The number of nodes at the start of characters of the alphabet, and what follows it.
+pub(super) fn size(line: &[u8]) -> Result<(u64, &[u8]), Graph6Error> {
+    let (skip, digits) = match line {
+        [LONG, LONG, ..] => (2, 6),
+        [LONG, ..] => (1, 3),
+        _ => (0, 1),
+    };
+    let size = line.get(skip..skip + digits).ok_or(Graph6Error::NoSize)?;
+    let nodes = size
+        .iter()
+        .fold(0, |n, &b| n << 6 | u64::from(b.wrapping_sub(OFFSET) & 63));
+    Ok((nodes, &line[skip + digits..]))
+}
+
+/// How many characters of adjacency so many nodes need.
+fn body_length(nodes: u64) -> u128 {
+    (u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2).div_ceil(6)
+}
+
+/// How long a line is that begins like this; `None` if it says too little, or is not graph6.
+pub(super) fn line_length(start: &[u8]) -> Option<u128> {
+    if start.iter().any(|b| !(OFFSET..=LONG).contains(b)) {
+        return None;
+    }
+    let (nodes, body) = size(start).ok()?;
+    Some((start.len() - body.len()) as u128 + body_length(nodes))
+}
+
 /// The number of nodes and the adjacency characters of a line, which has been
 /// checked to hold exactly as many as the number of nodes asks for.
 fn split(line: &[u8]) -> Result<(u32, &[u8]), Graph6Error> {
@@ -54,24 +82,17 @@ fn split(line: &[u8]) -> Result<(u32, &[u8]), Graph6Error> {
             byte: line[at],
         });
     }
-    let (skip, digits) = match line {
-        [LONG, LONG, ..] => (2, 6),
-        [LONG, ..] => (1, 3),
-        _ => (0, 1),
-    };
-    let size = line.get(skip..skip + digits).ok_or(Graph6Error::NoSize)?;
-    let nodes = size.iter().fold(0, |n, &b| n << 6 | u64::from(b - OFFSET));
-    let body = &line[skip + digits..];
+    let (nodes, body) = size(line)?;
     let wrong_length = |expected| Graph6Error::Length {
         nodes,
         expected,
         found: body.len(),
     };
-    let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
-    let expected = pairs.div_ceil(6);
+    let expected = body_length(nodes);
     if expected != body.len() as u128 {
         return Err(wrong_length(expected));
     }
+    let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
     let padding = (6 * expected - pairs) as u32;
     if body
         .last()
