@@ -364,15 +364,20 @@ impl Collector {
 
     #[inline]
     fn pair(&mut self, a: u32, b: u32) -> Result<(), Fault> {
-        if a == b {
-            let label = match &self.names {
-                Some(names) => names.labels().swap_remove(a as usize).into(),
-                None => a.to_string(),
-            };
-            return Err(Place::Line(self.line).fault(Problem::SelfLoop(label)));
+        // A first line like `5 5` may be counts, which only the end of the text tells.
+        if a == b && !(self.pairs.is_empty() && self.reading == Reading::Strict) {
+            return Err(self.self_loop(self.line, a));
         }
         self.pairs.push((a, b));
         Ok(())
+    }
+
+    fn self_loop(&self, line: u64, node: u32) -> Fault {
+        let label = match &self.names {
+            Some(names) => names.labels().swap_remove(node as usize).into(),
+            None => node.to_string(),
+        };
+        Place::Line(line).fault(Problem::SelfLoop(label))
     }
 
     fn finish(mut self) -> Result<(Graph, Labels, Vec<String>), Fault> {
@@ -388,6 +393,11 @@ impl Collector {
             let (pairs, names) = (&self.pairs, self.names.as_ref());
             if let Some(problem) = self.doubts.settle(pairs, names, &first) {
                 return Err(fault(problem));
+            }
+            if let Some(&(a, b)) = self.pairs.first()
+                && a == b
+            {
+                return Err(self.self_loop(first.line, a));
             }
             match first.columns {
                 3 => notes.push("the third column is ignored (weights)".to_owned()),
@@ -461,7 +471,7 @@ impl Collector {
 pub(super) fn text(bytes: &[u8]) -> Result<&str, Problem> {
     if let Some(&byte) = bytes.iter().find(|b| b.is_ascii_control() && **b != b'\t') {
         return Err(match byte {
-            0 => Problem::Nul,
+            _ if bytes.contains(&0) => Problem::Nul,
             b'\r' => Problem::CarriageReturn,
             _ => Problem::Control(byte),
         });

@@ -41,6 +41,8 @@ pub(super) struct Lines<R> {
     guessed: bool,
     input: BufReader<R>,
     line: u64,
+    /// A graph has come.
+    seen: bool,
     /// Nothing comes any more.
     done: bool,
     /// The graph of the line before, for what refers to it.
@@ -55,6 +57,7 @@ impl<R: Read> Lines<R> {
             guessed,
             input: BufReader::with_capacity(1 << 16, input),
             line: 0,
+            seen: false,
             done: false,
             previous: None,
         }
@@ -134,6 +137,7 @@ impl<R: Read> Iterator for Lines<R> {
             }
             Ok(true) => match self.graph(&line) {
                 Ok((graph, notes)) => {
+                    self.seen = true;
                     return Some(Ok(NamedGraph {
                         name: format!("{}:{}", self.name, self.line),
                         graph,
@@ -144,10 +148,11 @@ impl<R: Read> Iterator for Lines<R> {
                 // A graph without nodes is a graph of the format.
                 Err(problem) if self.guessed && !matches!(problem, Problem::NoNodes) => {
                     self.done = true;
-                    Place::Line(self.line).fault(Problem::Unlike {
+                    let unlike = |why| Problem::Unlike {
                         format: self.encoding.name(),
-                        why: Box::new(problem),
-                    })
+                        why: Box::new(why),
+                    };
+                    Place::Line(self.line).fault(if self.seen { unlike(problem) } else { problem })
                 }
                 Err(problem) => Place::Line(self.line).fault(problem),
             },

@@ -15,6 +15,9 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
     writeln!(out, "{}", input.name)?;
     let nodes = input.graph.nodes();
     writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     let head = "rows x columns";
     writeln!(
         out,
@@ -90,6 +93,7 @@ fn rank_cells(line: &Line) -> String {
 #[derive(Serialize)]
 struct Json<'a> {
     graph: JsonGraph<'a>,
+    notes: &'a [String],
     draw: u64,
     agree: bool,
     excess: Option<usize>,
@@ -166,6 +170,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
             nodes: input.graph.nodes(),
             edges: input.graph.edges().len(),
         },
+        notes: &input.notes,
         draw: found.draw,
         agree: found.agrees(&input.graph),
         excess: found.excess(),

@@ -116,6 +116,9 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
     writeln!(out, "{}", input.name)?;
     let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
     writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     for condition in found {
         let kind = if condition.necessary {
             "necessary"
@@ -146,6 +149,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     result: &'static str,
     conditions: Vec<JsonCondition>,
 }
@@ -182,6 +186,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         graph: &input.name,
         nodes: input.graph.nodes(),
         edges: input.graph.edges().len(),
+        notes: &input.notes,
         result: conclusion(found),
         conditions,
     };

@@ -51,6 +51,9 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     writeln!(out, "{}", audit.input.name)?;
     let (nodes, edges) = (graph.nodes(), graph.edges().len());
     writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    for note in &audit.input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     writeln!(
         out,
         "  exact       {} ({}), components {}, {:.3} s",
@@ -110,6 +113,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     exact: Side,
     float: Float,
     agree: bool,
@@ -150,6 +154,7 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         graph: &audit.input.name,
         nodes: audit.input.graph.nodes(),
         edges: audit.input.graph.edges().len(),
+        notes: &audit.input.notes,
         exact: Side {
             verdict: audit.exact.value.name(),
             strength: audit.exact.strength.name(),
