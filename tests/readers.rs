@@ -151,17 +151,13 @@ mod the_page {
         (!lines.iter().any(|line| line.contains(bad))).then_some(lines)
     }
 
-    /// The fields of a line; with `most`, what follows so many is not looked at.
-    fn fields(line: &str, most: Option<usize>) -> Option<Vec<Field>> {
+    fn fields(line: &str) -> Option<Vec<Field>> {
         let mut rest: &str = line;
         let mut fields = Vec::new();
         loop {
             let trimmed = rest.trim_start_matches([' ', '\t', ',']);
             let commas = rest[..rest.len() - trimmed.len()].matches(',').count();
             rest = trimmed;
-            if Some(fields.len()) == most {
-                return Some(fields);
-            }
             let over = rest.is_empty() || rest.starts_with(['#', '%']);
             if commas > 1 || commas == 1 && (over || fields.is_empty()) {
                 return None;
@@ -241,7 +237,7 @@ mod the_page {
     pub fn lenient(bytes: &[u8]) -> Option<Listed> {
         let (mut pairs, mut singles) = (Vec::new(), Vec::new());
         for line in lines(bytes)? {
-            match &fields(&line, Some(2))?[..] {
+            match &fields(&line)?[..] {
                 [] => {}
                 [one] => singles.push(one.text.clone()),
                 [a, b, ..] => pairs.push((a.text.clone(), b.text.clone())),
@@ -258,7 +254,7 @@ mod the_page {
         let mut rows: Vec<Vec<Field>> = Vec::new();
         let mut hashes = Vec::new();
         for line in &lines {
-            let found = fields(line, None)?;
+            let found = fields(line)?;
             if line.trim_matches([' ', '\t']) == "#" {
                 hashes.push(rows.len());
             }

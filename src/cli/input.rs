@@ -11,6 +11,13 @@ use std::time::Instant;
 #[derive(Args)]
 pub(super) struct InputArguments {
     /// Format of the graphs [default: what they can only be, by their content].
+    ///
+    /// An edge list has 2, 3, 9 or 14 fields on every line, separated by blanks, tabs or a
+    /// comma: two labels and numbers, which are ignored (weights, relative poses). Names with
+    /// blanks stand in quotes; # and % begin comments; a head like source,target is recognised.
+    /// What could be something else (a line of counts, a matrix, an adjacency list, files of other
+    /// programs) is refused, by name where it has one. `--format edges` reads the first two fields
+    /// of every line all the same. What is ignored, merged or guessed is printed as a note.
     #[arg(long, value_enum)]
     format: Option<FormatName>,
     /// Variable of a MATLAB file [default: A, or the only square matrix].

@@ -169,55 +169,68 @@ impl Collector {
         if self.line == 0 {
             text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         }
-        while !text.is_empty() {
-            self.line += 1;
-            if self.names.is_none()
-                && let Some(rest) = self.plain_line(text)?
-            {
-                text = rest;
-                continue;
+        loop {
+            text = self.plain_lines(text);
+            if text.is_empty() {
+                return Ok(());
             }
+            self.line += 1;
             let end = text.iter().position(|&b| b == b'\n');
             self.any_line(&text[..end.unwrap_or(text.len())])?;
             text = end.map_or(&[], |end| &text[end + 1..]);
         }
-        Ok(())
     }
 
-    /// Reads a line of small integers and plain numbers; returns what follows it, or `None` if
-    /// the line is none of these.
-    #[inline]
-    fn plain_line<'a>(&mut self, text: &'a [u8]) -> Result<Option<&'a [u8]>, Fault> {
-        let Some((a, b, further)) = small_pair(text) else {
-            return Ok(None);
-        };
-        if self.reading == Reading::Lenient {
-            let Some((more, rest)) = ignored(further) else {
-                return Ok(None);
-            };
-            self.lines_with_more += u64::from(more);
-            self.pair(a, b)?;
-            return Ok(Some(rest));
+    /// Reads lines of two small integers and plain numbers as long as there are any, and returns
+    /// what follows them. What is wrong with a line is left to the general way.
+    fn plain_lines<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
+        if self.names.is_some() {
+            return text;
         }
-        if self.pairs.len() < FIRST_LINES {
-            return Ok(None);
-        }
-        let columns = self.first.as_ref().map_or(0, |first| first.columns);
-        let rest = if columns == 2 {
-            line_end(further)
-        } else {
-            let Some((third, rest)) = further_numbers(further, columns) else {
-                return Ok(None);
-            };
-            if self.doubts.watch_thirds() {
-                let third = std::str::from_utf8(third).ok().and_then(integer);
-                self.doubts.third(Some([a.into(), b.into()]), third);
+        let columns = match (&self.first, self.reading) {
+            (_, Reading::Lenient) => {
+                return self.plain_pairs(text, |further, _, _| {
+                    let (more, rest) = ignored(further)?;
+                    Some((u64::from(more), rest))
+                });
             }
-            Some(rest)
+            (Some(first), Reading::Strict) if self.pairs.len() >= FIRST_LINES => first.columns,
+            _ => return text,
         };
-        let Some(rest) = rest else { return Ok(None) };
-        self.pair(a, b)?;
-        Ok(Some(rest))
+        if columns == 2 {
+            return self.plain_pairs(text, |further, _, _| Some((0, line_end(further)?)));
+        }
+        let mut doubts = std::mem::take(&mut self.doubts);
+        let rest = self.plain_pairs(text, |further, a, b| {
+            let (third, rest) = further_numbers(further, columns)?;
+            if doubts.watch_thirds() {
+                let third = std::str::from_utf8(third).ok().and_then(integer);
+                doubts.third(Some([a.into(), b.into()]), third);
+            }
+            Some((0, rest))
+        });
+        self.doubts = doubts;
+        rest
+    }
+
+    /// Reads lines of two small integers while `end` accepts what follows these on a line: then
+    /// it says what to add to the lines with more fields, and what follows the line.
+    #[inline]
+    fn plain_pairs<'a>(
+        &mut self,
+        mut text: &'a [u8],
+        mut end: impl FnMut(&'a [u8], u32, u32) -> Option<(u64, &'a [u8])>,
+    ) -> &'a [u8] {
+        while let Some((a, b, further)) = small_pair(text)
+            && a != b
+            && let Some((more, rest)) = end(further, a, b)
+        {
+            self.pairs.push((a, b));
+            self.line += 1;
+            self.lines_with_more += more;
+            text = rest;
+        }
+        text
     }
 
     /// A line as text, without its end.
@@ -229,19 +242,17 @@ impl Collector {
     fn any_line(&mut self, line: &[u8]) -> Result<(), Fault> {
         let text = self.text_of(self.line, line)?;
         let mut fields = std::mem::take(&mut self.fields);
-        let done = match self.reading {
-            Reading::Strict => fields::split(text, usize::MAX, &mut fields)
-                .map_err(|problem| Place::Line(self.line).fault(problem))
-                .and_then(|_| self.strict_line(text, &fields)),
-            Reading::Lenient => fields::split(text, 2, &mut fields)
-                .map_err(|problem| Place::Line(self.line).fault(problem))
-                .and_then(|more| self.lenient_line(text, &fields, more)),
-        };
+        let done = fields::split(text, &mut fields)
+            .map_err(|problem| Place::Line(self.line).fault(problem))
+            .and_then(|()| match self.reading {
+                Reading::Strict => self.strict_line(text, &fields),
+                Reading::Lenient => self.lenient_line(text, &fields),
+            });
         self.fields = fields;
         done
     }
 
-    fn lenient_line(&mut self, text: &str, fields: &[Field], more: bool) -> Result<(), Fault> {
+    fn lenient_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
         match fields {
             [] => Ok(()),
             [only] => {
@@ -250,8 +261,8 @@ impl Collector {
                 self.singles.push(node);
                 Ok(())
             }
-            [first, second, ..] => {
-                self.lines_with_more += u64::from(more);
+            [first, second, further @ ..] => {
+                self.lines_with_more += u64::from(!further.is_empty());
                 let [a, b] = self.nodes([&*first.text(text), &*second.text(text)])?;
                 self.pair(a, b)
             }
@@ -459,7 +470,8 @@ impl Collector {
             return Err(Place::Line(self.line).fault(Problem::HeadOrPair));
         }
         let [a, b] = self.nodes([&first.labels[0], &first.labels[1]])?;
-        self.pair(a, b)?;
+        self.pairs.insert(0, (a, b));
+        self.doubts.no_head();
         Ok(None)
     }
 }
@@ -545,19 +557,26 @@ fn further_numbers(text: &[u8], columns: usize) -> Option<(&[u8], &[u8])> {
         let [b' ' | b'\t' | b',', rest @ ..] = text else {
             return None;
         };
-        let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
-        let end = rest.iter().position(|b| !plain(b))?;
-        if !fields::is_number(&rest[..end]) {
-            return None;
-        }
+        let end = rest.iter().position(|b| !b.is_ascii_digit())?;
+        let end = match rest[end] {
+            b' ' | b'\\t' | b',' | b'\\n' | b'\\r' if end > 0 => end,
+            _ => {
+                let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
+                let end = rest.iter().position(|b| !plain(b))?;
+                if !fields::is_number(&rest[..end]) {
+                    return None;
+                }
+                end
+            }
+        };
         third.get_or_insert(&rest[..end]);
         text = &rest[end..];
     }
     Some((third?, line_end(text)?))
 }
 
-/// Whether a line goes on with more than separators, and what follows it; `None` if it has
-/// anything but plain characters.
+/// Whether a line goes on with further fields, and what follows it; `None` if it has
+/// anything but plain characters, or a comma that no such character follows.
 #[inline]
 fn ignored(text: &[u8]) -> Option<(bool, &[u8])> {
     match text {
@@ -566,15 +585,19 @@ fn ignored(text: &[u8]) -> Option<(bool, &[u8])> {
         _ => return None,
     }
     let mut more = false;
+    let mut comma = false;
     let stop = text.iter().position(|byte| match byte {
-        b' ' | b'\t' | b',' => false,
+        b' ' | b'\t' => comma,
+        b',' => std::mem::replace(&mut comma, true),
         b'$' | b'&'..=b'~' => {
+            comma = false;
             more = true;
             false
         }
         _ => true,
     })?;
-    Some((more, line_end(&text[stop..])?))
+    let rest = line_end(&text[stop..])?;
+    (!comma).then_some((more, rest))
 }
 
 /// An integer below 2^32 without leading zeros at the start of `text`.

@@ -30,6 +30,12 @@ pub enum Graph6Error {
     /// The line ends within the number of nodes.
     #[error("graph6: the line ends before the number of nodes is complete")]
     NoSize,
+    /// The number of nodes takes more characters than it needs.
+    #[error("graph6: {nodes} nodes are written with more characters than that takes")]
+    LongSize {
+        /// Number of nodes.
+        nodes: u64,
+    },
     /// Fewer or more characters than the number of nodes asks for.
     #[error("graph6: {nodes} nodes need {expected} characters of adjacency, the line has {found}")]
     Length {
@@ -83,6 +89,10 @@ fn split(line: &[u8]) -> Result<(u32, &[u8]), Graph6Error> {
         });
     }
     let (nodes, body) = size(line)?;
+    let digits = line.len() - body.len();
+    if digits > 1 && nodes <= SHORT_LIMIT || digits > 4 && nodes <= MEDIUM_LIMIT {
+        return Err(Graph6Error::LongSize { nodes });
+    }
     let wrong_length = |expected| Graph6Error::Length {
         nodes,
         expected,
@@ -259,7 +269,7 @@ mod tests {
             found,
         };
         let character = |column, byte| Graph6Error::Character { column, byte };
-        let bad: [(&[u8], Graph6Error); 12] = [
+        let bad: [(&[u8], Graph6Error); 14] = [
             (b"", Graph6Error::NoSize),
             (b">>graph6<<", Graph6Error::NoSize),
             (b"~", Graph6Error::NoSize),
@@ -271,6 +281,8 @@ mod tests {
             (b":DQc", character(1, b':')),
             (b"D\xffc", character(2, 0xff)),
             (b"DQd", Graph6Error::Padding),
+            (b"~??BW", Graph6Error::LongSize { nodes: 3 }),
+            (b"~~????~~", Graph6Error::LongSize { nodes: 4095 }),
             // The largest number of nodes: 2^36 - 1.
             (
                 b"~~~~~~~~",
@@ -293,7 +305,7 @@ mod tests {
             prop_assert_eq!(decode(encode(&graph).as_bytes()), Ok(graph));
         }
 
-        /// A line is the only one of its graph, unless it spells its size at length.
+        /// A line is the only one of its graph.
         #[test]
         fn what_is_read_is_written_back(line in "[?-}]{1,12}") {
             if let Ok(graph) = decode(line.as_bytes()) {

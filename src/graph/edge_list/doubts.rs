@@ -48,6 +48,14 @@ impl Doubts {
         self.has_head = true;
     }
 
+    /// What is named like a head is the first pair all the same.
+    pub(super) fn no_head(&mut self) {
+        self.has_head = false;
+        if let Some(Some(pairs)) = &mut self.hash {
+            *pairs += 1;
+        }
+    }
+
     /// Whether a line has labels in quotes.
     pub(super) fn quotes(&mut self, quotes: bool) {
         self.has_quotes |= quotes;

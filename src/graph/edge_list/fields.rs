@@ -48,12 +48,11 @@ impl Field {
     }
 }
 
-/// Splits a line without control characters into its fields, of which at most `most` are looked
-/// for. Returns whether anything but a comment stands behind those.
+/// Splits a line without control characters into its fields.
 ///
 /// # Errors
 /// A comma without a field on either side, a quote where none belongs.
-pub(super) fn split(line: &str, most: usize, fields: &mut Vec<Field>) -> Result<bool, Problem> {
+pub(super) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
     let bytes = line.as_bytes();
     fields.clear();
     let mut at = 0;
@@ -64,14 +63,11 @@ pub(super) fn split(line: &str, most: usize, fields: &mut Vec<Field>) -> Result<
             at += 1;
         }
         let ends = matches!(bytes.get(at), None | Some(b'#' | b'%'));
-        if fields.len() == most {
-            return Ok(!ends);
-        }
         if commas > 1 || commas == 1 && (ends || fields.is_empty()) {
             return Err(Problem::EmptyField);
         }
         if ends {
-            return Ok(false);
+            return Ok(());
         }
         let field = if bytes[at] == b'"' {
             quoted(bytes, at)?
@@ -159,7 +155,7 @@ mod tests {
 
     fn fields(line: &str) -> Result<Vec<String>, String> {
         let mut fields = Vec::new();
-        split(line, usize::MAX, &mut fields).map_err(|problem| problem.to_string())?;
+        split(line, &mut fields).map_err(|problem| problem.to_string())?;
         Ok(fields.iter().map(|f| f.text(line).into_owned()).collect())
     }
 
@@ -185,22 +181,6 @@ mod tests {
             "\"a\"b c", "\"a\"# c", "\"a\"\" b",
         ] {
             assert!(fields(line).is_err(), "{line}");
-        }
-    }
-
-    /// Of a line read leniently nothing behind the second field matters.
-    #[test]
-    fn what_is_not_asked_for_is_not_looked_at() {
-        let mut fields = Vec::new();
-        for (line, more) in [
-            ("a b", false),
-            ("a b # c", false),
-            ("a b,,", false),
-            ("a b,,\"c", true),
-            ("a \"b\" ->", true),
-        ] {
-            assert_eq!(split(line, 2, &mut fields).unwrap(), more, "{line}");
-            assert_eq!(fields.len(), 2);
         }
     }
 

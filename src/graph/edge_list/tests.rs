@@ -55,7 +55,15 @@ fn repeated_pairs_and_further_columns_are_noted() {
     let poses = format!("a b{}\nb c,{}\n", " 0.1".repeat(12), "1,".repeat(11) + "1");
     let (_, _, notes) = listed(poses.as_bytes(), Reading::Strict);
     assert_eq!(notes, ["columns 3 to 14 are ignored (relative poses)"]);
-    let (_, _, notes) = listed(b"a b x\nb c\nc a \"\" ]\nb a ,#\n", Reading::Lenient);
+    let (_, _, notes) = listed(b"a b x\nb c\nc a \"]\" ]\nb a #\n", Reading::Lenient);
+    let bad = ["1 2,", "1 2,,x", "1 2 , ,x", "1 2 x,", "1 2 \"\"", "1 2 x\"y", ",1 2"];
+    for line in bad {
+        assert!(read(format!("{line}\n").as_bytes(), Reading::Lenient).is_err(), "{line}");
+    }
+    for line in ["1 2,x", "1 2, x", "1 2 ,x", "1 2 x , y ,z", "1 2 \t", "1 2 ->,{"] {
+        let (edges, ..) = listed(format!("{line}\n").as_bytes(), Reading::Lenient);
+        assert_eq!(edges, [(0, 1)], "{line}");
+    }
     assert_eq!(notes, [merged, "fields behind the second are ignored on 2 lines"]);
 }
 
