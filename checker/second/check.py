@@ -419,6 +419,18 @@ def draws_of(graph_hash, core_hash, n, seed, count):
             found.append((number, p, points))
 
 
+def integer_cameras(graph_hash, core, seed, draw, top, bottom):
+    """Section 4: integer cameras with bounds A, B."""
+    stream = Stream(DRAW, graph_hash, core.hash, seed, draw)
+    cameras = []
+    for _ in range(core.n):
+        entries = [(stream.below(2 * top + 1) - top, stream.below(bottom) + 1) for _ in range(12)]
+        scale = functools.reduce(lambda x, y: x * y // math.gcd(x, y), (w for _, w in entries))
+        entries = [u * (scale // w) for u, w in entries]
+        cameras.append([entries[0:4], entries[4:8], entries[8:12]])
+    return cameras
+
+
 def det3(a, b, c):
     return (
         a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
@@ -1007,13 +1019,7 @@ class Check:
         need((determinant is None) != (prime is None), f"{where}: one of determinant and prime is null")
         p, seed, draw = self.prime_seed_draw("5" if prime is None else prime, seed, draw, where)
         rows, cols = self.pivots(rows, cols, 10 * core.m, 12 * core.n, where)
-        stream = Stream(DRAW, self.graph.hash, core.hash, seed, draw)
-        cameras = []
-        for _ in range(core.n):
-            entries = [(stream.below(2 * top + 1) - top, stream.below(bottom) + 1) for _ in range(12)]
-            scale = functools.reduce(lambda x, y: x * y // math.gcd(x, y), (w for _, w in entries))
-            entries = [u * (scale // w) for u, w in entries]
-            cameras.append([entries[0:4], entries[4:8], entries[8:12]])
+        cameras = integer_cameras(self.graph.hash, core, seed, draw, top, bottom)
         refuse_void(cameras, None, where)
         matrix = [primitive(row) for row in jacobian_rows(core, cameras, range(10 * core.m))]
         chosen = [matrix[row] for row in rows]
@@ -1095,7 +1101,7 @@ class Check:
         need(self.projective, f"{where}: projective model only")
         names = "node parts split groups components less"
         v, parts, split, groups, components, less = members(value, names, where)
-        an_int(v, f"{where}: node", least=0, below=self.graph.n)
+        need(an_int(v, f"{where}: node") in self.union(block), f"{where}: the node is not in the block")
         part_members = []
         for part in a_list(parts, f"{where}: parts"):
             part_members.append(self.read_group(*members(part, "bodies edges", f"{where}: part"), f"{where}: part"))
