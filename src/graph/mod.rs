@@ -10,7 +10,7 @@ pub mod matlab;
 pub mod read;
 
 pub use adjacency::Adjacency;
-pub use canonical::sha256;
+pub use canonical::{core_sha256, sha256};
 pub use error::ReadError;
 pub use labels::Labels;
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
