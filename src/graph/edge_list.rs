@@ -559,7 +559,7 @@ fn further_numbers(text: &[u8], columns: usize) -> Option<(&[u8], &[u8])> {
         };
         let end = rest.iter().position(|b| !b.is_ascii_digit())?;
         let end = match rest[end] {
-            b' ' | b'\\t' | b',' | b'\\n' | b'\\r' if end > 0 => end,
+            b' ' | b'\t' | b',' | b'\n' | b'\r' if end > 0 => end,
             _ => {
                 let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
                 let end = rest.iter().position(|b| !plain(b))?;

@@ -15,7 +15,7 @@ mod recognise;
 pub mod sparse6;
 
 pub use adjacency::Adjacency;
-pub use canonical::sha256;
+pub use canonical::{core_sha256, sha256};
 pub use error::ReadError;
 pub use labels::Labels;
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
