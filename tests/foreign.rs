@@ -112,7 +112,11 @@ fn notes_are_printed() {
     let note = "the first line is a head: source,target";
     for command in [&[][..], &["compare"], &["conditions"], &["audit"]] {
         let run = verify(&[command, &[path]].concat());
-        assert!(run.out.contains(&format!("  note        {note}\n")), "{}", run.out);
+        assert!(
+            run.out.contains(&format!("  note        {note}\n")),
+            "{}",
+            run.out
+        );
         let run = verify(&[command, &[path, "--json"]].concat());
         assert_eq!(run.json()[0]["notes"][0], note, "{command:?}");
     }
@@ -141,7 +145,10 @@ fn graphs_without_pairs() {
             assert_eq!((run.code, &*run.err), (code, ""), "{graph} {extra:?}");
             let line = &run.json()[0];
             assert_eq!(line["verdict"], verdict);
-            assert_eq!((&line["rank"], &line["strength"]), (&0.into(), &"proof".into()));
+            assert_eq!(
+                (&line["rank"], &line["strength"]),
+                (&0.into(), &"proof".into())
+            );
             let required = match (nodes, extra) {
                 (1, _) => 0,
                 (_, ["--model", _]) => 3 * nodes - 4,

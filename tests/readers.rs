@@ -113,7 +113,11 @@ mod the_page {
         }
 
         fn integer(&self) -> Option<u64> {
-            if self.quoted { None } else { integer(&self.text) }
+            if self.quoted {
+                None
+            } else {
+                integer(&self.text)
+            }
         }
     }
 
@@ -290,10 +294,18 @@ mod the_page {
             numbers && is_head(&first[0].text, &first[1].text) && !either_occurs
         };
         let rows = &rows[usize::from(head)..];
-        if rows.is_empty() || rows.iter().any(|row| !row[2..].iter().all(Field::is_number)) {
+        if rows.is_empty()
+            || rows
+                .iter()
+                .any(|row| !row[2..].iter().all(Field::is_number))
+        {
             return None;
         }
-        for field in rows.iter().flat_map(|row| &row[..2]).filter(|field| !field.quoted) {
+        for field in rows
+            .iter()
+            .flat_map(|row| &row[..2])
+            .filter(|field| !field.quoted)
+        {
             if field.text.ends_with([';', ':']) || !brackets_close(&field.text) {
                 return None;
             }
@@ -309,7 +321,10 @@ mod the_page {
             .iter()
             .map(|row| row.iter().map(Field::integer).collect())
             .collect();
-        if !head && !quoted && let Some(rows) = &integers {
+        if !head
+            && !quoted
+            && let Some(rows) = &integers
+        {
             let others: BTreeSet<u64> = rows[1..].iter().flatten().copied().collect();
             let counts = columns == 2
                 && rows[0][1] == rows.len() as u64 - 1
@@ -320,9 +335,9 @@ mod the_page {
             }
             if columns == 3 {
                 let largest = rows.iter().map(|row| row[0].max(row[1])).max()?;
-                let stars = rows
-                    .iter()
-                    .all(|row| row[0] < row[1] && row[1] < row[2] && row[2] <= largest.saturating_add(1));
+                let stars = rows.iter().all(|row| {
+                    row[0] < row[1] && row[1] < row[2] && row[2] <= largest.saturating_add(1)
+                });
                 let behind = |node: u64, other: u64| {
                     let mut lines = rows.iter();
                     lines.any(|row| row[0] == node && row[1..].contains(&other))
@@ -366,7 +381,8 @@ mod the_page {
             return None;
         }
         let decimal = |label: &String| label.contains(['.', 'e', 'E']);
-        if !quoted && listed.0.iter().all(|label| is_number(label)) && listed.0.iter().any(decimal) {
+        if !quoted && listed.0.iter().all(|label| is_number(label)) && listed.0.iter().any(decimal)
+        {
             return None;
         }
         Some(listed)
@@ -393,7 +409,8 @@ mod edge_lists {
         let label = |kind: u8| match kind {
             0 => (0..5u32).prop_map(|value| value.to_string()).boxed(),
             1 => (0..2u32).prop_map(|value| value.to_string()).boxed(),
-            2 => choice("7 4294967295 4294967296 18446744073709551615 18446744073709551616 10 9").boxed(),
+            2 => choice("7 4294967295 4294967296 18446744073709551615 18446744073709551616 10 9")
+                .boxed(),
             3 => choice("1 1.5 2 -2 3e1 07 .5").boxed(),
             4 => choice("a b c d \"a\" \"x_y\" 1 \"1\" \"q\"\"r\" f(1) \u{e9}").boxed(),
             _ => choice("from to source target a 1").boxed(),
@@ -410,7 +427,11 @@ mod edge_lists {
             _ => choice("1 2 9").boxed(),
         };
         let separator = || prop::sample::select(vec![" ", " ", "\t", ",", ", ", " ,", "  "]);
-        let end = || prop::sample::select(vec!["\n", "\n", "\n", "\r\n", " \n", " # c\n", "\n\n", "\n#\n"]);
+        let end = || {
+            prop::sample::select(vec![
+                "\n", "\n", "\n", "\r\n", " \n", " # c\n", "\n\n", "\n#\n",
+            ])
+        };
         let columns = prop::sample::select(vec![2usize, 2, 2, 2, 3, 3, 3, 9, 14, 1, 4]);
         (0..6u8, 0..3u8, columns)
             .prop_flat_map(move |(kind, more, columns)| {
@@ -419,12 +440,13 @@ mod edge_lists {
                     label(kind),
                     prop::collection::vec(further(more), columns.saturating_sub(2)),
                 );
-                let line = (fields, separator(), end()).prop_map(move |((a, b, more), separator, end)| {
-                    let mut fields = vec![a, b];
-                    fields.extend(more);
-                    fields.truncate(columns);
-                    fields.join(separator) + end
-                });
+                let line =
+                    (fields, separator(), end()).prop_map(move |((a, b, more), separator, end)| {
+                        let mut fields = vec![a, b];
+                        fields.extend(more);
+                        fields.truncate(columns);
+                        fields.join(separator) + end
+                    });
                 (
                     prop::collection::vec(line, 0..24),
                     prop::option::weighted(0.3, head.clone()),
@@ -433,9 +455,17 @@ mod edge_lists {
                 )
             })
             .prop_map(|(lines, head, odd, cut)| {
-                let mut text: String = head.map(|head| head + "\n").into_iter().chain(lines).collect();
+                let mut text: String = head
+                    .map(|head| head + "\n")
+                    .into_iter()
+                    .chain(lines)
+                    .collect();
                 if let Some((odd, at)) = odd {
-                    let places: Vec<usize> = text.char_indices().map(|(at, _)| at).chain([text.len()]).collect();
+                    let places: Vec<usize> = text
+                        .char_indices()
+                        .map(|(at, _)| at)
+                        .chain([text.len()])
+                        .collect();
                     text.insert_str(places[at.index(places.len())], &odd);
                 }
                 if cut && text.ends_with('\n') {
@@ -506,11 +536,16 @@ mod sparse6 {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
         let mut graphs = 0;
-        for (nodes, seed) in [1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 32, 33, 63, 64, 70, 130].into_iter().zip(1..) {
+        for (nodes, seed) in [1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 32, 33, 63, 64, 70, 130]
+            .into_iter()
+            .zip(1..)
+        {
             let (nodes, seed) = (nodes.to_string(), format!("-S{seed}"));
             for density in ["-P2", "-P9"] {
                 let arguments = ["-s", "-q", density, &seed, &nodes, "65"];
-                let Some(made) = nauty("genrang", &arguments) else { return };
+                let Some(made) = nauty("genrang", &arguments) else {
+                    return;
+                };
                 let random = path("random.s6");
                 std::fs::write(&random, &made).unwrap();
                 let all = |name: &str, option: &str| -> Option<Vec<Graph>> {
@@ -519,7 +554,9 @@ mod sparse6 {
                     let graphs = read_graphs(&file, &ReadOptions::default());
                     Some(graphs.map(|graph| graph.unwrap().graph).collect())
                 };
-                let Some(graph6) = all("random.g6", "-g") else { return };
+                let Some(graph6) = all("random.g6", "-g") else {
+                    return;
+                };
                 let sparse: Vec<Graph> = read_graphs(&random, &ReadOptions::default())
                     .map(|graph| graph.unwrap().graph)
                     .collect();

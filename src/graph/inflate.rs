@@ -66,12 +66,15 @@ impl<R: Read> Inflater<R> {
 
 impl<R: Read> Read for Inflater<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let got = self.input.read(buffer).map_err(|error| match error.kind() {
-            ErrorKind::InvalidInput | ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
-                Error::new(error.kind(), Damaged(error))
-            }
-            _ => error,
-        })?;
+        let got = self
+            .input
+            .read(buffer)
+            .map_err(|error| match error.kind() {
+                ErrorKind::InvalidInput | ErrorKind::InvalidData | ErrorKind::UnexpectedEof => {
+                    Error::new(error.kind(), Damaged(error))
+                }
+                _ => error,
+            })?;
         self.inflated += got as u64;
         if self.inflated > LIMIT {
             return Err(Error::other(Inflated::Limit));

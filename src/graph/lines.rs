@@ -7,7 +7,7 @@ use super::error::{Place, Problem, ReadError};
 use super::{Graph, Labels, NamedGraph, graph6, sparse6};
 
 /// The longest line that is read: graph6 of about 113,000 nodes.
-const LINE_LIMIT: u64 = 1 << 30;
+pub(super) const LINE_LIMIT: u64 = 1 << 30;
 
 /// Which of the two encodings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -99,9 +99,7 @@ pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
             Some(word) => place(word, nodes).map_err(fault)?,
             None => return Err(fault(said("the entry has no column".into()))),
         };
-        let present = kind
-            .is_present(words.next(), row, column)
-            .map_err(fault)?;
+        let present = kind.is_present(words.next(), row, column).map_err(fault)?;
         if words.next().is_some() {
             return Err(fault(said("the entry has too many fields".into())));
         }
@@ -155,19 +153,21 @@ fn said(what: String) -> Problem {
 }
 
 /// Rows and entries, from the line with rows, columns and entries.
-fn sizes<'a>(
-    rows: &str,
-    mut others: impl Iterator<Item = &'a str>,
-) -> Result<(u32, u64), Problem> {
+fn sizes<'a>(rows: &str, mut others: impl Iterator<Item = &'a str>) -> Result<(u32, u64), Problem> {
     let (columns, entries) = (others.next(), others.next());
     let number = |word: Option<&str>| {
         word.filter(|word| word.bytes().all(|b| b.is_ascii_digit()))
             .and_then(|word| word.parse::<u64>().ok())
     };
-    let (Some(row), Some(column), Some(entries), None) =
-        (number(Some(rows)), number(columns), number(entries), others.next())
-    else {
-        return Err(said("the line with the sizes holds rows, columns and entries".into()));
+    let (Some(row), Some(column), Some(entries), None) = (
+        number(Some(rows)),
+        number(columns),
+        number(entries),
+        others.next(),
+    ) else {
+        return Err(said(
+            "the line with the sizes holds rows, columns and entries".into(),
+        ));
     };
     if row != column {
         return Err(Problem::NotSquare(format!("{row} x {column}")));
@@ -187,24 +187,39 @@ fn place(word: &str, nodes: u32) -> Result<u32, Problem> {
 
 impl Kind {
     fn of_header<'a>(mut words: impl Iterator<Item = &'a str>) -> Result<Self, Problem> {
-        let mut next = || words.next().map(str::to_ascii_lowercase).unwrap_or_default();
+        let mut next = || {
+            words
+                .next()
+                .map(str::to_ascii_lowercase)
+                .unwrap_or_default()
+        };
         let (header, object, format, values, symmetry) = (next(), next(), next(), next(), next());
         if header != HEADER.to_ascii_lowercase() || object != "matrix" {
             return Err(said(format!("a {header} {object} is not a matrix")));
         }
         if format != "coordinate" {
-            return Err(said(format!("the format `{format}` is not read here, only `coordinate`")));
+            return Err(said(format!(
+                "the format `{format}` is not read here, only `coordinate`"
+            )));
         }
         let values = match &*values {
             "pattern" => Values::Pattern,
             "integer" => Values::Integer,
             "real" => Values::Real,
-            _ => return Err(said(format!("entries that are `{values}` are not read here"))),
+            _ => {
+                return Err(said(format!(
+                    "entries that are `{values}` are not read here"
+                )));
+            }
         };
         let symmetric = match &*symmetry {
             "symmetric" => true,
             "general" => false,
-            _ => return Err(said(format!("a matrix that is `{symmetry}` is not read here"))),
+            _ => {
+                return Err(said(format!(
+                    "a matrix that is `{symmetry}` is not read here"
+                )));
+            }
         };
         Ok(Self { values, symmetric })
     }
@@ -214,7 +229,9 @@ impl Kind {
         let word = match (self.values, value) {
             (Values::Pattern, None) => return Ok(true),
             (Values::Pattern, Some(_)) => {
-                return Err(said("the entry has a value, and only the pattern is promised".into()));
+                return Err(said(
+                    "the entry has a value, and only the pattern is promised".into(),
+                ));
             }
             (_, None) => return Err(said("the entry has no value".into())),
             (_, Some(word)) => word,
@@ -309,29 +326,74 @@ mod tests {
     fn refusals() {
         let header = |words: &str| format!("%%MatrixMarket matrix {words}\n2 2 1\n2 1 1\n");
         for (text, phrase) in [
-            (header("array real general"), "a.mtx:1: MatrixMarket: the format `array` is not read"),
-            (header("coordinate complex general"), "a.mtx:1: MatrixMarket: entries that are `complex`"),
-            (header("coordinate real hermitian"), "a.mtx:1: MatrixMarket: a matrix that is `hermitian`"),
+            (
+                header("array real general"),
+                "a.mtx:1: MatrixMarket: the format `array` is not read",
+            ),
+            (
+                header("coordinate complex general"),
+                "a.mtx:1: MatrixMarket: entries that are `complex`",
+            ),
+            (
+                header("coordinate real hermitian"),
+                "a.mtx:1: MatrixMarket: a matrix that is `hermitian`",
+            ),
             (header("coordinate real"), "a matrix that is ``"),
-            (header("coordinate integer general"), "not symmetric: (2, 1) is non-zero, (1, 2) is zero"),
-            (format!("{GENERAL}2 2 1\n1 2 1\n"), "not symmetric: (1, 2) is non-zero"),
-            (format!("{GENERAL}2 3 0\n"), "a.mtx:2: the matrix is 2 x 3, not square"),
-            (format!("{GENERAL}2 2 1\n1 1 1\n"), "a.mtx:3: diagonal entry (1, 1)"),
-            (format!("{GENERAL}2 2 1\n1 2 nan\n"), "entry (1, 2) is not a number"),
+            (
+                header("coordinate integer general"),
+                "not symmetric: (2, 1) is non-zero, (1, 2) is zero",
+            ),
+            (
+                format!("{GENERAL}2 2 1\n1 2 1\n"),
+                "not symmetric: (1, 2) is non-zero",
+            ),
+            (
+                format!("{GENERAL}2 3 0\n"),
+                "a.mtx:2: the matrix is 2 x 3, not square",
+            ),
+            (
+                format!("{GENERAL}2 2 1\n1 1 1\n"),
+                "a.mtx:3: diagonal entry (1, 1)",
+            ),
+            (
+                format!("{GENERAL}2 2 1\n1 2 nan\n"),
+                "entry (1, 2) is not a number",
+            ),
             (format!("{GENERAL}2 2 1\n1 2 x\n"), "`x` is no number"),
-            (format!("{GENERAL}2 2 1\n1 3 1\n"), "`3` is no row or column of 2"),
-            (format!("{GENERAL}2 2 1\n0 1 1\n"), "`0` is no row or column of 2"),
+            (
+                format!("{GENERAL}2 2 1\n1 3 1\n"),
+                "`3` is no row or column of 2",
+            ),
+            (
+                format!("{GENERAL}2 2 1\n0 1 1\n"),
+                "`0` is no row or column of 2",
+            ),
             (format!("{GENERAL}2 2 1\n1\n"), "has no column"),
             (format!("{GENERAL}2 2 1\n1 2\n"), "has no value"),
             (format!("{GENERAL}2 2 1\n1 2 3 4\n"), "too many fields"),
-            (format!("{GENERAL}2 2 2\n1 2 3\n"), "2 entries are promised, and 1 are there"),
-            (format!("{SYMMETRIC}2 2 1\n2 1\n1 2\n"), "a.mtx:4: MatrixMarket: 1 entries are promised"),
-            (format!("{SYMMETRIC}2 2 1\n2 1 5\n"), "only the pattern is promised"),
+            (
+                format!("{GENERAL}2 2 2\n1 2 3\n"),
+                "2 entries are promised, and 1 are there",
+            ),
+            (
+                format!("{SYMMETRIC}2 2 1\n2 1\n1 2\n"),
+                "a.mtx:4: MatrixMarket: 1 entries are promised",
+            ),
+            (
+                format!("{SYMMETRIC}2 2 1\n2 1 5\n"),
+                "only the pattern is promised",
+            ),
             (format!("{SYMMETRIC}2 2\n"), "rows, columns and entries"),
             (SYMMETRIC.to_owned(), "sizes is missing"),
             (format!("{SYMMETRIC}0 0 0\n"), "the graph is empty"),
-            (format!("{SYMMETRIC}4000000000 4000000000 0\n"), "4000000000 nodes and 0 pairs"),
-            (format!("{SYMMETRIC}5000000000 5000000000 0\n"), "more than 4294967295 nodes"),
+            (
+                format!("{SYMMETRIC}4000000000 4000000000 0\n"),
+                "4000000000 nodes and 0 pairs",
+            ),
+            (
+                format!("{SYMMETRIC}5000000000 5000000000 0\n"),
+                "more than 4294967295 nodes",
+            ),
         ] {
             let found = refusal(&text);
             assert!(found.contains(phrase), "{text}{found}");

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use super::edge_list::Reading;
 use super::error::{Fault, Place, Problem, ReadError};
 use super::inflate::Inflater;
-use super::lines::{Encoding, Lines};
+use super::lines::{Encoding, LINE_LIMIT, Lines};
 use super::recognise::{self, Kind};
 use super::{Graph, Labels, edge_list, matlab, matrix_market};
 
@@ -99,7 +99,8 @@ pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) ->
         Ok(sampled) if sampled.is_gzip() => {
             let inner = sampled_again(sampled);
             let graphs = inner.map(|inner| of_sampled(name.clone(), inner, options));
-            let graphs = graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
+            let graphs =
+                graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
             Box::new(graphs.map(|graph| {
                 graph.map(|mut graph| {
                     graph.notes.insert(0, "read as gzip".to_owned());
@@ -137,8 +138,11 @@ fn sampled(mut input: Input) -> Result<Sampled, Problem> {
     let mut whole = more(&mut input, &mut head, recognise::SAMPLE as u64)?;
     if !whole && let Some(missing) = recognise::missing(&head) {
         // In steps: what the first characters promise need not be there.
-        let mut left = missing;
-        while left > 0 && !whole && !head[head.len() - STEP.min(head.len())..].contains(&b'\n') {
+        let mut left = missing.min(LINE_LIMIT);
+        while left > 0
+            && !whole
+            && recognise::in_alphabet(&head[head.len() - STEP.min(head.len())..])
+        {
             let step = left.min(STEP as u64);
             whole = more(&mut input, &mut head, step)?;
             left -= step;

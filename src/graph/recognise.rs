@@ -18,7 +18,10 @@ pub(super) const SAMPLE: usize = 1 << 16;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A graph a line; `guessed` if no header says so.
-    Lines { encoding: Encoding, guessed: bool },
+    Lines {
+        encoding: Encoding,
+        guessed: bool,
+    },
     Matlab,
     MatrixMarket,
     Gzip,
@@ -58,6 +61,11 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
         return Err(problem);
     }
     let guessed = true;
+    // A first line that is promised to be longer than any that is read.
+    if !whole && missing(head).is_some() {
+        let encoding = Encoding::Graph6;
+        return Ok(Kind::Lines { encoding, guessed });
+    }
     for (encoding, is) in [
         (Encoding::Graph6, graph6::is_graph6 as fn(&[u8]) -> bool),
         (Encoding::Sparse6, sparse6::looks_like_sparse6),
@@ -76,7 +84,14 @@ pub(super) fn missing(head: &[u8]) -> Option<u64> {
     let length = graph6::line_length(trimmed(text))?;
     // With the line's end: then the line is complete, or longer than it may be.
     let wanted = u64::try_from(length).ok()?.checked_add(2)?;
-    wanted.checked_sub(text.len() as u64).filter(|more| *more > 0)
+    wanted
+        .checked_sub(text.len() as u64)
+        .filter(|more| *more > 0)
+}
+
+/// Whether all bytes are such that a line of graph6 may hold.
+pub(super) fn in_alphabet(bytes: &[u8]) -> bool {
+    bytes.iter().all(|b| (63..=126).contains(b))
 }
 
 /// The lines of a head that are complete and not blank.
@@ -126,9 +141,17 @@ const MAGIC: [(&[u8], &str, &str); 22] = [
         "an SQLite database (COLMAP's, perhaps)",
         "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows > 0'",
     ),
-    (b"PK\x03\x04", "a ZIP archive (an .npz file, perhaps)", "unpack it, and write the adjacency matrix with scipy.io.mmwrite or scipy.io.savemat"),
+    (
+        b"PK\x03\x04",
+        "a ZIP archive (an .npz file, perhaps)",
+        "unpack it, and write the adjacency matrix with scipy.io.mmwrite or scipy.io.savemat",
+    ),
     (b"PK\x05\x06", "a ZIP archive", "unpack it"),
-    (b"\x93NUMPY", "a NumPy array", "write it with scipy.io.mmwrite(name, scipy.sparse.coo_matrix(array)) or scipy.io.savemat"),
+    (
+        b"\x93NUMPY",
+        "a NumPy array",
+        "write it with scipy.io.mmwrite(name, scipy.sparse.coo_matrix(array)) or scipy.io.savemat",
+    ),
     (b"\x89PNG\r\n\x1a\n", "a PNG image", PAIRS),
     (b"\xff\xd8\xff", "a JPEG image", PAIRS),
     (b"GIF8", "a GIF image", PAIRS),
@@ -136,17 +159,49 @@ const MAGIC: [(&[u8], &str, &str); 22] = [
     (b"MM\0*", "a TIFF image", PAIRS),
     (b"RIFF", "a RIFF file (an image or sound)", PAIRS),
     (b"%PDF-", "a PDF document", PAIRS),
-    (b"BZh", "compressed by bzip2", "unpack it with `bunzip2`, or compress it with `gzip`"),
-    (b"\xfd7zXZ\0", "compressed by xz", "unpack it with `unxz`, or compress it with `gzip`"),
-    (b"\x28\xb5\x2f\xfd", "compressed by Zstandard", "unpack it with `unzstd`, or compress it with `gzip`"),
+    (
+        b"BZh",
+        "compressed by bzip2",
+        "unpack it with `bunzip2`, or compress it with `gzip`",
+    ),
+    (
+        b"\xfd7zXZ\0",
+        "compressed by xz",
+        "unpack it with `unxz`, or compress it with `gzip`",
+    ),
+    (
+        b"\x28\xb5\x2f\xfd",
+        "compressed by Zstandard",
+        "unpack it with `unzstd`, or compress it with `gzip`",
+    ),
     (b"7z\xbc\xaf\x27\x1c", "a 7-Zip archive", "unpack it"),
     (b"\x7fELF", "a program (ELF)", PAIRS),
-    (b"PAR1", "a Parquet table", "write its two columns of names as CSV"),
-    (b"ARROW1", "an Arrow table", "write its two columns of names as CSV"),
-    (b">>planar_code", "planar code", "convert it to graph6 with nauty's `planarg` or plantri's option -g"),
-    (b">>edge_code", "edge code", "convert it to graph6 with plantri's option -g"),
+    (
+        b"PAR1",
+        "a Parquet table",
+        "write its two columns of names as CSV",
+    ),
+    (
+        b"ARROW1",
+        "an Arrow table",
+        "write its two columns of names as CSV",
+    ),
+    (
+        b">>planar_code",
+        "planar code",
+        "convert it to graph6 with nauty's `planarg` or plantri's option -g",
+    ),
+    (
+        b">>edge_code",
+        "edge code",
+        "convert it to graph6 with plantri's option -g",
+    ),
     (b">>digraph6<<", DIGRAPH6, DIGRAPH6_ADVICE),
-    (b"version https://git-lfs", "a pointer to a file in Git LFS, not the file itself", "fetch it with `git lfs pull`"),
+    (
+        b"version https://git-lfs",
+        "a pointer to a file in Git LFS, not the file itself",
+        "fetch it with `git lfs pull`",
+    ),
 ];
 
 const DIGRAPH6: &str = "digraph6, directed graphs";
@@ -167,7 +222,8 @@ fn binary(head: &[u8]) -> Option<Problem> {
     if let [0x80, 2..=5, rest @ ..] = head
         && !rest.is_empty()
     {
-        let advice = "write the pairs in Python with one `print(a, b)` each; a pickle can hold anything";
+        let advice =
+            "write the pairs in Python with one `print(a, b)` each; a pickle can hold anything";
         return Some(foreign("a Python pickle", advice));
     }
     if !head.contains(&0) {
@@ -185,8 +241,16 @@ fn binary(head: &[u8]) -> Option<Problem> {
 
 /// First words of texts that might pass for edge lists; the case of letters does not matter.
 const FIRST_WORDS: [(&str, &str, &str); 12] = [
-    ("*vertices", "a Pajek network", networkx!("networkx.Graph(networkx.read_pajek(FILE))")),
-    ("*network", "a Pajek network", networkx!("networkx.Graph(networkx.read_pajek(FILE))")),
+    (
+        "*vertices",
+        "a Pajek network",
+        networkx!("networkx.Graph(networkx.read_pajek(FILE))"),
+    ),
+    (
+        "*network",
+        "a Pajek network",
+        networkx!("networkx.Graph(networkx.read_pajek(FILE))"),
+    ),
     ("*partition", "a Pajek partition", PAIRS),
     ("vertex_", "a g2o pose graph", G2O),
     ("edge_", "a g2o pose graph", G2O),
@@ -194,7 +258,11 @@ const FIRST_WORDS: [(&str, &str, &str); 12] = [
     ("edge2", "a TORO pose graph", G2O),
     ("vertex3", "a TORO pose graph", G2O),
     ("edge3", "a TORO pose graph", G2O),
-    ("nvm_v", "an NVM file of VisualSFM", "it holds cameras and points, not pairs of images; write the pairs that were matched"),
+    (
+        "nvm_v",
+        "an NVM file of VisualSFM",
+        "it holds cameras and points, not pairs of images; write the pairs that were matched",
+    ),
     ("leda.graph", "a LEDA graph", PAIRS),
     ("@nodes", "a LEMON graph", PAIRS),
 ];
@@ -203,11 +271,31 @@ const G2O: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 
 
 /// First comments of texts that might pass for edge lists.
 const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
-    ("# Image list with two lines of data per image", "COLMAP's images.txt", COLMAP),
-    ("# 3D point list with one line of data per point", "COLMAP's points3D.txt", COLMAP),
-    ("# Camera list with one line of data per camera", "COLMAP's cameras.txt", COLMAP),
-    ("# Rig calib list with one line of data per calib", "COLMAP's rigs.txt", COLMAP),
-    ("# Bundle file", "a Bundler file", "it holds cameras and points, not pairs of images; write the pairs that were matched"),
+    (
+        "# Image list with two lines of data per image",
+        "COLMAP's images.txt",
+        COLMAP,
+    ),
+    (
+        "# 3D point list with one line of data per point",
+        "COLMAP's points3D.txt",
+        COLMAP,
+    ),
+    (
+        "# Camera list with one line of data per camera",
+        "COLMAP's cameras.txt",
+        COLMAP,
+    ),
+    (
+        "# Rig calib list with one line of data per calib",
+        "COLMAP's rigs.txt",
+        COLMAP,
+    ),
+    (
+        "# Bundle file",
+        "a Bundler file",
+        "it holds cameras and points, not pairs of images; write the pairs that were matched",
+    ),
 ];
 
 const COLMAP: &str = "the pairs are in COLMAP's database: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows > 0'";
@@ -281,7 +369,9 @@ pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
 /// A head as text, but for a character that is cut at its end.
 fn str_up_to_cut(head: &[u8]) -> Result<&str, std::str::Utf8Error> {
     match std::str::from_utf8(head) {
-        Err(error) if error.error_len().is_none() => std::str::from_utf8(&head[..error.valid_up_to()]),
+        Err(error) if error.error_len().is_none() => {
+            std::str::from_utf8(&head[..error.valid_up_to()])
+        }
         other => other,
     }
 }
@@ -304,22 +394,27 @@ fn markup(text: &str) -> Option<Problem> {
     }
     let json = |start: &str| {
         let rest = start[1..].trim_start();
-        rest.starts_with(['"', '{', '[', '(', ']', '}', '-']) || rest.starts_with(|c: char| c.is_ascii_digit())
+        rest.starts_with(['"', '{', '[', '(', ']', '}', '-'])
+            || rest.starts_with(|c: char| c.is_ascii_digit())
     };
     if start.starts_with(['{', '[']) && json(start) {
-        return Some(if lower.contains("\"links\"") || lower.contains("\"edges\"") {
-            foreign(
-                "a node-link graph in JSON",
-                networkx!("networkx.node_link_graph(json.load(open(FILE)))"),
-            )
-        } else {
-            foreign("JSON", PAIRS)
-        });
+        return Some(
+            if lower.contains("\"links\"") || lower.contains("\"edges\"") {
+                foreign(
+                    "a node-link graph in JSON",
+                    networkx!("networkx.node_link_graph(json.load(open(FILE)))"),
+                )
+            } else {
+                foreign("JSON", PAIRS)
+            },
+        );
     }
     let words: Vec<&str> = lower.split_whitespace().take(3).collect();
     let word = |k: usize| words.get(k).copied().unwrap_or_default();
     let dot = ["strict", "graph", "digraph"].contains(&word(0))
-        || ["graph{", "digraph{"].iter().any(|start| lower.starts_with(start));
+        || ["graph{", "digraph{"]
+            .iter()
+            .any(|start| lower.starts_with(start));
     if dot && lower.contains('{') {
         return Some(foreign(
             "a graph in DOT (Graphviz)",
@@ -328,7 +423,9 @@ fn markup(text: &str) -> Option<Problem> {
     }
     let gml = word(0) == "graph" && (word(1) == "[" || word(0).ends_with('['))
         || word(0) == "graph["
-        || ["creator", "version"].contains(&word(0)) && lower.contains("graph") && lower.contains('[');
+        || ["creator", "version"].contains(&word(0))
+            && lower.contains("graph")
+            && lower.contains('[');
     if gml {
         return Some(foreign("GML", networkx!("networkx.read_gml(FILE)")));
     }
@@ -343,8 +440,11 @@ fn markup(text: &str) -> Option<Problem> {
 
 /// Relatives of graph6, and graph6 with other lines in between.
 fn encoded(head: &[u8], whole: bool) -> Option<Problem> {
-    let alphabet = |line: &[u8]| line.iter().all(|b| (63..=126).contains(b));
-    if every_line(head, whole, |line| matches!(line, [b'&', body @ ..] if alphabet(body))) {
+    if every_line(
+        head,
+        whole,
+        |line| matches!(line, [b'&', body @ ..] if in_alphabet(body)),
+    ) {
         return Some(foreign(DIGRAPH6, DIGRAPH6_ADVICE));
     }
     let all: Vec<&[u8]> = lines(head, whole).collect();
@@ -372,16 +472,25 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     };
     let lines: Vec<Vec<&str>> = text[..end]
         .lines()
-        .map(|line| line.split([' ', '\t', ',', '\r']).filter(|w| !w.is_empty()).collect())
+        .map(|line| {
+            line.split([' ', '\t', ',', '\r'])
+                .filter(|w| !w.is_empty())
+                .collect()
+        })
         .filter(|words: &Vec<&str>| words.first().is_some_and(|w| !w.starts_with(['#', '%'])))
         .collect();
     let first = lines.first()?;
     let (integer, number) = (|w: &&str| is_integer(w), |w: &&str| is_number(w.as_bytes()));
-    let dimacs = |line: &Vec<&str>| {
-        matches!(line[..], ["p", kind, n, m] if !is_integer(kind) && is_integer(n) && is_integer(m))
-    };
-    if lines.iter().take_while(|line| ["c", "p"].contains(&line[0])).any(dimacs) {
-        return Some(foreign("a DIMACS graph", "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE"));
+    let dimacs = |line: &Vec<&str>| matches!(line[..], ["p", kind, n, m] if !is_integer(kind) && is_integer(n) && is_integer(m));
+    if lines
+        .iter()
+        .take_while(|line| ["c", "p"].contains(&line[0]))
+        .any(dimacs)
+    {
+        return Some(foreign(
+            "a DIMACS graph",
+            "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE",
+        ));
     }
     if let [image, quaternion @ .., camera, _] = &first[..]
         && first.len() == 10
@@ -401,14 +510,18 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     {
         return Some(foreign("COLMAP's points3D.txt", COLMAP));
     }
-    if first.len() == 3 && first.iter().all(integer)
+    if first.len() == 3
+        && first.iter().all(integer)
         && let Some([camera, point, x, y]) = lines.get(1).map(|line| &line[..])
         && integer(camera)
         && integer(point)
         && number(x)
         && number(y)
     {
-        return Some(foreign("a bundle adjustment problem (BAL)", "it holds cameras and points, not pairs of images; write the pairs that were matched"));
+        return Some(foreign(
+            "a bundle adjustment problem (BAL)",
+            "it holds cameras and points, not pairs of images; write the pairs that were matched",
+        ));
     }
     let all_integers = lines.iter().flatten().all(integer);
     if all_integers && let Some(problem) = integers(&lines, whole) {
@@ -422,9 +535,15 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         ));
     }
     if first.len() == 1 && first[0].contains(';') {
-        return Some(foreign("a table with semicolons", "separate the columns by commas, blanks or tabs"));
+        return Some(foreign(
+            "a table with semicolons",
+            "separate the columns by commas, blanks or tabs",
+        ));
     }
-    if lines.iter().all(|line| line.len() > 2 && line[2].starts_with('{')) {
+    if lines
+        .iter()
+        .all(|line| line.len() > 2 && line[2].starts_with('{'))
+    {
         return Some(foreign(
             "an edge list with attributes",
             "write it without: networkx.write_edgelist(graph, 'pairs.txt', data=False), or say --format edges",
@@ -451,8 +570,13 @@ fn integers(lines: &[Vec<&str>], whole: bool) -> Option<Problem> {
     if whole && (2..=4).contains(&first.len()) {
         let (nodes, edges) = (value(first[0]), value(first[1]));
         let ends: usize = lines.iter().skip(1).map(Vec::len).sum();
-        if nodes == Some(lines.len() as u64 - 1) && edges.and_then(|m| m.checked_mul(2)) == Some(ends as u64) {
-            return Some(foreign("a METIS graph", "write one pair a line; line k of the file, without the first, lists the neighbours of node k"));
+        if nodes == Some(lines.len() as u64 - 1)
+            && edges.and_then(|m| m.checked_mul(2)) == Some(ends as u64)
+        {
+            return Some(foreign(
+                "a METIS graph",
+                "write one pair a line; line k of the file, without the first, lists the neighbours of node k",
+            ));
         }
     }
     let square = whole && lines.iter().all(|line| line.len() == lines.len());

@@ -176,9 +176,20 @@ mod tests {
             (b"Fa", Sparse6Error::Start),
             (b":", Sparse6Error::NoSize),
             (b":~?", Sparse6Error::NoSize),
-            (b":F a", Sparse6Error::Character { column: 3, byte: 32 }),
+            (
+                b":F a",
+                Sparse6Error::Character {
+                    column: 3,
+                    byte: 32,
+                },
+            ),
             (b";a", Sparse6Error::NoPrevious),
-            (b":~~~~~~~~", Sparse6Error::TooLarge { nodes: (1 << 36) - 1 }),
+            (
+                b":~~~~~~~~",
+                Sparse6Error::TooLarge {
+                    nodes: (1 << 36) - 1,
+                },
+            ),
         ];
         for (line, error) in bad {
             assert_eq!(decode(line, None), Err(error), "{}", line.escape_ascii());

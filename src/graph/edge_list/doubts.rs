@@ -12,16 +12,20 @@ const COUNTS: &str = "the first line counts nodes and lines, or is a pair like t
 const COUNTS_ADVICE: &str = "delete the line of counts; if it is a pair, say `--format edges`; if each line lists the neighbours of a node, as in METIS, convert it";
 const MATRIX: &str = "it could be an adjacency matrix";
 const MATRIX_ADVICE: &str = "write one pair a line, or a MatrixMarket or MATLAB file; if it is an edge list, say `--format edges`";
-const STARS: &str = "it could be an adjacency list or a list of stars as well as pairs with weights";
-const STARS_ADVICE: &str = "write one pair a line; if the third column is of no concern, say `--format edges`";
+const STARS: &str =
+    "it could be an adjacency list or a list of stars as well as pairs with weights";
+const STARS_ADVICE: &str =
+    "write one pair a line; if the third column is of no concern, say `--format edges`";
 const TRIVIAL_GRAPH: &str =
     "it could be in the Trivial Graph Format: nodes, a line `#`, and pairs of these nodes";
 const TRIVIAL_GRAPH_ADVICE: &str =
     "keep the lines behind the `#`; if all lines are pairs, say `--format edges`";
 const HEAD: &str = "the first line has names and all others integers: it could be a head";
 const HEAD_ADVICE: &str = "delete the head; if the line is a pair, say `--format edges`";
-const POINTS: &str = "all labels are numbers, and not all of them integers: these could be coordinates";
-const POINTS_ADVICE: &str = "write one pair a line; if the numbers are labels, say `--format edges`";
+const POINTS: &str =
+    "all labels are numbers, and not all of them integers: these could be coordinates";
+const POINTS_ADVICE: &str =
+    "write one pair a line; if the numbers are labels, say `--format edges`";
 
 /// What has been seen so far.
 #[derive(Default)]
@@ -149,15 +153,14 @@ impl Doubts {
                 .binary_search_by_key(&node, |line| line[0])
                 .is_ok_and(|at| lines[at][1..].contains(&neighbour))
         };
-        lines
-            .iter()
-            .all(|&[a, b, c]| lists(b, a) && lists(c, a))
+        lines.iter().all(|&[a, b, c]| lists(b, a) && lists(c, a))
     }
 }
 
 /// Whether the first of two integers a line count nodes and other lines.
 fn counts(pairs: &[(u32, u32)], names: Option<&Index>, first: &First) -> bool {
-    let [Some(nodes), Some(lines)] = [&first.labels[0], &first.labels[1]].map(|l| integer(l)) else {
+    let [Some(nodes), Some(lines)] = [&first.labels[0], &first.labels[1]].map(|l| integer(l))
+    else {
         return false;
     };
     let others = &pairs[1..];
@@ -191,9 +194,17 @@ fn perhaps_head(pairs: &[(u32, u32)], names: &Index, first: &First) -> bool {
     let own = |label: &str| first.labels.iter().any(|own| **own == *label);
     let (a, b) = pairs[0];
     pairs.len() > 1
-        && first.labels.iter().all(|label| !is_number(label.as_bytes()))
-        && names.nodes.keys().all(|label| own(label) || integer(label).is_some())
-        && pairs[1..].iter().all(|pair| ![a, b].contains(&pair.0) && ![a, b].contains(&pair.1))
+        && first
+            .labels
+            .iter()
+            .all(|label| !is_number(label.as_bytes()))
+        && names
+            .nodes
+            .keys()
+            .all(|label| own(label) || integer(label).is_some())
+        && pairs[1..]
+            .iter()
+            .all(|pair| ![a, b].contains(&pair.0) && ![a, b].contains(&pair.1))
 }
 
 /// Whether all labels are numbers, some of them with a fraction or an exponent.

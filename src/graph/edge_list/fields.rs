@@ -177,8 +177,19 @@ mod tests {
             assert_eq!(fields(line).unwrap(), expected, "{line}");
         }
         for line in [
-            ",", ",a b", "a b,", "a,,b", "a, ,b", "a b, # c", ", # c", "a \"\"", "a\"b\" c", "\"a b",
-            "\"a\"b c", "\"a\"# c", "\"a\"\" b",
+            ",",
+            ",a b",
+            "a b,",
+            "a,,b",
+            "a, ,b",
+            "a b, # c",
+            ", # c",
+            "a \"\"",
+            "a\"b\" c",
+            "\"a b",
+            "\"a\"b c",
+            "\"a\"# c",
+            "\"a\"\" b",
         ] {
             assert!(fields(line).is_err(), "{line}");
         }
@@ -189,7 +200,9 @@ mod tests {
         for number in ["0", "007", "-1", "+1.", ".5", "1.5e3", "-.5E-07", "1e+0"] {
             assert!(is_number(number.as_bytes()), "{number}");
         }
-        for other in ["", ".", "-", "1e", "e5", "1e+", "0x1", "nan", "inf", "1.2.3", "1-", "--1", "1,"] {
+        for other in [
+            "", ".", "-", "1e", "e5", "1e+", "0x1", "nan", "inf", "1.2.3", "1-", "--1", "1,",
+        ] {
             assert!(!is_number(other.as_bytes()), "{other}");
         }
     }

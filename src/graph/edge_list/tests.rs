@@ -23,8 +23,7 @@ fn refusal(text: &[u8]) -> String {
 
 #[test]
 fn separators_comments_and_line_ends() {
-    let text =
-        b"\xef\xbb\xbf# cameras\r\n\r\n1 2\r\n2\t3\n3,1 # closes\n % aside\n\n4 , 1\n3  4";
+    let text = b"\xef\xbb\xbf# cameras\r\n\r\n1 2\r\n2\t3\n3,1 # closes\n % aside\n\n4 , 1\n3  4";
     let (edges, labels, notes) = listed(text, Reading::Strict);
     assert_eq!(edges, [(0, 1), (0, 2), (0, 3), (1, 2), (2, 3)]);
     assert_eq!(labels, ["1", "2", "3", "4"]);
@@ -47,7 +46,10 @@ fn a_single_label_is_a_node_only_leniently() {
 
 #[test]
 fn repeated_pairs_and_further_columns_are_noted() {
-    let (edges, labels, notes) = listed(b"1 2 0.5\n2 1 .5\n2 3 1e3\n3 4\xc3\xa9 -7 # 1\n", Reading::Strict);
+    let (edges, labels, notes) = listed(
+        b"1 2 0.5\n2 1 .5\n2 3 1e3\n3 4\xc3\xa9 -7 # 1\n",
+        Reading::Strict,
+    );
     assert_eq!(labels, ["1", "2", "3", "4\u{e9}"]);
     assert_eq!(edges, [(0, 1), (1, 2), (2, 3)]);
     let merged = "1 pair is given again, the same or reversed, and merged";
@@ -56,30 +58,58 @@ fn repeated_pairs_and_further_columns_are_noted() {
     let (_, _, notes) = listed(poses.as_bytes(), Reading::Strict);
     assert_eq!(notes, ["columns 3 to 14 are ignored (relative poses)"]);
     let (_, _, notes) = listed(b"a b x\nb c\nc a \"]\" ]\nb a #\n", Reading::Lenient);
-    let bad = ["1 2,", "1 2,,x", "1 2 , ,x", "1 2 x,", "1 2 \"\"", "1 2 x\"y", ",1 2"];
+    let bad = [
+        "1 2,", "1 2,,x", "1 2 , ,x", "1 2 x,", "1 2 \"\"", "1 2 x\"y", ",1 2",
+    ];
     for line in bad {
-        assert!(read(format!("{line}\n").as_bytes(), Reading::Lenient).is_err(), "{line}");
+        assert!(
+            read(format!("{line}\n").as_bytes(), Reading::Lenient).is_err(),
+            "{line}"
+        );
     }
-    for line in ["1 2,x", "1 2, x", "1 2 ,x", "1 2 x , y ,z", "1 2 \t", "1 2 ->,{"] {
+    for line in [
+        "1 2,x",
+        "1 2, x",
+        "1 2 ,x",
+        "1 2 x , y ,z",
+        "1 2 \t",
+        "1 2 ->,{",
+    ] {
         let (edges, ..) = listed(format!("{line}\n").as_bytes(), Reading::Lenient);
         assert_eq!(edges, [(0, 1)], "{line}");
     }
-    assert_eq!(notes, [merged, "fields behind the second are ignored on 2 lines"]);
+    assert_eq!(
+        notes,
+        [merged, "fields behind the second are ignored on 2 lines"]
+    );
 }
 
 /// The usual lines have a parser of their own from the seventeenth on, which must not differ.
 #[test]
 fn late_lines_are_read_as_early_ones() {
     for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 2 3 4 5 6 -7e1")] {
-        let mut text: String = (0..40).map(|v| format!("{v} {}{further}\n", v + 1)).collect();
+        let mut text: String = (0..40)
+            .map(|v| format!("{v} {}{further}\n", v + 1))
+            .collect();
         let (edges, ..) = listed(text.as_bytes(), Reading::Strict);
         assert_eq!(edges.len(), 40, "{columns}");
-        for bad in ["7", "7 9 1 1", "7 9 x", "7 7", "7,,9", "7 9,", "7 9 1 2 3 4 5 6 7 8"] {
+        for bad in [
+            "7",
+            "7 9 1 1",
+            "7 9 x",
+            "7 7",
+            "7,,9",
+            "7 9,",
+            "7 9 1 2 3 4 5 6 7 8",
+        ] {
             let at = text.len();
             text += bad;
             for end in ["", "\n", "\n1 2\n"] {
                 let found = refusal((text.clone() + end).as_bytes());
-                assert!(found.starts_with("list.txt:41: "), "{columns} {bad}: {found}");
+                assert!(
+                    found.starts_with("list.txt:41: "),
+                    "{columns} {bad}: {found}"
+                );
             }
             text.truncate(at);
         }
@@ -98,7 +128,10 @@ fn late_lines_are_read_as_early_ones() {
 fn heads() {
     for (text, head) in [
         (&b"source,target\na,b\n"[..], "source,target"),
-        (b"# from a table\nImage_ID1\tIMAGE_ID2\n1\t2\n", "Image_ID1,IMAGE_ID2"),
+        (
+            b"# from a table\nImage_ID1\tIMAGE_ID2\n1\t2\n",
+            "Image_ID1,IMAGE_ID2",
+        ),
         (b"\"From\",\"To\"\n1,2\n", "From,To"),
         (b"src dst weight\n1 2 5\n", "src,dst,..."),
         (b"i j w\n1 2 5\n", "i,j,..."),
@@ -112,11 +145,26 @@ fn heads() {
     let (edges, labels, notes) = listed(b"from to\nto x\n", Reading::Strict);
     assert_eq!((edges.len(), labels.len(), notes.len()), (2, 3, 0));
     for (text, phrase) in [
-        (&b"id,source,target\n0,1,2\n"[..], "list.txt:1: the head says that the pairs are not"),
-        (b"1 2 nan\n2 3 0.5\n", "list.txt:1: not an edge list: field 3, `nan`, is no number"),
-        (b"a b inf\na c 0.5\n", "list.txt:1: the line could be a head, but its names occur"),
-        (b"source target\n", "list.txt: the first line is a head, and there are no pairs"),
-        (b"i j\n1 2\n2 3\n", "list.txt: the first line has names and all others integers"),
+        (
+            &b"id,source,target\n0,1,2\n"[..],
+            "list.txt:1: the head says that the pairs are not",
+        ),
+        (
+            b"1 2 nan\n2 3 0.5\n",
+            "list.txt:1: not an edge list: field 3, `nan`, is no number",
+        ),
+        (
+            b"a b inf\na c 0.5\n",
+            "list.txt:1: the line could be a head, but its names occur",
+        ),
+        (
+            b"source target\n",
+            "list.txt: the first line is a head, and there are no pairs",
+        ),
+        (
+            b"i j\n1 2\n2 3\n",
+            "list.txt: the first line has names and all others integers",
+        ),
     ] {
         assert!(refusal(text).starts_with(phrase), "{}", refusal(text));
     }
@@ -141,7 +189,11 @@ fn what_could_be_something_else() {
         assert!(read(text, Reading::Lenient).is_ok() || text.starts_with(b"2 2"));
     }
     for text in [&b"2 2\n1 2\n"[..], b"2 2 1\n1 2 1\n", b"a a\n"] {
-        assert!(refusal(text).starts_with("list.txt:1: camera"), "{}", refusal(text));
+        assert!(
+            refusal(text).starts_with("list.txt:1: camera"),
+            "{}",
+            refusal(text)
+        );
     }
     // Close to it, and nothing but edge lists.
     for text in [
@@ -228,14 +280,29 @@ fn refusals_name_the_line() {
         (&b"1 2\n2 \xff\n"[..], "this is no UTF-8 text; save it"),
         (b"1 2\n1 2\xc3\n", "this is no UTF-8 text; save it"),
         (b"1 2\n\x003 4\n", "this is no text: it has a NUL byte"),
-        (b"1 2\n3 4\x1b\n", "this is no plain text: it has the control character 0x1b"),
-        (b"1 2\n3 4\x7f\n", "this is no plain text: it has the control character 0x7f"),
-        (b"1 2\n1 2\r2 3\n", "there is a carriage return within the line"),
-        (b"1 2\n\xef\xbb\xbf2 3\n", "there is a byte order mark (U+FEFF) within the text"),
+        (
+            b"1 2\n3 4\x1b\n",
+            "this is no plain text: it has the control character 0x1b",
+        ),
+        (
+            b"1 2\n3 4\x7f\n",
+            "this is no plain text: it has the control character 0x7f",
+        ),
+        (
+            b"1 2\n1 2\r2 3\n",
+            "there is a carriage return within the line",
+        ),
+        (
+            b"1 2\n\xef\xbb\xbf2 3\n",
+            "there is a byte order mark (U+FEFF) within the text",
+        ),
     ] {
         for reading in [Reading::Strict, Reading::Lenient] {
             let found = refused(text, reading);
-            assert!(found.starts_with(&format!("list.txt:2: {phrase}")), "{found}");
+            assert!(
+                found.starts_with(&format!("list.txt:2: {phrase}")),
+                "{found}"
+            );
         }
     }
     for text in [&b""[..], b"# 1 2\n"] {

@@ -75,16 +75,25 @@ fn a_line_that_contradicts_the_guess_ends_the_stream() {
     assert_eq!(items.len(), SAMPLE + 1);
     let last = items.last().unwrap().as_ref().unwrap_err();
     assert!(
-        last.starts_with(&format!("in:{}: the lines before are graph6, and this one is not", SAMPLE + 1)),
+        last.starts_with(&format!(
+            "in:{}: the lines before are graph6, and this one is not",
+            SAMPLE + 1
+        )),
         "{last}"
     );
 }
 
 #[test]
 fn sparse6_is_read_line_by_line() {
-    for text in [&b":Fa@x^\n;a@x^\n:An\n"[..], b">>sparse6<<:Fa@x^\n;a@x^\n\n:An"] {
+    for text in [
+        &b":Fa@x^\n;a@x^\n:An\n"[..],
+        b">>sparse6<<:Fa@x^\n;a@x^\n\n:An",
+    ] {
         let graphs: Vec<_> = all(text).into_iter().map(Result::unwrap).collect();
-        let sizes: Vec<_> = graphs.iter().map(|g| (g.graph.nodes(), g.graph.edges().len())).collect();
+        let sizes: Vec<_> = graphs
+            .iter()
+            .map(|g| (g.graph.nodes(), g.graph.edges().len()))
+            .collect();
         assert_eq!(sizes, [(7, 4), (7, 0), (2, 1)]);
     }
     // What refers to a bad line is bad as well.
@@ -105,7 +114,10 @@ fn gzip_is_inflated() {
     let [Ok(named)] = &items[..] else {
         panic!("{items:?}");
     };
-    assert_eq!((named.graph.nodes(), &named.notes[..]), (3, &["read as gzip".to_owned()][..]));
+    assert_eq!(
+        (named.graph.nodes(), &named.notes[..]),
+        (3, &["read as gzip".to_owned()][..])
+    );
     assert_eq!(all(&gzip(b"Bw\nC~\n")).iter().flatten().count(), 2);
     assert!(one_error(&gzip(&two)).starts_with("in: this is gzip within gzip"));
     assert!(one_error(&two[..two.len() - 5]).starts_with("in: the compressed data are damaged"));
