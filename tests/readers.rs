@@ -398,7 +398,7 @@ mod edge_lists {
     use viewcert::graph::read::graphs;
     use viewcert::graph::{Format, ReadError};
 
-    fn choice(words: &'static str) -> impl Strategy<Value = String> {
+    fn choice(words: &'static str) -> impl Strategy<Value = String> + Clone {
         let words: Vec<&str> = words.split(' ').collect();
         prop::sample::select(words).prop_map(|word| word.replace('_', " "))
     }

@@ -496,16 +496,16 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         && first.len() == 10
         && integer(image)
         && integer(camera)
-        && quaternion.iter().all(|w| number(w))
+        && quaternion.iter().all(number)
     {
         return Some(foreign("COLMAP's images.txt", COLMAP));
     }
     if first.len() >= 8
         && first.len() % 2 == 0
-        && first.iter().all(|w| number(w))
+        && first.iter().all(number)
         && integer(&first[0])
         && first[4..7].iter().all(|w| w.parse::<u8>().is_ok())
-        && first[8..].iter().all(|w| integer(w))
+        && first[8..].iter().all(integer)
         && first[1..4].iter().any(|w| w.contains('.'))
     {
         return Some(foreign("COLMAP's points3D.txt", COLMAP));
