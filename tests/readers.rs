@@ -284,7 +284,7 @@ mod the_page {
         };
         let either_occurs = first[..2].iter().any(|field| occurs(&field.text));
         let numbers = first[2..].iter().all(Field::is_number);
-        let head = if !numbers && first[..2].iter().all(|field| field.integer().is_none()) {
+        let head = if !numbers && !first[..2].iter().any(Field::is_number) {
             let mut behind = first[1..].windows(2);
             if behind.any(|two| is_head(&two[0].text, &two[1].text)) || either_occurs {
                 return None;
@@ -601,7 +601,7 @@ mod two_readers {
         ];
         let separator = prop::sample::select(vec![" ", "\t", ",", " , ", "  "]);
         let end = prop::sample::select(vec![
-            "\n", "\r\n", " \n", " # c\n", "%c\n", " 0.5 x\n", "\n\n", "",
+            "\n", "\r\n", " \n", " # c\n", "%c\n", " 0.5\n", "\n\n", "",
         ]);
         let line = (label.clone(), separator, label, end, 0..20u8);
         let lines = prop::collection::vec(line, 0..12);

@@ -308,9 +308,9 @@ impl Collector {
                     first.eq_ignore_ascii_case(a) && second.eq_ignore_ascii_case(b)
                 })
             };
-            let integers = labels.iter().any(|field| field.integer(text).is_some());
+            let numbered = labels.iter().any(|field| field.is_number(text));
             let head = match no_number {
-                Some(_) if !integers => {
+                Some(_) if !numbered => {
                     let all: Vec<_> = fields.iter().map(|field| field.text(text)).collect();
                     let mut pairs = all.windows(2).skip(1);
                     if pairs.any(|pair| is_pair([&*pair[0], &*pair[1]])) {
