@@ -9,7 +9,7 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT};
+use super::{GOOD, NOT, running};
 use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
 use crate::graph::NamedGraph;
 use crate::verdict::{self, Value};
@@ -98,6 +98,7 @@ impl AuditArguments {
     fn exact(&self) -> verdict::Options {
         verdict::Options {
             seed: self.seed,
+            watch: running::watch(),
             ..verdict::Options::default()
         }
     }

@@ -1,6 +1,6 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{BAD_INPUT, GOOD};
+use super::{GOOD, ends_run, exit_code, running};
 use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
@@ -33,7 +33,8 @@ impl InputArguments {
     /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
     ///
     /// # Errors
-    /// If the output is gone: nobody reads on, and the rest would be work for nothing.
+    /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit
+    /// or a signal has ended the run.
     pub(super) fn for_each<W: Write>(
         &self,
         paths: &[String],
@@ -44,17 +45,24 @@ impl InputArguments {
         let options = self.read_options();
         for path in paths {
             let mut start = Instant::now();
+            running::reading(path);
             for input in read_graphs(path, &options) {
+                running::hide();
+                if let Ok(input) = &input {
+                    running::doing(format!("working on {}", input.name));
+                }
                 let done = input.map_err(Into::into);
                 let done = done.and_then(|input| each(out, &input, start));
                 code = code.max(match done {
                     Ok(code) => code,
+                    Err(error) if ends_run(&error) => return Err(error),
                     Err(error) => {
                         writeln!(std::io::stderr(), "verify: {error:#}")?;
-                        BAD_INPUT
+                        exit_code(&error)
                     }
                 });
                 out.flush().context("standard output")?;
+                running::reading(path);
                 start = Instant::now();
             }
         }

@@ -1,6 +1,6 @@
 //! `--claims`: every row of a table, decided again.
 
-use super::super::{BAD_INPUT, GOOD, NOT};
+use super::super::{BAD_INPUT, GOOD, NOT, ends_run};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use crate::audit::claims::{self, Claim, Named, Row, Ruling};
@@ -33,6 +33,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         });
         let (ruling, decided, certificate) = match ruled {
             Ok(ruled) => ruled,
+            Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
                 writeln!(std::io::stderr(), "verify: row {number}: {error:#}")?;
                 counts[3] += 1;

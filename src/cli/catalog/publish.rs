@@ -1,7 +1,7 @@
 //! `verify catalog publish`: the published catalog, byte for byte the same every time.
 
 use super::super::progress::Progress;
-use super::super::{GOOD, atomic};
+use super::super::{GOOD, atomic, running};
 use crate::catalog::candidates::to_graph;
 use crate::catalog::canonical::canonical;
 use crate::catalog::invariants::Invariants;
@@ -84,15 +84,22 @@ fn write(
     atomic::write(&folder.join(name), write)
 }
 
+fn options() -> Options {
+    Options {
+        watch: running::watch(),
+        ..Options::default()
+    }
+}
+
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
 fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = Options::default();
+    let options = options();
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| Options {
             field,
-            ..Options::default()
+            ..options.clone()
         },
     );
     match decide(graph, &small) {
@@ -160,7 +167,7 @@ fn certify(folder: &Path, nodes: usize, progress: &Progress) -> Result<(Summary,
 
 /// Writes the finite-solvable graphs of one size, and their invariants in the same order.
 fn list(folder: &Path, nodes: usize, progress: &Progress) -> Result<Summary> {
-    let options = Options::default();
+    let options = options();
     let mut summary = Summary::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
