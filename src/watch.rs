@@ -59,9 +59,10 @@ impl fmt::Display for Stage {
 
 /// Told what the library is doing. Calls come from many threads and should return at once.
 pub trait Observer: Send + Sync + fmt::Debug {
-    /// Work begins on a stage, of so many units; 0 if that is not known. Works may be nested, and go
-    /// on side by side; the number tells them apart.
-    fn begin(&self, work: u64, stage: Stage, total: u64);
+    /// Work begins on a stage, of so many units; 0 if that is not known. So many units are expected
+    /// after it, if that is known. Works may be nested, and go on side by side; the number tells
+    /// them apart.
+    fn begin(&self, work: u64, stage: Stage, total: u64, later: Option<u64>);
     /// So many more units of it are done.
     fn done(&self, work: u64, units: u64);
     /// It has ended.
@@ -229,6 +230,7 @@ impl Watch {
             watch: self,
             stage: Stage { step, cameras },
             told: self.observer.is_some(),
+            later: Some(0),
         }
     }
 }
@@ -273,6 +275,7 @@ pub struct Task<'w> {
     watch: &'w Watch,
     stage: Stage,
     told: bool,
+    later: Option<u64>,
 }
 
 impl<'w> Task<'w> {
@@ -285,6 +288,12 @@ impl<'w> Task<'w> {
     pub fn at(&self, step: Step) -> Self {
         let stage = Stage { step, ..self.stage };
         Self { stage, ..*self }
+    }
+
+    /// The same, with so many units of other work expected after it; `None` if that is not known,
+    /// or counted in other units.
+    pub fn followed_by(&self, later: Option<u64>) -> Self {
+        Self { later, ..*self }
     }
 
     /// A part of the work that is not worth telling; it can be stopped all the same.
@@ -302,7 +311,7 @@ impl<'w> Task<'w> {
             (self.told, &self.watch.shared, &self.watch.observer)
         {
             number = shared.works.fetch_add(1, Ordering::Relaxed);
-            observer.begin(number, self.stage, total);
+            observer.begin(number, self.stage, total, self.later);
         }
         Work {
             task: *self,
@@ -481,8 +490,8 @@ mod tests {
     struct Record(Mutex<Vec<String>>);
 
     impl Observer for Record {
-        fn begin(&self, work: u64, stage: Stage, total: u64) {
-            let line = format!("{work} {stage} of {total}");
+        fn begin(&self, work: u64, stage: Stage, total: u64, later: Option<u64>) {
+            let line = format!("{work} {stage} of {total}, then {later:?}");
             self.0.lock().unwrap().push(line);
         }
         fn done(&self, work: u64, units: u64) {
@@ -497,7 +506,7 @@ mod tests {
     fn observers_are_told_and_stopped_work_says_how_far_it_was() {
         let record = Arc::new(Record::default());
         let watch = Watch::new(Limits::default()).observed(record.clone());
-        let task = watch.task(Step::Elimination, 7);
+        let task = watch.task(Step::Elimination, 7).followed_by(Some(2));
         {
             let work = task.begin(8);
             work.done(3).unwrap();
@@ -514,7 +523,7 @@ mod tests {
             );
         }
         let expected = [
-            "0 core of 7 cameras: elimination of 8",
+            "0 core of 7 cameras: elimination of 8, then Some(2)",
             "0 + 3",
             "0 + 1",
             "0 ends",

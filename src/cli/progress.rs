@@ -131,8 +131,12 @@ struct Active {
     number: u64,
     stage: Stage,
     total: u64,
+    /// Units expected after it.
+    later: Option<u64>,
     done: u64,
     since: Instant,
+    /// When something was done last.
+    last: Instant,
 }
 
 impl Bar {
@@ -222,15 +226,20 @@ impl Shown {
 }
 
 impl Active {
-    /// The time that this stage will still take, as far as can be told.
+    /// The time that is left, as far as can be told.
     fn remaining(&self) -> String {
-        let elapsed = self.since.elapsed();
+        let elapsed = self.last - self.since;
         let left = self.total.saturating_sub(self.done);
-        if self.done == 0 || left == 0 || elapsed < GUESSED_AFTER {
+        let Some(later) = self.later.filter(|later| left + later > 0) else {
+            return String::new();
+        };
+        if self.done == 0 || elapsed < GUESSED_AFTER {
             return String::new();
         }
-        let seconds = elapsed.as_secs_f64() * left as f64 / self.done as f64;
-        let seconds = seconds.ceil() as u64;
+        let seconds = elapsed.as_secs_f64() * (left + later) as f64 / self.done as f64;
+        let seconds = (seconds - self.last.elapsed().as_secs_f64())
+            .max(1.0)
+            .ceil() as u64;
         match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
             (0, 0, seconds) => format!(", {seconds} s left"),
             (0, minutes, seconds) => format!(", {minutes} min {seconds} s left"),
@@ -240,7 +249,7 @@ impl Active {
 }
 
 impl Observer for Bar {
-    fn begin(&self, work: u64, stage: Stage, total: u64) {
+    fn begin(&self, work: u64, stage: Stage, total: u64, later: Option<u64>) {
         let now = Instant::now();
         let mut state = self.state();
         if state.works.is_empty() && !state.saying.is_empty() {
@@ -253,8 +262,10 @@ impl Observer for Bar {
             number: work,
             stage,
             total,
+            later,
             done: 0,
             since: now,
+            last: now,
         });
     }
 
@@ -264,6 +275,9 @@ impl Observer for Bar {
         let active = state.works.iter_mut().rev();
         if let Some(active) = active.into_iter().find(|active| active.number == work) {
             active.done += units;
+            if units > 0 {
+                active.last = Instant::now();
+            }
         }
     }
 

@@ -50,6 +50,12 @@ fn panel_products(rows: usize, cols: usize, start: usize) -> u64 {
     height as u64 * width as u64 * PANEL as u64
 }
 
+/// The multiply-accumulates of an elimination, if every column has a pivot.
+pub(crate) fn elimination_products(rows: usize, cols: usize) -> u64 {
+    let panels = (0..cols).step_by(PANEL);
+    panels.map(|start| panel_products(rows, cols, start)).sum()
+}
+
 /// [`eliminate_mod`] as a task that can be stopped.
 ///
 /// # Errors
@@ -60,8 +66,7 @@ pub fn eliminate_watched(
     task: &Task,
 ) -> Result<Echelon, Stopped> {
     let (rows, cols) = (m.rows(), m.cols());
-    let panels = (0..cols).step_by(PANEL);
-    let work = task.begin(panels.map(|start| panel_products(rows, cols, start)).sum());
+    let work = task.begin(elimination_products(rows, cols));
     let mut order: Vec<usize> = (0..rows).collect();
     let mut pivot_cols = Vec::with_capacity(rows.min(cols));
     let mut panel = Panel {
@@ -76,6 +81,7 @@ pub fn eliminate_watched(
         let end = cols.min(start + PANEL);
         panel.eliminate(field, &mut m, &mut order, &mut pivot_cols, start..end);
         let found = pivot_cols.len() - base;
+        let units = panel_products(rows, cols, start);
         if found > 0 && end < cols {
             let (head, tail) = m.data_mut().split_at_mut((base + found) * cols);
             packed.clear();
@@ -94,9 +100,11 @@ pub fn eliminate_watched(
                 factors: lower,
                 stride: panel.width,
             };
-            product.add_to(field, tail, cols, end, &packed, &work);
+            product.add_to(field, tail, cols, end, &packed, (&work, units));
+            work.done(0)?;
+        } else {
+            work.done(units)?;
         }
-        work.done(panel_products(rows, cols, start))?;
         start = end;
     }
     Ok(Echelon {
@@ -447,8 +455,16 @@ impl Echelon {
                 depth,
             };
             // The padding of the last group adds zeros to columns that are solved.
-            product.add_to(&self.field, rows.data_mut(), cols, 0, &packed, work);
-            work.done((rows.rows() * start * PANEL) as u64)?;
+            let units = (rows.rows() * start * PANEL) as u64;
+            product.add_to(
+                &self.field,
+                rows.data_mut(),
+                cols,
+                0,
+                &packed,
+                (work, units),
+            );
+            work.done(0)?;
         }
         Ok(())
     }

@@ -14,8 +14,8 @@ const WIDE: usize = 128;
 /// Below this many products a matrix product is not worth sharing among threads.
 const PARALLEL_PRODUCTS: usize = 1 << 19;
 
-/// So many products are done without asking whether they are still wanted: some 50 ms.
-const UNASKED_PRODUCTS: usize = 1 << 27;
+/// So many products are done without asking whether they are still wanted: some 50 ms at most.
+const UNASKED_PRODUCTS: usize = 1 << 26;
 
 /// The left factor of a matrix product: rows of `depth` entries, `stride` apart.
 pub(super) struct Product<'a> {
@@ -29,8 +29,8 @@ impl Product<'_> {
     /// the rows in `target`, which have `cols` columns. `packed` holds `depth` entries
     /// for each group of four columns; columns beyond its last group stay as they are.
     ///
-    /// If the work is stopped the target is left half done, and the next call of
-    /// [`Work::done`] says so.
+    /// About so many units of the work are done. If it is stopped the target is left half done, and
+    /// the next call of [`Work::done`] says so.
     pub fn add_to(
         &self,
         field: &PrimeField,
@@ -38,16 +38,18 @@ impl Product<'_> {
         cols: usize,
         start: usize,
         packed: &[[u64; 4]],
-        work: &Work,
+        (work, units): (&Work, u64),
     ) {
         if target.is_empty() || packed.is_empty() {
             return;
         }
         let rows = target.len() / cols;
+        let a_row = units / rows as u64;
         let chunk = |(target, factors): (&mut [u64], &[u64])| {
             if work.is_stopped() {
                 return;
             }
+            let share = a_row * (target.len() / cols) as u64;
             let left = Product { factors, ..*self };
             Arch::new().dispatch(Chunk {
                 field,
@@ -57,6 +59,8 @@ impl Product<'_> {
                 start,
                 packed,
             });
+            // If this fails, so does the caller's next one.
+            let _ = work.done(share);
         };
         let threads = rayon::current_num_threads();
         let products = packed.len() * 4;

@@ -341,7 +341,8 @@ impl Factorisation {
             );
         }
         let count = rows.len();
-        let work = task.begin(cols as u64);
+        // Columns are no measure of the time that is left.
+        let work = task.followed_by(None).begin(cols as u64);
         let mut active = Active::new(field, rows, cols);
         active.memory = task.reserve(0, format_args!("nothing"))?;
         active.account(task)?;

@@ -12,7 +12,9 @@
 
 use crate::exact::dense::Matrix;
 use crate::exact::gauss::Pivots;
-use crate::exact::modular::{Echelon, eliminate_mod, eliminate_watched, unstopped};
+use crate::exact::modular::{
+    Echelon, eliminate_mod, eliminate_watched, elimination_products, unstopped,
+};
 use crate::exact::prime::PrimeField;
 use crate::exact::sparse::{Factorisation, Unfinished};
 use crate::exact::{Field, Ring};
@@ -107,16 +109,18 @@ fn lambda_bytes(flows: usize, columns: usize) -> u64 {
 }
 
 /// Asks for the memory that Lambda of a graph takes at least, whatever the centres: before N is
-/// eliminated, which may take long as well.
+/// eliminated, which may take long as well. Returns the task with the elimination of Lambda
+/// expected after it.
 ///
 /// # Errors
 /// If there is not as much left.
-pub fn expect_lambda(graph: &Graph, task: &Task) -> Result<(), Stopped> {
+pub fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'w>, Stopped> {
     let (edges, columns) = (graph.edges().len(), cotree(graph).len());
     // N has a kernel of dimension 4 at least: translations and the scale.
     let rank = (3 * graph.nodes()).saturating_sub(4);
     let flows = first_flows((2 * edges).saturating_sub(rank), columns);
-    reserve_lambda(&mut empty(task)?, flows, columns, &task.at(Step::Lambda))
+    reserve_lambda(&mut empty(task)?, flows, columns, &task.at(Step::Lambda))?;
+    Ok(task.followed_by(Some(elimination_products(4 * flows, columns))))
 }
 
 /// Nothing, on the account of the task's watch.
@@ -304,7 +308,8 @@ impl<'a> PlaneFlows<'a> {
         let mut flows = 0;
         let mut rows = Vec::new();
         let mut memory = empty(task)?;
-        let (task, elimination) = (task.at(Step::Lambda), task.at(Step::Elimination));
+        let elimination = task.at(Step::Elimination).followed_by(Some(0));
+        let task = task.at(Step::Lambda);
         let mut rank = None;
         loop {
             let more = match rank {
@@ -312,6 +317,8 @@ impl<'a> PlaneFlows<'a> {
                 Some(_) => (dimension - flows).min(flows / 4 + SPARE_FLOWS),
             };
             reserve_lambda(&mut memory, flows + more, cotree.len(), &task)?;
+            let products = elimination_products(4 * (flows + more), cotree.len());
+            let task = task.followed_by(Some(products));
             let weights = Matrix::from_fn(more, dimension, |_, _| weights());
             let new = self.lambda_rows(&weights, &cotree, &task)?;
             if rows.is_empty() {

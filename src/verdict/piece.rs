@@ -400,9 +400,9 @@ fn draw(field: &PrimeField, nodes: usize, key: DrawKey) -> Result<Centres, Verdi
 }
 
 fn ranks<'a>(options: &Options, at: &'a Centres, core: &'a Core) -> Result<Ranks<'a>, Stopped> {
-    let task = options.watch.task(Step::Flows, core.graph.nodes());
+    let mut task = options.watch.task(Step::Flows, core.graph.nodes());
     if options.model == Model::Projective {
-        plane_flow::expect_lambda(&core.graph, &task)?;
+        task = plane_flow::expect_lambda(&core.graph, &task)?;
     }
     let flows = PlaneFlows::watched(&at.field, &core.graph, &at.values, &task)?;
     let rigidity = flows.rigidity_rank();
