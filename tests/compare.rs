@@ -97,7 +97,7 @@ fn bad_input_is_said_and_the_rest_goes_on() {
     let path: String = (0..400).map(|k| format!("{k} {}\n", k + 1)).collect();
     let path = graph_file(folder.path(), "path.txt", &path);
     let done = verify(&["compare", "--rational", &path]);
-    assert_eq!(done.code, 2);
+    assert_eq!(done.code, 3);
     assert!(done.err.contains("too large"), "{}", done.err);
 }
 

@@ -392,13 +392,13 @@ fn too_large_is_said_at_once() {
         cycle(40_000).as_bytes(),
         &["-", "--no-contraction", "--prime"],
     );
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("MiB"), "{}", run.err);
     let run = verify_with(
         cycle(2000).as_bytes(),
         &["-", "--no-contraction", "--rational"],
     );
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("--prime"), "{}", run.err);
 }
 

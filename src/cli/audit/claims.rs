@@ -1,6 +1,6 @@
 //! `--claims`: every row of a table, decided again.
 
-use super::super::{BAD_INPUT, GOOD, NOT, ends_run};
+use super::super::{GOOD, NOT, ends_run, exit_code};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use crate::audit::claims::{self, Claim, Named, Row, Ruling};
@@ -19,6 +19,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let mut target = arguments.target();
     let mut counts = [0; 4];
+    let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
         let ruled = claim(arguments, row).and_then(|(claim, input)| {
             let exact = verdict::decide(&input.graph, &arguments.exact())
@@ -37,6 +38,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
             Err(error) => {
                 writeln!(std::io::stderr(), "verify: row {number}: {error:#}")?;
                 counts[3] += 1;
+                worst = worst.max(exit_code(&error));
                 continue;
             }
         };
@@ -66,11 +68,10 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         )?;
         out.flush().context("standard output")?;
     }
-    Ok(ExitCode::from(match (bad, refuted) {
-        (1.., _) => BAD_INPUT,
-        (0, 1..) => NOT,
-        _ => GOOD,
-    }))
+    if refuted > 0 {
+        worst = worst.max(NOT);
+    }
+    Ok(ExitCode::from(worst))
 }
 
 /// The claim of a row and the graph that it names.
