@@ -4,6 +4,25 @@
 //! doing, and asks a [`Watch`] every few milliseconds whether it may go on. Whoever starts the
 //! work holds the other end: an interrupt flag, a deadline, a limit on the memory of its large
 //! matrices. A limit never changes an answer; it only decides whether there is one.
+//!
+//! ```
+//! use std::time::{Duration, Instant};
+//! use viewcert::graph::Graph;
+//! use viewcert::verdict::{Options, Value, decide};
+//! use viewcert::watch::{Limits, Watch};
+//!
+//! let watch = Watch::new(Limits {
+//!     deadline: Some(Instant::now() + Duration::from_secs(60)),
+//!     memory: Some(1 << 30),
+//! });
+//! let options = Options { watch: watch.clone(), ..Options::default() };
+//! let (graph, _) = Graph::from_pairs(4, vec![(0, 1), (1, 2), (2, 3), (3, 0)])?;
+//! assert_eq!(decide(&graph, &options)?.value, Value::NotFiniteSolvable);
+//! // From any thread, at any time:
+//! watch.interrupt();
+//! assert!(decide(&graph, &options).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use std::fmt;
 use std::sync::Arc;
@@ -77,7 +96,10 @@ pub enum Reason {
     /// The deadline has passed.
     Time,
     /// The program takes more memory than it may.
-    Memory,
+    Memory {
+        /// The limit of the watch, in bytes, if it has one.
+        limit: Option<u64>,
+    },
     /// One thing that is needed takes more memory than is left.
     TooLarge {
         /// What, in words.
@@ -115,7 +137,10 @@ impl fmt::Display for Stopped {
             }
             Reason::Interrupted => write!(f, "interrupted")?,
             Reason::Time => write!(f, "the time limit was reached")?,
-            Reason::Memory => write!(f, "the memory limit was reached")?,
+            Reason::Memory { limit: None } => write!(f, "the memory limit was reached")?,
+            Reason::Memory { limit: Some(limit) } => {
+                write!(f, "the memory limit of {} was reached", Bytes(*limit))?;
+            }
         }
         write!(f, " at the {}", self.stage)?;
         match self.percent {
@@ -264,7 +289,9 @@ impl Shared {
         Some(match self.stop.load(Ordering::Relaxed) {
             INTERRUPTED => Reason::Interrupted,
             TIME => Reason::Time,
-            _ => Reason::Memory,
+            _ => Reason::Memory {
+                limit: self.limits.memory,
+            },
         })
     }
 }

@@ -7,7 +7,11 @@ use common::{Run, verify};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use viewcert::graph::{Graph, ReadOptions, read_graphs};
+use viewcert::verdict::{self, Arithmetic, Options, VerdictError};
+use viewcert::watch::{Limits, Observer, Reason, Stage, Step, Watch};
 
 /// Half a second for what does not ask whether it may go on, and patience with busy machines.
 const LATE: Duration = Duration::from_secs(4);
@@ -111,16 +115,21 @@ fn a_memory_limit_is_predicted() {
     }
 }
 
-/// N of the calibrated model has no size that is known beforehand: what fills in is counted.
+/// N of the calibrated model has no size that is known beforehand.
 #[test]
-fn memory_that_fills_in_is_counted() {
+#[cfg(target_os = "linux")]
+fn memory_is_watched_while_it_grows() {
     let folder = tempfile::tempdir().unwrap();
     let graph = two_cycles(folder.path(), 6000);
     let arguments = [&graph, "--model", "calibrated", "--memory-limit", "60M"];
     let run = verify(&arguments);
     assert_eq!(run.code, 3, "{}", run.err);
-    assert!(run.err.contains("the limit is 60 MiB"), "{}", run.err);
-    assert!(run.err.contains("sparse matrix"), "{}", run.err);
+    assert!(
+        run.err
+            .contains("the memory limit of 60 MiB was reached at the core of "),
+        "{}",
+        run.err
+    );
 }
 
 /// What the account does not know, the system does.
@@ -331,4 +340,163 @@ fn on_a_terminal_the_stage_is_shown() {
         text.contains("the time limit was reached at the core of "),
         "{text}"
     );
+}
+
+fn graph(path: &str) -> Graph {
+    let mut graphs = read_graphs(path, &ReadOptions::default());
+    graphs.next().unwrap().unwrap().graph
+}
+
+/// Graphs and options that together take every step but an error bound.
+fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
+    let rational = Arithmetic::Rational {
+        numerator: 9,
+        denominator: 4,
+    };
+    let cycle: String = common::cycle(12);
+    let path = folder.join("cycle.txt");
+    fs::write(&path, cycle).unwrap();
+    let cycle = graph(path.to_str().unwrap());
+    // A hub has to be looked for.
+    let (hub, _) = Graph::from_pairs(9, star_of_cycles()).unwrap();
+    let whole = Options {
+        arithmetic: rational,
+        ..Options::default()
+    };
+    vec![
+        (graph(&two_cycles(folder, 300)), Options::default()),
+        (cycle.clone(), Options::default()),
+        (cycle, whole),
+        (hub, Options::default()),
+    ]
+}
+
+/// Four 4-cycles with a common node would be pieces of their own; a cycle through their far
+/// nodes makes them one.
+fn star_of_cycles() -> Vec<(u32, u32)> {
+    vec![
+        (0, 1),
+        (1, 2),
+        (0, 3),
+        (3, 2),
+        (0, 4),
+        (4, 5),
+        (0, 6),
+        (6, 5),
+        (2, 7),
+        (7, 5),
+        (5, 8),
+        (8, 2),
+    ]
+}
+
+/// Every stage that begins, with its units, those done, and whether it has ended.
+#[derive(Debug, Default)]
+struct Record(Mutex<Vec<(u64, Stage, u64, u64, bool)>>);
+
+impl Observer for Record {
+    fn begin(&self, work: u64, stage: Stage, total: u64, _later: Option<u64>) {
+        let begun = (work, stage, total, 0, false);
+        self.0.lock().unwrap().push(begun);
+    }
+
+    fn done(&self, work: u64, units: u64) {
+        let mut works = self.0.lock().unwrap();
+        let found = works.iter_mut().find(|entry| entry.0 == work).unwrap();
+        assert!(!found.4, "done after its end");
+        found.3 += units;
+    }
+
+    fn end(&self, work: u64) {
+        let mut works = self.0.lock().unwrap();
+        let found = works.iter_mut().find(|entry| entry.0 == work).unwrap();
+        assert!(!std::mem::replace(&mut found.4, true), "ended twice");
+    }
+}
+
+#[test]
+fn an_observer_sees_every_stage_and_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut seen = Vec::new();
+    for (graph, options) in every_step(folder.path()) {
+        let record = Arc::new(Record::default());
+        let watch = Watch::new(Limits::default()).observed(record.clone());
+        let observed = Options {
+            watch,
+            ..options.clone()
+        };
+        let verdict = verdict::decide(&graph, &observed).unwrap();
+        let alone = verdict::decide(&graph, &options).unwrap();
+        assert_eq!(
+            (verdict.value, verdict.rank, verdict.components),
+            (alone.value, alone.rank, alone.components)
+        );
+        assert_eq!(verdict.pieces, alone.pieces);
+        for &(_, stage, total, done, ended) in record.0.lock().unwrap().iter() {
+            assert!(ended, "{stage}");
+            assert!(total == 0 || done <= total, "{stage}: {done} of {total}");
+            seen.push(stage.step);
+        }
+    }
+    for step in [
+        Step::Contraction,
+        Step::WholeMatrix,
+        Step::Flows,
+        Step::Lambda,
+        Step::Elimination,
+        Step::Components,
+        Step::Counting,
+    ] {
+        assert!(seen.contains(&step), "{step:?}");
+    }
+}
+
+/// Interrupts as soon as a step begins.
+#[derive(Debug)]
+struct Interrupter(Watch, Step);
+
+impl Observer for Interrupter {
+    fn begin(&self, _: u64, stage: Stage, _: u64, _: Option<u64>) {
+        if stage.step == self.1 {
+            self.0.interrupt();
+        }
+    }
+
+    fn done(&self, _: u64, _: u64) {}
+
+    fn end(&self, _: u64) {}
+}
+
+#[test]
+fn every_step_can_be_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = every_step(folder.path());
+    for step in [
+        Step::Contraction,
+        Step::WholeMatrix,
+        Step::Flows,
+        Step::Lambda,
+        Step::Elimination,
+        Step::Components,
+        Step::Counting,
+    ] {
+        let mut stopped = 0;
+        for (graph, options) in &cases {
+            let watch = Watch::new(Limits::default());
+            let interrupter = Arc::new(Interrupter(watch.clone(), step));
+            let options = Options {
+                watch: watch.observed(interrupter),
+                ..options.clone()
+            };
+            match verdict::decide(graph, &options) {
+                Err(VerdictError::Stopped(found)) => {
+                    assert_eq!(found.reason, Reason::Interrupted);
+                    stopped += 1;
+                }
+                // A graph that does not take this step.
+                done => assert!(done.is_ok() && watch.stopped().is_none(), "{step:?}"),
+            }
+        }
+        assert!(stopped > 0, "{step:?}");
+    }
 }

@@ -189,7 +189,7 @@ pub(super) fn stopped(reason: &Reason) -> u8 {
     }
     match reason {
         Reason::Interrupted => INTERRUPTED,
-        Reason::Time | Reason::Memory | Reason::TooLarge { .. } => TOO_LARGE,
+        Reason::Time | Reason::Memory { .. } | Reason::TooLarge { .. } => TOO_LARGE,
     }
 }
 
@@ -227,10 +227,10 @@ impl Running {
         let _kept = atomic::abandon();
         hide();
         if first_to_say() {
-            let limit = match (reason, self.time, self.memory) {
-                (Reason::Time, Some(time), _) => format!("the time limit of {time:?} was reached"),
-                (Reason::Memory, _, Some(bytes)) => {
-                    format!("the memory limit of {} was reached", Bytes(bytes))
+            let limit = match (reason, self.time) {
+                (Reason::Time, Some(time)) => format!("the time limit of {time:?} was reached"),
+                (Reason::Memory { limit: Some(limit) }, _) => {
+                    format!("the memory limit of {} was reached", Bytes(*limit))
                 }
                 _ => "interrupted".into(),
             };

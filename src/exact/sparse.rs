@@ -670,6 +670,7 @@ mod tests {
     use super::super::samples::{known_rank, multiply};
     use super::super::{gauss, prime::DEFAULT_PRIME};
     use super::*;
+    use crate::watch::{Limits, Reason, Step, Watch};
     use proptest::prelude::*;
     use rand::{Rng, SeedableRng};
 
@@ -791,6 +792,65 @@ mod tests {
         for (rows, cols) in [(0, 0), (0, 3), (3, 0), (2, 3)] {
             verify(&field, &Matrix::new(rows, cols, vec![0; rows * cols]));
         }
+    }
+
+    /// Some memory is enough for the sparse part and not for the dense one, less is not even
+    /// enough for that; and an interrupt is noticed.
+    #[test]
+    fn memory_is_asked_for_and_interrupts_are_noticed() {
+        let field = PrimeField::mersenne61();
+        let mut random = rand_chacha::ChaCha20Rng::seed_from_u64(1);
+        let rows: Vec<SparseRow> = (0..400)
+            .map(|_| {
+                let mut cols: Vec<usize> =
+                    (0..6).map(|_| random.next_u64() as usize % 400).collect();
+                cols.sort_unstable();
+                cols.dedup();
+                cols.into_iter()
+                    .map(|col| (col, 1 + random.next_u64() % 1000))
+                    .collect()
+            })
+            .collect();
+        let within = |memory| {
+            let watch = Watch::new(Limits {
+                deadline: None,
+                memory: Some(memory),
+            });
+            let task = watch.task(Step::Flows, 0);
+            let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+            let account = |_| task.reserve(memory, format_args!("all")).is_ok();
+            match done {
+                Ok(done) => {
+                    assert!(!account(()), "the factors are on the account");
+                    drop(done);
+                    assert!(account(()), "and then no more");
+                    None
+                }
+                Err(Unfinished::Stopped(stopped)) => {
+                    assert!(account(()), "nothing is left on the account");
+                    match stopped.reason {
+                        Reason::TooLarge { what, .. } => Some(what),
+                        other => panic!("{other:?}"),
+                    }
+                }
+                Err(other) => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(within(1 << 30), None);
+        assert!(within(60_000).is_some_and(|what| what.contains("sparse matrix")));
+        let (height, width) = Factorisation::new(&field, rows.clone(), 400).dense_size();
+        assert!(height > 100 && width > 100, "{height} x {width}");
+        let dense = matrix_bytes(height, width);
+        assert!(within(dense).is_some_and(|what| what.contains("the dense rest")));
+
+        let watch = Watch::new(Limits::default());
+        watch.interrupt();
+        let task = watch.task(Step::Flows, 0);
+        let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+        assert!(matches!(done, Err(Unfinished::Stopped(_))));
+        let done = Factorisation::new(&field, rows, 400);
+        let one = Matrix::from_fn(1, done.free_rows().len(), |_, _| field.one());
+        assert!(done.left_combinations_watched(&one, &task).is_err());
     }
 
     proptest! {
