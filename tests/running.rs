@@ -357,8 +357,6 @@ fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
     let path = folder.join("cycle.txt");
     fs::write(&path, cycle).unwrap();
     let cycle = graph(path.to_str().unwrap());
-    // A hub has to be looked for.
-    let (hub, _) = Graph::from_pairs(9, star_of_cycles()).unwrap();
     let whole = Options {
         arithmetic: rational,
         ..Options::default()
@@ -367,26 +365,6 @@ fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
         (graph(&two_cycles(folder, 300)), Options::default()),
         (cycle.clone(), Options::default()),
         (cycle, whole),
-        (hub, Options::default()),
-    ]
-}
-
-/// Four 4-cycles with a common node would be pieces of their own; a cycle through their far
-/// nodes makes them one.
-fn star_of_cycles() -> Vec<(u32, u32)> {
-    vec![
-        (0, 1),
-        (1, 2),
-        (0, 3),
-        (3, 2),
-        (0, 4),
-        (4, 5),
-        (0, 6),
-        (6, 5),
-        (2, 7),
-        (7, 5),
-        (5, 8),
-        (8, 2),
     ]
 }
 

@@ -218,6 +218,8 @@ impl Piece<'_> {
         if self.options.counting {
             // Where to look is not a claim: a large prime looks best.
             let field = PrimeField::mersenne61();
+            let work = self.task(Step::Counting).begin(0);
+            work.done(0)?;
             let counting = bound::count(
                 self.options.model,
                 self.assembly,
@@ -227,7 +229,7 @@ impl Piece<'_> {
                 &mut bound::Search {
                     field: &field,
                     random: &mut at.key.residues(&field),
-                    task: self.task(Step::Counting),
+                    task: work.task(),
                 },
             )?;
             if counting.bound < upper {
