@@ -840,8 +840,10 @@ mod tests {
         assert!(within(60_000).is_some_and(|what| what.contains("sparse matrix")));
         let (height, width) = Factorisation::new(&field, rows.clone(), 400).dense_size();
         assert!(height > 100 && width > 100, "{height} x {width}");
-        let dense = matrix_bytes(height, width);
-        assert!(within(dense).is_some_and(|what| what.contains("the dense rest")));
+        // Just above what the sparse part takes.
+        let mut limits = (0..200).map(|k| 60_000 + k * matrix_bytes(height, width) / 10);
+        let refused = limits.find_map(|limit| within(limit).filter(|what| what.contains("rest")));
+        assert!(refused.is_some_and(|what| what.contains("the dense rest")));
 
         let watch = Watch::new(Limits::default());
         watch.interrupt();
