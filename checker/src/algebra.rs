@@ -1,8 +1,6 @@
-//! Arithmetic modulo a prime, and elimination: sparse with prescribed or found pivots, and dense along the diagonal.
+//! Arithmetic modulo a prime.
 
 use crate::rejection::{Checked, ensure};
-use std::ops::{Add, Mul};
-use std::sync::Mutex;
 
 /// What the paper's Jacobian needs of its entries.
 pub(crate) trait Ring {
@@ -38,13 +36,9 @@ pub(crate) struct Field {
 }
 
 /// How many products are summed before one reduction: in 128 bits, or in 64 if p is below `SMALL`.
-const LANES: usize = 12;
-const SMALL_LANES: usize = 64;
-const SMALL: u64 = 1 << 29;
-
-/// Columns and rows that are computed together.
-const TILE: usize = 64;
-const GROUP: usize = 16;
+pub(crate) const LANES: usize = 12;
+pub(crate) const SMALL_LANES: usize = 64;
+pub(crate) const SMALL: u64 = 1 << 29;
 
 impl Ring for Field {
     type E = u64;
@@ -108,7 +102,7 @@ impl Field {
 
     /// a + a sum of at most `LANES` products (or `SMALL_LANES`, if p < 2^29): one reduction, to below p + 12 p^2 / 2^64 < 4 p
     /// (or to p at most).
-    fn add_products(&self, a: u64, products: u128) -> u64 {
+    pub fn add_products(&self, a: u64, products: u128) -> u64 {
         let sum = self.reduce(products);
         self.add(a, self.below(sum.min(sum.wrapping_sub(2 * self.p))))
     }
@@ -122,6 +116,21 @@ impl Field {
                 square
             }
         })
+    }
+
+    /// The element with the value of a decimal integer (section 1: *big*).
+    pub fn decimal(&self, text: &str) -> u64 {
+        let digits = text.strip_prefix('-').unwrap_or(text).as_bytes();
+        let value = digits.chunks(18).fold(0, |value, digits| {
+            let part = |part: u64, digit: &u8| 10 * part + u64::from(digit - b'0');
+            let (shift, part) = (10u64.pow(digits.len() as u32), digits.iter().fold(0, part));
+            self.add(self.mul(value, self.element(shift)), self.element(part))
+        });
+        if digits.len() < text.len() {
+            self.neg(value)
+        } else {
+            value
+        }
     }
 
     /// The inverse; 0 for 0.
