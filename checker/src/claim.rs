@@ -270,3 +270,6 @@ impl Display for Verified {
             .try_for_each(|note| write!(f, "\nalso: {note}"))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -292,3 +292,6 @@ fn check_rigid_class(evidence: &[Evidence], setting: &Setting, part: &Part) -> C
     );
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;
