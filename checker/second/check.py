@@ -209,6 +209,8 @@ def read_graph(data, sha256, edges_format):
             return next((graph for graph in graphs if graph.hash.hex() == sha256), graphs[0])
         if header:
             raise Unreadable("not graph6, although the header says so")
+        if re.match(r"[ \t\r\n]*[\[{<]", text):
+            raise Unreadable("JSON or XML (say so with --format edges if it is an edge list)")
     return read_edges(lines, edges_format)
 
 

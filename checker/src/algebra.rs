@@ -26,7 +26,8 @@ impl Ring for Integers {
     }
 }
 
-/// The field of p elements, 5 <= p < 2^62. Elements are below p, in Montgomery form: x is stored as x 2^64 mod p.
+/// The field of p elements, 5 <= p < 2^62. Elements are below p, in Montgomery form: x is stored as
+/// x 2^64 mod p.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field {
     pub p: u64,
@@ -94,14 +95,15 @@ impl Field {
         a.min(a.wrapping_sub(self.p))
     }
 
-    /// t / 2^64 modulo p, below t / 2^64 + p. Needs t + 2^64 p < 2^128: t <= 12 p^2 < 2^128 - 2^126 is small enough.
+    /// t / 2^64 modulo p, below t / 2^64 + p. Needs t + 2^64 p < 2^128: t <= 12 p^2 < 2^128 - 2^126
+    /// is small enough.
     fn reduce(&self, t: u128) -> u64 {
         let factor = (t as u64).wrapping_mul(self.negative_inverse);
         ((t + u128::from(factor) * u128::from(self.p)) >> 64) as u64
     }
 
-    /// a + a sum of at most `LANES` products (or `SMALL_LANES`, if p < 2^29): one reduction, to below p + 12 p^2 / 2^64 < 4 p
-    /// (or to p at most).
+    /// a + a sum of at most `LANES` products (or `SMALL_LANES`, if p < 2^29): one reduction, to
+    /// below p + 12 p^2 / 2^64 < 4 p (or to p at most).
     pub fn add_products(&self, a: u64, products: u128) -> u64 {
         let sum = self.reduce(products);
         self.add(a, self.below(sum.min(sum.wrapping_sub(2 * self.p))))
@@ -139,7 +141,8 @@ impl Field {
     }
 }
 
-/// Whether p < 2^62 is prime: Miller-Rabin with the first twelve primes as bases decides (Sorenson and Webster, 2017).
+/// Whether p < 2^62 is prime: Miller-Rabin with the first twelve primes as bases decides (Sorenson
+/// and Webster, 2017).
 pub(crate) fn is_prime(p: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if p < 2 || BASES.iter().any(|&base| p.is_multiple_of(base)) {

@@ -1,4 +1,5 @@
-//! Cameras drawn from a key stream, so that nobody can choose them (section 4 of the specification).
+//! Cameras drawn from a key stream, so that nobody can choose them (section 4 of the
+//! specification).
 
 use crate::algebra::{Field, Integers, Ring, is_prime};
 use crate::rejection::{Checked, ensure};
@@ -41,7 +42,8 @@ impl Stream {
         self.block[(self.taken - 1) as usize % 8]
     }
 
-    /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has, until below.
+    /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has,
+    /// until below.
     pub fn below(&mut self, limit: u64) -> u64 {
         let mask = (limit - 1)
             .checked_ilog2()
@@ -52,7 +54,8 @@ impl Stream {
     }
 }
 
-/// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then the start is added.
+/// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then
+/// the start is added.
 fn block(key: &[u32; 8], counter: u64) -> [u64; 8] {
     let mut start = [
         0x6170_7865,
@@ -129,8 +132,9 @@ pub(crate) fn general(
     Ok(cameras)
 }
 
-/// Integer cameras with bounds A <= 100, B <= 12. Entries are at most 100 lcm(1 .. 12) < 2^22; those of F at most 24 times a
-/// fourth power, and those of J_P at most six such entries times another entry: below 2^118.
+/// Integer cameras with bounds A <= 100, B <= 12. Entries are at most 100 lcm(1 .. 12) < 2^22;
+/// those of F at most 24 times a fourth power, and those of J_P at most six such entries times
+/// another entry: below 2^118.
 pub(crate) fn integer(
     stream: &mut Stream,
     (a, b): (u64, u64),
@@ -179,7 +183,8 @@ fn check_different<C: Ord>(centres: impl Iterator<Item = Option<C>>) -> Checked<
     Ok(())
 }
 
-/// The centre of a camera: entry c is (-1)^c det (camera without column c). All are zero if the rank is below 3.
+/// The centre of a camera: entry c is (-1)^c det (camera without column c). All are zero if the
+/// rank is below 3.
 pub(crate) fn centre<R: Ring>(ring: &R, [x, y, z]: &Camera<R::E>) -> [R::E; 4] {
     // Columns in an order that makes for the sign.
     [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]].map(|[a, b, c]| {

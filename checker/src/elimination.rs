@@ -1,5 +1,5 @@
-//! Elimination modulo a prime: sparse with prescribed or found pivots, and dense along the diagonal.
-//! Every loop that may take long counts its operations before the limits, row by row.
+//! Elimination modulo a prime: sparse with prescribed or found pivots, and dense along the
+//! diagonal. Every loop that may take long counts its operations before the limits, row by row.
 
 use crate::algebra::{Field, LANES, Ring, SMALL, SMALL_LANES};
 use crate::limits::Meter;
@@ -145,7 +145,8 @@ pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut [T]) + Sync) 
     });
 }
 
-/// Sees that elimination along the diagonal of a square matrix meets no zero. Rows are subtracted in blocks.
+/// Sees that elimination along the diagonal of a square matrix meets no zero. Rows are subtracted
+/// in blocks.
 pub(crate) fn check_diagonal(
     field: &Field,
     meter: &Meter,

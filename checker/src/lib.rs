@@ -1,11 +1,23 @@
 //! Independent checker of viewcert certificates.
 //!
-//! A certificate binds a claim about a viewing graph - solvable or not, the rank, the number of components - to the graph by
-//! a hash, and carries evidence. [`check`] verifies the evidence and recomputes the claim from it, by the conditions of
-//! `docs/certificate.md` ("section" means its sections). What cannot be verified in full is rejected.
+//! A certificate binds a claim about a viewing graph - solvable or not, the rank, the number of
+//! components - to the graph by a hash, and carries evidence. [`check`] verifies the evidence and
+//! recomputes the claim from it, by the conditions of `docs/certificate.md` ("section" means its
+//! sections, "theory" `docs/theory.md`). What cannot be verified in full is rejected.
 //!
-//! In the order of reading: [`check`] below; `document`, the grammar; `graph`; `pieces`, rigid bodies and what lies between
-//! them; `evidence`, with `lower` and `counting` (bounds on a rank); `claim`. `cameras`, `matrices` and `algebra` compute.
+//! In the order of reading:
+//!
+//! * [`check`] below;
+//! * `document`, the grammar (sections 1 and 3), by the strict reader in `json`;
+//! * `graph`, with the files that hold one (section 2);
+//! * `bodies` and `structure`: rigid bodies, what lies between them, and cores (sections 5 and 6);
+//! * `evidence`: pieces, what is shown of them, and classes (sections 6 and 7), with the kinds of
+//!   evidence: `lower` (and `pivots`), `integer_minor`, `plane_flow`, `counting`, `draws` (section
+//!   9) and `kernel`; `setting` has what they all refer to;
+//! * `claim` (section 8).
+//!
+//! `cameras` draws (section 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds
+//! what that may cost (section 11), `rejection` has the reasons.
 
 mod algebra;
 mod bodies;
@@ -39,7 +51,8 @@ use rejection::Within;
 
 /// Verifies a certificate, for the given graph or, without one, for the graph that it holds.
 ///
-/// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the pieces' cores.
+/// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the
+/// pieces' cores.
 ///
 /// # Errors
 /// The first thing that cannot be verified.

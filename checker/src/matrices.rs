@@ -11,7 +11,8 @@ pub(crate) fn dot<R: Ring, const N: usize>(ring: &R, x: [R::E; N], y: [R::E; N])
     (1..N).fold(first, |sum, k| ring.add(sum, ring.mul(x[k], y[k])))
 }
 
-/// The fundamental matrix by the paper's eq. (2): entry (h, k) is (-1)^(h+k) det [P_i without row k; P_j without row h].
+/// The fundamental matrix by the paper's eq. (2): entry (h, k) is (-1)^(h+k) det [P_i without row
+/// k; P_j without row h].
 fn fundamental<R: Ring>(ring: &R, i: &Camera<R::E>, j: &Camera<R::E>) -> [[R::E; 3]; 3] {
     // The cyclic order of the two other rows makes for the sign.
     let others = |camera: &Camera<R::E>, row: usize| [camera[(row + 1) % 3], camera[(row + 2) % 3]];
@@ -25,8 +26,8 @@ fn fundamental<R: Ring>(ring: &R, i: &Camera<R::E>, j: &Camera<R::E>) -> [[R::E;
 
 /// Row `row` of J_P of a core: entries with their columns, each column once.
 ///
-/// With S = Q^T F P for the edge's cameras P and Q, the derivative of S + S^T in entry (r, c) of P has M = Q^T F in row and
-/// column c; that in entry (r, c) of Q has K = F P there.
+/// With S = Q^T F P for the edge's cameras P and Q, the derivative of S + S^T in entry (r, c) of P
+/// has M = Q^T F in row and column c; that in entry (r, c) of Q has K = F P there.
 pub(crate) fn jacobian<R: Ring>(
     ring: &R,
     core: &Core,
@@ -99,7 +100,8 @@ pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<
     rows
 }
 
-/// The motion P_v X of some cameras, or as many columns of it, where X has a one in entry (a, b) = (ab / columns, ab % columns).
+/// The motion P_v X of some cameras, or as many columns of it, where X has a one in entry (a, b) =
+/// (ab / columns, ab % columns).
 pub(crate) fn map_motion(cameras: &[Camera<u64>], columns: usize, ab: usize) -> Vec<(usize, u64)> {
     let (a, b) = (ab / columns, ab % columns);
     let motion = cameras

@@ -166,8 +166,8 @@ impl<'a> Flows<'a> {
         Ok(lambda)
     }
 
-    /// Completes a flow and sees that it vanishes in all columns of N; returns what is wanted of its
-    /// four rows of Lambda.
+    /// Completes a flow and sees that it vanishes in all columns of N; returns what is wanted of
+    /// its four rows of Lambda.
     fn rows_of_lambda(&self, flow: &mut Flow, columns: &[usize]) -> Checked<Vec<Vec<u64>>> {
         let (field, entries) = (self.field, &mut flow.entries);
         let outside = self.free.len() + flow.wanted.len() * columns.len();

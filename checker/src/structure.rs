@@ -9,8 +9,8 @@ use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
 use sha2::{Digest, Sha256};
 
-/// A set of members, in increasing order. The number of a final body is its position in the list of bodies; that of a loose
-/// edge is the length of this list plus the edge's number.
+/// A set of members, in increasing order. The number of a final body is its position in the list of
+/// bodies; that of a loose edge is the length of this list plus the edge's number.
 pub(crate) type Part = Vec<usize>;
 
 /// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
@@ -34,7 +34,8 @@ pub(crate) struct Structure<'a> {
     pub everything: Part,
 }
 
-/// The graph on which a part is computed; `member` is for each edge the position of its member in the part.
+/// The graph on which a part is computed; `member` is for each edge the position of its member in
+/// the part.
 pub(crate) struct Core {
     pub nodes: usize,
     pub edges: Vec<(usize, usize)>,
@@ -101,7 +102,8 @@ impl<'a> Structure<'a> {
         BodiesOfNodes { all, end }
     }
 
-    /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to see.
+    /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to
+    /// see.
     pub fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
         let mut part: Part = bodies.iter().map(|&body| body as usize).collect();
         let is_final = |&&body: &&usize| self.bodies.get(body).is_some_and(Option::is_some);
@@ -126,7 +128,8 @@ impl<'a> Structure<'a> {
         Ok(part)
     }
 
-    /// The parts of a list, which must be a partition of a whole, and the number of its part for each member of the whole.
+    /// The parts of a list, which must be a partition of a whole, and the number of its part for
+    /// each member of the whole.
     pub fn partition<'p>(
         &self,
         whole: &Part,
@@ -254,7 +257,8 @@ impl<'a> Structure<'a> {
     }
 }
 
-/// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in the graph.
+/// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in
+/// the graph.
 fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
     let mut hash = Sha256::new();
     hash.update(b"viewcert core 2\n");

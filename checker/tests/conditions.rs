@@ -29,7 +29,7 @@ fn at<'v>(value: &'v mut Value, pointer: &str) -> &'v mut Value {
         .unwrap_or_else(|| panic!("no {pointer}"))
 }
 
-/// Changes values; one that is `null` is taken out of its list.
+/// Changes values; `remove` takes one out of its list, `repeat` adds it again.
 fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
     let mut value = named(name);
     for (pointer, new) in changes {
@@ -1181,8 +1181,7 @@ fn section_8_claims() {
         &[("E/1", json!("remove"))],
         "claim.verdict: the evidence decides neither way",
     );
-    // An upper bound that decides the verdict and not the rank: 5 * 11 - 15 + 7 for a path of ... of
-    // the pentagon as one block of four nodes and the others.
+    // An upper bound that decides the verdict and not the rank: two edges in one block.
     let blocks = json!([
         {"bodies": [], "edges": [[0, 1], [1, 2]], "hubs": []}, {"bodies": [], "edges": [[0, 4]], "hubs": []},
         {"bodies": [], "edges": [[2, 3]], "hubs": []}, {"bodies": [], "edges": [[3, 4]], "hubs": []}

@@ -1,4 +1,5 @@
-//! Certificates written by an independent script from the specification, and what becomes of them when they are changed.
+//! Certificates written by an independent script from the specification, and what becomes of them
+//! when they are changed.
 
 use std::fs;
 use std::ops::Range;
@@ -59,7 +60,8 @@ fn value_end(text: &[u8], start: usize) -> usize {
     }
 }
 
-/// Every member of every object: its name, where it stands with its name, and where its value stands.
+/// Every member of every object: its name, where it stands with its name, and where its value
+/// stands.
 fn members(text: &str) -> Vec<(String, Range<usize>, Range<usize>)> {
     let bytes = text.as_bytes();
     let colons = text.match_indices("\":");
@@ -125,7 +127,8 @@ fn all_are_verified() {
     }
 }
 
-/// A changed certificate is rejected, or it proves the very same statement in another way (other pivots or cameras).
+/// A changed certificate is rejected, or it proves the very same statement in another way (other
+/// pivots or cameras).
 #[test]
 fn no_changed_scalar_changes_what_is_verified() {
     const OTHER_PROOF: [&str; 11] = [
@@ -240,7 +243,8 @@ fn members_are_there_once() {
     }
 }
 
-/// Every object written as the list of its members' values; derived readers of JSON would take that.
+/// Every object written as the list of its members' values; derived readers of JSON would take
+/// that.
 #[test]
 fn lists_are_no_objects() {
     for (path, text) in certificates() {
@@ -270,7 +274,8 @@ fn lists_are_no_objects() {
     }
 }
 
-/// Spellings that a reader of JSON may take for the same, and which the specification does not allow.
+/// Spellings that a reader of JSON may take for the same, and which the specification does not
+/// allow.
 #[test]
 fn one_spelling_of_everything() {
     for (name, old, new, wanted) in [

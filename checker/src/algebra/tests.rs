@@ -51,7 +51,8 @@ fn primes_are_told_from_composites() {
     let below_100: Vec<u64> = (0..100).filter(|&p| is_prime(p)).collect();
     assert_eq!(below_100.len(), 25);
     assert!(PRIMES.iter().all(|&p| is_prime(p)));
-    // Strong pseudoprimes to the bases 2, 3, 5, 7 and to the first nine primes; a square of a prime; 2^62 - 1.
+    // Strong pseudoprimes to the bases 2, 3, 5, 7 and to the first nine primes; a square of a
+    // prime; 2^62 - 1.
     for composite in [
         3_215_031_751,
         3_825_123_056_546_413_051,

@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 
 static METER: LazyLock<Meter> = LazyLock::new(|| Meter::new(&Limits::default()));
 
-/// A random matrix with a given share (of 100) of entries that are not zero, and a diagonal without zeros.
+/// A random matrix with a given share (of 100) of entries that are not zero, and a diagonal without
+/// zeros.
 fn random(field: &Field, size: usize, share: u64) -> Vec<Vec<u64>> {
     let mut stream = Stream::new("test", [&[7; 32]; 2], size as u64, 0);
     let entry = |k, j, stream: &mut Stream| {
@@ -91,7 +92,8 @@ fn the_difference_is_left() {
     assert_eq!(row, [0, 3, 7].map(|entry| field.element(entry)));
 }
 
-/// The same leading minors by both kinds of elimination, at sizes around multiples of the lanes and of the threads' start.
+/// The same leading minors by both kinds of elimination, at sizes around multiples of the lanes and
+/// of the threads' start.
 #[test]
 fn diagonal_is_that_of_prescribed_pivots() {
     for p in [5, 1_000_003, (1 << 29) - 3, (1 << 62) - 57] {
@@ -145,7 +147,8 @@ fn sums_do_not_overflow() {
 #[test]
 fn a_vanishing_pivot_is_named() {
     let field = Field::new(7).unwrap();
-    // Rows 0 and 1 agree in columns 0 and 1, so that the second pivot vanishes although the matrix is invertible.
+    // Rows 0 and 1 agree in columns 0 and 1, so that the second pivot vanishes although the matrix
+    // is invertible.
     let mut matrix =
         [[1, 1, 0], [1, 1, 1], [0, 1, 1]].map(|row| row.map(|entry| field.element(entry)).to_vec());
     assert_eq!(

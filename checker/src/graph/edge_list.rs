@@ -473,10 +473,11 @@ impl<'t> List<'t> {
             .into_iter()
             .zip(0..)
             .for_each(|(k, place)| node[k] = place);
-        let pairs = self.pairs.iter();
+        // Consumed, so that the graph's edges take their place in memory.
+        let pairs = self.pairs.into_iter();
         Graph::new(
             labels.len(),
-            pairs.map(|&(a, b)| (node[a as usize], node[b as usize])),
+            pairs.map(|(a, b)| (node[a as usize], node[b as usize])),
         )
     }
 }
