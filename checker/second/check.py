@@ -20,6 +20,8 @@ import sys
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
 DIGITS_LIMIT = 100_000  # of a *big*
+if hasattr(sys, "set_int_max_str_digits"):
+    sys.set_int_max_str_digits(0)  # the limit on digits is the one above
 # Exponents of Mersenne primes: moduli for determinants and ranks over Q.
 MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
 
@@ -63,7 +65,7 @@ def parse(data):
 
     def integer(digits):
         need(re.fullmatch(r"0|-?[1-9][0-9]{0,15}", digits), f"{digits[:40]} is not an int")
-        need(abs(int(digits)) < 2**53, f"{digits} is not below 2^53")
+        need(abs(int(digits)) < 2**53, f"the int {digits} is not below 2^53")
         return int(digits)
 
     def refuse(token):
@@ -1369,8 +1371,6 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
-    if hasattr(sys, "set_int_max_str_digits"):
-        sys.set_int_max_str_digits(0)
     try:
         if options.list:
             return check_list(options.list, options.max_core_nodes)
