@@ -62,15 +62,24 @@ impl Ring for Field {
 
 impl Field {
     pub fn new(p: u64) -> Checked<Field> {
-        ensure!((5..1 << 62).contains(&p) && is_prime(p), "{p} is not a prime with 5 <= p < 2^62");
+        ensure!(
+            (5..1 << 62).contains(&p) && is_prime(p),
+            "{p} is not a prime with 5 <= p < 2^62"
+        );
         Ok(Field::odd(p))
     }
 
     /// The ring modulo an odd number below 2^62; a field if it is prime.
     fn odd(p: u64) -> Field {
         // Newton's iteration doubles the correct bits: 3, 6, 12, 24, 48, 96.
-        let inverse = (0..5).fold(p, |x, _| x.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(x))));
-        Field { p, negative_inverse: inverse.wrapping_neg(), one: ((1 << 64) % u128::from(p)) as u64 }
+        let inverse = (0..5).fold(p, |x, _| {
+            x.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(x)))
+        });
+        Field {
+            p,
+            negative_inverse: inverse.wrapping_neg(),
+            one: ((1 << 64) % u128::from(p)) as u64,
+        }
     }
 
     /// The element with this residue (any integer is fine).
@@ -107,7 +116,11 @@ impl Field {
     fn pow(&self, base: u64, exponent: u64) -> u64 {
         (0..64).rev().fold(self.one, |power, bit| {
             let square = self.mul(power, power);
-            if exponent >> bit & 1 == 1 { self.mul(square, base) } else { square }
+            if exponent >> bit & 1 == 1 {
+                self.mul(square, base)
+            } else {
+                square
+            }
         })
     }
 
@@ -127,8 +140,13 @@ pub(crate) fn is_prime(p: u64) -> bool {
     let (twos, minus_one) = ((p - 1).trailing_zeros(), ring.neg(ring.one));
     BASES.iter().all(|&base| {
         let odd_power = ring.pow(ring.element(base), (p - 1) >> twos);
-        let mut powers = std::iter::successors(Some(odd_power), |&power| Some(ring.mul(power, power)));
-        odd_power == ring.one || powers.by_ref().take(twos as usize).any(|power| power == minus_one)
+        let mut powers =
+            std::iter::successors(Some(odd_power), |&power| Some(ring.mul(power, power)));
+        odd_power == ring.one
+            || powers
+                .by_ref()
+                .take(twos as usize)
+                .any(|power| power == minus_one)
     })
 }
 
@@ -150,20 +168,39 @@ struct EchelonRow {
 
 impl<'f> Echelon<'f> {
     pub fn new(field: &'f Field, width: usize) -> Self {
-        Echelon { field, width, rows: Vec::new() }
+        Echelon {
+            field,
+            width,
+            rows: Vec::new(),
+        }
     }
 
     /// Adds a row unless it vanishes at the prescribed pivot (or altogether) once it is reduced by the rows before it.
-    pub fn push(&mut self, entries: impl IntoIterator<Item = (usize, u64)>, pivot: Option<usize>) -> bool {
+    pub fn push(
+        &mut self,
+        entries: impl IntoIterator<Item = (usize, u64)>,
+        pivot: Option<usize>,
+    ) -> bool {
         let (field, mut row) = (self.field, vec![0; self.width]);
-        entries.into_iter().for_each(|(column, value)| row[column] = field.add(row[column], value));
+        entries
+            .into_iter()
+            .for_each(|(column, value)| row[column] = field.add(row[column], value));
         let multiples = self.reduce(&mut row);
         let pivot = pivot.or_else(|| row.iter().position(|&entry| entry != 0));
-        let Some(pivot) = pivot.filter(|&pivot| row[pivot] != 0) else { return false };
+        let Some(pivot) = pivot.filter(|&pivot| row[pivot] != 0) else {
+            return false;
+        };
         let inverse = field.inverse(row[pivot]);
         let columns = (0..self.width).filter(|&column| row[column] != 0);
-        let reduced = columns.map(|column| (column, field.mul(inverse, row[column]))).collect();
-        self.rows.push(EchelonRow { pivot, reduced, multiples, inverse });
+        let reduced = columns
+            .map(|column| (column, field.mul(inverse, row[column])))
+            .collect();
+        self.rows.push(EchelonRow {
+            pivot,
+            reduced,
+            multiples,
+            inverse,
+        });
         true
     }
 
@@ -183,8 +220,16 @@ impl<'f> Echelon<'f> {
     /// The combination of the matrix's rows that is the given row at the pivots; of the given row the difference is left.
     pub fn solve(&self, row: &mut [u64]) -> Vec<u64> {
         let mut solution = vec![0; self.rows.len()];
-        self.reduce(row).into_iter().for_each(|(k, multiple)| solution[k] = multiple);
-        for (k, EchelonRow { multiples, inverse, .. }) in self.rows.iter().enumerate().rev() {
+        self.reduce(row)
+            .into_iter()
+            .for_each(|(k, multiple)| solution[k] = multiple);
+        for (
+            k,
+            EchelonRow {
+                multiples, inverse, ..
+            },
+        ) in self.rows.iter().enumerate().rev()
+        {
             let multiple = self.field.mul(solution[k], *inverse);
             solution[k] = multiple;
             subtract(self.field, &mut solution, multiple, multiples);
@@ -195,12 +240,15 @@ impl<'f> Echelon<'f> {
 
 fn subtract(field: &Field, row: &mut [u64], multiple: u64, entries: &[(usize, u64)]) {
     let factor = field.neg(multiple);
-    entries.iter().for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
+    entries
+        .iter()
+        .for_each(|&(at, value)| row[at] = field.add(row[at], field.mul(factor, value)));
 }
 
 /// Works on all items, some at a time, with more threads if there are so many that it is worth their start.
 pub(crate) fn for_all<T: Send>(items: &mut [T], work: impl Fn(&mut [T]) + Sync) {
-    let all = || std::thread::available_parallelism().map_or(1, |most| most.get().min(items.len() / 32));
+    let all =
+        || std::thread::available_parallelism().map_or(1, |most| most.get().min(items.len() / 32));
     let threads = if items.len() < 64 { 1 } else { all() };
     let groups = Mutex::new(items.chunks_mut(GROUP));
     let next = || groups.lock().ok().and_then(|mut groups| groups.next());
@@ -223,7 +271,9 @@ pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checke
             ensure!(row[0][first + k] != 0, "pivot {} vanishes", first + k);
             inverses.push(field.inverse(row[0][first + k]));
         }
-        for_all(rest, |rows| subtract_block(field, block, &inverses, first, rows));
+        for_all(rest, |rows| {
+            subtract_block(field, block, &inverses, first, rows)
+        });
         rows = rest;
     }
     Ok(())
@@ -231,11 +281,20 @@ pub(crate) fn check_diagonal(field: &Field, mut rows: &mut [Vec<u64>]) -> Checke
 
 /// Subtracts multiples of rows of a block so that other rows would vanish at their pivots, the columns from `first` on; computes
 /// what is right of these.
-fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: usize, rows: &mut [Vec<u64>]) {
+fn subtract_block(
+    field: &Field,
+    block: &[Vec<u64>],
+    inverses: &[u64],
+    first: usize,
+    rows: &mut [Vec<u64>],
+) {
     let factors = |row: &Vec<u64>| {
         let mut factors: Vec<u64> = Vec::with_capacity(block.len());
         for (k, &inverse) in inverses.iter().enumerate() {
-            let terms = factors.iter().zip(block).map(|(&f, lane)| u128::from(f) * u128::from(lane[first + k]));
+            let terms = factors
+                .iter()
+                .zip(block)
+                .map(|(&f, lane)| u128::from(f) * u128::from(lane[first + k]));
             let entry = field.add_products(row[first + k], terms.sum());
             factors.push(field.neg(field.mul(entry, inverse)));
         }
@@ -245,12 +304,17 @@ fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: us
     let width = rows[0].len();
     // A tile of the block stays in the fastest cache for all rows.
     for from in (first + block.len()..width).step_by(TILE) {
-        let tile: Vec<_> = block.iter().map(|lane| &lane[from..width.min(from + TILE)]).collect();
+        let tile: Vec<_> = block
+            .iter()
+            .map(|lane| &lane[from..width.min(from + TILE)])
+            .collect();
         for (row, factors) in rows.iter_mut().zip(&factors) {
             let entries = &mut row[from..width.min(from + TILE)];
             // Words are what vector units multiply, if the compiler knows that 32 bits are enough.
             if field.p < SMALL {
-                add_lanes::<u64>(field, entries, factors, &tile, |residue| residue & 0xffff_ffff);
+                add_lanes::<u64>(field, entries, factors, &tile, |residue| {
+                    residue & 0xffff_ffff
+                });
             } else {
                 add_lanes::<u128>(field, entries, factors, &tile, u128::from);
             }
@@ -260,7 +324,11 @@ fn subtract_block(field: &Field, block: &[Vec<u64>], inverses: &[u64], first: us
 
 /// Adds multiples of lanes to at most `TILE` entries; products are summed in `S`.
 fn add_lanes<S: Copy + Default + Into<u128> + Add<Output = S> + Mul<Output = S>>(
-    field: &Field, entries: &mut [u64], factors: &[u64], lanes: &[&[u64]], widen: impl Fn(u64) -> S,
+    field: &Field,
+    entries: &mut [u64],
+    factors: &[u64],
+    lanes: &[&[u64]],
+    widen: impl Fn(u64) -> S,
 ) {
     let mut sums = [S::default(); TILE];
     for (factors, lanes) in factors.chunks(4).zip(lanes.chunks(4)) {
@@ -271,7 +339,10 @@ fn add_lanes<S: Copy + Default + Into<u128> + Add<Output = S> + Mul<Output = S>>
             *sum = *sum + (s * widen(a) + t * widen(b)) + (u * widen(c) + v * widen(d));
         }
     }
-    entries.iter_mut().zip(sums).for_each(|(entry, sum)| *entry = field.add_products(*entry, sum.into()));
+    entries
+        .iter_mut()
+        .zip(sums)
+        .for_each(|(entry, sum)| *entry = field.add_products(*entry, sum.into()));
 }
 
 #[cfg(test)]

@@ -14,6 +14,8 @@ mod counting;
 mod document;
 mod evidence;
 mod graph;
+mod json;
+mod limits;
 mod lower;
 mod matrices;
 mod pieces;
@@ -22,9 +24,10 @@ mod rejection;
 pub use claim::{Strength, Verdict, Verified};
 pub use document::Model;
 pub use graph::Graph;
-pub use rejection::Rejection;
+pub use limits::Limits;
+pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 
-use rejection::{Within, ensure};
+use rejection::Within;
 
 /// Verifies a certificate, for the given graph or, without one, for the graph that it holds.
 ///
@@ -34,7 +37,7 @@ use rejection::{Within, ensure};
 /// The first thing that cannot be verified.
 ///
 /// ```
-/// let certificate = br#"{"format": "viewcert certificate", "version": 1, "program": "by hand",
+/// let certificate = br#"{"format": "viewcert certificate", "version": 2, "program": "by hand",
 ///     "graph": {"name": "a pair", "nodes": 2, "edges": 1, "graph6": "A_",
 ///         "sha256": "1a2922f94e61dd3386d10331aca4a4e92403b8e12be0532bcbc2ddaf95da33eb"},
 ///     "model": "projective",
@@ -45,7 +48,7 @@ use rejection::{Within, ensure};
 /// let verified = viewcert_check::check(certificate, None).unwrap();
 /// assert_eq!(verified.verdict.0, viewcert_check::Verdict::Solvable);
 /// ```
-pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Rejection> {
+pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Failure> {
     Certificate::parse(certificate)?.check(graph)
 }
 
@@ -58,7 +61,7 @@ impl Certificate {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Certificate, Rejection> {
+    pub fn parse(text: &[u8]) -> Result<Certificate, Failure> {
         document::parse(text).map(Certificate)
     }
 
@@ -67,19 +70,40 @@ impl Certificate {
         &self.0.graph.sha256
     }
 
-    /// See [`check`].
+    /// See [`check`]; within the default limits.
     ///
     /// # Errors
     /// The first thing that cannot be verified.
-    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Rejection> {
+    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Failure> {
+        self.check_within(graph, &Limits::default())
+    }
+
+    /// See [`check`].
+    ///
+    /// # Errors
+    /// The first thing that cannot be verified, or not within the limits.
+    pub fn check_within(
+        &self,
+        graph: Option<&Graph>,
+        limits: &Limits,
+    ) -> Result<Verified, Failure> {
         let Certificate(document) = self;
-        ensure!(document.format == "viewcert certificate", "`format` is not \"viewcert certificate\"");
-        ensure!(document.version == 1, "version {} is unknown to this program", document.version);
         let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
         let structure = &pieces::Structure::new(&graph, &document.bodies)?;
-        let setting = evidence::Setting { model, sha256, structure };
-        let pieces = evidence::check_pieces(&document.rigid, &document.pieces, &setting, &structure.everything)?;
+        let meter = &limits::Meter::new(limits);
+        let setting = evidence::Setting {
+            model,
+            sha256,
+            structure,
+            meter,
+        };
+        let pieces = evidence::check_pieces(
+            &document.rigid,
+            &document.pieces,
+            &setting,
+            &structure.everything,
+        )?;
         claim::verify(&document.claim, name, model, &pieces).within(|| "claim".into())
     }
 }

@@ -11,7 +11,10 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert_check::{Certificate, Graph, Rejection, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Verified};
+
+/// Too large for the limits of the checker.
+const TOO_LARGE: u8 = 3;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -59,9 +62,13 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             }
             GOOD
         }
-        Err(rejection) => {
+        Err(Failure::Rejected(rejection)) => {
             writeln!(out, "REJECTED: {rejection}")?;
             NOT
+        }
+        Err(Failure::TooLarge(limit)) => {
+            eprintln!("{limit} (of viewcert-check)");
+            TOO_LARGE
         }
     };
     out.flush().context("standard output")?;
@@ -70,7 +77,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
 
 /// Checks a certificate for the graph in a file. The checker reads edge lists and graph6 by
 /// itself; it does not read MATLAB files, which come through this program's reader.
-fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Rejection>> {
+fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(rejection) => return Ok(Err(rejection)),
@@ -138,7 +145,7 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
 fn check_files(files: &[PathBuf]) -> Result<ExitCode> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
-    let (mut verified, mut rejected) = (0u64, 0u64);
+    let (mut verified, mut rejected, mut undecided) = (0u64, 0u64, 0u64);
     let mut out = std::io::stdout().lock();
     for file in files {
         let name = file.display().to_string();
@@ -154,16 +161,20 @@ fn check_files(files: &[PathBuf]) -> Result<ExitCode> {
             if batch.is_empty() {
                 break;
             }
-            let outcomes: Vec<Option<Rejection>> = batch
+            let outcomes: Vec<Option<Failure>> = batch
                 .par_iter()
                 .map(|text| viewcert_check::check(text, None).err())
                 .collect();
             for (line, outcome) in (first..).zip(&outcomes) {
                 match outcome {
                     None => verified += 1,
-                    Some(rejection) => {
+                    Some(Failure::Rejected(rejection)) => {
                         rejected += 1;
                         writeln!(out, "REJECTED {name}:{line}: {rejection}")?;
+                    }
+                    Some(Failure::TooLarge(limit)) => {
+                        undecided += 1;
+                        eprintln!("{name}:{line}: {limit} (of viewcert-check)");
                     }
                 }
             }
@@ -172,10 +183,21 @@ fn check_files(files: &[PathBuf]) -> Result<ExitCode> {
         }
     }
     bar.finish_and_clear();
-    ensure!(verified + rejected > 0, "the files hold no certificates");
-    writeln!(out, "{verified} certificates verified, {rejected} rejected")?;
+    ensure!(
+        verified + rejected + undecided > 0,
+        "the files hold no certificates"
+    );
+    write!(out, "{verified} certificates verified, {rejected} rejected")?;
+    if undecided > 0 {
+        write!(out, ", {undecided} too large for the limits")?;
+    }
+    writeln!(out)?;
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(if rejected == 0 { GOOD } else { NOT }))
+    Ok(ExitCode::from(match (rejected, undecided) {
+        (0, 0) => GOOD,
+        (0, _) => TOO_LARGE,
+        _ => NOT,
+    }))
 }
 
 /// The certificates of a file, one after another.
