@@ -533,7 +533,7 @@ class LowerBounds(Case):
         flow = evidence(document, "plane-flow")
         graph = check.read_graph6("Cl")
         core = check.Core(make.Maker(graph), graph.edges, "")
-        void = next(d for d in range(99) if not check.draw_centres(graph.hash, core.hash, 4, 5, 1, d))
+        void = next(d for d in range(999) if not check.draw_centres(graph.hash, core.hash, 4, 5, 1, d))
         flow.update(prime="5", draw=void)
         self.rejects(document, "plane-flow", "the draw is void")
 
