@@ -517,6 +517,52 @@ def mutant(text, rng):
     return json.dumps(document).encode(), done
 
 
+# Files that hold a graph ---------------------------------------------------------------------------------------------
+
+LABELS = "a b c d 1 2 3 10 9 0 5 01 18446744073709551615 18446744073709551616 \u00e9 a#b _x x_ 1e3 -1".split()
+ODD = [*'"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw'.split(" "), "\u00a0"]
+HEADS = [" ".join(pair) for pair in check.HEADS] + ["Source TARGET", '"from" to', "from To", "src target", "a b weight"]
+
+
+def graph_text(rng):
+    """A text that may hold a graph."""
+    kind = rng.randrange(8)
+    if kind == 0:
+        lines = [rng.choice(["Cl", "Bw", "A_", "@", "?", "D?{", "Bx", "~??Bw", "C~", "E?Bw", "xy"]) for _ in range(rng.randrange(1, 4))]
+        text = rng.choice(["", "", ">>graph6<<", ">>graph6<<\n", " >>graph6<<"]) + rng.choice(["\n", "\r\n", " \n"]).join(lines)
+    elif kind == 1:
+        size = rng.choice([2, 2, 3, 9])
+        text = "\n".join(" ".join(rng.choice("01") for _ in range(size)) for _ in range(size))
+    else:
+        width = rng.choice([2, 2, 2, 2, 3, 3, 9, 14, 1, 4])
+        labels = rng.sample(LABELS[4:11] if rng.random() < 0.5 else LABELS, rng.randrange(3, 7))
+        separator = rng.choice([" ", ",", "\t", ", "])
+        lines = []
+        for _ in range(rng.randrange(1, 6)):
+            pair = rng.sample(labels, 2) if rng.random() < 0.97 else [labels[0]] * 2
+            if kind == 2:
+                pair = [str(k) for k in sorted(rng.sample(range(6), 2))]
+            lines.append(separator.join(pair + [rng.choice(["1", "2", "3", "4", "5", ".5", "-1e3", "1."]) for _ in range(width - 2)]))
+        if rng.random() < 0.3:
+            lines.insert(0, rng.choice(HEADS).replace(" ", separator))
+        elif rng.random() < 0.2:
+            lines.insert(0, f"{rng.randrange(8)}{separator}{len(lines)}")
+        text = rng.choice(["\n", "\n", "\r\n"]).join(lines) + rng.choice(["", "\n", "\n\n"])
+    for _ in range(rng.choice([0, 0, 1, 1, 2])):
+        at = rng.randrange(len(text) + 1)
+        odd = rng.choice(ODD + LABELS + [" ", ",", ",,", "\n", "\r", "\t", '"', "#", "\ufeff", "\x7f"])
+        way = rng.randrange(4)
+        if way == 0:
+            text = text[:at] + text[at + 1 :]
+        elif way == 1:
+            text = text[:at] + odd + text[at:]
+        else:
+            fields = text.split(" ")
+            fields[rng.randrange(len(fields))] = odd
+            text = " ".join(fields)
+    return text.encode()
+
+
 # The comparison ------------------------------------------------------------------------------------------------------
 
 
@@ -529,20 +575,21 @@ class Comparison:
         self.accepted_by = collections.Counter()
         self.scratch = os.path.join(tempfile.mkdtemp(), "certificate.json")
 
-    def first(self, data):
+    def first(self, data, *arguments):
         """The answer of the first checker: its exit code and reason."""
         with open(self.scratch, "wb") as file:
             file.write(data)
-        done = subprocess.run(
-            [self.binary, self.scratch], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, close_fds=False
-        )
+        command = [self.binary, *arguments[:-1], self.scratch, *arguments[-1:]]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, close_fds=False)
         return done.returncode, done.stderr.decode(errors="replace").strip()
 
     @staticmethod
-    def second(data):
+    def second(data, graph_data=None, edges_format=False):
         try:
-            check.check(data)
+            check.check(data, graph_data, edges_format)
             return 0, ""
+        except check.Unreadable as error:
+            return 2, str(error)
         except check.Reject as error:
             return 1, str(error)
         except check.TooLarge as error:
@@ -566,6 +613,29 @@ class Comparison:
             if wrong:
                 self.count["false"] += 1
                 self.report(data, done, f"accepted, but {wrong}")
+
+    def run_graph(self, text, edges_format):
+        """A graph file, with a certificate of the graph that the second checker reads in it."""
+        self.count["graph files"] += 1
+        try:
+            graph = check.read_graph(text, "", edges_format)
+        except check.Unreadable:
+            graph = None
+        if graph is None or not 1 <= graph.n <= 12:
+            graph = check.Graph(2, [(0, 1)])
+        document = make.Maker(graph).document()
+        document["graph"]["graph6"] = None
+        data = json.dumps(document).encode()
+        second, reason = self.second(data, text, edges_format)
+        graph_file = self.scratch + ".graph"
+        with open(graph_file, "wb") as file:
+            file.write(text)
+        first, other_reason = self.first(data, "--format", "edges" if edges_format else "auto", graph_file)
+        self.count[f"graph files: first exits {first}, second {second}"] += 1
+        if first != second:
+            self.count["disagreements"] += 1
+            how = "edges" if edges_format else "auto"
+            self.report(text, [how], f"{text!r}: first: {first} {other_reason}; second: {second} {reason}")
 
     def report(self, data, done, reason):
         self.count["reported"] += 1
@@ -605,6 +675,7 @@ def main():
     parser.add_argument("certificates", nargs="*", help="certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--checker", help="the first checker, viewcert-check; without it only the truth is tested")
     parser.add_argument("--mutants", type=int, default=1000)
+    parser.add_argument("--graph-files", type=int, default=0, help="how many files with graphs are compared")
     parser.add_argument("--made", type=int, default=0, help="how many certificates of random graphs to make as well")
     parser.add_argument("--sample", type=int, help="at most so many certificates from a file, at random")
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -613,6 +684,10 @@ def main():
     rng = random.Random(options.seed)
     print(f"seed {options.seed}", flush=True)
     comparison = Comparison(options.checker, options.keep)
+    for _ in range(options.graph_files if options.checker else 0):
+        comparison.run_graph(graph_text(rng), rng.random() < 0.2)
+    if options.graph_files:
+        print(f"graph files: {dict(comparison.count)}", flush=True)
     texts = []
     for data in bases(options.certificates, options.sample, options.made, rng):
         before = comparison.count["accepted"]

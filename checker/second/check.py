@@ -162,7 +162,7 @@ class Graph:
 
 
 def read_graph6(line):
-    """The graph of a graph6 line, or None if it is not one: the shortest form of n, no bit behind the last."""
+    """The graph of a graph6 line, or None if it is not one: all bytes, and no bit behind the last pair."""
     if not line or any(not "?" <= c <= "~" for c in line):
         return None
     values = [ord(c) - 63 for c in line]
@@ -172,7 +172,7 @@ def read_graph6(line):
     n = sum(value << 6 * (size - 1 - k) for k, value in enumerate(values[skip : skip + size]))
     body = values[skip + size :]
     bits = n * (n - 1) // 2
-    if n <= {6: 258047, 3: 62, 1: -1}[size] or len(body) != -(-bits // 6):
+    if len(body) != -(-bits // 6):
         return None
     if body and body[-1] & ((1 << (-bits % 6)) - 1):
         return None
@@ -222,10 +222,10 @@ HEADS = {
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
-def split_fields(line, where):
-    """The fields of a line, as pairs of text and whether it was quoted."""
+def split_fields(line, where, most=None):
+    """The fields of a line (at most so many of them), as pairs of text and whether it was quoted."""
     fields, comma, at = [], False, 0
-    while at < len(line):
+    while at < len(line) and len(fields) != most:
         if line[at] in " \t":
             at += 1
         elif line[at] == ",":
@@ -252,7 +252,7 @@ def is_integer(text):
 
 def read_edges(lines, edges_format):
     """Section 2: an edge list."""
-    rows = [(f"line {k}", split_fields(line, f"line {k}")) for k, line in enumerate(lines, 1)]
+    rows = [(f"line {k}", split_fields(line, f"line {k}", 2 if edges_format else None)) for k, line in enumerate(lines, 1)]
     rows = [(where, fields) for where, fields in rows if fields]
     if not edges_format:
         width = len(rows[0][1]) if rows else 0
@@ -1324,6 +1324,8 @@ def shown(reason):
 
 def read_file(path):
     try:
+        if path == "-":
+            return sys.stdin.buffer.read()
         with open(path, "rb") as file:
             return file.read()
     except OSError as error:
@@ -1363,7 +1365,7 @@ def check_list(paths, core_limit):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
-    parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text")
+    parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
     parser.add_argument("--format", choices=["auto", "edges"], default="auto", help="edges: the graph is an edge list")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")

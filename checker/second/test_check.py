@@ -236,7 +236,7 @@ class Graphs(Case):
             ("0 1\n1 0\n", (2, [(0, 1)])),
             ("1 2 3\n2 3 4\n", (3, [(0, 1), (1, 2)])),
             ("source target\nb c x y z\n", (4, [(0, 1), (2, 3)])),
-            ("- //\n", (2, [(0, 1)])),
+            ("- // x,,y\"z\n", (2, [(0, 1)])),
             ("a\n", (1, [])),
             ("Cl\n", (1, [])),
         ):
@@ -257,7 +257,8 @@ class Graphs(Case):
             self.assertEqual(check.read_graph6(head + body).hash, graph.hash)
             if n <= 62:
                 self.assertEqual(make.graph6_of(graph), head + body)
-                self.assertIsNone(check.read_graph6("~??" + chr(63 + n) + body))
+                self.assertEqual(check.read_graph6("~??" + chr(63 + n) + body).hash, graph.hash)
+                self.assertEqual(check.read_graph6("~~?????" + chr(63 + n) + body).hash, graph.hash)
             self.assertIsNone(check.read_graph6(head + body + "?"))
             self.assertIsNone(check.read_graph6((head + body)[:-1]) if body else None)
         self.assertIsNone(check.read_graph6("Bx"))  # a bit behind the last pair
