@@ -302,7 +302,7 @@ def ascii_lower(text):
 
 def refuse_other_kinds(rows, width):
     """Section 2: counts, a matrix, stars."""
-    if all(not quoted and text in "01" for fields in rows for text, quoted in fields) and len(rows) == width:
+    if all(not quoted and text in ("0", "1") for fields in rows for text, quoted in fields) and len(rows) == width:
         raise Unreadable("this may be a matrix (say so with --format edges if it is not)")
     if width > 3 or not all(not quoted and is_integer(text) for fields in rows for text, quoted in fields):
         return

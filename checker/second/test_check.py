@@ -178,6 +178,7 @@ class Graphs(Case):
             ("5 2\n1 2\n2 3\n3 4\n", (5, [(0, 1), (1, 2), (1, 4), (2, 3)])),
             ("0 1 2\n1 2 9\n", path),
             ('"0" 1\n1 0\n', (2, [(0, 1)])),
+            ("01 0\n1 0\n", (3, [(0, 1), (0, 2)])),
         ):
             with self.subTest(text=text):
                 if text.startswith("010"):
