@@ -337,6 +337,36 @@ def merge_groups(document, rng):
         groups.append(other)
 
 
+def random_hub(document, rng):
+    """Counting with a random partition into blocks, one of which has a random hub."""
+    piece = rng.choice(document["pieces"])
+    members = piece["bodies"] + [tuple(edge) for edge in piece["edges"]]
+    blocks = random_partition(members, rng, rng.choice([1, 1, 2, 3]))
+    hub_block = max(blocks, key=len)
+    parts = random_partition(hub_block, rng, len(hub_block) if rng.random() < 0.6 else rng.randrange(2, len(hub_block) + 1))
+    body_nodes = check.Check(copy_of(document)).bodies if piece["bodies"] else []
+    nodes = [set().union(*(body_nodes[m] if type(m) is int else m for m in part)) for part in parts]
+    v = rng.choice(sorted(set().union(*nodes)))
+    split = [t for t in range(len(parts)) if v in nodes[t] and rng.random() < 0.8]
+    groups = random_partition(list(range(len(parts))), rng, len(parts) if rng.random() < 0.7 else rng.randrange(1, len(parts) + 1))
+    hub = {"node": v, "parts": [make.listed(part) for part in parts], "split": split, "groups": groups}
+    counting = {"kind": "counting", "blocks": [{**make.listed(block), "hubs": []} for block in blocks], "bound": 0}
+    counting["blocks"][blocks.index(hub_block)]["hubs"] = [{**hub, "components": 0, "less": 0}]
+    piece["evidence"] = [e for e in piece["evidence"] if e["kind"] != "counting" or rng.random() < 0.5]
+    piece["evidence"].append(counting)
+    repair(document, rng)
+
+
+def random_partition(entries, rng, size):
+    """A random partition into at most so many parts."""
+    parts = [[] for _ in range(size)]
+    if size == len(entries):
+        return [[entry] for entry in entries]
+    for entry in entries:
+        rng.choice(parts).append(entry)
+    return [part for part in parts if part]
+
+
 def into_rigid(document, rng):
     """A member moves between `rigid` and a piece."""
     name = rng.choice(["bodies", "edges"])
@@ -419,7 +449,7 @@ def remake(document, rng):
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
-    *(merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model, remake),
+    *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model, remake),
 )
 
 
@@ -566,6 +596,10 @@ def graph_text(rng):
 # The comparison ------------------------------------------------------------------------------------------------------
 
 
+# Lower and upper bounds are verified before they are compared: where they cross, one of them was not valid.
+CONTRADICTIONS = ("is above an upper bound", "above the rank of draws", "more than the required rank")
+
+
 class Comparison:
     """Runs both checkers on texts, and counts."""
 
@@ -600,6 +634,8 @@ class Comparison:
         second, reason = self.second(data)
         if reason.startswith("unexpected"):
             self.report(data, done, f"unforeseen in the second: {reason}")
+        if any(words in reason for words in CONTRADICTIONS):
+            self.report(data, done, f"bounds that were verified contradict each other: {reason}")
         if self.binary:
             first, other_reason = self.first(data)
             self.count[f"first exits {first}, second {second}"] += 1
