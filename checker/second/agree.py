@@ -343,12 +343,14 @@ def random_hub(document, rng):
     members = piece["bodies"] + [tuple(edge) for edge in piece["edges"]]
     blocks = random_partition(members, rng, rng.choice([1, 1, 2, 3]))
     hub_block = max(blocks, key=len)
-    parts = random_partition(hub_block, rng, len(hub_block) if rng.random() < 0.6 else rng.randrange(2, len(hub_block) + 1))
+    most = len(hub_block)
+    parts = random_partition(hub_block, rng, most if rng.random() < 0.6 else rng.randrange(2, most + 1))
     body_nodes = check.Check(copy_of(document)).bodies if piece["bodies"] else []
     nodes = [set().union(*(body_nodes[m] if type(m) is int else m for m in part)) for part in parts]
     v = rng.choice(sorted(set().union(*nodes)))
     split = [t for t in range(len(parts)) if v in nodes[t] and rng.random() < 0.8]
-    groups = random_partition(list(range(len(parts))), rng, len(parts) if rng.random() < 0.7 else rng.randrange(1, len(parts) + 1))
+    most = len(parts)
+    groups = random_partition(list(range(most)), rng, most if rng.random() < 0.7 else rng.randrange(1, most + 1))
     hub = {"node": v, "parts": [make.listed(part) for part in parts], "split": split, "groups": groups}
     counting = {"kind": "counting", "blocks": [{**make.listed(block), "hubs": []} for block in blocks], "bound": 0}
     counting["blocks"][blocks.index(hub_block)]["hubs"] = [{**hub, "components": 0, "less": 0}]
@@ -449,7 +451,8 @@ def remake(document, rng):
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
-    *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model, remake),
+    *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
+    remake,
 )
 
 
@@ -511,7 +514,8 @@ def change_text(text, rng):
         return text[:at] + escaped + text[at + 1 :]
     if way == 7:
         at = rng.choice(letters)
-        return text[:at] + rng.choice(["\\ud800", "\\udc00", "\\ud83d\\ude00", "\\/", "\\", "\u00e9", '\\"']) + text[at:]
+        odd = rng.choice(["\\ud800", "\\udc00", "\\ud83d\\ude00", "\\/", "\\", "\u00e9", '\\"'])
+        return text[:at] + odd + text[at:]
     if way == 8:
         old = rng.choice(["null", '"draw"', '"proof"', "[]", "[", "0"])
         new = rng.choice(["NaN", "Infinity", "-Infinity", "true", "nul", "None", "[[" * 80 + "]]" * 80, "-0"])
@@ -550,7 +554,8 @@ def mutant(text, rng):
 # Files that hold a graph ---------------------------------------------------------------------------------------------
 
 LABELS = "a b c d 1 2 3 10 9 0 5 01 18446744073709551615 18446744073709551616 \u00e9 a#b _x x_ 1e3 -1".split()
-ODD = [*'"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw'.split(" "), "\u00a0"]
+ODD = '"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw \u00a0'.split(" ")
+GRAPH6 = ["Cl", "Bw", "A_", "@", "?", "D?{", "Bx", "~??Bw", "C~", "E?Bw", "xy"]
 HEADS = [" ".join(pair) for pair in check.HEADS] + ["Source TARGET", '"from" to', "from To", "src target", "a b weight"]
 
 
@@ -558,8 +563,9 @@ def graph_text(rng):
     """A text that may hold a graph."""
     kind = rng.randrange(8)
     if kind == 0:
-        lines = [rng.choice(["Cl", "Bw", "A_", "@", "?", "D?{", "Bx", "~??Bw", "C~", "E?Bw", "xy"]) for _ in range(rng.randrange(1, 4))]
-        text = rng.choice(["", "", ">>graph6<<", ">>graph6<<\n", " >>graph6<<"]) + rng.choice(["\n", "\r\n", " \n"]).join(lines)
+        lines = [rng.choice(GRAPH6) for _ in range(rng.randrange(1, 4))]
+        text = rng.choice(["", "", ">>graph6<<", ">>graph6<<\n", " >>graph6<<"])
+        text += rng.choice(["\n", "\r\n", " \n"]).join(lines)
     elif kind == 1:
         size = rng.choice([2, 2, 3, 9])
         text = "\n".join(" ".join(rng.choice("01") for _ in range(size)) for _ in range(size))
@@ -572,7 +578,8 @@ def graph_text(rng):
             pair = rng.sample(labels, 2) if rng.random() < 0.97 else [labels[0]] * 2
             if kind == 2:
                 pair = [str(k) for k in sorted(rng.sample(range(6), 2))]
-            lines.append(separator.join(pair + [rng.choice(["1", "2", "3", "4", "5", ".5", "-1e3", "1."]) for _ in range(width - 2)]))
+            numbers = [rng.choice(["1", "2", "3", "4", "5", ".5", "-1e3", "1."]) for _ in range(width - 2)]
+            lines.append(separator.join(pair + numbers))
         if rng.random() < 0.3:
             lines.insert(0, rng.choice(HEADS).replace(" ", separator))
         elif rng.random() < 0.2:

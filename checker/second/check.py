@@ -222,6 +222,10 @@ HEADS = {
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
+QUOTED = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)')
+PLAIN = re.compile(r'([^ \t,"]+)(?=[ \t,]|$)')
+
+
 def split_fields(line, where, most=None):
     """The fields of a line (at most so many of them), as pairs of text and whether it was quoted."""
     fields, comma, at = [], False, 0
@@ -236,7 +240,7 @@ def split_fields(line, where, most=None):
             break
         else:
             quoted = line[at] == '"'
-            found = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)' if quoted else r'([^ \t,"]+)(?=[ \t,]|$)').match(line, at)
+            found = (QUOTED if quoted else PLAIN).match(line, at)
             if not found:
                 raise Unreadable(f"{where}: a quotation mark out of place")
             fields.append((found[1].replace('""', '"') if quoted else found[1], quoted))
@@ -252,7 +256,8 @@ def is_integer(text):
 
 def read_edges(lines, edges_format):
     """Section 2: an edge list."""
-    rows = [(f"line {k}", split_fields(line, f"line {k}", 2 if edges_format else None)) for k, line in enumerate(lines, 1)]
+    most = 2 if edges_format else None
+    rows = [(f"line {k}", split_fields(line, f"line {k}", most)) for k, line in enumerate(lines, 1)]
     rows = [(where, fields) for where, fields in rows if fields]
     if not edges_format:
         width = len(rows[0][1]) if rows else 0
@@ -1244,7 +1249,8 @@ class Check:
         for name, part in self.evidence_claim.items():
             for member, value in part.items():
                 claimed = self.claim[name][member]
-                need(same(claimed, value), f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}")
+                reason = f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}"
+                need(same(claimed, value), reason)
 
     def statements(self):
         """What was verified, for people."""

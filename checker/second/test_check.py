@@ -412,7 +412,7 @@ class Bodies(Case):
     def test_two_bodies_that_share_two_nodes(self):
         graph = check.Graph(4, [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3)])
         document = make.Maker(graph, use_bodies=False).document()
-        document["bodies"] = [{"seed": [0, 1], "add": [[2, 0, 1]], "merge": []}, {"seed": [0, 1], "add": [[3, 0, 1]], "merge": []}]
+        document["bodies"] = [{"seed": [0, 1], "add": [[node, 0, 1]], "merge": []} for node in (2, 3)]
         self.rejects(document, "section 6", "covered twice")
         document["bodies"].append({"seed": 0, "add": [], "merge": [{"with": [1], "at": [0, 1]}]})
         document["rigid"], document["pieces"] = {"bodies": [2], "edges": []}, []
@@ -595,9 +595,22 @@ class LowerBounds(Case):
         self.broken(document, lambda d: evidence(d, "integer-minor").update(prime="7"), "one of determinant and prime")
 
     def test_bounds_must_not_cross(self):
+        """No certificate can show this, unless a condition is not sound: a bound is replaced by a false one."""
+        for name, false, words in (
+            ("check_counting", lambda *_: 27, "above an upper bound"),
+            ("check_lower", lambda *_: 29, "above an upper bound"),
+        ):
+            old = getattr(check.Check, name)
+            try:
+                setattr(check.Check, name, false)
+                self.rejects(by_hand(), words)
+            finally:
+                setattr(check.Check, name, old)
+
+    def test_a_bound_that_is_not_met_does_not_separate(self):
         document = by_hand()
-        document["pieces"][0]["evidence"][1]["blocks"] = [{"bodies": [], "edges": [list(e) for e in SQUARE], "hubs": []}]
-        document["pieces"][0]["evidence"][1]["bound"] = 29
+        block = {"bodies": [], "edges": [list(edge) for edge in SQUARE], "hubs": []}
+        evidence(document, "counting").update(blocks=[block], bound=29)
         self.rejects(document, "not separated")
 
     def test_ranks_agree_with_elimination(self):
