@@ -8,18 +8,26 @@
 //! them; `evidence`, with `lower` and `counting` (bounds on a rank); `claim`. `cameras`, `matrices` and `algebra` compute.
 
 mod algebra;
+mod bodies;
 mod cameras;
 mod claim;
 mod counting;
 mod document;
+mod draws;
+mod elimination;
 mod evidence;
 mod graph;
+mod integer_minor;
 mod json;
+mod kernel;
 mod limits;
 mod lower;
 mod matrices;
-mod pieces;
+mod pivots;
+mod plane_flow;
 mod rejection;
+mod setting;
+mod structure;
 
 pub use claim::{Strength, Verdict, Verified};
 pub use document::Model;
@@ -90,9 +98,9 @@ impl Certificate {
         let Certificate(document) = self;
         let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
-        let structure = &pieces::Structure::new(&graph, &document.bodies)?;
         let meter = &limits::Meter::new(limits);
-        let setting = evidence::Setting {
+        let structure = &structure::Structure::new(&graph, &document.bodies, meter)?;
+        let setting = setting::Setting {
             model,
             sha256,
             structure,

@@ -1,10 +1,9 @@
-//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the motions that a kernel
-//! vector gives to the edges.
+//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the
+//! motions that change no fundamental matrix.
 
-use crate::algebra::{Echelon, Field, Ring};
+use crate::algebra::{Field, Ring};
 use crate::cameras::{Camera, centre};
-use crate::pieces::Core;
-use crate::rejection::{Checked, ensure};
+use crate::structure::Core;
 
 /// The sum of the products of entries.
 pub(crate) fn dot<R: Ring, const N: usize>(ring: &R, x: [R::E; N], y: [R::E; N]) -> R::E {
@@ -75,8 +74,11 @@ pub(crate) fn camera_at(field: &Field, c: &[u64; 3]) -> Camera<u64> {
     ]
 }
 
-/// The rows of N: six entries with their columns, first the direction a.
-pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<[(usize, u64); 6]> {
+/// A row of N: six entries with their columns, first the direction a.
+pub(crate) type Bearing = [(usize, u64); 6];
+
+/// The rows of N.
+pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<Bearing> {
     let mut rows = Vec::new();
     for &(i, j) in &core.edges {
         let d = [0, 1, 2].map(|k| field.sub(centres[i][k], centres[j][k]));
@@ -112,37 +114,4 @@ pub(crate) fn scale_motion(cameras: &[Camera<u64>], v: usize) -> Vec<(usize, u64
     (0..12)
         .map(|at| (12 * v + at, cameras[v][at % 3][at / 3]))
         .collect()
-}
-
-/// How a kernel vector moves an edge: the matrix X, row by row, with dP_i = P_i X and dP_j = P_j X + lambda P_j, less a multiple
-/// of I. In the calibrated model y = s c + t is the only column of [ I | -c ] X, with X = (t, -s).
-pub(crate) fn edge_motion(
-    field: &Field,
-    core: &Core,
-    centres: &[[u64; 3]],
-    vector: &[u64],
-    edge: usize,
-) -> Checked<Vec<u64>> {
-    let columns = vector.len() / (3 * core.nodes);
-    let ends = [core.edges[edge].0, core.edges[edge].1];
-    let cameras = ends.map(|v| camera_at(field, &centres[v]));
-    let mut motions: Vec<_> = (0..4 * columns)
-        .map(|ab| map_motion(&cameras, columns, ab))
-        .collect();
-    motions.extend((columns == 4).then(|| scale_motion(&cameras, 1)));
-    let mut echelon = Echelon::new(field, 6 * columns);
-    let independent = motions.into_iter().all(|motion| echelon.push(motion, None));
-    let mut moved = ends
-        .map(|v| &vector[3 * columns * v..3 * columns * (v + 1)])
-        .concat();
-    let mut x = echelon.solve(&mut moved);
-    let solved = independent && moved.iter().all(|&entry| entry == 0);
-    ensure!(solved, "not a kernel vector at the core edge {edge}");
-    x.truncate(4 * columns);
-    if let Some(&last) = x.get(15) {
-        [0, 5, 10, 15]
-            .iter()
-            .for_each(|&diagonal: &usize| x[diagonal] = field.sub(x[diagonal], last));
-    }
-    Ok(x)
 }

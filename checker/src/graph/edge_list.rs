@@ -52,7 +52,7 @@ pub(super) fn strict(text: &[u8]) -> Result<Graph, Unreadable> {
         }
         let in_line = |reason: String| format!("line {number}: {reason}");
         let line = next_line(&mut rest);
-        split(line, &mut fields).map_err(|reason| in_line(reason.into()))?;
+        split(line, false, &mut fields).map_err(|reason| in_line(reason.into()))?;
         let [first, second, values @ ..] = &fields[..] else {
             ensure!(
                 fields.is_empty(),
@@ -108,23 +108,21 @@ pub(super) fn strict(text: &[u8]) -> Result<Graph, Unreadable> {
 
 /// Reads the first two fields of each line.
 pub(super) fn lenient(text: &[u8]) -> Result<Graph, Unreadable> {
-    let (mut list, mut rest, mut number) = (List::new(text), text, 0);
+    let (mut list, mut rest, mut number, mut fields) = (List::new(text), text, 0, Vec::new());
     while !rest.is_empty() {
         number += 1;
-        let line = next_line(&mut rest);
-        let mut fields = Fields {
-            line,
-            at: 0,
-            read: 0,
-            any: true,
-        };
-        let in_line = |reason: &str| Unreadable::from(format!("line {number}: {reason}"));
-        let Some(first) = fields.next().map_err(in_line)? else {
-            continue;
-        };
-        match fields.next().map_err(in_line)? {
-            Some(second) => list.pair(number, label(first.text), label(second.text))?,
-            None => drop(list.node(label(first.text))),
+        split(next_line(&mut rest), true, &mut fields)
+            .map_err(|reason| format!("line {number}: {reason}"))?;
+        match &fields[..] {
+            [] => {}
+            [only] => drop(list.node(label(only.text.clone()))),
+            [first, second, ..] => {
+                list.pair(
+                    number,
+                    label(first.text.clone()),
+                    label(second.text.clone()),
+                )?;
+            }
         }
     }
     ensure!(!list.labels.is_empty(), "the file holds no graph");
@@ -276,14 +274,14 @@ fn in_quotes(rest: &[u8]) -> Result<(Cow<'static, [u8]>, usize), &'static str> {
     }
 }
 
-/// All fields of a line.
-fn split<'t>(line: &'t [u8], fields: &mut Vec<Field<'t>>) -> Result<(), &'static str> {
+/// All fields of a line, with or without labels of which anything may be one.
+fn split<'t>(line: &'t [u8], any: bool, fields: &mut Vec<Field<'t>>) -> Result<(), &'static str> {
     fields.clear();
     let mut line = Fields {
         line,
         at: 0,
         read: 0,
-        any: false,
+        any,
     };
     while let Some(field) = line.next()? {
         fields.push(field);

@@ -18,6 +18,14 @@ fn graph6_lines() {
             &b"~~~~~~~~"[..],
             "graph6: 0 bytes of edges do not fit 68719476735 nodes",
         ),
+        (
+            b"~??Bw",
+            "graph6: the number of nodes is not in its shortest form",
+        ),
+        (
+            b"~~?????Bw",
+            "graph6: the number of nodes is not in its shortest form",
+        ),
         (b"~A", "graph6: the line ends within the number of nodes"),
         (b"", "graph6: the line ends within the number of nodes"),
         (b"DQ", "graph6: 1 bytes of edges do not fit 5 nodes"),

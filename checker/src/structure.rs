@@ -1,97 +1,34 @@
-//! Rigid bodies, rebuilt step by step (section 5 of the specification), the pieces between them, and their cores (section 6).
+//! Members - final bodies and loose edges -, the pieces and other sets of them, and the cores of
+//! these (section 6 of the specification).
 
-use crate::document::{Body, Merge, Pair, Source};
+use crate::bodies::build_all;
+use crate::document::{Body, Pair};
+use crate::elimination::SPARSE;
 use crate::graph::Graph;
-use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::limits::Meter;
+use crate::rejection::{Checked, Failure, ensure};
 use sha2::{Digest, Sha256};
-use std::collections::HashSet;
-
-type Nodes = HashSet<u32>;
-
-fn build(body: &Body, graph: &Graph, earlier: &mut [Option<Nodes>]) -> Checked<Nodes> {
-    let mut nodes = take(body.seed, graph, earlier).within(|| "seed".into())?;
-    for (k, &[v, a, b]) in body.add.iter().enumerate() {
-        add(&mut nodes, graph, v, [a, b]).within(|| format!("add[{k}]"))?;
-    }
-    for (k, step) in body.merge.iter().enumerate() {
-        merge(&mut nodes, graph, earlier, step).within(|| format!("merge[{k}]"))?;
-    }
-    Ok(nodes)
-}
-
-/// An earlier body, which is consumed by this, or an edge.
-fn take(source: Source, graph: &Graph, earlier: &mut [Option<Nodes>]) -> Checked<Nodes> {
-    match source {
-        Source::Edge(pair) => graph.edge(pair).map(|_| Nodes::from(pair)),
-        Source::Body(k) => {
-            let body = earlier.get_mut(k as usize).and_then(Option::take);
-            body.ok_or_else(|| {
-                Failure::rejected(format!(
-                    "body {k} is not an earlier one, or is used a second time"
-                ))
-            })
-        }
-    }
-}
-
-fn add(nodes: &mut Nodes, graph: &Graph, v: u32, [a, b]: [u32; 2]) -> Checked<()> {
-    ensure!(a != b, "the two nodes of the body are the same");
-    for node in [a, b] {
-        ensure!(nodes.contains(&node), "node {node} is not in the body");
-        let joined = graph.edge([v.min(node), v.max(node)]).is_ok();
-        ensure!(joined, "{v} and {node} are not joined by an edge");
-    }
-    ensure!(nodes.insert(v), "node {v} is in the body already");
-    Ok(())
-}
-
-fn merge(
-    nodes: &mut Nodes,
-    graph: &Graph,
-    earlier: &mut [Option<Nodes>],
-    step: &Merge,
-) -> Checked<()> {
-    let parts = step
-        .with
-        .iter()
-        .map(|&source| take(source, graph, earlier))
-        .collect::<Checked<Vec<Nodes>>>()?;
-    let shared = match (parts.as_slice(), step.at.as_slice()) {
-        ([x], &[a, b]) => vec![(&*nodes, a), (x, a), (&*nodes, b), (x, b)],
-        ([x, y], &[a, b, c]) => vec![(&*nodes, a), (x, a), (&*nodes, b), (y, b), (x, c), (y, c)],
-        _ => {
-            return Err(Failure::rejected(
-                "`with` and `at` have one and two, or two and three entries",
-            ));
-        }
-    };
-    ensure!(
-        step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
-        "the nodes of `at` are not different"
-    );
-    for (part, node) in shared {
-        ensure!(
-            part.contains(&node),
-            "node {node} is not where the merge needs it"
-        );
-    }
-    for mut part in parts {
-        // The smaller set goes into the larger one, so that all unions together take n log n steps.
-        if part.len() > nodes.len() {
-            std::mem::swap(nodes, &mut part);
-        }
-        nodes.extend(part);
-    }
-    Ok(())
-}
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of bodies; that of a loose
 /// edge is the length of this list plus the edge's number.
 pub(crate) type Part = Vec<usize>;
 
+/// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
+struct BodiesOfNodes {
+    all: Vec<usize>,
+    end: Vec<usize>,
+}
+
+impl BodiesOfNodes {
+    fn list(&self, node: u32) -> &[usize] {
+        &self.all[self.end[node as usize]..self.end[node as usize + 1]]
+    }
+}
+
 /// The members of the graph.
 pub(crate) struct Structure<'a> {
     graph: &'a Graph,
+    meter: &'a Meter,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
     bodies: Vec<Option<Vec<u32>>>,
     pub everything: Part,
@@ -107,58 +44,68 @@ pub(crate) struct Core {
 }
 
 impl<'a> Structure<'a> {
-    /// Rebuilds all bodies and finds which edges each of them covers; rejects an edge covered twice.
-    pub fn new(graph: &'a Graph, list: &[Body]) -> Checked<Structure<'a>> {
-        let mut bodies = Vec::new();
-        for (k, body) in list.iter().enumerate() {
-            let nodes = build(body, graph, &mut bodies).within(|| format!("bodies[{k}]"))?;
-            bodies.push(Some(nodes));
+    /// Rebuilds all bodies and finds which edges each of them covers (sections 5 and 6); rejects an
+    /// edge covered twice.
+    pub fn new(graph: &'a Graph, list: &[Body], meter: &'a Meter) -> Checked<Structure<'a>> {
+        let bodies = build_all(graph, list)?.into_iter();
+        let mut structure = Structure {
+            graph,
+            meter,
+            bodies: bodies.map(|nodes| nodes.map(sorted)).collect(),
+            everything: Part::new(),
+        };
+        let bodies = (0..list.len()).filter(|&k| structure.bodies[k].is_some());
+        let mut everything: Part = bodies.collect();
+        everything.extend(structure.loose_edges()?);
+        structure.everything = everything;
+        Ok(structure)
+    }
+
+    /// The members that are edges: those that no body covers. No edge is covered by two.
+    fn loose_edges(&self) -> Checked<Vec<usize>> {
+        let bodies_of = self.bodies_of_nodes();
+        let (mut loose, mut steps) = (Vec::new(), 0);
+        for (number, &[i, j]) in self.graph.pairs.iter().enumerate() {
+            let (a, b) = (bodies_of.list(i), bodies_of.list(j));
+            // The shorter list is walked, the longer one searched: nodes in many bodies stay cheap.
+            let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+            steps += short.len() as u64;
+            if steps > 1 << 16 {
+                self.meter.charge(SPARSE * std::mem::take(&mut steps))?;
+            }
+            let covering = short.iter().filter(|body| long.binary_search(body).is_ok());
+            let covering = covering.count();
+            ensure!(
+                covering <= 1,
+                "the edge [{i}, {j}] is covered by two bodies"
+            );
+            loose.extend((covering == 0).then_some(self.bodies.len() + number));
         }
-        let bodies: Vec<_> = bodies.into_iter().map(|nodes| nodes.map(sorted)).collect();
-        // The bodies of all nodes: those of node i from end[i] to end[i + 1], which is where its next one goes until all are there.
-        let mut end = vec![0; graph.nodes() + 2];
-        bodies
-            .iter()
-            .flatten()
-            .flatten()
-            .for_each(|&node| end[node as usize + 2] += 1);
+        Ok(loose)
+    }
+
+    fn bodies_of_nodes(&self) -> BodiesOfNodes {
+        // The bodies of node i end at end[i + 1], which is where its next one goes until all are
+        // there.
+        let mut end = vec![0; self.graph.nodes() + 2];
+        let nodes = self.bodies.iter().flatten().flatten();
+        nodes.for_each(|&node| end[node as usize + 2] += 1);
         (2..end.len()).for_each(|i| end[i] += end[i - 1]);
-        let mut all = vec![0; end[graph.nodes() + 1]];
-        for (k, nodes) in bodies.iter().enumerate() {
+        let mut all = vec![0; end[self.graph.nodes() + 1]];
+        for (k, nodes) in self.bodies.iter().enumerate() {
             nodes.iter().flatten().for_each(|&node| {
                 all[end[node as usize + 1]] = k;
                 end[node as usize + 1] += 1;
             });
         }
-        let bodies_of = |node: u32| &all[end[node as usize]..end[node as usize + 1]];
-        let mut everything: Part = (0..bodies.len()).filter(|&k| bodies[k].is_some()).collect();
-        for (number, &[i, j]) in graph.pairs.iter().enumerate() {
-            let (a, b) = (bodies_of(i), bodies_of(j));
-            // The shorter list is walked, the longer one searched: hubs in many bodies stay cheap.
-            let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
-            let covering = short
-                .iter()
-                .filter(|body| long.binary_search(body).is_ok())
-                .count();
-            ensure!(
-                covering <= 1,
-                "the edge [{i}, {j}] is covered by two bodies"
-            );
-            everything.extend((covering == 0).then_some(bodies.len() + number));
-        }
-        Ok(Structure {
-            graph,
-            bodies,
-            everything,
-        })
+        BodiesOfNodes { all, end }
     }
 
-    /// The part with these final bodies and edges. Whether the edges are loose is for `partition` to see.
+    /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to see.
     pub fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
         let mut part: Part = bodies.iter().map(|&body| body as usize).collect();
-        let wrong = part
-            .iter()
-            .find(|&&body| self.bodies.get(body).is_none_or(|nodes| nodes.is_none()));
+        let is_final = |&&body: &&usize| self.bodies.get(body).is_some_and(Option::is_some);
+        let wrong = part.iter().find(|body| !is_final(body));
         ensure!(
             wrong.is_none(),
             "{} is not a final body",
@@ -172,6 +119,10 @@ impl<'a> Structure<'a> {
             "the bodies or the edges are not increasing"
         );
         ensure!(!part.is_empty(), "neither bodies nor edges");
+        // The same bodies may be listed in many places. What is done with a list of members each
+        // time sorts their nodes.
+        let nodes = part.iter().map(|&member| self.nodes_of(member).len());
+        self.meter.charge(SPARSE * nodes.sum::<usize>() as u64)?;
         Ok(part)
     }
 
@@ -256,38 +207,22 @@ impl<'a> Structure<'a> {
         Ok(())
     }
 
+    /// The core of a part (section 6).
     pub fn core(&self, part: &Part) -> Checked<Core> {
-        // Nodes that come twice; ends of loose edges are in the core in any case.
-        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
-        let all = part
-            .iter()
-            .flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
-        let all = sorted(all.flatten().copied());
-        let mut nodes: Vec<u32> = all
-            .windows(2)
-            .filter(|pair| pair[0] == pair[1])
-            .map(|pair| pair[0])
-            .collect();
-        nodes.dedup();
+        let nodes = self.core_nodes(part);
+        self.meter.allow_core(nodes.len())?;
         let mut edges = Vec::new();
         for (position, &member) in part.iter().enumerate() {
-            let chain: Vec<usize> = self
-                .nodes_of(member)
-                .iter()
-                .flat_map(|node| nodes.binary_search(node))
-                .collect();
+            let inside = self.nodes_of(member).iter();
+            let chain: Vec<usize> = inside.flat_map(|node| nodes.binary_search(node)).collect();
             ensure!(
                 chain.len() >= 2,
                 "{} has fewer than two nodes in the core",
                 self.name(member)
             );
             for distance in [1, 2] {
-                edges.extend(
-                    chain
-                        .iter()
-                        .zip(&chain[distance..])
-                        .map(|(&i, &j)| ((i, j), position)),
-                );
+                let pairs = chain.iter().zip(&chain[distance..]);
+                edges.extend(pairs.map(|(&i, &j)| ((i, j), position)));
             }
         }
         edges.sort_unstable();
@@ -296,13 +231,26 @@ impl<'a> Structure<'a> {
             "an edge of the core arises twice"
         );
         let (edges, member): (Vec<_>, _) = edges.into_iter().unzip();
-        let sha256 = core_sha256(&nodes, &edges);
         Ok(Core {
+            sha256: core_sha256(&nodes, &edges),
             nodes: nodes.len(),
             edges,
             member,
-            sha256,
         })
+    }
+
+    /// The ends of the part's edges, and the nodes that lie in two or more of its bodies.
+    fn core_nodes(&self, part: &Part) -> Vec<u32> {
+        // Nodes that come twice, if the ends of edges do in any case.
+        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
+        let all = part
+            .iter()
+            .flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
+        let all = sorted(all.flatten().copied());
+        let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
+        let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
+        nodes.dedup();
+        nodes
     }
 }
 
