@@ -659,3 +659,29 @@ fn a_shard_says_how_many_candidates_are_its_own() {
     }
     assert_eq!(sum, 433);
 }
+
+/// A folder with a README of its own is not one to publish to; a published one is.
+#[test]
+fn a_readme_of_somebody_else_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let readme = folder.path().join("README.md");
+    fs::write(&readme, "mine").unwrap();
+    let publish = [
+        "catalog",
+        "publish",
+        "--certified",
+        "3",
+        "--listed",
+        "3",
+        path,
+    ];
+    let run = verify(&publish);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("README.md"));
+    assert_eq!(fs::read_to_string(&readme).unwrap(), "mine");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    fs::remove_file(&readme).unwrap();
+    good(&verify(&publish));
+    good(&verify(&publish));
+}

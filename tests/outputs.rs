@@ -288,10 +288,12 @@ fn names_that_collide_in_a_folder_are_numbered_and_said() {
     file(folder.path(), "a/x.txt", PAIR);
     file(folder.path(), "a_x.txt", PAIR);
     file(folder.path(), "y.txt", PAIR);
+    file(folder.path(), "manifest", PAIR);
     file(&out, "y.txt.json", "{\"mine\": true}\n");
     let run = || {
         Command::new(env!("CARGO_BIN_EXE_verify"))
-            .args(["a/x.txt", "a_x.txt", "y.txt", "--certificate", "out"])
+            .args(["a/x.txt", "a_x.txt", "y.txt", "manifest"])
+            .args(["--certificate", "out"])
             .current_dir(folder.path())
             .output()
             .unwrap()
@@ -299,6 +301,7 @@ fn names_that_collide_in_a_folder_are_numbered_and_said() {
     let expected = [
         "a_x.txt-2.json",
         "a_x.txt.json",
+        "manifest-2.json",
         "y.txt-2.json",
         "y.txt.json",
     ];
@@ -316,9 +319,11 @@ fn names_that_collide_in_a_folder_are_numbered_and_said() {
                  out/a_x.txt-2.json",
                 "verify: out/y.txt.json is not a certificate and stays as it is; the certificate of y.txt is \
                  out/y.txt-2.json",
+                "verify: out/manifest.json is not a name that `verify check` takes for a certificate; the \
+                 certificate of manifest is out/manifest-2.json",
             ]
         );
-        for name in &expected[..3] {
+        for name in &expected[..4] {
             assert!(is_certificate(&fs::read_to_string(out.join(name)).unwrap()));
         }
         let mine = fs::read_to_string(out.join("y.txt.json")).unwrap();

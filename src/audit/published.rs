@@ -15,7 +15,7 @@ use crate::graph::{Graph, sha256};
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
-/// Most multiplications, roughly, for everything here: some seconds.
+/// Most multiplications, roughly, for everything here: ten seconds or so.
 const MAX_WORK: usize = 20_000_000_000;
 
 /// The published method without rounding.

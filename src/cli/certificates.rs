@@ -1,6 +1,6 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
-use super::atomic;
+use super::{atomic, manifest};
 use crate::certificate::{self, Layout};
 use crate::graph::NamedGraph;
 use crate::verdict::Verdict;
@@ -85,7 +85,11 @@ impl Target {
         let mut reason = None;
         for again in 2.. {
             let path = self.path.join(&name);
-            if self.taken.contains(&name) {
+            if name == manifest::NAME || name.ends_with(".schema.json") {
+                reason = reason.or(Some(
+                    "is not a name that `verify check` takes for a certificate",
+                ));
+            } else if self.taken.contains(&name) {
                 reason = reason.or(Some("is a certificate of this run already"));
             } else if !is_free(&path) {
                 reason = reason.or(Some("is not a certificate and stays as it is"));

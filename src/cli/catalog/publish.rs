@@ -14,7 +14,7 @@ use crate::exact::prime::PrimeField;
 use crate::graph::{Graph, graph6};
 use crate::report::catalog_page::{self, Drawing};
 use crate::verdict::{Options, Value, Verdict, VerdictError, decide};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
 use rayon::prelude::*;
@@ -51,6 +51,13 @@ const BATCH: usize = 1024;
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let folder = &arguments.folder;
     std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    // The only name among those of the catalog that anybody's folder may have.
+    let counts = std::fs::read_to_string(folder.join("counts.tsv")).unwrap_or_default();
+    ensure!(
+        !folder.join("README.md").exists() || counts.starts_with(COUNTED),
+        "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
+        folder.display()
+    );
     let progress = Progress::new(None);
     let mut drawings = Vec::new();
     let mut counts = Vec::new();
@@ -270,10 +277,13 @@ fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
     Ok(summary)
 }
 
+/// The first columns of `counts.tsv`.
+const COUNTED: &str = "nodes\tedges\tcandidates\t";
+
 fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
     writeln!(
         out,
-        "nodes\tedges\tcandidates\tfinite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
+        "{COUNTED}finite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
          unproved\trank_proved\tcomponents_proved"
     )?;
     for (nodes, summary) in counts {
