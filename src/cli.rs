@@ -10,6 +10,7 @@ mod compare;
 mod conditions;
 mod experiment;
 mod input;
+mod manifest;
 mod progress;
 mod verify;
 
@@ -23,7 +24,8 @@ use std::process::ExitCode;
 ///
 /// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
 /// compare: all agree; conditions: no necessary one fails), 1 some are not (check:
-/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input.
+/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input, 3 too
+/// large for the limits (compare: nothing could be compared), 141 nobody reads the output.
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true)]
@@ -64,6 +66,7 @@ pub fn main() -> ExitCode {
     };
     match done {
         Ok(code) => code,
+        Err(error) if atomic::is_broken_pipe(&error) => ExitCode::from(BROKEN_PIPE),
         Err(error) => {
             // Nothing is left to tell if standard error is gone as well.
             let _ = std::io::Write::write_fmt(
@@ -81,3 +84,7 @@ const GOOD: u8 = 0;
 const NOT: u8 = 1;
 /// Bad usage or input.
 const BAD_INPUT: u8 = 2;
+/// Too large for the limits.
+const TOO_LARGE: u8 = 3;
+/// Nobody reads on: what shells show for programs that a pipe has ended, 128 + SIGPIPE.
+const BROKEN_PIPE: u8 = 141;

@@ -228,10 +228,10 @@ QUOTED = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)')
 PLAIN = re.compile(r'([^ \t,"]+)(?=[ \t,]|$)')
 
 
-def split_fields(line, where, most=None):
-    """The fields of a line (at most so many of them), as pairs of text and whether it was quoted."""
+def split_fields(line, where):
+    """The fields of a line, as pairs of text and whether it was quoted."""
     fields, comma, at = [], False, 0
-    while at < len(line) and len(fields) != most:
+    while at < len(line):
         if line[at] in " \t":
             at += 1
         elif line[at] == ",":
@@ -258,8 +258,7 @@ def is_integer(text):
 
 def read_edges(lines, edges_format):
     """Section 2: an edge list."""
-    most = 2 if edges_format else None
-    rows = [(f"line {k}", split_fields(line, f"line {k}", most)) for k, line in enumerate(lines, 1)]
+    rows = [(f"line {k}", split_fields(line, f"line {k}")) for k, line in enumerate(lines, 1)]
     rows = [(where, fields) for where, fields in rows if fields]
     if not edges_format:
         width = len(rows[0][1]) if rows else 0
