@@ -119,7 +119,7 @@ fn too_large_for_the_dense_method() {
     let path: String = (0..2000).map(|k| format!("{k} {}\n", k + 1)).collect();
     let path = graph_file(folder.path(), "path.txt", &path);
     let run = verify(&["audit", "--method", "dense", &path]);
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("22016 x 24012"), "{}", run.err);
     assert!(run.err.contains("--method sparse"), "{}", run.err);
 }

@@ -8,9 +8,30 @@
 //! written; an input is never an output.
 
 use anyhow::{Context, Result, ensure};
+use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard};
+
+/// The temporary files that there are. Files are made, and take their names, while this is locked.
+static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    PENDING.lock().unwrap_or_else(|broken| broken.into_inner())
+}
+
+/// Removes all temporary files: the program is about to end. While the result is kept no file
+/// takes its name any more.
+#[must_use]
+pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    let mut pending = pending();
+    for path in std::mem::take(&mut *pending) {
+        // There is nobody left to tell.
+        let _ = std::fs::remove_file(path);
+    }
+    pending
+}
 
 /// The name of standard output among outputs, and of standard input among inputs.
 const STANDARD: &str = "-";
@@ -70,14 +91,26 @@ fn replace(
         // As for any new file: the process's mask takes off what it will.
         builder.permissions(Permissions::from_mode(0o666));
     }
-    let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
-    let mut out = BufWriter::with_capacity(BUFFER, file);
-    write(&mut out)?;
-    let file = out.into_inner().map_err(|error| error.into_error())?;
-    if let Some(permissions) = permissions {
-        file.as_file().set_permissions(permissions)?;
-    }
-    file.persist(path)?;
+    let file = {
+        let mut pending = pending();
+        let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
+        pending.insert(file.path().to_owned());
+        file
+    };
+    let temporary = file.path().to_owned();
+    let written = || -> Result<_> {
+        let mut out = BufWriter::with_capacity(BUFFER, file);
+        write(&mut out)?;
+        let file = out.into_inner().map_err(|error| error.into_error())?;
+        if let Some(permissions) = permissions {
+            file.as_file().set_permissions(permissions)?;
+        }
+        Ok(file)
+    };
+    let written = written();
+    let mut pending = pending();
+    pending.remove(&temporary);
+    written?.persist(path)?;
     Ok(())
 }
 
@@ -259,4 +292,27 @@ pub(super) fn is_broken_pipe(error: &anyhow::Error) -> bool {
             .or_else(|| cause.downcast_ref::<serde_json::Error>()?.io_error_kind());
         kind == Some(io::ErrorKind::BrokenPipe)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_abandoned_file_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let count = || std::fs::read_dir(folder.path()).unwrap().count();
+        let done = write(&path, |out| {
+            out.write_all(b"half")?;
+            assert_eq!(count(), 1);
+            drop(abandon());
+            assert_eq!(count(), 0);
+            Ok(())
+        });
+        assert!(done.is_err());
+        assert_eq!(count(), 0);
+        write(&path, |out| out.write_all(b"whole")).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"whole");
+    }
 }

@@ -9,7 +9,7 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic};
+use super::{GOOD, NOT, atomic, running};
 use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, published, study};
 use crate::graph::NamedGraph;
 use crate::verdict::{self, Value};
@@ -109,6 +109,7 @@ impl AuditArguments {
     fn exact(&self) -> verdict::Options {
         verdict::Options {
             seed: self.seed,
+            watch: running::watch(),
             ..verdict::Options::default()
         }
     }

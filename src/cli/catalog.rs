@@ -6,7 +6,7 @@ mod publish;
 mod source;
 
 use super::progress::Progress;
-use super::{BAD_INPUT, GOOD};
+use super::{BAD_INPUT, GOOD, running};
 use crate::catalog::mine::{self, Entry, Summary};
 use crate::catalog::minimal::decide_minimal;
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
@@ -115,6 +115,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         field: PrimeField::new(arguments.prime)
             .with_context(|| format!("--prime {}", arguments.prime))?,
         seed: arguments.seed,
+        watch: running::watch(),
         ..Options::default()
     };
     let sizes = arguments.nodes.clone().map_or(0..=0, |nodes| nodes.0);

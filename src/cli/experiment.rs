@@ -1,7 +1,7 @@
 //! `verify experiment`: the experiments of the paper.
 
 use super::progress::Progress;
-use super::{GOOD, atomic};
+use super::{GOOD, atomic, running};
 use crate::catalog::mine;
 use crate::catalog::random::{self, Density, Sampler, fisher};
 use crate::evidence::Strength;
@@ -88,6 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let options = Options {
         field: PrimeField::new(DEFAULT_PRIME)?,
         seed: arguments.seed,
+        watch: running::watch(),
         ..Options::default()
     };
     let mut columns = Vec::new();

@@ -1,7 +1,7 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{BAD_INPUT, GOOD, TOO_LARGE, atomic, certificates};
-use crate::graph::{Format, NamedGraph, ReadError, ReadOptions, read_graphs};
+use super::{GOOD, certificates, ends_run, exit_code, running};
+use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
 use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -49,7 +49,8 @@ impl InputArguments {
     /// `each` has seen the first.
     ///
     /// # Errors
-    /// If the output is gone: nobody reads on, and the rest would be work for nothing.
+    /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit
+    /// or a signal has ended the run.
     pub(super) fn for_each<W: Write>(
         &self,
         paths: &[String],
@@ -61,28 +62,29 @@ impl InputArguments {
         let options = self.read_options();
         for path in paths {
             let mut start = Instant::now();
+            running::reading(path);
             let mut graphs = read_graphs(path, &options).peekable();
             while let Some(input) = graphs.next() {
                 if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
                     let several = format!("several in {path}");
                     return Err(anyhow!(certificates::too_many(file, &several)));
                 }
+                running::hide();
+                if let Ok(input) = &input {
+                    running::doing(format!("working on {}", input.name));
+                }
                 let done = input.map_err(Into::into);
                 let done = done.and_then(|input| each(out, &input, start));
                 code = code.max(match done {
                     Ok(code) => code,
-                    Err(error) if atomic::is_broken_pipe(&error) => return Err(error),
+                    Err(error) if ends_run(&error) => return Err(error),
                     Err(error) => {
                         writeln!(std::io::stderr(), "verify: {error:#}")?;
-                        let refused = error.downcast_ref::<ReadError>();
-                        if refused.is_some_and(|refused| refused.problem.is_size()) {
-                            TOO_LARGE
-                        } else {
-                            BAD_INPUT
-                        }
+                        exit_code(&error)
                     }
                 });
                 out.flush().context("standard output")?;
+                running::reading(path);
                 start = Instant::now();
             }
         }

@@ -3,7 +3,7 @@
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic};
+use super::{GOOD, NOT, atomic, running};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
 use crate::graph::NamedGraph;
 use crate::model::Model;
@@ -104,6 +104,7 @@ impl VerifyArguments {
             contraction: !self.no_contraction,
             counting: !self.no_counting,
             seed: self.seed,
+            watch: running::shown_watch(),
         })
     }
 }
@@ -143,7 +144,9 @@ fn decide(
     start: Instant,
     out: &mut impl Write,
 ) -> Result<Value> {
-    let verdict = verdict::decide(&input.graph, options).with_context(|| input.name.clone())?;
+    let decided = verdict::decide(&input.graph, options);
+    running::hide();
+    let verdict = decided.with_context(|| input.name.clone())?;
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;

@@ -1,7 +1,7 @@
 //! `--claims`: every row of a table, decided again.
 
 use super::super::certificates::{Target, too_many};
-use super::super::{BAD_INPUT, GOOD, NOT, atomic};
+use super::super::{GOOD, NOT, atomic, ends_run, exit_code};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use crate::audit::claims::{self, Claim, Named, Row, Ruling};
@@ -28,6 +28,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let mut counts = [0; 4];
+    let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
         let ruled = claim(arguments, row).and_then(|(claim, input)| {
             let options = verdict::Options {
@@ -46,10 +47,11 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         });
         let (ruling, decided, certificate) = match ruled {
             Ok(ruled) => ruled,
-            Err(error) if atomic::is_broken_pipe(&error) => return Err(error),
+            Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
                 writeln!(std::io::stderr(), "verify: {}: {error:#}", at(row.line))?;
                 counts[3] += 1;
+                worst = worst.max(exit_code(&error));
                 continue;
             }
         };
@@ -81,11 +83,10 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         )?;
         out.flush().context("standard output")?;
     }
-    Ok(ExitCode::from(match (bad, refuted) {
-        (1.., _) => BAD_INPUT,
-        (0, 1..) => NOT,
-        _ => GOOD,
-    }))
+    if refuted > 0 {
+        worst = worst.max(NOT);
+    }
+    Ok(ExitCode::from(worst))
 }
 
 /// The claim of a row and the graph that it names.

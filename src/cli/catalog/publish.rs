@@ -2,7 +2,7 @@
 
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::super::progress::Progress;
-use super::super::{GOOD, atomic};
+use super::super::{GOOD, atomic, running};
 use crate::catalog::candidates::to_graph;
 use crate::catalog::canonical::canonical;
 use crate::catalog::invariants::Invariants;
@@ -128,15 +128,22 @@ impl Files<'_> {
     }
 }
 
+fn options() -> Options {
+    Options {
+        watch: running::watch(),
+        ..Options::default()
+    }
+}
+
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
 fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = Options::default();
+    let options = options();
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| Options {
             field,
-            ..Options::default()
+            ..options.clone()
         },
     );
     match decide(graph, &small) {
@@ -213,7 +220,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
 
 /// Writes the finite-solvable graphs of one size, and their invariants in the same order.
 fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
-    let options = Options::default();
+    let options = options();
     let mut summary = Summary::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
