@@ -2,14 +2,16 @@
 //!
 //! # What a seed means
 //!
-//! A draw is named by the SHA-256 of the graph (32 bytes), a seed and a draw number. Its
-//! generator is ChaCha with 20 rounds as in RFC 8439, with a 64-bit block counter from
+//! A draw is named by the SHA-256 of the graph and that of the core (32 bytes each), a seed and
+//! a draw number. Its generator is ChaCha with 20 rounds as in RFC 8439, with a 64-bit block counter from
 //! zero and a nonce of zero, under the key
 //!
 //! ```text
-//! SHA-256( "viewcert draw 1\n" || graph hash || seed, 8 bytes || draw number, 8 bytes )
+//! SHA-256( "viewcert draw 2\n" || graph hash || core hash || seed, 8 bytes || draw number, 8 bytes )
 //! ```
 //!
+//! so that bodies and pieces cannot be chosen to suit a stream; cameras of a whole graph that
+//! no certificate names have no core hash. Everything is as in docs/certificate.md, section 4,
 //! with numbers little-endian and the quoted text being 16 bytes of ASCII. The key stream,
 //! read as little-endian 64-bit words, is the only source of values. A number *uniform
 //! below b* is the next word with only its lowest k bits kept, k being the bit length of
@@ -57,6 +59,9 @@ pub type Camera<E> = [[E; 4]; 3];
 pub struct DrawKey {
     /// SHA-256 of the graph's canonical form.
     pub graph_sha256: [u8; 32],
+    /// SHA-256 of the core that the draw is for ([`core_sha256`](crate::graph::core_sha256));
+    /// nothing for draws that no certificate names.
+    pub core_sha256: Option<[u8; 32]>,
     /// The seed.
     pub seed: u64,
     /// The draw number, the first one to try.
@@ -97,7 +102,7 @@ pub enum DrawError {
 
 impl DrawKey {
     fn generator(&self) -> ChaCha20Rng {
-        self.generator_for(b"viewcert draw 1\n")
+        self.generator_for(b"viewcert draw 2\n")
     }
 
     /// Uniform elements of the field for whatever needs no name in a certificate: which
@@ -108,7 +113,7 @@ impl DrawKey {
 
     /// The weights of plane flows at the rows of N that are not pivots: uniform residues.
     pub fn flow_weights(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
-        self.stream(field, b"viewcert flow 1\n")
+        self.stream(field, b"viewcert flow 2\n")
     }
 
     fn stream(&self, field: &PrimeField, purpose: &[u8; 16]) -> impl FnMut() -> u64 + use<> {
@@ -121,6 +126,7 @@ impl DrawKey {
         let key = Sha256::new()
             .chain_update(purpose)
             .chain_update(self.graph_sha256)
+            .chain_update(self.core_sha256.as_ref().map_or(&[][..], |hash| hash))
             .chain_update(self.seed.to_le_bytes())
             .chain_update(self.draw.to_le_bytes())
             .finalize();
@@ -354,12 +360,13 @@ mod tests {
     use super::*;
     use crate::exact::prime::DEFAULT_PRIME;
 
-    /// The graph hash of the golden vectors: bytes 0, 1, .., 31. All expected values were
+    /// The hashes of the golden vectors: bytes 0, 1, .., 31 and 32, 33, .., 63. All expected values were
     /// computed by a separate program with its own ChaCha20, itself checked against the
     /// first test vector of RFC 8439, appendix A.1.
     fn key(seed: u64, draw: u64) -> DrawKey {
         DrawKey {
             graph_sha256: std::array::from_fn(|k| k as u8),
+            core_sha256: Some(std::array::from_fn(|k| 32 + k as u8)),
             seed,
             draw,
         }
@@ -371,32 +378,28 @@ mod tests {
             (
                 DEFAULT_PRIME,
                 [
+                    [624655696314904162, 246135101011452900, 2053744261706147208],
                     [
-                        1246937222198255468,
-                        2063447350921391663,
-                        1613684338704526777,
-                    ],
-                    [
-                        313851695211430391,
-                        1144912520107126605,
-                        324994753684931874u64,
+                        1295843460594348726,
+                        2011340929925472287,
+                        1630249016365732410u64,
                     ],
                 ],
             ),
             (
                 4611686018427387847,
                 [
+                    [624655696314904162, 2551978110225146852, 2053744261706147208],
                     [
-                        3552780231411949420,
-                        2063447350921391663,
-                        3919527347918220729,
+                        3601686469808042678,
+                        4317183939139166239,
+                        3936092025579426362,
                     ],
-                    [313851695211430391, 1144912520107126605, 324994753684931874],
                 ],
             ),
         ] {
             let field = PrimeField::new(p).unwrap();
-            let drawn = centres_mod(&field, 2, &key(7, 0)).unwrap();
+            let drawn = centres_mod(&field, 2, &key(8, 0)).unwrap();
             assert_eq!(drawn.draw, 0);
             assert_eq!(drawn.values, expected.map(|c| c.map(|x| field.from_u64(x))));
         }
@@ -406,10 +409,14 @@ mod tests {
     #[test]
     fn golden_centres_mod_drawn_prime() {
         let (field, centres, draw) = centres_mod_drawn_prime(2, &key(7, 3)).unwrap();
-        assert_eq!((field.modulus(), draw), (4339413764273369993, 3));
+        assert_eq!((field.modulus(), draw), (4583784759441924667, 3));
         let expected = [
-            [881795641151828847, 1499419119206969938, 2100357088918846207],
-            [2736202000115207422, 961499846577724831, 1195322211528276221],
+            [1530778447127531964, 2879095471265125339, 413703636176337145],
+            [
+                3377666444733347084,
+                2932502730988702117,
+                3642750422076531259,
+            ],
         ];
         let residues: Vec<[u64; 3]> = centres
             .iter()
@@ -425,7 +432,7 @@ mod tests {
         let first: [u64; 3] = std::array::from_fn(|_| field.to_u64(weights()));
         assert_eq!(
             first,
-            [930405442687540168, 604505434197379882, 2141589733269668872]
+            [199452007138300281, 2129664267895594181, 1049809134738358849]
         );
     }
 
@@ -435,22 +442,22 @@ mod tests {
         let drawn = cameras_mod(&field, 1, &key(7, 0)).unwrap();
         let expected = [
             [
-                1246937222198255468,
-                2063447350921391663,
-                1613684338704526777,
-                313851695211430391,
+                138597530750490042,
+                136621721074752660,
+                607459001971281611,
+                1269087237075713334,
             ],
             [
-                1144912520107126605,
-                324994753684931874,
-                1003686505266984497,
-                767239438158153385,
+                1355587316967177399,
+                89655535344540541,
+                1471952480407532537,
+                1051905663836271636,
             ],
             [
-                557031773918972244,
-                599751113987025218,
-                1292217024150045311,
-                2042408781592385975,
+                2270134845034297041,
+                1951706380515197115,
+                2188244862804772686,
+                498934813583705535,
             ],
         ];
         assert_eq!(
@@ -464,14 +471,14 @@ mod tests {
         let drawn = cameras_rational(2, 20, 9, &key(7, 3)).unwrap();
         let expected = [
             [
-                [-7980, -1008, -1512, 7560],
-                [-7560, 630, 1080, -45360],
-                [3024, -5040, -5040, 3780i64],
+                [448, 168, -4284, 936],
+                [616, 336, 756, 2016],
+                [-840, 4032, -3024, 378i64],
             ],
             [
-                [5880, -2940, 12600, -8568],
-                [7560, 1800, -10080, 3780],
-                [6300, 7560, -4200, -16380],
+                [11970, 2520, -3150, -315],
+                [6480, -720, -42840, 504],
+                [840, 2016, 1008, -504],
             ],
         ];
         assert_eq!(
@@ -484,24 +491,21 @@ mod tests {
     #[test]
     fn golden_centres_integer() {
         let drawn = centres_integer(3, 100, &key(u64::MAX, 5)).unwrap();
-        assert_eq!(
-            drawn.values,
-            [[36, -25, 75], [81, -16, -86], [-33, -20, -55]]
-        );
+        assert_eq!(drawn.values, [[-71, -62, 20], [8, 89, 3], [-27, 36, 28]]);
     }
 
     #[test]
     fn degenerate_draws_are_discarded_and_recorded() {
-        let drawn = centres_integer(8, 1, &key(7, 0)).unwrap();
+        let drawn = centres_integer(8, 1, &key(14, 0)).unwrap();
         assert_eq!(drawn.draw, 1);
-        assert_eq!(drawn.values[0], [1, 0, 1]);
-        assert_eq!(drawn.values[7], [1, -1, 0]);
+        assert_eq!(drawn.values[0], [0, 1, 0]);
+        assert_eq!(drawn.values[7], [1, -1, 1]);
 
         // Modulo 5 fourteen random cameras often share a centre or have rank below 3.
         let field = PrimeField::new(5).unwrap();
-        let drawn = cameras_mod(&field, 14, &key(1, 0)).unwrap();
+        let drawn = cameras_mod(&field, 14, &key(4, 0)).unwrap();
         assert_eq!(drawn.draw, 1);
-        let expected = [[0, 4, 2, 0], [4, 3, 3, 4], [0, 3, 1, 2]];
+        let expected = [[2, 3, 1, 3], [2, 1, 4, 3], [1, 2, 3, 3]];
         assert_eq!(
             drawn.values[0],
             expected.map(|row| row.map(|x| field.from_u64(x)))
@@ -538,14 +542,25 @@ mod tests {
         let field = PrimeField::mersenne61();
         let mut other_graph = key(7, 0);
         other_graph.graph_sha256[31] ^= 1;
-        let keys = [key(7, 0), key(8, 0), key(7, 1), other_graph];
+        let mut other_core = key(7, 0);
+        other_core.core_sha256 = Some([0; 32]);
+        let mut no_core = key(7, 0);
+        no_core.core_sha256 = None;
+        let keys = [
+            key(7, 0),
+            key(8, 0),
+            key(7, 1),
+            other_graph,
+            other_core,
+            no_core,
+        ];
         let mut first: Vec<_> = keys
             .iter()
             .map(|key| centres_mod(&field, 1, key).unwrap().values)
             .collect();
         first.sort_unstable();
         first.dedup();
-        assert_eq!(first.len(), 4);
+        assert_eq!(first.len(), keys.len());
     }
 
     #[test]

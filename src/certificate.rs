@@ -1,4 +1,4 @@
-//! The certificate as written: docs/certificate.md, version 1.
+//! The certificate as written: docs/certificate.md, version 2.
 
 mod layout;
 mod view;

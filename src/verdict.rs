@@ -242,7 +242,7 @@ fn conclude(
         .first()
         .is_some_and(|piece| all_nodes(&piece.members) && rank == required);
     let value = match model {
-        _ if is_body => Value::Solvable,
+        _ if is_body || graph.nodes() == 1 => Value::Solvable,
         Model::Calibrated if is_full => Value::Solvable,
         Model::Projective if is_full => Value::FiniteSolvable,
         _ => Value::NotFiniteSolvable,

@@ -54,7 +54,11 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ),
         ("calibrated", cycle(5), vec!["--model", "calibrated"]),
         ("small prime", cycle(4), vec!["--prime=101"]),
-        ("isolated camera", format!("{triangle}d\n"), vec![]),
+        (
+            "isolated camera",
+            format!("{triangle}d\n"),
+            vec!["--format", "edges"],
+        ),
     ]
 }
 

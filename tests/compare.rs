@@ -257,6 +257,7 @@ fn bareiss_finds_the_same_ranks() {
         };
         let key = DrawKey {
             graph_sha256: [0; 32],
+            core_sha256: None,
             seed: 7,
             draw: 0,
         };

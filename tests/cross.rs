@@ -53,6 +53,7 @@ fn around_the_threshold(count: u64, largest: u32) -> impl Iterator<Item = Graph>
 fn key(graph: &Graph, draw: u64) -> DrawKey {
     DrawKey {
         graph_sha256: sha256(graph),
+        core_sha256: None,
         seed: 77,
         draw,
     }

@@ -38,6 +38,7 @@ fn json_has_the_documented_members() {
     let members: Vec<_> = line.as_object().unwrap().keys().cloned().collect();
     for member in [
         "graph",
+        "notes",
         "verdict",
         "strength",
         "error_log2",
@@ -77,7 +78,10 @@ fn labels_are_kept() {
 
 #[test]
 fn isolated_cameras_are_never_determined() {
-    let run = verify_with(b"a b\nb c\nc a\nd\n", &["-", "--json"]);
+    let run = verify_with(
+        b"a b\nb c\nc a\nd\n",
+        &["-", "--json", "--format", "edges"],
+    );
     assert_eq!(run.code, 1);
     let line = &run.json()[0];
     assert_eq!(

@@ -26,6 +26,7 @@ pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
     let field = PrimeField::mersenne61();
     let key = DrawKey {
         graph_sha256: sha256(graph),
+        core_sha256: None,
         seed,
         draw,
     };

@@ -70,7 +70,7 @@ impl<'a> Document<'a> {
         let (rank_strength, rank_error) = valued(verdict.rank_strength);
         Self {
             format: "viewcert certificate",
-            version: 1,
+            version: 2,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView {
                 name,
@@ -239,7 +239,6 @@ impl Serialize for View<'_, Evidence> {
             Evidence::Minor { draw, pivots } => {
                 map.serialize_entry("kind", "minor")?;
                 map.serialize_entry("prime", &Big(draw.prime))?;
-                map.serialize_entry("cameras", "general")?;
                 seed_and_draw(&mut map, draw)?;
                 rows_and_cols(&mut map, pivots)?;
             }

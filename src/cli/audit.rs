@@ -23,8 +23,8 @@ use std::time::Instant;
 /// Options of the audit.
 #[derive(Args)]
 pub(super) struct AuditArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required_unless_present = "claims", value_name = "GRAPH")]
     graphs: Vec<String>,
     #[command(flatten)]

@@ -5,7 +5,7 @@ mod folder;
 
 use self::folder::{Listing, name};
 use super::manifest::Contents;
-use super::{GOOD, NOT};
+use super::{GOOD, NOT, TOO_LARGE};
 use crate::report::counted;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -17,6 +17,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_check::Failure;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -70,9 +71,13 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             }
             GOOD
         }
-        Err(rejection) => {
-            writeln!(out, "REJECTED: {}", printable(&rejection))?;
+        Err(Failure::Rejected(rejection)) => {
+            writeln!(out, "REJECTED: {}", printable(&rejection.to_string()))?;
             NOT
+        }
+        Err(Failure::TooLarge(limit)) => {
+            writeln!(std::io::stderr(), "verify: {}", printable(&limit.to_string()))?;
+            TOO_LARGE
         }
     };
     out.flush().context("standard output")?;
@@ -128,7 +133,7 @@ fn is_list(path: &Path) -> bool {
 fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
-    let (mut verified, mut rejected) = (0, 0);
+    let (mut verified, mut rejected, mut undecided) = (0, 0, 0);
     let mut graphs = BTreeSet::new();
     let mut found: BTreeMap<&Path, Contents> = BTreeMap::new();
     let mut out = std::io::stdout().lock();
@@ -157,10 +162,15 @@ fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
                         *contents.verdicts.entry(proved.verdict).or_default() += 1;
                         of_file.insert(proved.sha256);
                     }
-                    Err(rejection) => {
+                    Err(Failure::Rejected(rejection)) => {
                         rejected += 1;
-                        let rejection = printable(&rejection);
+                        let rejection = printable(&rejection.to_string());
                         writeln!(out, "REJECTED {}:{line}: {rejection}", name(file))?;
+                    }
+                    Err(Failure::TooLarge(limit)) => {
+                        undecided += 1;
+                        let limit = printable(&limit.to_string());
+                        writeln!(out, "UNDECIDED {}:{line}: {limit}", name(file))?;
                     }
                 }
             }
@@ -170,9 +180,16 @@ fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
         graphs.append(&mut of_file);
     }
     bar.finish_and_clear();
-    ensure!(verified + rejected > 0, "the files hold no certificates");
+    ensure!(
+        verified + rejected + undecided > 0,
+        "the files hold no certificates"
+    );
     let certificates = counted(verified, "certificate");
-    writeln!(out, "{certificates} verified, {rejected} rejected")?;
+    write!(out, "{certificates} verified, {rejected} rejected")?;
+    if undecided > 0 {
+        write!(out, ", {undecided} too large for the limits")?;
+    }
+    writeln!(out)?;
     writeln!(out, "{}", counted(graphs.len(), "distinct graph"))?;
     let mut good = rejected == 0;
     match listing.completeness(&found)? {
@@ -190,7 +207,11 @@ fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
         None => {}
     }
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(if good { GOOD } else { NOT }))
+    Ok(ExitCode::from(match (good, undecided) {
+        (true, 0) => GOOD,
+        (true, _) => TOO_LARGE,
+        (false, _) => NOT,
+    }))
 }
 
 /// The certificates of a file, one after another.

@@ -1,7 +1,7 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{BAD_INPUT, GOOD, atomic, certificates};
-use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
+use super::{BAD_INPUT, GOOD, TOO_LARGE, atomic, certificates};
+use crate::graph::{Format, NamedGraph, ReadError, ReadOptions, read_graphs};
 use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -11,7 +11,14 @@ use std::time::Instant;
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
 pub(super) struct InputArguments {
-    /// Format of the graphs [default: what they look like].
+    /// Format of the graphs [default: what they can only be, by their content].
+    ///
+    /// An edge list has 2, 3, 9 or 14 fields on every line, separated by blanks, tabs or a
+    /// comma: two labels and numbers, which are ignored (weights, relative poses). Names with
+    /// blanks stand in quotes; # and % begin comments; a head like source,target is recognised.
+    /// What could be something else (a line of counts, a matrix, an adjacency list, files of other
+    /// programs) is refused, by name where it has one. `--format edges` reads the first two fields
+    /// of every line all the same. What is ignored, merged or guessed is printed as a note.
     #[arg(long, value_enum)]
     format: Option<FormatName>,
     /// Variable of a MATLAB file [default: A, or the only square matrix].
@@ -21,12 +28,17 @@ pub(super) struct InputArguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum FormatName {
-    /// One pair a line.
-    EdgeList,
+    /// One pair a line: the first two fields, whatever follows; one field alone is a camera.
+    #[value(alias = "edge-list")]
+    Edges,
     /// One graph a line.
     Graph6,
+    /// One graph a line, incremental ones among them.
+    Sparse6,
     /// Adjacency matrix, MATLAB 5.
     Matlab,
+    /// Adjacency matrix, MatrixMarket coordinates.
+    MatrixMarket,
 }
 
 impl InputArguments {
@@ -62,7 +74,12 @@ impl InputArguments {
                     Err(error) if atomic::is_broken_pipe(&error) => return Err(error),
                     Err(error) => {
                         writeln!(std::io::stderr(), "verify: {error:#}")?;
-                        BAD_INPUT
+                        let refused = error.downcast_ref::<ReadError>();
+                        if refused.is_some_and(|refused| refused.problem.is_size()) {
+                            TOO_LARGE
+                        } else {
+                            BAD_INPUT
+                        }
                     }
                 });
                 out.flush().context("standard output")?;
@@ -76,9 +93,11 @@ impl InputArguments {
     fn read_options(&self) -> ReadOptions {
         ReadOptions {
             format: self.format.map(|format| match format {
-                FormatName::EdgeList => Format::EdgeList,
+                FormatName::Edges => Format::Edges,
                 FormatName::Graph6 => Format::Graph6,
+                FormatName::Sparse6 => Format::Sparse6,
                 FormatName::Matlab => Format::Matlab,
+                FormatName::MatrixMarket => Format::MatrixMarket,
             }),
             variable: self.variable.clone(),
         }

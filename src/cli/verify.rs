@@ -19,8 +19,8 @@ use std::time::Instant;
 /// Options of the verifier.
 #[derive(Args)]
 pub(super) struct VerifyArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and

@@ -65,7 +65,7 @@ pub(super) fn decide(graph: &Graph, adjacency: &Adjacency) -> Decided {
     if graph.nodes() < 3 {
         return Err("fewer than 3 cameras".into());
     }
-    let mut largest = 2;
+    let mut largest = if graph.edges().is_empty() { 1 } else { 2 };
     let mut growth = Growth::new(graph.nodes());
     let mut grown: Vec<Vec<u32>> = vec![Vec::new(); graph.nodes()];
     for (trial, &(i, j)) in (0..).zip(graph.edges()) {

@@ -231,6 +231,7 @@ fn compare<F: RankField>(
     }
     let mut key = DrawKey {
         graph_sha256: sha256(graph),
+        core_sha256: None,
         seed,
         draw: 0,
     };
@@ -427,6 +428,7 @@ mod tests {
         let graph = graph(5, &[(0, 1), (1, 2), (0, 2), (2, 3)]);
         let key = DrawKey {
             graph_sha256: [0; 32],
+            core_sha256: None,
             seed: 1,
             draw: 0,
         };

@@ -100,6 +100,7 @@ mod tests {
     fn key(seed: u64) -> DrawKey {
         DrawKey {
             graph_sha256: [0; 32],
+            core_sha256: None,
             seed,
             draw: 0,
         }

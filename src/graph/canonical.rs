@@ -12,14 +12,40 @@ use sha2::{Digest, Sha256};
 use super::Graph;
 
 const HEADER: &[u8] = b"viewcert graph 1\n";
+const CORE_HEADER: &[u8] = b"viewcert core 2\n";
 const EDGES_A_BLOCK: usize = 8192;
 
 /// SHA-256 of the canonical form of a graph. O(m) time, constant space.
 pub fn sha256(graph: &Graph) -> [u8; 32] {
+    let mut hash = header(HEADER, graph);
+    edges(&mut hash, graph);
+    hash.finalize().into()
+}
+
+/// SHA-256 of a core (docs/certificate.md, section 4), which names the nodes of the graph that
+/// `core` numbers from 0. O(n + m) time, constant space.
+///
+/// # Panics
+/// If there is not one name a node.
+pub fn core_sha256(nodes: &[u32], core: &Graph) -> [u8; 32] {
+    assert_eq!(nodes.len(), core.nodes(), "one name a node");
+    let mut hash = header(CORE_HEADER, core);
+    for node in nodes {
+        hash.update(node.to_le_bytes());
+    }
+    edges(&mut hash, core);
+    hash.finalize().into()
+}
+
+fn header(text: &[u8], graph: &Graph) -> Sha256 {
     let mut hash = Sha256::new();
-    hash.update(HEADER);
+    hash.update(text);
     hash.update((graph.nodes() as u64).to_le_bytes());
     hash.update((graph.edges().len() as u64).to_le_bytes());
+    hash
+}
+
+fn edges(hash: &mut Sha256, graph: &Graph) {
     let mut block = vec![0; 8 * EDGES_A_BLOCK.min(graph.edges().len())];
     for edges in graph.edges().chunks(EDGES_A_BLOCK) {
         for (bytes, &(i, j)) in block.chunks_exact_mut(8).zip(edges) {
@@ -28,7 +54,6 @@ pub fn sha256(graph: &Graph) -> [u8; 32] {
         }
         hash.update(&block[..8 * edges.len()]);
     }
-    hash.finalize().into()
 }
 
 #[cfg(test)]
@@ -54,6 +79,23 @@ mod tests {
         assert_eq!(
             hex(&complete),
             "8cf1bfa69e1c0eb93fdf8cf56504659539410dba44f5110afe15df9cf731e413"
+        );
+    }
+
+    /// By the same independent computation.
+    #[test]
+    fn the_digest_of_a_core_names_its_nodes() {
+        let edges = vec![(0, 1), (0, 2), (1, 2), (2, 3)];
+        let (core, _) = Graph::from_pairs(4, edges).unwrap();
+        let digest = core_sha256(&[3, 5, 6, 9], &core);
+        let digest: String = digest.iter().map(|b| format!("{b:02x}")).collect();
+        assert_eq!(
+            digest,
+            "93beed85e2f4a6d6e0c369eae3563688a89f53d6624f7b3663f2d0b0528b7459"
+        );
+        assert_ne!(
+            core_sha256(&[3, 5, 6, 8], &core),
+            core_sha256(&[3, 5, 6, 9], &core)
         );
     }
 }

@@ -15,6 +15,9 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
     let edges = input.graph.edges().len();
     writeln!(out, "{}", input.name)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     let head = "rows x columns";
     writeln!(
         out,
@@ -102,6 +105,7 @@ fn rank_cells(line: &Line) -> String {
 #[derive(Serialize)]
 struct Json<'a> {
     graph: JsonGraph<'a>,
+    notes: &'a [String],
     draw: u64,
     agree: Option<bool>,
     computed: usize,
@@ -179,6 +183,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
             nodes: input.graph.nodes(),
             edges: input.graph.edges().len(),
         },
+        notes: &input.notes,
         draw: found.draw,
         agree: match found.outcome(&input.graph) {
             Outcome::Agree(_) => Some(true),

@@ -118,6 +118,9 @@ const SHOWN: usize = 12;
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     for condition in found {
         let kind = if condition.necessary {
             "necessary"
@@ -148,6 +151,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     result: &'static str,
     conditions: Vec<JsonCondition>,
 }
@@ -184,6 +188,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         graph: &input.name,
         nodes: input.graph.nodes(),
         edges: input.graph.edges().len(),
+        notes: &input.notes,
         result: conclusion(found),
         conditions,
     };

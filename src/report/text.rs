@@ -31,7 +31,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "  components  {} ({}): {}",
+        "  components  {} ({}){}",
         verdict.components.len(),
         strength(verdict.components_strength),
         sizes(verdict)
@@ -73,6 +73,9 @@ fn strength(strength: Strength) -> String {
 fn reason(report: &Report) -> String {
     let verdict = report.verdict;
     let nodes = report.input.graph.nodes();
+    if nodes == 1 {
+        return "a single camera has nothing to be relative to".into();
+    }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
         return match verdict.contraction.bodies.len() {
             0 => "a single pair determines its two cameras".into(),
@@ -112,6 +115,7 @@ fn reason(report: &Report) -> String {
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
     match verdict.strength {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
+        Strength::Proof if parts == 0 => "there are no pairs".into(),
         Strength::Proof if parts > 1 => {
             format!("{parts} parts hang together in single cameras, or not at all")
         }
@@ -122,6 +126,7 @@ fn reason(report: &Report) -> String {
     }
 }
 
+/// The sizes of the components, behind a colon if there are any.
 fn sizes(verdict: &Verdict) -> String {
     let mut text: Vec<String> = verdict
         .components
@@ -135,7 +140,10 @@ fn sizes(verdict: &Verdict) -> String {
     if verdict.components.len() > SHOWN {
         text.push(format!("and {} more", verdict.components.len() - SHOWN));
     }
-    text.join(", ")
+    if text.is_empty() {
+        return String::new();
+    }
+    format!(": {}", text.join(", "))
 }
 
 fn seconds(micros: u128) -> String {

@@ -7,6 +7,7 @@ use crate::component;
 use crate::evidence::{Class, ClassKind, Draws, Evidence, ModularDraw, PieceVerdict, Strength};
 use crate::exact::prime::PrimeField;
 use crate::formulation::plane_flow::{Lambda, PlaneFlowRank, PlaneFlows};
+use crate::graph::core_sha256;
 use crate::model::Model;
 use crate::piece::{Assembly, Core, Members};
 use rayon::prelude::*;
@@ -40,6 +41,7 @@ fn decide(
         members,
         core: &core,
         sha256,
+        core_sha256: core_sha256(&core.nodes, &core.graph),
         options,
     };
     let mut evidence = Vec::new();
@@ -88,6 +90,7 @@ struct Piece<'a> {
     members: &'a Members,
     core: &'a Core,
     sha256: &'a [u8; 32],
+    core_sha256: [u8; 32],
     options: &'a Options,
 }
 
@@ -110,6 +113,7 @@ impl Piece<'_> {
     fn key(&self, draw: u64) -> DrawKey {
         DrawKey {
             graph_sha256: *self.sha256,
+            core_sha256: Some(self.core_sha256),
             seed: self.options.seed,
             draw,
         }
@@ -271,7 +275,10 @@ impl Piece<'_> {
     fn full_rank(&self, part: &Members, from: u64) -> Result<Option<Evidence>, VerdictError> {
         let core = self.assembly.core(part);
         let required = self.options.model.required(core.graph.nodes());
-        let mut next = from;
+        let mut next = DrawKey {
+            core_sha256: Some(core_sha256(&core.nodes, &core.graph)),
+            ..self.key(from)
+        };
         let nodes = core.graph.nodes();
         let field = self.options.field_for(nodes);
         // Where bad luck is rare one draw tells: what it misses is looked at as a graph of its own.
@@ -281,12 +288,12 @@ impl Piece<'_> {
             ATTEMPTS
         };
         for _ in 0..attempts {
-            let at = draw(&field, nodes, self.key(next))?;
+            let at = draw(&field, nodes, next)?;
             let ranks = ranks(self.options.model, &at, &core);
             if ranks.rank == required {
                 return Ok(Some(ranks.evidence(at.draw)));
             }
-            next = at.draw.draw + 1;
+            next.draw = at.draw.draw + 1;
         }
         Ok(None)
     }

@@ -97,6 +97,9 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let exact = audit.exact;
     writeln!(out, "{}", audit.input.name)?;
     writeln!(out, "  graph       {}", size(graph))?;
+    for note in &audit.input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     writeln!(
         out,
         "  exact       {} ({}), components {}, {:.3} s",
@@ -160,6 +163,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     exact: Side,
     float: Float,
     agree: bool,
@@ -210,6 +214,7 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         graph: &audit.input.name,
         nodes: audit.input.graph.nodes(),
         edges: audit.input.graph.edges().len(),
+        notes: &audit.input.notes,
         exact: Side {
             verdict: audit.exact.value.name(),
             strength: audit.exact.strength.name(),

@@ -3,7 +3,7 @@
 use crate::graph::{ReadOptions, matlab, read_graphs};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
-use viewcert_check::{Certificate, Graph, Rejection, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Verified};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -16,9 +16,9 @@ pub(super) struct Proved {
 }
 
 impl Proved {
-    fn new(certificate: &Certificate, verified: &Verified) -> Self {
+    fn new(verified: &Verified) -> Self {
         Self {
-            sha256: certificate.graph_sha256().to_owned(),
+            sha256: verified.sha256.clone(),
             verdict: verified.verdict.0.to_string(),
             text: verified.to_string(),
         }
@@ -26,13 +26,8 @@ impl Proved {
 }
 
 /// What a certificate proves about the graph that it holds; otherwise why it is rejected.
-pub(super) fn check(text: &[u8]) -> Result<Proved, String> {
-    let proved = |certificate: &Certificate| -> Result<Proved, Rejection> {
-        Ok(Proved::new(certificate, &certificate.check(None)?))
-    };
-    Certificate::parse(text)
-        .and_then(|certificate| proved(&certificate))
-        .map_err(|rejection| rejection.to_string())
+pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
+    viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }
 
 /// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
@@ -40,10 +35,10 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, String> {
 ///
 /// # Errors
 /// If there is no such graph.
-pub(super) fn check_for(text: &[u8], path: &Path) -> Result<Result<Proved, String>> {
+pub(super) fn check_for(text: &[u8], path: &Path) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
-        Err(rejection) => return Ok(Err(rejection.to_string())),
+        Err(failure) => return Ok(Err(failure)),
     };
     let bytes = super::read(path)?;
     let graph = if matlab::is_matlab(&bytes) {
@@ -59,8 +54,7 @@ pub(super) fn check_for(text: &[u8], path: &Path) -> Result<Result<Proved, Strin
         Graph::read(&bytes, || Some(certificate.graph_sha256()))
     };
     let graph = graph.with_context(|| path.display().to_string())?;
-    Ok(match certificate.check(Some(&graph)) {
-        Ok(verified) => Ok(Proved::new(&certificate, &verified)),
-        Err(rejection) => Err(rejection.to_string()),
-    })
+    Ok(certificate
+        .check(Some(&graph))
+        .map(|verified| Proved::new(&verified)))
 }

@@ -1,0 +1,1406 @@
+#!/usr/bin/env python3
+"""A second checker of viewing-graph certificates, written from docs/certificate.md alone.
+
+It shares no code, language, arithmetic, parser or dependency with the first one, `viewcert-check`. It is meant to be
+read: each function is the list of conditions of one section of that page, in the page's order, and names the section.
+Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
+"""
+
+import argparse
+import functools
+import gzip
+import hashlib
+import heapq
+import itertools
+import json
+import math
+import re
+import struct
+import sys
+
+CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
+DIGITS_LIMIT = 100_000  # of a *big*
+if hasattr(sys, "set_int_max_str_digits"):
+    sys.set_int_max_str_digits(0)  # the limit on digits is the one above
+# Exponents of Mersenne primes: moduli for determinants and ranks over Q.
+MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
+
+
+class Reject(Exception):
+    """The certificate does not prove its claim."""
+
+
+class Unreadable(Exception):
+    """A file cannot be read, or does not hold one graph for sure."""
+
+
+class TooLarge(Exception):
+    """The certificate may be right, but is beyond this checker's limits."""
+
+
+def need(condition, reason):
+    if not condition:
+        raise Reject(reason)
+
+
+# Section 1: notation -------------------------------------------------------------------------------------------------
+
+
+def parse(data):
+    """Section 1: one strict JSON text."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        raise Reject("the text is not UTF-8") from None
+    need(not text.startswith("\ufeff"), "the text begins with a byte order mark")
+    depth = 0
+    for mark in re.findall(r"[\[{\]}]", re.sub(r'"(?:[^"\\]|\\.)*"', "", text, flags=re.S)):
+        depth += 1 if mark in "[{" else -1
+        need(depth <= 127, "objects and lists are nested more than 127 deep")
+
+    def pairs(items):
+        found = dict(items)
+        need(len(found) == len(items), "a member is repeated")
+        return found
+
+    def integer(digits):
+        need(re.fullmatch(r"0|-?[1-9][0-9]{0,15}", digits), f"{digits[:40]} is not an int")
+        need(abs(int(digits)) < 2**53, f"the int {digits} is not below 2^53")
+        return int(digits)
+
+    def refuse(token):
+        raise Reject(f"the number {token[:40]} is not an int")
+
+    try:
+        document = json.loads(
+            text, object_pairs_hook=pairs, parse_int=integer, parse_float=refuse, parse_constant=refuse
+        )
+    except json.JSONDecodeError as error:
+        raise Reject(f"not JSON: {error}") from None
+    if "\\" in text:
+        refuse_half_surrogates(document)
+    return document
+
+
+def refuse_half_surrogates(value):
+    if type(value) is str:
+        need(not re.search("[\ud800-\udfff]", value), "an escape is half of a surrogate pair")
+    elif type(value) is list:
+        for item in value:
+            refuse_half_surrogates(item)
+    elif type(value) is dict:
+        for name, item in value.items():
+            refuse_half_surrogates(name)
+            refuse_half_surrogates(item)
+
+
+def members(value, names, where):
+    """The values of exactly the members `names` (separated by blanks) of an object, in that order."""
+    need(type(value) is dict, f"{where} is not an object")
+    names = names.split()
+    for name in names:
+        need(name in value, f"{where}: the member {name} is missing")
+    for name in value:
+        need(name in names, f"{where}: the member {name} is unknown")
+    return [value[name] for name in names]
+
+
+def a_list(value, where):
+    need(type(value) is list, f"{where} is not a list")
+    return value
+
+
+def a_string(value, where):
+    need(type(value) is str, f"{where} is not a string")
+    return value
+
+
+def an_int(value, where, least=None, below=None):
+    need(type(value) is int, f"{where} is not an int")
+    need(least is None or value >= least, f"{where}: {value} is below {least}")
+    need(below is None or value < below, f"{where}: {value} is out of range")
+    return value
+
+
+def a_big(value, where, least=None, below=None):
+    need(type(value) is str and re.fullmatch(r"0|-?[1-9][0-9]*", value), f"{where} is not a big")
+    if below is not None:
+        need(len(value) <= len(str(below)), f"{where} is out of range")
+    if len(value) > DIGITS_LIMIT:
+        raise TooLarge(f"{where} has more than {DIGITS_LIMIT} digits")
+    number = int(value)
+    need(least is None or number >= least, f"{where}: {number} is below {least}")
+    need(below is None or number < below, f"{where} is out of range")
+    return number
+
+
+def a_pair(value, where):
+    need(type(value) is list and len(value) == 2, f"{where} is not a pair")
+    i, j = (an_int(node, where) for node in value)
+    need(i < j, f"{where}: a pair has the smaller node first")
+    return (i, j)
+
+
+def increasing(values, where):
+    need(all(a < b for a, b in zip(values, values[1:])), f"{where} is not increasing")
+    return values
+
+
+# Section 2: the graph ------------------------------------------------------------------------------------------------
+
+
+class Graph:
+    """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form."""
+
+    def __init__(self, n, edges):
+        self.n = n
+        self.edges = sorted(set(edges))
+        self.edge_set = frozenset(self.edges)
+        flat = itertools.chain.from_iterable(self.edges)
+        form = b"viewcert graph 1\n" + struct.pack("<QQ", n, len(self.edges))
+        self.hash = hashlib.sha256(form + struct.pack(f"<{2 * len(self.edges)}I", *flat)).digest()
+
+
+def read_graph6(line):
+    """The graph of a graph6 line, or None if it is not one: all bytes, and no bit behind the last pair."""
+    if not line or any(not "?" <= c <= "~" for c in line):
+        return None
+    values = [ord(c) - 63 for c in line]
+    skip, size = (2, 6) if values[:2] == [63, 63] else (1, 3) if values[0] == 63 else (0, 1)
+    if len(values) < skip + size:
+        return None
+    n = sum(value << 6 * (size - 1 - k) for k, value in enumerate(values[skip : skip + size]))
+    body = values[skip + size :]
+    bits = n * (n - 1) // 2
+    if len(body) != -(-bits // 6):
+        return None
+    if body and body[-1] & ((1 << (-bits % 6)) - 1):
+        return None
+    edges = []
+    for at, value in enumerate(body):
+        for bit in range(6):
+            if value >> (5 - bit) & 1:
+                k = 6 * at + bit
+                j = (1 + math.isqrt(8 * k + 1)) // 2
+                edges.append((k - j * (j - 1) // 2, j))
+    return Graph(n, edges)
+
+
+def read_graph(data, sha256, edges_format):
+    """Section 2, files that hold a graph: the graph that the certificate means."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        raise Unreadable("not UTF-8") from None
+    text = text[1:] if text.startswith("\ufeff") else text
+    lines = [line[:-1] if line.endswith("\r") else line for line in (text + "\n").split("\n")[:-1]]
+    if not text.endswith("\n") and text.endswith("\r"):
+        lines[-1] += "\r"  # the last line has no end, so its carriage return is not dropped
+    for number, line in enumerate(lines, 1):
+        if re.search("[\x00-\x08\x0a-\x1f\x7f\ufeff]", line):
+            raise Unreadable(f"line {number}: a control character")
+    if not edges_format:
+        header = text.startswith(">>graph6<<")
+        graphs = []
+        for line in [lines[0][10:]] + lines[1:] if header else lines:
+            if line.strip(" \t"):
+                graphs.append(read_graph6(line.strip(" \t")))
+                if graphs[-1] is None:
+                    break
+        if graphs and graphs[-1] is not None:
+            return next((graph for graph in graphs if graph.hash.hex() == sha256), graphs[0])
+        if header:
+            raise Unreadable("not graph6, although the header says so")
+        if re.match(r"[ \t\r\n]*[\[{<]", text):
+            raise Unreadable("JSON or XML (say so with --format edges if it is an edge list)")
+    return read_edges(lines, edges_format)
+
+
+HEADS = {
+    tuple(pair.split())
+    for pair in """source target, from to, src dst, node1 node2, node_1 node_2, image1 image2, image_1 image_2,
+    image_id1 image_id2, name1 name2, name_1 name_2, id1 id2""".split(",")
+}
+NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
+
+
+QUOTED = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)')
+PLAIN = re.compile(r'([^ \t,"]+)(?=[ \t,]|$)')
+
+
+def split_fields(line, where):
+    """The fields of a line, as pairs of text and whether it was quoted."""
+    fields, comma, at = [], False, 0
+    while at < len(line):
+        if line[at] in " \t":
+            at += 1
+        elif line[at] == ",":
+            if comma or not fields:
+                raise Unreadable(f"{where}: an empty field")
+            comma, at = True, at + 1
+        elif line[at] in "#%":
+            break
+        else:
+            quoted = line[at] == '"'
+            found = (QUOTED if quoted else PLAIN).match(line, at)
+            if not found:
+                raise Unreadable(f"{where}: a quotation mark out of place")
+            fields.append((found[1].replace('""', '"') if quoted else found[1], quoted))
+            comma, at = False, found.end()
+    if comma:
+        raise Unreadable(f"{where}: an empty field")
+    return fields
+
+
+def is_integer(text):
+    return bool(re.fullmatch(r"0|[1-9][0-9]{0,19}", text)) and int(text) < 2**64
+
+
+def read_edges(lines, edges_format):
+    """Section 2: an edge list."""
+    rows = [(f"line {k}", split_fields(line, f"line {k}")) for k, line in enumerate(lines, 1)]
+    rows = [(where, fields) for where, fields in rows if fields]
+    if not edges_format:
+        width = len(rows[0][1]) if rows else 0
+        if width not in (2, 3, 9, 14):
+            raise Unreadable("not an edge list: its lines have 2, 3, 9 or 14 fields")
+        for where, fields in rows:
+            if len(fields) != width:
+                raise Unreadable(f"{where}: another number of fields than before")
+            for text, quoted in fields:
+                if not quoted and (not re.search("[A-Za-z0-9\x80-\U0010ffff]", text) or text.startswith("//")):
+                    raise Unreadable(f"{where}: {text} is no label")
+
+        def numbers(fields):
+            return all(not quoted and NUMBER.fullmatch(text) for text, quoted in fields[2:])
+
+        first = [text for text, _ in rows[0][1][:2]]
+        others = {text for _, fields in rows[1:] for text, _ in fields[:2]}
+        named = tuple(ascii_lower(text) for text in first) in HEADS and not others & set(first)
+        if not numbers(rows[0][1]) or named:
+            head, rows = rows[:1], rows[1:]
+        else:
+            head = []
+        for where, fields in rows:
+            if not numbers(fields):
+                raise Unreadable(f"{where}: a field behind the labels is no number")
+        if not head:
+            refuse_other_kinds([fields for _, fields in rows], width)
+    pairs, labels = [], set()
+    for where, fields in rows:
+        pair = [text for text, _ in fields[:2]]
+        labels.update(pair)
+        if len(pair) == 2:
+            pairs.append(pair)
+            if pair[0] == pair[1]:
+                raise Unreadable(f"{where}: a label is paired with itself")
+    if not (labels if edges_format else pairs):
+        raise Unreadable("no pair in it")
+    numeric = all(map(is_integer, labels))
+    order = sorted(labels, key=int if numeric else lambda label: label.encode())
+    number = {label: k for k, label in enumerate(order)}
+    return Graph(len(order), [tuple(sorted((number[a], number[b]))) for a, b in pairs])
+
+
+def ascii_lower(text):
+    return re.sub("[A-Z]", lambda found: found[0].lower(), text)
+
+
+def refuse_other_kinds(rows, width):
+    """Section 2: counts, a matrix, stars."""
+    if all(not quoted and text in ("0", "1") for fields in rows for text, quoted in fields) and len(rows) == width:
+        raise Unreadable("this may be a matrix (say so with --format edges if it is not)")
+    if width > 3 or not all(not quoted and is_integer(text) for fields in rows for text, quoted in fields):
+        return
+    values = [[int(text) for text, _ in fields] for fields in rows]
+    labels = {value for fields in values[1:] for value in fields}
+    if width == 2 and values[0][1] == len(rows) - 1 and values[0][0] >= len(labels):
+        raise Unreadable("the first line may hold counts (say so with --format edges if it does not)")
+    if width == 3 and all(a < b < c for a, b, c in values):
+        if all(c <= max(b for _, b, _ in values) + 1 for _, _, c in values):
+            raise Unreadable("this may be a list of stars (say so with --format edges if it is not)")
+
+
+# Section 4: draws ----------------------------------------------------------------------------------------------------
+
+
+class Stream:
+    """Section 4: ChaCha20, read as little-endian 64-bit words."""
+
+    def __init__(self, label, graph_hash, core_hash, seed, draw):
+        key = hashlib.sha256(label + graph_hash + core_hash + struct.pack("<QQ", seed, draw)).digest()
+        self.start = [0x61707865, 0x3320646E, 0x79622D32, 0x6B206574, *struct.unpack("<8I", key), 0, 0, 0, 0]
+        self.words = []
+
+    def block(self):
+        x = self.start[:]
+        for turn in range(10):
+            for a, b, c, d in ROUNDS:
+                p, q, r, s = x[a], x[b], x[c], x[d]
+                p = (p + q) & 0xFFFFFFFF
+                s ^= p
+                s = (s << 16 | s >> 16) & 0xFFFFFFFF
+                r = (r + s) & 0xFFFFFFFF
+                q ^= r
+                q = (q << 12 | q >> 20) & 0xFFFFFFFF
+                p = (p + q) & 0xFFFFFFFF
+                s ^= p
+                s = (s << 8 | s >> 24) & 0xFFFFFFFF
+                r = (r + s) & 0xFFFFFFFF
+                q ^= r
+                q = (q << 7 | q >> 25) & 0xFFFFFFFF
+                x[a], x[b], x[c], x[d] = p, q, r, s
+        x = [(value + begin) & 0xFFFFFFFF for value, begin in zip(x, self.start)]
+        self.start[12] += 1
+        self.words = [x[k] | x[k + 1] << 32 for k in range(14, -1, -2)]
+
+    def word(self):
+        if not self.words:
+            self.block()
+        return self.words.pop()
+
+    def below(self, b):
+        mask = (1 << (b - 1).bit_length()) - 1
+        while True:
+            value = self.word() & mask
+            if value < b:
+                return value
+
+    def prime(self):
+        """Section 9: the prime that a draw chooses."""
+        while True:
+            p = 2**61 + 2 * (self.word() % 2**60) + 1
+            if is_prime(p):
+                return p
+
+
+ROUNDS = (
+    *((0, 4, 8, 12), (1, 5, 9, 13), (2, 6, 10, 14), (3, 7, 11, 15)),
+    *((0, 5, 10, 15), (1, 6, 11, 12), (2, 7, 8, 13), (3, 4, 9, 14)),
+)
+DRAW, FLOW = b"viewcert draw 2\n", b"viewcert flow 2\n"
+
+
+@functools.lru_cache(maxsize=1024)
+def is_prime(p):
+    """Strong pseudoprimes to all of these bases are beyond 2^81 (theory, section 7)."""
+    bases = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
+    if p < 2 or any(p % b == 0 for b in bases):
+        return p in bases
+    twos = (p - 1 & 1 - p).bit_length() - 1
+    for base in bases:
+        power = pow(base, p - 1 >> twos, p)
+        if power == 1:
+            continue
+        for _ in range(twos - 1):
+            if power == p - 1:
+                break
+            power = power * power % p
+        if power != p - 1:
+            return False
+    return True
+
+
+def distinct(points):
+    return len(set(points)) == len(points)
+
+
+@functools.lru_cache(maxsize=256)
+def draw_centres(graph_hash, core_hash, n, p, seed, draw):
+    """Section 4: centres modulo p, or None if the draw is void."""
+    stream = Stream(DRAW, graph_hash, core_hash, seed, draw)
+    points = tuple(tuple(stream.below(p) for _ in range(3)) for _ in range(n))
+    return points if distinct(points) else None
+
+
+@functools.lru_cache(maxsize=64)
+def draws_of(graph_hash, core_hash, n, seed, count):
+    """Section 9: the draws (number, prime, centres) that an error bound rests on."""
+    found = []
+    for number in itertools.count():
+        if len(found) == count:
+            return tuple(found)
+        stream = Stream(DRAW, graph_hash, core_hash, seed, number)
+        p = stream.prime()
+        points = tuple(tuple(stream.below(p) for _ in range(3)) for _ in range(n))
+        if distinct(points):
+            found.append((number, p, points))
+
+
+def integer_cameras(graph_hash, core, seed, draw, top, bottom):
+    """Section 4: integer cameras with bounds A, B."""
+    stream = Stream(DRAW, graph_hash, core.hash, seed, draw)
+    cameras = []
+    for _ in range(core.n):
+        entries = [(stream.below(2 * top + 1) - top, stream.below(bottom) + 1) for _ in range(12)]
+        scale = functools.reduce(lambda x, y: x * y // math.gcd(x, y), (w for _, w in entries))
+        entries = [u * (scale // w) for u, w in entries]
+        cameras.append([entries[0:4], entries[4:8], entries[8:12]])
+    return cameras
+
+
+def det3(a, b, c):
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
+
+
+def refuse_void(cameras, p, where):
+    """Section 4: each camera has rank 3 and a centre of its own; p is None for cameras over Q."""
+    points = []
+    for camera in cameras:
+        columns = list(zip(*camera))
+        point = [(-1) ** k * det3(*(columns[:k] + columns[k + 1 :])) for k in range(4)]
+        point = [entry % p for entry in point] if p else point
+        lead = next((entry for entry in point if entry), None)
+        need(lead is not None, f"{where}: the draw is void, a camera has rank below 3")
+        unit = math.gcd(*point) * (1 if lead > 0 else -1) if p is None else pow(lead, -1, p)
+        points.append(tuple(entry * unit % p if p else entry // unit for entry in point))
+    need(distinct(points), f"{where}: the draw is void, two centres agree")
+
+
+# Section 6: bodies, members, cores -----------------------------------------------------------------------------------
+
+
+class Core:
+    """Section 6: the core of a set of members, with its hash (section 4)."""
+
+    def __init__(self, check, group, where):
+        times = {}
+        for member in group:
+            for node in check.nodes(member):
+                times[node] = times.get(node, 0) + (1 if type(member) is int else 2)
+        self.nodes = sorted(node for node, count in times.items() if count >= 2)
+        self.n = len(self.nodes)
+        if self.n > check.core_limit:
+            raise TooLarge(f"{where}: the core has {self.n} nodes, the limit is {check.core_limit}")
+        number = {node: k for k, node in enumerate(self.nodes)}
+        self.owner = {}
+        for member in group:
+            shared = sorted(number[node] for node in check.nodes(member) if node in number)
+            need(len(shared) >= 2, f"{where}: body {member} has less than two nodes of the core")
+            for edge in list(zip(shared, shared[1:])) + list(zip(shared, shared[2:])):
+                need(edge not in self.owner, f"{where}: a core edge arises twice")
+                self.owner[edge] = member
+        self.edges = tuple(sorted(self.owner))
+        self.m = len(self.edges)
+        form = b"viewcert core 2\n" + struct.pack("<QQ", self.n, self.m)
+        form += struct.pack(f"<{self.n}I", *self.nodes)
+        form += struct.pack(f"<{2 * self.m}I", *itertools.chain.from_iterable(self.edges))
+        self.hash = hashlib.sha256(form).digest()
+
+
+def same(a, b):
+    """Whether two JSON values are the same; true is not 1."""
+    return type(a) is type(b) and a == b
+
+
+# Section 7: matrices -------------------------------------------------------------------------------------------------
+
+VECH = [(a, b) for b in range(4) for a in range(b, 4)]
+
+
+def jacobian_rows(core, cameras, wanted):
+    """Section 7: rows of J_P, each a dict from column to entry, as far as they are wanted."""
+    blocks, rows = {}, []
+    for index in wanted:
+        e, t = divmod(index, 10)
+        i, j = core.edges[e]
+        if e not in blocks:
+            pi, pj = cameras[i], cameras[j]
+            blocks[e] = two_sides(pi, pj)
+        left, right = blocks[e]  # P_j^T F, F P_i
+        a, b = VECH[t]
+        row = {}
+        for r in range(3):
+            for c, value in ((b, left[a][r]), (a, left[b][r])):
+                row[12 * i + 3 * c + r] = row.get(12 * i + 3 * c + r, 0) + value
+            for c, value in ((a, right[r][b]), (b, right[r][a])):
+                row[12 * j + 3 * c + r] = row.get(12 * j + 3 * c + r, 0) + value
+        rows.append(row)
+    return rows
+
+
+def two_sides(pi, pj):
+    """P_j^T F and F P_i, with entry (h, k) of F (-1)^(h+k) det [P_i without row k; P_j without row h]."""
+
+    def det4(rows):
+        return sum(
+            (-1) ** k * rows[0][k] * det3(*([row[:k] + row[k + 1 :] for row in rows[1:]])) for k in range(4)
+        )
+
+    f = [
+        [(-1) ** (h + k) * det4([*pi[:k], *pi[k + 1 :], *pj[:h], *pj[h + 1 :]]) for k in range(3)] for h in range(3)
+    ]
+    left = [[sum(pj[h][a] * f[h][r] for h in range(3)) for r in range(3)] for a in range(4)]
+    right = [[sum(f[r][k] * pi[k][b] for k in range(3)) for b in range(4)] for r in range(3)]
+    return left, right
+
+
+def bearing_rows(core, centres, p):
+    """Section 7: the rows of N as dicts, and the two directions of every core edge."""
+    rows, directions = [], []
+    for i, j in core.edges:
+        d = [(x - y) % p for x, y in zip(centres[i], centres[j])]
+        q = next(k for k in range(3) if d[k])
+        pair = []
+        for r in (k for k in range(3) if k != q):
+            a = [0, 0, 0]
+            a[r], a[q] = d[q], -d[r] % p
+            pair.append(a)
+            row = {3 * i + k: a[k] for k in range(3) if a[k]}
+            row.update({3 * j + k: -a[k] % p for k in range(3) if a[k]})
+            rows.append(row)
+        directions.append(pair)
+    return rows, directions
+
+
+class Elimination:
+    """Section 7: elimination modulo p with pivots in a given order: the submatrix is lower times upper."""
+
+    def __init__(self, rows, columns, p, where):
+        self.p, self.columns, self.upper, self.lower = p, columns, [], []
+        self.place = {column: k for k, column in enumerate(columns)}
+        for row in rows:
+            self.add({self.place[c]: v % p for c, v in row.items() if c in self.place}, where)
+
+    def add(self, row, where):
+        k, p = len(self.upper), self.p
+        factors = reduce_row(row, self.upper, k, p)
+        pivot = row.pop(k, 0)
+        need(pivot, f"{where}: pivot {k} is zero")
+        unit = pow(pivot, -1, p)
+        factors[k] = pivot
+        self.lower.append(factors)
+        self.upper.append({s: v * unit % p for s, v in row.items() if v})
+
+    def determinant(self):
+        return functools.reduce(lambda x, k: x * self.lower[k][k] % self.p, range(len(self.lower)), 1)
+
+    def solve(self, right):
+        """The x with x times the submatrix = right, a dict from column to entry."""
+        p, rest, x = self.p, {self.place[c]: v for c, v in right.items() if c in self.place}, []
+        for k, upper in enumerate(self.upper):
+            value = rest.get(k, 0) % p
+            x.append(value)
+            if value:
+                for s, u in upper.items():
+                    rest[s] = rest.get(s, 0) - value * u
+        for k in reversed(range(len(x))):
+            lower = self.lower[k]
+            x[k] = x[k] * pow(lower[k], -1, p) % p
+            for t, factor in lower.items():
+                if t < k:
+                    x[t] -= x[k] * factor
+        return x
+
+
+def reduce_row(row, upper, below, p):
+    """Subtracts from a row the earlier pivot rows, one after another; gives the factors."""
+    todo = [t for t in row if t < below]
+    heapq.heapify(todo)
+    factors = {}
+    while todo:
+        t = heapq.heappop(todo)
+        factor = row.pop(t)
+        if factor:
+            factors[t] = factor
+            for s, u in upper[t].items():
+                if s in row:
+                    row[s] = (row[s] - factor * u) % p
+                else:
+                    row[s] = -factor * u % p
+                    if s < below:
+                        heapq.heappush(todo, s)
+    return factors
+
+
+def find_pivots(rows, p):
+    """Pivots of a matrix, rows in order: for ranks of which a certificate lists no pivots."""
+    pivots, upper, place = [], [], {}
+    for number, row in enumerate(rows):
+        # Columns with a pivot are named by its number, the others by what comes behind all these.
+        row = {place.get(c, c + len(rows)): v % p for c, v in row.items()}
+        reduce_row(row, upper, len(upper), p)
+        row = {c: v for c, v in row.items() if v}
+        if row:
+            column = min(row)
+            unit = pow(row.pop(column), -1, p)
+            k = len(pivots)
+            pivots.append((number, column - len(rows)))
+            upper.append({c: v * unit % p for c, v in row.items()})
+            place[column - len(rows)] = k
+            for earlier in upper:
+                if column in earlier:
+                    earlier[k] = earlier.pop(column)
+    return pivots
+
+
+def flow_of(n_rows, free, values, factors, pivot_rows, p):
+    """The flow with the given values at the free rows that vanishes in the pivot columns."""
+    right, flow = {}, [0] * len(n_rows)
+    for row, value in zip(free, values):
+        flow[row] = value
+        for c, entry in n_rows[row].items():
+            right[c] = right.get(c, 0) - value * entry
+    for row, value in zip(pivot_rows, factors.solve(right)):
+        flow[row] = value
+    sums = {}
+    for value, row in zip(flow, n_rows):
+        if value:
+            for c, entry in row.items():
+                sums[c] = (sums.get(c, 0) + value * entry) % p
+    return None if any(sums.values()) else flow
+
+
+def lambda_rows_of(core, centres, directions, flow, p):
+    """Section 7: the four rows of Lambda of one flow."""
+    rows = [{}, {}, {}, {}]
+    for e, (i, j) in enumerate(core.edges):
+        w1, w2 = flow[2 * e], flow[2 * e + 1]
+        if w1 or w2:
+            omega = [(w1 * x + w2 * y) % p for x, y in zip(*directions[e])]
+            for k, value in enumerate(omega + [-sum(x * c for x, c in zip(omega, centres[j]))]):
+                rows[k][e] = value % p
+    return rows
+
+
+def jacobian_rank(core, centres, p):
+    """The rank of J_P at these centres: 4 rank N + rank Lambda - m' (theory, Theorem 3.2)."""
+    n_rows, directions = bearing_rows(core, centres, p)
+    pivots = find_pivots(n_rows, p)
+    rows, columns = [r for r, _ in pivots], [c for _, c in pivots]
+    factors = Elimination([n_rows[r] for r in rows], columns, p, "rank")
+    free = sorted(set(range(len(n_rows))) - set(rows))
+    matrix = []
+    for k in range(len(free)):
+        flow = flow_of(n_rows, free, [int(k == t) for t in range(len(free))], factors, rows, p)
+        need(flow is not None, "a flow does not vanish")
+        matrix += lambda_rows_of(core, centres, directions, flow, p)
+    return 4 * len(pivots) + len(find_pivots(matrix, p)) - core.m
+
+
+@functools.lru_cache(maxsize=64)
+def drawn_ranks(graph_hash, core_key, seed, count):
+    core = core_key.core
+    return [jacobian_rank(core, c, p) for _, p, c in draws_of(graph_hash, core.hash, core.n, seed, count)]
+
+
+class CoreKey:
+    """Cores are the same if their hashes are: this makes a core a key of a cache."""
+
+    def __init__(self, core):
+        self.core = core
+
+    def __hash__(self):
+        return hash(self.core.hash)
+
+    def __eq__(self, other):
+        return self.core.hash == other.core.hash
+
+
+def edge_motion(core, edge, centres, vector, p):
+    """Section 7, kernel: X_e modulo multiples of I, or None if there is none (theory, (6.1))."""
+    i, j = edge
+    ci, cj = centres[i], centres[j]
+    d = [(x - y) % p for x, y in zip(ci, cj)]
+    q = next(k for k in range(3) if d[k])
+    r = next(k for k in range(3) if k != q)
+    unit = pow(d[q], -1, p)
+    columns = [[[vector[12 * v + 3 * c + k] for k in range(3)] for c in range(4)] for v in edge]
+    gap = [[x - y for x, y in zip(*both)] for both in zip(*columns)]
+    # a . (y_i - y_j) = -lambda a . P_j e_k for the direction a = d_q e_r - d_r e_q in column k = r
+    scale = -(d[q] * gap[r][r] - d[r] * gap[r][q]) * unit
+    x = []
+    for k in range(4):
+        pj = [int(k == t) for t in range(3)] if k < 3 else [-c for c in cj]
+        rest = [g + scale * c for g, c in zip(gap[k], pj)]
+        w = -rest[q] * unit % p
+        if any((rest[t] + d[t] * w) % p for t in range(3)):
+            return None
+        x.append([columns[0][k][t] + ci[t] * w for t in range(3)] + [w])
+    corner = x[3][3]
+    return tuple((x[k][t] - (corner if k == t else 0)) % p for k in range(4) for t in range(4))
+
+
+def edge_translation(edge, centres, vector, p):
+    """Section 7, kernel, calibrated: (s_e, t_e), or None."""
+    (ci, yi), (cj, yj) = ((centres[v], vector[3 * v : 3 * v + 3]) for v in edge)
+    d = [(x - y) % p for x, y in zip(ci, cj)]
+    q = next(k for k in range(3) if d[k])
+    s = (yi[q] - yj[q]) * pow(d[q], -1, p) % p
+    if any((yi[k] - yj[k] - s * d[k]) % p for k in range(3)):
+        return None
+    return (s, *((yi[k] - s * ci[k]) % p for k in range(3)))
+
+
+# Sections 5 to 9: the certificate ------------------------------------------------------------------------------------
+
+
+class Piece:
+    """What the evidence of a piece proves: ranks are those of the piece, not of its core."""
+
+    def __init__(self, nodes, required):
+        self.nodes, self.required = nodes, required
+        self.lower = self.upper = required
+        self.components = 1
+        self.drawn = self.error = None  # the rank by draws and its error bound
+        self.errors = []  # of the separations that the number of components rests on
+
+
+def bound_sum(errors):
+    """Section 8: the error bound of a claim that rests on several."""
+    total = max(errors) + (len(errors) - 1).bit_length()
+    need(total <= -100, f"section 8: the error bounds add up to 2^{total}, above 2^-100")
+    return total
+
+
+def stated(value, error=None):
+    return {"value": value, "strength": "proof" if error is None else "error-bound", "error_log2": error}
+
+
+class Check:
+    """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
+
+    def __init__(self, data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT):
+        document = parse(data) if isinstance(data, bytes) else data
+        self.core_limit = core_limit
+        names = "format version program graph model claim bodies rigid pieces"
+        if type(document) is dict and same(document.get("format"), "viewcert certificate"):
+            version = document.get("version")
+            need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
+            need(same(version, 2), "section 3: the version is not 2")
+        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces = members(
+            document, names, "section 3: the document"
+        )
+        need(form == "viewcert certificate", "section 3: the format is another")
+        a_string(program, "section 3: program")
+        need(self.model in ("projective", "calibrated"), "section 3: no such model")
+        self.projective = self.model == "projective"
+        self.read_graph(graph, graph_data, edges_format)
+        self.check_claim_form()
+        self.bodies, self.final = [], set()
+        self.check_bodies(bodies)
+        everything = self.cover()
+        pieces, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
+        self.evidence_claim = self.claim_of(pieces, rigid_count)
+
+    def read_graph(self, value, graph_data, edges_format):
+        """Section 3: the graph."""
+        name, nodes, edges, sha256, graph6 = members(value, "name nodes edges sha256 graph6", "section 3: graph")
+        a_string(name, "section 3: graph name")
+        an_int(nodes, "section 3: nodes", least=1)
+        an_int(edges, "section 3: edges", least=0)
+        a_string(sha256, "section 3: sha256")
+        need(re.fullmatch("[0-9a-f]{64}", sha256), "section 3: sha256 is not 64 lower-case hexadecimal digits")
+        need(graph_data is not None or graph6 is not None, "section 3: no graph is given, and none is embedded")
+        if graph6 is not None:
+            self.graph = read_graph6(a_string(graph6, "section 3: graph6"))
+            need(self.graph is not None, "section 3: graph6 is not a graph6 graph")
+            need(self.graph.hash.hex() == sha256, "section 3: the hash of the embedded graph is another")
+        if graph_data is not None:
+            self.graph = read_graph(graph_data, sha256, edges_format)
+            need(self.graph.hash.hex() == sha256, "section 3: the hash of the given graph is another")
+        need(self.graph.n == nodes, "section 3: the number of nodes is another")
+        need(len(self.graph.edges) == edges, "section 3: the number of edges is another")
+
+    def check_claim_form(self):
+        """Section 3: the claim, as far as it can be judged without the evidence."""
+        claim = members(self.claim, "verdict rank components", "section 3: claim")
+        for name, part in zip(("verdict", "rank", "components"), claim):
+            where = f"section 3: {name}"
+            names = "value required strength error_log2" if name == "rank" else "value strength error_log2"
+            value, *required, strength, error = members(part, names, where)
+            if name == "verdict":
+                need(value in ("solvable", "finite-solvable", "not-finite-solvable"), f"{where}: no such value")
+            else:
+                an_int(value, f"{where}: value")
+            for number in required:
+                an_int(number, f"{where}: required")
+            need(strength in ("proof", "error-bound"), f"{where}: no such strength")
+            if strength == "proof":
+                need(error is None, f"{where}: a proof has no error bound")
+            else:
+                need(an_int(error, f"{where}: error_log2") <= -100, f"{where}: the error bound is above 2^-100")
+
+    def required(self, n):
+        """Section 6: the rank of a rigid graph with n nodes."""
+        return 11 * n - 15 if self.projective else 3 * n - 4
+
+    def nodes(self, member):
+        return self.bodies[member] if type(member) is int else member
+
+    def union(self, group):
+        return set().union(*map(self.nodes, group))
+
+    def check_bodies(self, bodies):
+        """Section 5."""
+        for k, value in enumerate(a_list(bodies, "section 5: bodies")):
+            where = f"section 5: body {k}"
+            seed, add, merge = members(value, "seed add merge", where)
+            body = set(self.body_or_edge(seed, where))
+            for step in a_list(add, f"{where}: add"):
+                need(type(step) is list and len(step) == 3, f"{where}: {step} is not [v, a, b]")
+                v, a, b = (an_int(node, f"{where}: add") for node in step)
+                need(v not in body, f"{where}: node {v} is in the body already")
+                need(a != b and a in body and b in body, f"{where}: {a}, {b} are not two nodes of the body")
+                for end in (a, b):
+                    need((min(v, end), max(v, end)) in self.graph.edge_set, f"{where}: {v}-{end} is not an edge")
+                body.add(v)
+            for step in a_list(merge, f"{where}: merge"):
+                others, at = members(step, "with at", f"{where}: merge")
+                at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
+                need(len(a_list(others, f"{where}: with")) in (1, 2), f"{where}: with holds one or two")
+                need(len(at) == len(others) + 1, f"{where}: the length of at is wrong")
+                need(distinct(at), f"{where}: the nodes of at are not different")
+                need(len(others) == 1 or not same(others[0], others[1]), f"{where}: merged with the same twice")
+                others = [self.body_or_edge(other, where) for other in others]
+                if len(others) == 1:
+                    shared = all(node in body and node in others[0] for node in at)
+                else:
+                    (x, y), (a, b, c) = others, at
+                    shared = a in body and a in x and b in body and b in y and c in x and c in y
+                need(shared, f"{where}: the nodes of at are not shared as a merge demands")
+                body.update(*others)
+            self.bodies.append(frozenset(body))
+            self.final.add(k)
+
+    def body_or_edge(self, value, where):
+        """Section 5: an edge, or an earlier body, which is consumed."""
+        if type(value) is int:
+            need(0 <= value < len(self.bodies), f"{where}: {value} is not an earlier body")
+            need(value in self.final, f"{where}: body {value} is consumed already")
+            self.final.remove(value)
+            return self.bodies[value]
+        pair = a_pair(value, f"{where}: a seed or partner")
+        need(pair in self.graph.edge_set, f"{where}: {pair} is not an edge")
+        return pair
+
+    def cover(self):
+        """Section 6: the members, that is the final bodies and the loose edges."""
+        inside = {}
+        for k in self.final:
+            for node in self.bodies[k]:
+                inside.setdefault(node, set()).add(k)
+        everything = set(self.final)
+        for i, j in self.graph.edges:
+            both = inside.get(i, set()) & inside.get(j, set())
+            need(len(both) <= 1, f"section 6: the edge {i}-{j} is covered twice")
+            if not both:
+                everything.add((i, j))
+        return everything
+
+    def read_group(self, bodies, edges, where):
+        """Section 6: a list of members, each a final body (int) or a loose edge (pair)."""
+        bodies = [an_int(k, f"{where}: bodies") for k in a_list(bodies, f"{where}: bodies")]
+        edges = [a_pair(edge, f"{where}: edges") for edge in a_list(edges, f"{where}: edges")]
+        return increasing(bodies, f"{where}: bodies") + increasing(edges, f"{where}: edges")
+
+    def partition(self, groups, whole, where):
+        """Every member of the whole is in exactly one group, and no group is empty."""
+        seen = set()
+        for group in groups:
+            need(group, f"{where}: a group is empty")
+            for member in group:
+                need(member in whole, f"{where}: {member} is not a member here")
+                need(member not in seen, f"{where}: {member} is in two groups")
+                seen.add(member)
+        need(len(seen) == len(whole), f"{where}: a member is in no group")
+
+    def check_pieces(self, rigid, values, whole, where):
+        """Section 6: the pieces of a graph, or of a class."""
+        bodies, edges = members(rigid, "bodies edges", f"{where}rigid")
+        singles = [[member] for member in self.read_group(bodies, edges, f"{where}rigid")]
+        groups, evidence = [], []
+        for k, value in enumerate(a_list(values, f"{where}pieces")):
+            bodies, edges, proofs = members(value, "bodies edges evidence", f"{where}piece {k}")
+            groups.append(self.read_group(bodies, edges, f"{where}piece {k}"))
+            evidence.append(a_list(proofs, f"{where}piece {k}: evidence"))
+        self.partition(singles + groups, whole, f"{where}pieces")
+        leader = {}  # a forest over pieces and nodes
+
+        def find(x):
+            while leader.setdefault(x, x) != x:
+                leader[x] = x = leader[leader[x]]
+            return x
+
+        pieces = []
+        for k, group in enumerate(singles + groups):
+            nodes = self.union(group)
+            for node in nodes:
+                ours, theirs = find(("piece", k)), find(node)
+                need(ours != theirs, f"{where}pieces: a cycle of pieces through node {node}")
+                leader[ours] = theirs
+            pieces.append(Piece(len(nodes), self.required(len(nodes))))
+        for k, (group, proofs, piece) in enumerate(zip(groups, evidence, pieces[len(singles) :])):
+            need(len(group) >= 2, f"{where}piece {k} has less than two members")
+            self.check_evidence(group, proofs, piece, f"{where}piece {k}: ")
+        return pieces, len(singles)
+
+    def core_rank_to_rank(self, rank, core, nodes):
+        """Section 6: a graph lacks as much as its core."""
+        return self.required(nodes) - (self.required(core.n) - rank)
+
+    # Section 7 -------------------------------------------------------------------------------------------------------
+
+    def check_evidence(self, group, proofs, piece, where):
+        """Section 7: all evidence of a piece."""
+        core = Core(self, group, where)
+        kinds = {"lower": [], "counting": [], "draws": [], "classes": [], "kernel": []}
+        for k, value in enumerate(proofs):
+            need(type(value) is dict and "kind" in value, f"{where}evidence {k} has no kind")
+            kind = a_string(value["kind"], f"{where}evidence {k}: kind")
+            need(kind in kinds and kind != "lower" or kind in self.LOWER, f"{where}evidence {k}: no such kind")
+            kinds["lower" if kind in self.LOWER else kind].append((value, f"{where}evidence {k}, {kind}"))
+        need(kinds["lower"], f"{where}no lower bound")
+        need(len(kinds["draws"]) <= 1, f"{where}more than one draws")
+        need(len(kinds["classes"]) <= 1, f"{where}more than one classes")
+        need(kinds["classes"] or not kinds["kernel"], f"{where}a kernel without classes")
+        bounds = [self.check_counting(value, group, at) for value, at in kinds["counting"]]
+        piece.upper = min(bounds + [piece.required])
+        classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
+        lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
+        lower = [(self.core_rank_to_rank(rank, core, piece.nodes), value) for rank, value in lower]
+        piece.lower = max(rank for rank, _ in lower)
+        need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
+        draws, seed = (), None
+        for value, at in kinds["draws"]:
+            rank, seed, draws, piece.error = self.check_draws(value, core, at)
+            piece.drawn = self.core_rank_to_rank(rank, core, piece.nodes)
+            need(piece.lower <= piece.drawn, f"{where}a lower bound is above the rank of draws")
+        used, proved = set(), False
+        for value, at in kinds["kernel"]:
+            drawn, key = self.check_kernel(value, core, classes[0][0], seed, draws, at)
+            if drawn is not None:
+                used.add(drawn)
+            elif bounds and piece.lower == min(bounds):
+                proved = proved or any(rank == piece.lower and flow_key(low) == key for rank, low in lower)
+        if classes:
+            piece.components, piece.errors = sum(count for _, count, _ in classes), classes[0][2]
+            if not proved:
+                need(draws and len(used) == len(draws), f"{where}the classes are not separated")
+                piece.errors = piece.errors + [piece.error]
+        else:
+            need(piece.lower == piece.required, f"{where}neither rigid nor divided into classes")
+
+    def check_lower(self, value, core, where):
+        """Section 7: a lower bound on the rank of the core."""
+        rank = self.LOWER[value["kind"]](self, value, core, where)
+        need(rank <= self.required(core.n), f"{where}: more than the required rank")
+        return rank
+
+    def prime_seed_draw(self, prime, seed, draw, where):
+        p = a_big(prime, f"{where}: prime", least=5, below=2**62)
+        need(is_prime(p), f"{where}: {p} is not a prime")
+        return p, a_big(seed, f"{where}: seed", least=0, below=2**64), an_int(draw, f"{where}: draw", least=0)
+
+    def indices(self, values, below, where):
+        values = [an_int(v, where, least=0, below=below) for v in a_list(values, where)]
+        need(distinct(values), f"{where}: an index is listed twice")
+        return values
+
+    def pivots(self, rows, columns, height, width, where):
+        rows = self.indices(rows, height, f"{where}: rows")
+        columns = self.indices(columns, width, f"{where}: cols")
+        need(len(rows) == len(columns), f"{where}: rows and cols differ in length")
+        return rows, columns
+
+    def check_minor(self, value, core, where):
+        """Section 7, minor."""
+        need(self.projective, f"{where}: projective model only")
+        _, prime, seed, draw, rows, cols = members(value, "kind prime seed draw rows cols", where)
+        p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
+        rows, cols = self.pivots(rows, cols, 10 * core.m, 12 * core.n, where)
+        stream = Stream(DRAW, self.graph.hash, core.hash, seed, draw)
+        cameras = [[[stream.below(p) for _ in range(4)] for _ in range(3)] for _ in range(core.n)]
+        refuse_void(cameras, p, where)
+        Elimination(jacobian_rows(core, cameras, rows), cols, p, where)
+        return len(rows)
+
+    def check_integer_minor(self, value, core, where):
+        """Section 7, integer-minor."""
+        need(self.projective, f"{where}: projective model only")
+        names = "kind numerator denominator seed draw rows cols determinant prime kernel"
+        _, top, bottom, seed, draw, rows, cols, determinant, prime, kernel = members(value, names, where)
+        top = an_int(top, f"{where}: numerator", least=1, below=101)
+        bottom = an_int(bottom, f"{where}: denominator", least=1, below=13)
+        need((determinant is None) != (prime is None), f"{where}: one of determinant and prime is null")
+        p, seed, draw = self.prime_seed_draw("5" if prime is None else prime, seed, draw, where)
+        rows, cols = self.pivots(rows, cols, 10 * core.m, 12 * core.n, where)
+        cameras = integer_cameras(self.graph.hash, core, seed, draw, top, bottom)
+        refuse_void(cameras, None, where)
+        matrix = [primitive(row) for row in jacobian_rows(core, cameras, range(10 * core.m))]
+        chosen = [matrix[row] for row in rows]
+        if prime is None:
+            stated_value = a_big(determinant, f"{where}: determinant")
+            need(stated_value != 0, f"{where}: the determinant is zero")
+            # Minors are below Hadamard's bound, and so is the modulus: it decides them over Q.
+            modulus = modulus_above([row.values() for row in chosen], where)
+            need(2 * abs(stated_value) < modulus, f"{where}: another determinant")
+            found = Elimination(chosen, cols, modulus, where).determinant()
+            need(found == stated_value % modulus, f"{where}: another determinant")
+        else:
+            Elimination(chosen, cols, p, where)
+        vectors = []
+        for k, vector in enumerate(a_list(kernel, f"{where}: kernel")):
+            at = f"{where}: kernel vector {k}"
+            vectors.append([a_big(entry, at) for entry in a_list(vector, at)])
+            need(len(vectors[-1]) == 12 * core.n, f"{at} has another length than 12 n'")
+            for row in matrix:
+                need(sum(x * vectors[-1][c] for c, x in row.items()) == 0, f"{at} is not in the kernel of J_P")
+        if vectors:
+            self.check_independent(vectors + trivial_motions(cameras), where)
+        return len(rows)
+
+    def check_independent(self, vectors, where):
+        """Section 7: linear independence over Q, decided modulo a prime above all minors."""
+        rows = [primitive(dict(enumerate(vector))) for vector in vectors]
+        if len(find_pivots(rows, 2**61 - 1)) < len(rows):
+            modulus = modulus_above([row.values() for row in rows], where)
+            need(len(find_pivots(rows, modulus)) == len(rows), f"{where}: the kernel vectors are not independent")
+
+    def check_plane_flow(self, value, core, where):
+        """Section 7, plane-flow."""
+        names = "kind prime seed draw rows cols flows lambda_rows lambda_cols"
+        _, prime, seed, draw, rows, cols, flows, lambda_rows, lambda_cols = members(value, names, where)
+        p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
+        rows, cols = self.pivots(rows, cols, 2 * core.m, 3 * core.n, where)
+        flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m - len(rows) + 1)
+        lambda_rows, lambda_cols = self.pivots(lambda_rows, lambda_cols, 4 * flows, core.m, f"{where}: lambda")
+        centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
+        need(centres, f"{where}: the draw is void, two centres agree")
+        n_rows, directions = bearing_rows(core, centres, p)
+        factors = Elimination([n_rows[row] for row in rows], cols, p, f"{where}: N")
+        if not self.projective:
+            need(flows == 0, f"{where}: flows in the calibrated model")
+            return len(rows)
+        free = sorted(set(range(2 * core.m)) - set(rows))
+        stream = Stream(FLOW, self.graph.hash, core.hash, seed, draw)
+        matrix = []
+        for k in range(flows):
+            values = [stream.below(p) for _ in free]
+            flow = flow_of(n_rows, free, values, factors, rows, p)
+            need(flow is not None, f"{where}: flow {k} does not vanish in all columns of N")
+            matrix += lambda_rows_of(core, centres, directions, flow, p)
+        Elimination([matrix[row] for row in lambda_rows], lambda_cols, p, f"{where}: Lambda")
+        return 4 * len(rows) + len(lambda_rows) - core.m
+
+    LOWER = {"minor": check_minor, "integer-minor": check_integer_minor, "plane-flow": check_plane_flow}
+
+    def check_counting(self, value, group, where):
+        """Section 7, counting."""
+        _, blocks, bound = members(value, "kind blocks bound", where)
+        groups, total = [], 0
+        for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
+            at = f"{where}: block {k}"
+            bodies, edges, hubs = members(block, "bodies edges hubs", at)
+            groups.append(self.read_group(bodies, edges, at))
+            need(all(member in group for member in groups[-1]), f"{at}: a member is not one of the piece")
+            total += self.required(len(self.union(groups[-1])))
+            need(len(a_list(hubs, f"{at}: hubs")) <= 1, f"{at}: more than one hub")
+            for hub in hubs:
+                total -= self.check_hub(hub, groups[-1], f"{at}: hub")
+        self.partition(groups, set(group), f"{where}: blocks")
+        need(an_int(bound, f"{where}: bound") == total, f"{where}: the bound is {total}, not {bound}")
+        return total
+
+    def check_hub(self, value, block, where):
+        """Section 7, a hub: what it takes off."""
+        need(self.projective, f"{where}: projective model only")
+        names = "node parts split groups components less"
+        v, parts, split, groups, components, less = members(value, names, where)
+        need(an_int(v, f"{where}: node") in self.union(block), f"{where}: the node is not in the block")
+        part_members = []
+        for part in a_list(parts, f"{where}: parts"):
+            part_members.append(self.read_group(*members(part, "bodies edges", f"{where}: part"), f"{where}: part"))
+        self.partition(part_members, set(block), f"{where}: parts")
+        split = self.indices(split, len(parts), f"{where}: split")
+        increasing(split, f"{where}: split")
+        for t in split:
+            need(v in self.union(part_members[t]), f"{where}: part {t} of split does not contain the node")
+        copies = {t: (v, t) for t in split}
+
+        def split_nodes(t, nodes):
+            return [copies.get(t, v) if node == v else node for node in nodes]
+
+        # Connected components: of the block as it is, and of the split graph with what is left of v.
+        together = [self.nodes(member) for member in block]
+        need(count_components(together) == 1, f"{where}: the block is not connected")
+        apart = [split_nodes(t, self.nodes(member)) for t, part in enumerate(part_members) for member in part]
+        kappa = count_components(apart + [[v]])
+        need(an_int(components, f"{where}: components") == kappa, f"{where}: there are {kappa} components")
+        seen, sizes = [], []
+        for listed in a_list(groups, f"{where}: groups"):
+            listed = increasing(self.indices(listed, len(parts), f"{where}: group"), f"{where}: group")
+            need(listed, f"{where}: a group is empty")
+            seen += listed
+            sizes.append(len({node for t in listed for node in split_nodes(t, self.union(part_members[t]))}))
+        need(sorted(seen) == list(range(len(parts))), f"{where}: the groups do not partition the parts")
+        surplus = sum(3 * size - 4 for size in sizes) - (3 * len(self.union(block)) - 4)
+        takes = len(split) - (kappa - 1) - 3 * surplus
+        need(an_int(less, f"{where}: less") == takes and takes >= 1, f"{where}: it takes off {takes}")
+        return takes
+
+    def check_draws(self, value, core, where):
+        """Section 9, draws: the rank of the core, the seed, the draws, and the error bound."""
+        need(self.projective, f"{where}: projective model only")
+        _, seed, count, rank = members(value, "kind seed count rank", where)
+        seed = a_big(seed, f"{where}: seed", least=0, below=2**64)
+        length = self.required(core.n).bit_length()
+        need(core.n < 2**31 and length <= 36, f"{where}: the core is too large for an error bound")
+        need(an_int(count, f"{where}: count") == -(-120 // (56 - length)), f"{where}: another number of draws is due")
+        an_int(rank, f"{where}: rank")
+        ranks = drawn_ranks(self.graph.hash, CoreKey(core), seed, count)
+        need(max(ranks) == rank, f"{where}: the largest rank is {max(ranks)}, not {rank}")
+        return rank, seed, draws_of(self.graph.hash, core.hash, core.n, seed, count), -count * (56 - length)
+
+    def check_classes(self, value, group, where):
+        """Section 7, classes: the class of each member, the number of components, error bounds inside of classes."""
+        _, classes = members(value, "kind classes", where)
+        need(len(a_list(classes, f"{where}: classes")) >= 2, f"{where}: less than two classes")
+        parsed = []
+        for k, one in enumerate(classes):
+            bodies, edges, evidence, split = members(one, "bodies edges evidence split", f"{where}: class {k}")
+            a_list(evidence, f"{where}: class {k}: evidence")
+            parsed.append((self.read_group(bodies, edges, f"{where}: class {k}"), evidence, split))
+        self.partition([parsed_group for parsed_group, _, _ in parsed], set(group), f"{where}: classes")
+        of, components, errors = {}, 0, []
+        for k, (inside, evidence, split) in enumerate(parsed):
+            at = f"{where}: class {k}"
+            of.update((member, k) for member in inside)
+            if split is None:
+                components += 1
+                if len(inside) > 1:
+                    self.check_rigid_class(inside, evidence, at)
+                else:
+                    need(not evidence, f"{at}: a single member needs no evidence")
+            else:
+                need(self.projective, f"{at}: split is for the projective model only")
+                need(len(inside) > 1, f"{at}: a single member is not split")
+                need(not evidence, f"{at}: evidence and split")
+                rigid, values = members(split, "rigid pieces", f"{at}: split")
+                pieces, singles = self.check_pieces(rigid, values, set(inside), f"{at}: split: ")
+                components += sum(piece.components for piece in pieces)
+                errors += [error for piece in pieces for error in piece.errors]
+        return of, components, errors
+
+    def check_rigid_class(self, inside, evidence, where):
+        need(evidence, f"{where}: neither evidence nor split")
+        core = Core(self, inside, where)
+        best = []
+        for value in evidence:
+            need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")
+            need(value["kind"] in self.LOWER, f"{where}: the evidence is no lower bound")
+            best.append(self.check_lower(value, core, f"{where}: {value['kind']}"))
+        need(max(best) == self.required(core.n), f"{where}: the class is not shown to be rigid")
+
+    def check_kernel(self, value, core, class_of, seed_of_draws, draws, where):
+        """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
+        _, prime, seed, draw, vector = members(value, "kind prime seed draw vector", where)
+        p, seed, draw = key = self.prime_seed_draw(prime, seed, draw, where)
+        per_node = 12 if self.projective else 3
+        need(len(a_list(vector, f"{where}: vector")) == per_node * core.n, f"{where}: the vector has another length")
+        vector = [a_big(entry, f"{where}: vector", least=0, below=p) for entry in vector]
+        drawn = next((k for k, (d, q, _) in enumerate(draws) if (seed, draw, p) == (seed_of_draws, d, q)), None)
+        if drawn is None:
+            centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
+            need(centres, f"{where}: the draw is void, two centres agree")
+        else:
+            centres = draws[drawn][2]
+        motion_of = {}
+        for edge in core.edges:
+            motion = edge_motion(core, edge, centres, vector, p) if self.projective else edge_translation(
+                edge, centres, vector, p
+            )
+            need(motion is not None, f"{where}: no motion on the core edge {edge}")
+            k = class_of[core.owner[edge]]
+            need(motion_of.setdefault(k, motion) == motion, f"{where}: class {k} does not move as one")
+        need(distinct(list(motion_of.values())), f"{where}: two classes move as one")
+        return drawn, key
+
+    # Section 8 -------------------------------------------------------------------------------------------------------
+
+    def claim_of(self, pieces, singles):
+        """Section 8: the claim that the evidence gives."""
+        n = self.graph.n
+        required = self.required(n) if n > 1 else 0
+        if n == 1:
+            return {"verdict": stated("solvable"), "rank": {**stated(0), "required": 0}, "components": stated(0)}
+        lower, upper = sum(piece.lower for piece in pieces), sum(piece.upper for piece in pieces)
+        whole = len(pieces) == 1 and pieces[0].nodes == n
+        low = [piece for piece in pieces if piece.drawn is not None and piece.drawn < piece.upper]
+        if whole and (singles or not self.projective and lower == required):
+            verdict = stated("solvable")
+        elif whole and lower == required:
+            verdict = stated("finite-solvable")
+        elif upper < required:
+            verdict = stated("not-finite-solvable")
+        else:
+            need(upper - sum(piece.upper - piece.drawn for piece in low) < required, "section 8: no verdict is shown")
+            verdict = stated("not-finite-solvable", bound_sum([piece.error for piece in low]))
+        gaps = [piece for piece in pieces if piece.lower < piece.upper]
+        need(all(piece.drawn == piece.lower for piece in gaps), "section 8: the rank is not shown")
+        rank = stated(lower, bound_sum([piece.error for piece in gaps]) if gaps else None)
+        errors = [error for piece in pieces for error in piece.errors]
+        components = stated(sum(piece.components for piece in pieces), bound_sum(errors) if errors else None)
+        return {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
+
+    def compare_claim(self):
+        """Section 8: value, strength and error are exactly what the evidence gives."""
+        for name, part in self.evidence_claim.items():
+            for member, value in part.items():
+                claimed = self.claim[name][member]
+                reason = f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}"
+                need(same(claimed, value), reason)
+
+    def statements(self):
+        """What was verified, for people."""
+
+        def strength(part):
+            return "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
+
+        verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
+        graph = self.graph
+        return [
+            f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
+            f"{self.model}: {verdict['value']} ({strength(verdict)})",
+            f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
+            f"components: {components['value']} maximal ({strength(components)})",
+        ]
+
+
+def flow_key(value):
+    """The prime, seed and number of a draw of centres that lower-bound evidence was computed at, if any."""
+    return (int(value["prime"]), int(value["seed"]), value["draw"]) if value["kind"] == "plane-flow" else None
+
+
+def primitive(row):
+    """Section 7: a row divided by the greatest common divisor of its entries, without zeros."""
+    divisor = functools.reduce(math.gcd, row.values(), 0)
+    return {c: x // divisor for c, x in row.items() if x}
+
+
+def modulus_above(rows, where):
+    """A Mersenne prime above twice every minor of these rows: entries of a row are at most its norm."""
+    bits = 2 + sum((sum(x * x for x in row) or 1).bit_length() for row in rows) // 2 + len(list(rows))
+    for exponent in MERSENNE:
+        if exponent > bits:
+            return 2**exponent - 1
+    raise TooLarge(f"{where}: numbers of {bits} bits")
+
+
+def trivial_motions(cameras):
+    """Section 7: the scale of each camera; P_v X for 15 matrices X that span all 4 x 4 matrices modulo I."""
+    n = len(cameras)
+    vectors = []
+    for v, camera in enumerate(cameras):
+        vector = [0] * (12 * n)
+        vector[12 * v : 12 * v + 12] = [camera[r][c] for c in range(4) for r in range(3)]
+        vectors.append(vector)
+    for a, b in [(a, b) for a in range(4) for b in range(4)][:15]:
+        # X has a one at (a, b): column b of P X is column a of P.
+        vectors.append([camera[r][a] if c == b else 0 for camera in cameras for c in range(4) for r in range(3)])
+    return vectors
+
+
+def count_components(sets):
+    """Connected components of sets of nodes, of which those are connected that share one."""
+    found = []
+    for nodes in map(set, sets):
+        apart = [other for other in found if not other & nodes]
+        found = apart + [nodes.union(*(other for other in found if other & nodes))]
+    return len(found)
+
+
+# The program ---------------------------------------------------------------------------------------------------------
+
+
+def check(data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT):
+    """Checks one certificate; gives the check if it is right, and raises Reject, Unreadable or TooLarge if not."""
+    try:
+        done = Check(data, graph_data, edges_format, core_limit)
+        done.compare_claim()
+        return done
+    except (Reject, Unreadable, TooLarge):
+        raise
+    except Exception as error:  # whatever is not foreseen is rejected
+        raise Reject(f"unexpected {type(error).__name__}: {error}") from error
+
+
+def shown(reason):
+    """A reason in printable characters, at most 200 of them."""
+    text = "".join(c if " " <= c <= "~" else c.encode("unicode_escape", "replace").decode() for c in str(reason))
+    return text if len(text) <= 200 else text[:197] + "..."
+
+
+def read_file(path):
+    try:
+        if path == "-":
+            return sys.stdin.buffer.read()
+        with open(path, "rb") as file:
+            return file.read()
+    except OSError as error:
+        raise Unreadable(f"{path}: {error.strerror}") from None
+
+
+def certificates_in(path):
+    """The certificates of a file .json, .jsonl or .jsonl.gz, each with where it stands."""
+    if not path.endswith((".jsonl", ".jsonl.gz")):
+        yield path, read_file(path)
+        return
+    try:
+        with (gzip.open if path.endswith(".gz") else open)(path, "rb") as file:
+            for number, line in enumerate(file, 1):
+                if line.strip():
+                    yield f"{path}:{number}", line
+    except (OSError, EOFError) as error:
+        raise Unreadable(f"{path}: {error}") from None
+
+
+def check_list(paths, core_limit):
+    count = {0: 0, 1: 0, 3: 0}
+    for path in paths:
+        for where, data in certificates_in(path):
+            try:
+                statements = check(data, core_limit=core_limit).statements()
+                print(f"VERIFIED {shown(where)}: {'; '.join(statements[1:])}")
+                count[0] += 1
+            except Reject as error:
+                print(f"REJECTED {shown(where)}: {shown(error)}")
+                count[1] += 1
+            except TooLarge as error:
+                print(f"TOO LARGE {shown(where)}: {shown(error)}")
+                count[3] += 1
+    print(f"{count[0]} verified, {count[1]} rejected, {count[3]} too large")
+    return 2 if not any(count.values()) else 1 if count[1] else 3 if count[3] else 0
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
+    parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
+    parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
+    parser.add_argument("--format", choices=["auto", "edges"], default="auto", help="edges: the graph is an edge list")
+    parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
+    parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
+    options = parser.parse_args(arguments)
+    if bool(options.list) == bool(options.certificate):
+        parser.error("give one certificate, or --list with files")
+    try:
+        if options.list:
+            return check_list(options.list, options.max_core_nodes)
+        graph_data = read_file(options.graph) if options.graph else None
+        done = check(read_file(options.certificate), graph_data, options.format == "edges", options.max_core_nodes)
+    except Reject as error:
+        print("REJECTED")
+        print(shown(error), file=sys.stderr)
+        return 1
+    except (Unreadable, TooLarge) as error:
+        print(shown(error), file=sys.stderr)
+        return 2 if isinstance(error, Unreadable) else 3
+    for statement in done.statements():
+        print(f"VERIFIED {statement}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
