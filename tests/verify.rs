@@ -78,10 +78,7 @@ fn labels_are_kept() {
 
 #[test]
 fn isolated_cameras_are_never_determined() {
-    let run = verify_with(
-        b"a b\nb c\nc a\nd\n",
-        &["-", "--json", "--format", "edges"],
-    );
+    let run = verify_with(b"a b\nb c\nc a\nd\n", &["-", "--json", "--format", "edges"]);
     assert_eq!(run.code, 1);
     let line = &run.json()[0];
     assert_eq!(

@@ -44,6 +44,7 @@ pub fn study(graph: &Graph, components: usize, seed: u64) -> Result<Option<Study
     let field = PrimeField::mersenne61();
     let key = DrawKey {
         graph_sha256: sha256(graph),
+        core_sha256: None,
         seed,
         draw: 0,
     };

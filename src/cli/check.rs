@@ -76,7 +76,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             NOT
         }
         Err(Failure::TooLarge(limit)) => {
-            writeln!(std::io::stderr(), "verify: {}", printable(&limit.to_string()))?;
+            writeln!(
+                std::io::stderr(),
+                "verify: {}",
+                printable(&limit.to_string())
+            )?;
             TOO_LARGE
         }
     };
