@@ -554,7 +554,7 @@ def mutant(text, rng):
 # Files that hold a graph ---------------------------------------------------------------------------------------------
 
 LABELS = "a b c d 1 2 3 10 9 0 5 01 18446744073709551615 18446744073709551616 \u00e9 a#b _x x_ 1e3 -1".split()
-ODD = '"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw \u00a0'.split(" ")
+ODD = '"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw {a [0 <x \u00a0'.split(" ")
 GRAPH6 = ["Cl", "Bw", "A_", "@", "?", "D?{", "Bx", "~??Bw", "C~", "E?Bw", "xy"]
 HEADS = [" ".join(pair) for pair in check.HEADS] + ["Source TARGET", '"from" to', "from To", "src target", "a b weight"]
 

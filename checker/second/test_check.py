@@ -230,6 +230,8 @@ class Graphs(Case):
             'a b 1\nb c "2"\n',
             "a a\n",
             "source target\n",
+            "\n [0, 1]\n[1, 2]\n",
+            "<a b\n",
             "3 2\n0 1\n1 2\n",
             "0 1\n1 0\n",
             "0 1 1\n1 0 1\n1 1 0\n",
@@ -244,13 +246,14 @@ class Graphs(Case):
             ("0 1\n1 0\n", (2, [(0, 1)])),
             ("1 2 3\n2 3 4\n", (3, [(0, 1), (1, 2)])),
             ("source target\nb c x y z\n", (4, [(0, 1), (2, 3)])),
-            ("- // x,,y\"z\n", (2, [(0, 1)])),
+            ("- // x \"y z\"\n", (2, [(0, 1)])),
             ("a\n", (1, [])),
+            ("[0, 1]\n[1, 2]\n", (4, [(0, 2), (1, 3)])),
             ("Cl\n", (1, [])),
         ):
             with self.subTest(text=text):
                 self.assertEqual(self.edges_of(text, True), expected)
-        for text in ("", "a a\n", "a,,b\n", 'a"b c\n'):
+        for text in ("", "a a\n", "a,,b\n", 'a"b c\n', "a b,,c\n", "a b,\n", 'a b c"d\n', 'a b ""\n'):
             with self.subTest(text=text), self.assertRaises(check.Unreadable):
                 self.edges_of(text, True)
 

@@ -424,8 +424,9 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 12] = [
+const REPORTED: [&str; 13] = [
     "graph",
+    "notes",
     "model",
     "verdict",
     "strength",

@@ -221,15 +221,19 @@ impl Collector {
         mut text: &'a [u8],
         mut end: impl FnMut(&'a [u8], u32, u32) -> Option<(u64, &'a [u8])>,
     ) -> &'a [u8] {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        let (before, mut with_more) = (pairs.len(), 0);
         while let Some((a, b, further)) = small_pair(text)
             && a != b
             && let Some((more, rest)) = end(further, a, b)
         {
-            self.pairs.push((a, b));
-            self.line += 1;
-            self.lines_with_more += more;
+            pairs.push((a, b));
+            with_more += more;
             text = rest;
         }
+        self.line += (pairs.len() - before) as u64;
+        self.lines_with_more += with_more;
+        self.pairs = pairs;
         text
     }
 
@@ -538,6 +542,9 @@ fn small_pair(text: &[u8]) -> Option<(u32, u32, &[u8])> {
 /// What follows a line that has nothing more but blanks.
 #[inline]
 fn line_end(mut text: &[u8]) -> Option<&[u8]> {
+    if let [b'\n', rest @ ..] = text {
+        return Some(rest);
+    }
     while let [b' ' | b'\t', rest @ ..] = text {
         text = rest;
     }

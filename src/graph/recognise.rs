@@ -139,7 +139,7 @@ const MAGIC: [(&[u8], &str, &str); 22] = [
     (
         b"SQLite format 3\0",
         "an SQLite database (COLMAP's, perhaps)",
-        "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows > 0'",
+        "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'",
     ),
     (
         b"PK\x03\x04",
@@ -298,7 +298,7 @@ const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
     ),
 ];
 
-const COLMAP: &str = "the pairs are in COLMAP's database: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows > 0'";
+const COLMAP: &str = "the pairs are in COLMAP's database: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'";
 
 /// Camera models of COLMAP, the second field of a line in cameras.txt.
 const CAMERA_MODELS: [&str; 13] = [

@@ -46,9 +46,15 @@ pub enum Sparse6Error {
     },
 }
 
-/// Whether a line has the characters of sparse6 or incremental sparse6.
+/// Whether a line has the characters of sparse6 or incremental sparse6 (of which `;` alone changes
+/// nothing).
 pub fn looks_like_sparse6(line: &[u8]) -> bool {
-    matches!(line, [b':' | b';', body @ ..] if !body.is_empty() && body.iter().all(|b| (63..=126).contains(b)))
+    let alphabet = |body: &[u8]| body.iter().all(|b| (63..=126).contains(b));
+    match line {
+        [b':', body @ ..] => !body.is_empty() && alphabet(body),
+        [b';', body @ ..] => alphabet(body),
+        _ => false,
+    }
 }
 
 /// The graph of a line, given without its line end and header, and how many repeated edges were
@@ -167,6 +173,16 @@ mod tests {
         let (none, _) = decode(b";a@x^", Some(&first)).unwrap();
         assert_eq!((none.nodes(), none.edges()), (7, &[][..]));
         assert_eq!(decode(b";a@x^", Some(&none)).unwrap().0, first);
+    }
+
+    #[test]
+    fn lines_that_look_like_sparse6() {
+        for line in [":An", ";", ";a@x^", ":?"] {
+            assert!(looks_like_sparse6(line.as_bytes()), "{line}");
+        }
+        for line in ["", ":", "An", ":a b", ";a,b"] {
+            assert!(!looks_like_sparse6(line.as_bytes()), "{line}");
+        }
     }
 
     #[test]
