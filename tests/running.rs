@@ -4,6 +4,7 @@
 mod common;
 
 use common::{Run, verify};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -368,27 +369,42 @@ fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
     ]
 }
 
-/// Every stage that begins, with its units, those done, and whether it has ended.
+/// A stage that has begun.
+#[derive(Debug)]
+struct Begun {
+    stage: Stage,
+    total: u64,
+    done: u64,
+    ended: bool,
+}
+
+/// Every stage that begins, by its number.
 #[derive(Debug, Default)]
-struct Record(Mutex<Vec<(u64, Stage, u64, u64, bool)>>);
+struct Record(Mutex<BTreeMap<u64, Begun>>);
 
 impl Observer for Record {
     fn begin(&self, work: u64, stage: Stage, total: u64, _later: Option<u64>) {
-        let begun = (work, stage, total, 0, false);
-        self.0.lock().unwrap().push(begun);
+        let begun = Begun {
+            stage,
+            total,
+            done: 0,
+            ended: false,
+        };
+        let before = self.0.lock().unwrap().insert(work, begun);
+        assert!(before.is_none(), "a number is used twice");
     }
 
     fn done(&self, work: u64, units: u64) {
         let mut works = self.0.lock().unwrap();
-        let found = works.iter_mut().find(|entry| entry.0 == work).unwrap();
-        assert!(!found.4, "done after its end");
-        found.3 += units;
+        let found = works.get_mut(&work).unwrap();
+        assert!(!found.ended, "done after its end");
+        found.done += units;
     }
 
     fn end(&self, work: u64) {
         let mut works = self.0.lock().unwrap();
-        let found = works.iter_mut().find(|entry| entry.0 == work).unwrap();
-        assert!(!std::mem::replace(&mut found.4, true), "ended twice");
+        let found = works.get_mut(&work).unwrap();
+        assert!(!std::mem::replace(&mut found.ended, true), "ended twice");
     }
 }
 
@@ -410,10 +426,10 @@ fn an_observer_sees_every_stage_and_changes_nothing() {
             (alone.value, alone.rank, alone.components)
         );
         assert_eq!(verdict.pieces, alone.pieces);
-        for &(_, stage, total, done, ended) in record.0.lock().unwrap().iter() {
-            assert!(ended, "{stage}");
-            assert!(total == 0 || done <= total, "{stage}: {done} of {total}");
-            seen.push(stage.step);
+        for begun in record.0.lock().unwrap().values() {
+            assert!(begun.ended, "{begun:?}");
+            assert!(begun.total == 0 || begun.done <= begun.total, "{begun:?}");
+            seen.push(begun.stage.step);
         }
     }
     for step in [

@@ -23,7 +23,6 @@ fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 
 /// Removes all temporary files: the program is about to end. While the result is kept no file
 /// takes its name any more.
-#[must_use]
 pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     let mut pending = pending();
     for path in std::mem::take(&mut *pending) {

@@ -99,7 +99,7 @@ struct Running {
     bar: Option<Arc<Bar>>,
     /// What the program is doing, where the library does not tell.
     doing: Mutex<String>,
-    /// The signal that came, or 0.
+    /// Whether the signal that came was SIGTERM.
     terminated: AtomicBool,
     /// Whether somebody has said why the program ends.
     said: AtomicBool,
@@ -125,7 +125,7 @@ pub(super) fn begin(arguments: &LimitArguments) -> Result<()> {
         }),
         time,
         memory,
-        bar: terminal.then(|| Arc::<Bar>::default()),
+        bar: terminal.then(Arc::<Bar>::default),
         doing: Mutex::default(),
         terminated: AtomicBool::new(false),
         said: AtomicBool::new(false),
@@ -182,12 +182,9 @@ pub(super) fn hide() {
 
 /// The exit code for work that was stopped, which is about to be reported.
 pub(super) fn stopped(reason: &Reason) -> u8 {
-    if let Some(running) = RUNNING.get() {
-        if *reason == Reason::Interrupted && running.terminated.load(Ordering::Relaxed) {
-            return TERMINATED;
-        }
-    }
+    let terminated = |running: &Running| running.terminated.load(Ordering::Relaxed);
     match reason {
+        Reason::Interrupted if RUNNING.get().is_some_and(terminated) => TERMINATED,
         Reason::Interrupted => INTERRUPTED,
         Reason::Time | Reason::Memory { .. } | Reason::TooLarge { .. } => TOO_LARGE,
     }

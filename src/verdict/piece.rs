@@ -336,7 +336,7 @@ impl Piece<'_> {
         let mut kernels = Vec::new();
         let mut largest = 0;
         let mut next = 0;
-        let work = self.task(Step::Draws).begin(count as u64);
+        let work = self.task(Step::Draws).begin(count);
         for _ in 0..count {
             work.done(1)?;
             let (field, values, used) = camera::centres_mod_drawn_prime(nodes, &self.key(next))?;
