@@ -162,7 +162,7 @@ class Graph:
 
 
 def read_graph6(line):
-    """The graph of a graph6 line, or None if it is not one: all bytes, and no bit behind the last pair."""
+    """The graph of a graph6 line, or None if it is not one: n in its shortest form, no bit behind the last."""
     if not line or any(not "?" <= c <= "~" for c in line):
         return None
     values = [ord(c) - 63 for c in line]
@@ -172,7 +172,7 @@ def read_graph6(line):
     n = sum(value << 6 * (size - 1 - k) for k, value in enumerate(values[skip : skip + size]))
     body = values[skip + size :]
     bits = n * (n - 1) // 2
-    if len(body) != -(-bits // 6):
+    if n <= {6: 258047, 3: 62, 1: -1}[size] or len(body) != -(-bits // 6):
         return None
     if body and body[-1] & ((1 << (-bits % 6)) - 1):
         return None

@@ -268,8 +268,8 @@ class Graphs(Case):
             self.assertEqual(check.read_graph6(head + body).hash, graph.hash)
             if n <= 62:
                 self.assertEqual(make.graph6_of(graph), head + body)
-                self.assertEqual(check.read_graph6("~??" + chr(63 + n) + body).hash, graph.hash)
-                self.assertEqual(check.read_graph6("~~?????" + chr(63 + n) + body).hash, graph.hash)
+                self.assertIsNone(check.read_graph6("~??" + chr(63 + n) + body))
+                self.assertIsNone(check.read_graph6("~~?????" + chr(63 + n) + body))
             self.assertIsNone(check.read_graph6(head + body + "?"))
             self.assertIsNone(check.read_graph6((head + body)[:-1]) if body else None)
         self.assertIsNone(check.read_graph6("Bx"))  # a bit behind the last pair
