@@ -1,4 +1,5 @@
-//! Cameras drawn from a key stream, so that nobody can choose them (section 4 of the specification).
+//! Cameras drawn from a key stream, so that nobody can choose them (section 4 of the
+//! specification).
 
 use crate::algebra::{Field, Integers, Ring, is_prime};
 use crate::rejection::{Checked, ensure};
@@ -13,17 +14,24 @@ pub(crate) struct Stream {
 }
 
 impl Stream {
-    /// The stream of a draw of cameras ("draw") or flows ("flow").
-    pub fn new(label: &str, graph: &[u8; 32], seed: u64, draw: u64) -> Checked<Stream> {
-        ensure!(draw < 1 << 53, "`draw` is 2^53 or more");
-        let key =
-            [format!("viewcert {label} 1\n").as_bytes(), graph, &seed.to_le_bytes(), &draw.to_le_bytes()].concat();
-        Ok(Stream::from_key(&Sha256::digest(key).into()))
+    /// The stream of a draw of cameras ("draw") or flows ("flow"), from the hashes of the graph and
+    /// of the core.
+    pub fn new(label: &str, hashes: [&[u8; 32]; 2], seed: u64, draw: u64) -> Stream {
+        let mut key = Sha256::new();
+        key.update(format!("viewcert {label} 2\n"));
+        hashes.iter().for_each(|hash| key.update(hash));
+        key.update(seed.to_le_bytes());
+        key.update(draw.to_le_bytes());
+        Stream::from_key(&key.finalize().into())
     }
 
     fn from_key(key: &[u8; 32]) -> Stream {
         let word = |k| u32::from_le_bytes(std::array::from_fn(|byte| key[4 * k + byte]));
-        Stream { key: std::array::from_fn(word), block: [0; 8], taken: 0 }
+        Stream {
+            key: std::array::from_fn(word),
+            block: [0; 8],
+            taken: 0,
+        }
     }
 
     fn word(&mut self) -> u64 {
@@ -34,22 +42,50 @@ impl Stream {
         self.block[(self.taken - 1) as usize % 8]
     }
 
-    /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has, until below.
+    /// Uniform from 0 to `limit` - 1 (`limit` >= 1): as many low bits of a word as limit - 1 has,
+    /// until below.
     pub fn below(&mut self, limit: u64) -> u64 {
-        let mask = (limit - 1).checked_ilog2().map_or(0, |top| u64::MAX >> (63 - top));
-        std::iter::repeat_with(|| self.word() & mask).find(|&value| value < limit).unwrap_or(0)
+        let mask = (limit - 1)
+            .checked_ilog2()
+            .map_or(0, |top| u64::MAX >> (63 - top));
+        std::iter::repeat_with(|| self.word() & mask)
+            .find(|&value| value < limit)
+            .unwrap_or(0)
     }
 }
 
-/// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then the start is added.
+/// One block (RFC 8439, section 2.3, with a counter of 64 bits, nonce zero): twenty rounds, then
+/// the start is added.
 fn block(key: &[u32; 8], counter: u64) -> [u64; 8] {
-    let mut start = [0x6170_7865, 0x3320_646e, 0x7962_2d32, 0x6b20_6574, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    let mut start = [
+        0x6170_7865,
+        0x3320_646e,
+        0x7962_2d32,
+        0x6b20_6574,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+    ];
     start[4..12].copy_from_slice(key);
     (start[12], start[13]) = (counter as u32, (counter >> 32) as u32);
     let mut state = start;
     for _ in 0..10 {
         (0..4).for_each(|k| quarter(&mut state, [k, 4 + k, 8 + k, 12 + k]));
-        (0..4).for_each(|k| quarter(&mut state, [k, 4 + (k + 1) % 4, 8 + (k + 2) % 4, 12 + (k + 3) % 4]));
+        (0..4).for_each(|k| {
+            quarter(
+                &mut state,
+                [k, 4 + (k + 1) % 4, 8 + (k + 2) % 4, 12 + (k + 3) % 4],
+            )
+        });
     }
     let word = |k: usize| u64::from(state[k].wrapping_add(start[k]));
     std::array::from_fn(|k| word(2 * k) | word(2 * k + 1) << 32)
@@ -73,13 +109,19 @@ pub(crate) fn prime(stream: &mut Stream) -> Checked<Field> {
 
 /// Centres modulo p.
 pub(crate) fn centres(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<[u64; 3]>> {
-    let centres: Vec<_> = (0..nodes).map(|_| [(); 3].map(|()| field.element(stream.below(field.p)))).collect();
+    let centres: Vec<_> = (0..nodes)
+        .map(|_| [(); 3].map(|()| field.element(stream.below(field.p))))
+        .collect();
     check_different(centres.iter().copied().map(Some))?;
     Ok(centres)
 }
 
 /// General cameras modulo p.
-pub(crate) fn general(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<Camera<u64>>> {
+pub(crate) fn general(
+    stream: &mut Stream,
+    field: &Field,
+    nodes: usize,
+) -> Checked<Vec<Camera<u64>>> {
     let camera = |_| [(); 3].map(|()| [(); 4].map(|()| field.element(stream.below(field.p))));
     let cameras: Vec<Camera<u64>> = (0..nodes).map(camera).collect();
     check_different(cameras.iter().map(|camera| {
@@ -90,14 +132,30 @@ pub(crate) fn general(stream: &mut Stream, field: &Field, nodes: usize) -> Check
     Ok(cameras)
 }
 
-/// Integer cameras with bounds A <= 100, B <= 12. Entries are at most 100 lcm(1 .. 12) < 2^22; those of F at most 24 times a
-/// fourth power, and those of J_P at most six such entries times another entry: below 2^118.
-pub(crate) fn integer(stream: &mut Stream, (a, b): (u64, u64), nodes: usize) -> Checked<Vec<Camera<i128>>> {
-    ensure!((1..=100).contains(&a) && (1..=12).contains(&b), "`numerator` or `denominator` is out of range");
-    let mut entry = || (i128::from(stream.below(2 * a + 1)) - i128::from(a), i128::from(stream.below(b)) + 1);
+/// Integer cameras with bounds A <= 100, B <= 12. Entries are at most 100 lcm(1 .. 12) < 2^22;
+/// those of F at most 24 times a fourth power, and those of J_P at most six such entries times
+/// another entry: below 2^118.
+pub(crate) fn integer(
+    stream: &mut Stream,
+    (a, b): (u64, u64),
+    nodes: usize,
+) -> Checked<Vec<Camera<i128>>> {
+    ensure!(
+        (1..=100).contains(&a) && (1..=12).contains(&b),
+        "`numerator` or `denominator` is out of range"
+    );
+    let mut entry = || {
+        (
+            i128::from(stream.below(2 * a + 1)) - i128::from(a),
+            i128::from(stream.below(b)) + 1,
+        )
+    };
     let camera = |_| {
         let drawn = [(); 3].map(|()| [(); 4].map(|()| entry()));
-        let scale = drawn.iter().flatten().fold(1, |lcm, &(_, below)| lcm / gcd(lcm, below) * below);
+        let scale = drawn
+            .iter()
+            .flatten()
+            .fold(1, |lcm, &(_, below)| lcm / gcd(lcm, below) * below);
         drawn.map(|row| row.map(|(above, below)| scale / below * above))
     };
     let cameras: Vec<Camera<i128>> = (0..nodes).map(camera).collect();
@@ -114,16 +172,25 @@ pub(crate) fn integer(stream: &mut Stream, (a, b): (u64, u64), nodes: usize) -> 
 fn check_different<C: Ord>(centres: impl Iterator<Item = Option<C>>) -> Checked<()> {
     let mut centres: Vec<Option<C>> = centres.collect();
     centres.sort_unstable();
-    ensure!(centres.first().is_none_or(Option::is_some), "the draw is void: a camera has rank below 3");
-    ensure!(centres.windows(2).all(|pair| pair[0] != pair[1]), "the draw is void: two nodes have the same centre");
+    ensure!(
+        centres.first().is_none_or(Option::is_some),
+        "the draw is void: a camera has rank below 3"
+    );
+    ensure!(
+        centres.windows(2).all(|pair| pair[0] != pair[1]),
+        "the draw is void: two nodes have the same centre"
+    );
     Ok(())
 }
 
-/// The centre of a camera: entry c is (-1)^c det (camera without column c). All are zero if the rank is below 3.
+/// The centre of a camera: entry c is (-1)^c det (camera without column c). All are zero if the
+/// rank is below 3.
 pub(crate) fn centre<R: Ring>(ring: &R, [x, y, z]: &Camera<R::E>) -> [R::E; 4] {
     // Columns in an order that makes for the sign.
     [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]].map(|[a, b, c]| {
-        let term = |a: usize, b: usize, c: usize| ring.mul(x[a], ring.sub(ring.mul(y[b], z[c]), ring.mul(y[c], z[b])));
+        let term = |a: usize, b: usize, c: usize| {
+            ring.mul(x[a], ring.sub(ring.mul(y[b], z[c]), ring.mul(y[c], z[b])))
+        };
         ring.add(ring.add(term(a, b, c), term(b, c, a)), term(c, a, b))
     })
 }

@@ -1,76 +1,188 @@
-//! Upper bounds on the rank by counting nodes of blocks, and hubs (section 7 of the specification).
+//! `counting` (section 7 of the specification): upper bounds on the rank by the numbers of nodes of
+//! blocks, and hubs.
 
 use crate::document::{Counting, Hub, Model};
-use crate::evidence::Setting;
-use crate::pieces::{Part, Structure, root, unite};
 use crate::rejection::{Checked, Within, ensure};
+use crate::setting::Setting;
+use crate::structure::{Part, Structure, root, unite};
 
 /// Verifies `counting`; returns the bound on the rank of the piece.
 pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Part) -> Checked<i64> {
-    let (structure, list) = (setting.structure, evidence.blocks.iter().map(|block| (&block.bodies, &block.edges)));
-    let (parts, _) = structure.partition(piece, list).within(|| "blocks".into())?;
+    let (structure, blocks) = (setting.structure, &evidence.blocks);
+    let list = blocks.iter().map(|block| (&block.bodies, &block.edges));
+    let (parts, _) = structure
+        .partition(piece, list)
+        .within(|| "blocks".into())?;
     let mut sum = 0;
-    for (k, (part, block)) in parts.iter().zip(&evidence.blocks).enumerate() {
+    for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
         sum += setting.model.required(structure.nodes(part).len());
-        let fine = block.hubs.is_empty() || block.hubs.len() == 1 && setting.model == Model::Projective;
-        ensure!(fine, "more than one hub in a block, or any in the calibrated model");
+        ensure!(block.hubs.len() <= 1, "blocks[{k}] has more than one hub");
+        ensure!(
+            block.hubs.is_empty() || setting.model == Model::Projective,
+            "blocks[{k}] has a hub in the calibrated model"
+        );
         for hub in &block.hubs {
-            sum -= hub_takes_off(hub, structure, part).within(|| format!("blocks[{k}].hubs[0]"))?;
+            let less = check_hub(hub, structure, part);
+            sum -= less.within(|| format!("blocks[{k}].hubs[0]"))?;
         }
     }
-    ensure!(sum == evidence.bound, "the bound is {}, but the blocks sum up to {sum}", evidence.bound);
+    ensure!(
+        sum == evidence.bound,
+        "the bound is {}, but the blocks sum up to {sum}",
+        evidence.bound
+    );
     Ok(sum)
 }
 
-fn hub_takes_off(hub: &Hub, structure: &Structure, block: &Part) -> Checked<i64> {
+/// Verifies a hub; returns what it takes off.
+fn check_hub(hub: &Hub, structure: &Structure, block: &Part) -> Checked<i64> {
+    ensure!(
+        structure.nodes(block).binary_search(&hub.node).is_ok(),
+        "node {} is not in the block",
+        hub.node
+    );
     let list = hub.parts.iter().map(|part| (&part.bodies, &part.edges));
     let (parts, owner) = structure.partition(block, list).within(|| "parts".into())?;
-    let increasing = |list: &[usize]| list.is_sorted_by(|a, b| a < b) && list.iter().all(|&part| part < parts.len());
-    ensure!(increasing(&hub.split), "`split` is not an increasing list of parts");
-    let contains: Vec<bool> = parts.iter().map(|part| structure.nodes(part).contains(&hub.node)).collect();
-    let is_split: Vec<bool> = (0..parts.len()).map(|part| hub.split.contains(&part)).collect();
-    let split = hub.split.iter().all(|&part| contains[part]);
-    ensure!(split, "a part is split that does not contain node {}", hub.node);
-    let remains = |part: usize| contains[part] && !is_split[part];
-
-    ensure!(components(structure, block, hub.node, |_| 0) == 1, "the block is not connected");
-    // Copy 0 is the remaining node, copy k + 1 that of part k.
-    let copy = |position: usize| if is_split[owner[position]] { owner[position] + 1 } else { 0 };
-    let alone = usize::from(!(0..parts.len()).any(remains));
-    let kappa = components(structure, block, hub.node, copy) + alone;
-    ensure!(kappa == hub.components, "the split graph has {kappa} components, not {}", hub.components);
-
-    let mut grouped = vec![false; parts.len()];
-    let mut s = -Model::Calibrated.required(structure.nodes(block).len());
-    for (k, group) in hub.groups.iter().enumerate() {
-        ensure!(!group.is_empty() && increasing(group), "groups[{k}] is not an increasing list of parts");
-        for &part in group {
-            ensure!(!std::mem::replace(&mut grouped[part], true), "part {part} stands in two groups");
-        }
-        let union: Part = group.iter().flat_map(|&part| &parts[part]).copied().collect();
-        let once = usize::from(group.iter().any(|&part| contains[part]));
-        let remaining = usize::from(group.iter().any(|&part| remains(part)));
-        let copies = remaining + group.iter().filter(|&&part| is_split[part]).count();
-        s += Model::Calibrated.required(structure.nodes(&union).len() - once + copies);
-    }
-    ensure!(grouped.iter().all(|&grouped| grouped), "a part is in no group");
+    let split = SplitGraph::new(hub, structure, block, parts, &owner)?;
+    ensure!(
+        components(structure, block, hub.node, |_| 0) == 1,
+        "the block is not connected"
+    );
+    let kappa = split.components(structure, block, &owner);
+    ensure!(
+        kappa == hub.components,
+        "the split graph has {kappa} components, not {}",
+        hub.components
+    );
+    let s =
+        split.check_groups(structure)? - Model::Calibrated.required(structure.nodes(block).len());
     let less = hub.split.len() as i64 - (kappa as i64 - 1) - 3 * s;
-    ensure!(less == hub.less && less >= 1, "the hub takes off {less}, not {}", hub.less);
+    ensure!(
+        less == hub.less && less >= 1,
+        "the hub takes off {less}, not {}",
+        hub.less
+    );
     Ok(less)
 }
 
-/// The number of connected components that the members of a block form if each uses its own copy of a node.
-fn components(structure: &Structure, block: &Part, split: u32, copy: impl Fn(usize) -> usize) -> usize {
+/// A block in which some parts have their own copies of a node.
+struct SplitGraph<'h> {
+    hub: &'h Hub,
+    parts: Vec<Part>,
+    /// Which parts contain the node, and which have their own copy.
+    contains: Vec<bool>,
+    is_split: Vec<bool>,
+}
+
+impl<'h> SplitGraph<'h> {
+    /// Sees that the parts that are split are parts that contain the node.
+    fn new(
+        hub: &'h Hub,
+        structure: &Structure,
+        block: &Part,
+        parts: Vec<Part>,
+        owner: &[usize],
+    ) -> Checked<SplitGraph<'h>> {
+        ensure!(
+            is_increasing(&hub.split, parts.len()),
+            "`split` is not an increasing list of parts"
+        );
+        let mut contains = vec![false; parts.len()];
+        for (&member, &part) in block.iter().zip(owner) {
+            contains[part] |= structure.nodes_of(member).binary_search(&hub.node).is_ok();
+        }
+        ensure!(
+            hub.split.iter().all(|&part| contains[part]),
+            "a part is split that does not contain node {}",
+            hub.node
+        );
+        let mut is_split = vec![false; parts.len()];
+        hub.split.iter().for_each(|&part| is_split[part] = true);
+        Ok(SplitGraph {
+            hub,
+            parts,
+            contains,
+            is_split,
+        })
+    }
+
+    /// Whether a part contains the remaining node.
+    fn remains(&self, part: usize) -> bool {
+        self.contains[part] && !self.is_split[part]
+    }
+
+    /// The number of connected components; the remaining node is one if no part contains it.
+    fn components(&self, structure: &Structure, block: &Part, owner: &[usize]) -> usize {
+        // Copy 0 is the remaining node, copy k + 1 that of part k.
+        let copy = |position: usize| match owner[position] {
+            part if self.is_split[part] => part + 1,
+            _ => 0,
+        };
+        let alone = !(0..self.parts.len()).any(|part| self.remains(part));
+        components(structure, block, self.hub.node, copy) + usize::from(alone)
+    }
+
+    /// Sees that the groups are a partition of the parts; returns the sum of 3 n_g - 4 over them.
+    fn check_groups(&self, structure: &Structure) -> Checked<i64> {
+        let (mut grouped, mut sum) = (vec![false; self.parts.len()], 0);
+        for (k, group) in self.hub.groups.iter().enumerate() {
+            ensure!(
+                !group.is_empty() && is_increasing(group, self.parts.len()),
+                "groups[{k}] is not an increasing list of parts"
+            );
+            for &part in group {
+                let before = std::mem::replace(&mut grouped[part], true);
+                ensure!(!before, "part {part} stands in two groups");
+            }
+            sum += Model::Calibrated.required(self.group_nodes(structure, group));
+        }
+        ensure!(
+            grouped.iter().all(|&grouped| grouped),
+            "a part is in no group"
+        );
+        Ok(sum)
+    }
+
+    /// The number of nodes of a group in the split graph.
+    fn group_nodes(&self, structure: &Structure, group: &[usize]) -> usize {
+        let union: Part = group
+            .iter()
+            .flat_map(|&part| &self.parts[part])
+            .copied()
+            .collect();
+        let once = usize::from(group.iter().any(|&part| self.contains[part]));
+        let remaining = usize::from(group.iter().any(|&part| self.remains(part)));
+        let copies = group.iter().filter(|&&part| self.is_split[part]).count();
+        structure.nodes(&union).len() - once + remaining + copies
+    }
+}
+
+fn is_increasing(list: &[usize], limit: usize) -> bool {
+    list.is_sorted_by(|a, b| a < b) && list.iter().all(|&part| part < limit)
+}
+
+/// The number of connected components that the members of a block form if each uses its own copy of
+/// a node.
+fn components(
+    structure: &Structure,
+    block: &Part,
+    split: u32,
+    copy: impl Fn(usize) -> usize,
+) -> usize {
     let nodes = structure.nodes(block);
     // Members, nodes, and copies, of which there are no more than members and one.
     let mut forest: Vec<usize> = (0..2 * block.len() + nodes.len() + 1).collect();
     for (position, &member) in block.iter().enumerate() {
         for &node in structure.nodes_of(member) {
             let own = nodes.partition_point(|&other| other < node);
-            let at = if node == split { nodes.len() + copy(position) } else { own };
+            let at = match node == split {
+                true => nodes.len() + copy(position),
+                false => own,
+            };
             unite(&mut forest, position, block.len() + at);
         }
     }
     // Roots are smallest indices, so that every component has its root among the members.
-    (0..block.len()).filter(|&position| root(&mut forest, position) == position).count()
+    let is_root = |&position: &usize| root(&mut forest, position) == position;
+    (0..block.len()).filter(is_root).count()
 }

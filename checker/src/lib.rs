@@ -1,40 +1,64 @@
 //! Independent checker of viewcert certificates.
 //!
-//! A certificate binds a claim about a viewing graph - solvable or not, the rank, the number of components - to the graph by
-//! a hash, and carries evidence. [`check`] verifies the evidence and recomputes the claim from it, by the conditions of
-//! `docs/certificate.md` ("section" means its sections). What cannot be verified in full is rejected.
+//! A certificate binds a claim about a viewing graph - solvable or not, the rank, the number of
+//! components - to the graph by a hash, and carries evidence. [`check`] verifies the evidence and
+//! recomputes the claim from it, by the conditions of `docs/certificate.md` ("section" means its
+//! sections, "theory" `docs/theory.md`). What cannot be verified in full is rejected.
 //!
-//! In the order of reading: [`check`] below; `document`, the grammar; `graph`; `pieces`, rigid bodies and what lies between
-//! them; `evidence`, with `lower` and `counting` (bounds on a rank); `claim`. `cameras`, `matrices` and `algebra` compute.
+//! In the order of reading:
+//!
+//! * [`check`] below;
+//! * `document`, the grammar (sections 1 and 3), by the strict reader in `json`;
+//! * `graph`, with the files that hold one (section 2);
+//! * `bodies` and `structure`: rigid bodies, what lies between them, and cores (sections 5 and 6);
+//! * `evidence`: pieces, what is shown of them, and classes (sections 6 and 7), with the kinds of
+//!   evidence: `lower` (and `pivots`), `integer_minor`, `plane_flow`, `counting`, `draws` (section
+//!   9) and `kernel`; `setting` has what they all refer to;
+//! * `claim` (section 8).
+//!
+//! `cameras` draws (section 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds
+//! what that may cost (section 11), `rejection` has the reasons.
 
 mod algebra;
+mod bodies;
 mod cameras;
 mod claim;
 mod counting;
 mod document;
+mod draws;
+mod elimination;
 mod evidence;
 mod graph;
+mod integer_minor;
+mod json;
+mod kernel;
+mod limits;
 mod lower;
 mod matrices;
-mod pieces;
+mod pivots;
+mod plane_flow;
 mod rejection;
+mod setting;
+mod structure;
 
 pub use claim::{Strength, Verdict, Verified};
 pub use document::Model;
 pub use graph::Graph;
-pub use rejection::Rejection;
+pub use limits::Limits;
+pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 
-use rejection::{Within, ensure};
+use rejection::Within;
 
 /// Verifies a certificate, for the given graph or, without one, for the graph that it holds.
 ///
-/// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the pieces' cores.
+/// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the
+/// pieces' cores.
 ///
 /// # Errors
 /// The first thing that cannot be verified.
 ///
 /// ```
-/// let certificate = br#"{"format": "viewcert certificate", "version": 1, "program": "by hand",
+/// let certificate = br#"{"format": "viewcert certificate", "version": 2, "program": "by hand",
 ///     "graph": {"name": "a pair", "nodes": 2, "edges": 1, "graph6": "A_",
 ///         "sha256": "1a2922f94e61dd3386d10331aca4a4e92403b8e12be0532bcbc2ddaf95da33eb"},
 ///     "model": "projective",
@@ -45,7 +69,7 @@ use rejection::{Within, ensure};
 /// let verified = viewcert_check::check(certificate, None).unwrap();
 /// assert_eq!(verified.verdict.0, viewcert_check::Verdict::Solvable);
 /// ```
-pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Rejection> {
+pub fn check(certificate: &[u8], graph: Option<&Graph>) -> Result<Verified, Failure> {
     Certificate::parse(certificate)?.check(graph)
 }
 
@@ -58,7 +82,7 @@ impl Certificate {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn parse(text: &[u8]) -> Result<Certificate, Rejection> {
+    pub fn parse(text: &[u8]) -> Result<Certificate, Failure> {
         document::parse(text).map(Certificate)
     }
 
@@ -67,19 +91,40 @@ impl Certificate {
         &self.0.graph.sha256
     }
 
-    /// See [`check`].
+    /// See [`check`]; within the default limits.
     ///
     /// # Errors
     /// The first thing that cannot be verified.
-    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Rejection> {
+    pub fn check(&self, graph: Option<&Graph>) -> Result<Verified, Failure> {
+        self.check_within(graph, &Limits::default())
+    }
+
+    /// See [`check`].
+    ///
+    /// # Errors
+    /// The first thing that cannot be verified, or not within the limits.
+    pub fn check_within(
+        &self,
+        graph: Option<&Graph>,
+        limits: &Limits,
+    ) -> Result<Verified, Failure> {
         let Certificate(document) = self;
-        ensure!(document.format == "viewcert certificate", "`format` is not \"viewcert certificate\"");
-        ensure!(document.version == 1, "version {} is unknown to this program", document.version);
         let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
-        let structure = &pieces::Structure::new(&graph, &document.bodies)?;
-        let setting = evidence::Setting { model, sha256, structure };
-        let pieces = evidence::check_pieces(&document.rigid, &document.pieces, &setting, &structure.everything)?;
+        let meter = &limits::Meter::new(limits);
+        let structure = &structure::Structure::new(&graph, &document.bodies, meter)?;
+        let setting = setting::Setting {
+            model,
+            sha256,
+            structure,
+            meter,
+        };
+        let pieces = evidence::check_pieces(
+            &document.rigid,
+            &document.pieces,
+            &setting,
+            &structure.everything,
+        )?;
         claim::verify(&document.claim, name, model, &pieces).within(|| "claim".into())
     }
 }

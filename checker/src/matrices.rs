@@ -1,10 +1,9 @@
-//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the motions that a kernel
-//! vector gives to the edges.
+//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the
+//! motions that change no fundamental matrix.
 
-use crate::algebra::{Echelon, Field, Ring};
+use crate::algebra::{Field, Ring};
 use crate::cameras::{Camera, centre};
-use crate::pieces::Core;
-use crate::rejection::{Checked, ensure};
+use crate::structure::Core;
 
 /// The sum of the products of entries.
 pub(crate) fn dot<R: Ring, const N: usize>(ring: &R, x: [R::E; N], y: [R::E; N]) -> R::E {
@@ -12,7 +11,8 @@ pub(crate) fn dot<R: Ring, const N: usize>(ring: &R, x: [R::E; N], y: [R::E; N])
     (1..N).fold(first, |sum, k| ring.add(sum, ring.mul(x[k], y[k])))
 }
 
-/// The fundamental matrix by the paper's eq. (2): entry (h, k) is (-1)^(h+k) det [P_i without row k; P_j without row h].
+/// The fundamental matrix by the paper's eq. (2): entry (h, k) is (-1)^(h+k) det [P_i without row
+/// k; P_j without row h].
 fn fundamental<R: Ring>(ring: &R, i: &Camera<R::E>, j: &Camera<R::E>) -> [[R::E; 3]; 3] {
     // The cyclic order of the two other rows makes for the sign.
     let others = |camera: &Camera<R::E>, row: usize| [camera[(row + 1) % 3], camera[(row + 2) % 3]];
@@ -26,10 +26,26 @@ fn fundamental<R: Ring>(ring: &R, i: &Camera<R::E>, j: &Camera<R::E>) -> [[R::E;
 
 /// Row `row` of J_P of a core: entries with their columns, each column once.
 ///
-/// With S = Q^T F P for the edge's cameras P and Q, the derivative of S + S^T in entry (r, c) of P has M = Q^T F in row and
-/// column c; that in entry (r, c) of Q has K = F P there.
-pub(crate) fn jacobian<R: Ring>(ring: &R, core: &Core, cameras: &[Camera<R::E>], row: usize) -> Vec<(usize, R::E)> {
-    const VECH: [(usize, usize); 10] = [(0, 0), (1, 0), (2, 0), (3, 0), (1, 1), (2, 1), (3, 1), (2, 2), (3, 2), (3, 3)];
+/// With S = Q^T F P for the edge's cameras P and Q, the derivative of S + S^T in entry (r, c) of P
+/// has M = Q^T F in row and column c; that in entry (r, c) of Q has K = F P there.
+pub(crate) fn jacobian<R: Ring>(
+    ring: &R,
+    core: &Core,
+    cameras: &[Camera<R::E>],
+    row: usize,
+) -> Vec<(usize, R::E)> {
+    const VECH: [(usize, usize); 10] = [
+        (0, 0),
+        (1, 0),
+        (2, 0),
+        (3, 0),
+        (1, 1),
+        (2, 1),
+        (3, 1),
+        (2, 2),
+        (3, 2),
+        (3, 3),
+    ];
     let (i, j) = core.edges[row / 10];
     let (p, q) = (&cameras[i], &cameras[j]);
     let f = fundamental(ring, p, q);
@@ -39,7 +55,10 @@ pub(crate) fn jacobian<R: Ring>(ring: &R, core: &Core, cameras: &[Camera<R::E>],
         let m = |column: usize| dot(ring, q.map(|row| row[column]), f.map(|row| row[r]));
         let k = |column: usize| dot(ring, f[r], p.map(|row| row[column]));
         for (node, of_a, of_b) in [(i, m(a), m(b)), (j, k(a), k(b))] {
-            entries.push((12 * node + 3 * b + r, if a == b { ring.add(of_a, of_b) } else { of_a }));
+            entries.push((
+                12 * node + 3 * b + r,
+                if a == b { ring.add(of_a, of_b) } else { of_a },
+            ));
             entries.extend((a != b).then_some((12 * node + 3 * a + r, of_b)));
         }
     }
@@ -49,11 +68,18 @@ pub(crate) fn jacobian<R: Ring>(ring: &R, core: &Core, cameras: &[Camera<R::E>],
 /// The camera [ I | -c ].
 pub(crate) fn camera_at(field: &Field, c: &[u64; 3]) -> Camera<u64> {
     let [x, y, z] = c.map(|entry| field.neg(entry));
-    [[field.one, 0, 0, x], [0, field.one, 0, y], [0, 0, field.one, z]]
+    [
+        [field.one, 0, 0, x],
+        [0, field.one, 0, y],
+        [0, 0, field.one, z],
+    ]
 }
 
-/// The rows of N: six entries with their columns, first the direction a.
-pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<[(usize, u64); 6]> {
+/// A row of N: six entries with their columns, first the direction a.
+pub(crate) type Bearing = [(usize, u64); 6];
+
+/// The rows of N.
+pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<Bearing> {
     let mut rows = Vec::new();
     for &(i, j) in &core.edges {
         let d = [0, 1, 2].map(|k| field.sub(centres[i][k], centres[j][k]));
@@ -61,44 +87,33 @@ pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<
         for other in (0..3).filter(|&k| k != q) {
             let mut a = [0; 3];
             (a[other], a[q]) = (d[q], field.neg(d[other]));
-            let entry = |k: usize| if k < 3 { (3 * i + k, a[k]) } else { (3 * j + k - 3, field.neg(a[k - 3])) };
+            let entry = |k: usize| {
+                if k < 3 {
+                    (3 * i + k, a[k])
+                } else {
+                    (3 * j + k - 3, field.neg(a[k - 3]))
+                }
+            };
             rows.push(std::array::from_fn(entry));
         }
     }
     rows
 }
 
-/// The motion P_v X of some cameras, or as many columns of it, where X has a one in entry (a, b) = (ab / columns, ab % columns).
+/// The motion P_v X of some cameras, or as many columns of it, where X has a one in entry (a, b) =
+/// (ab / columns, ab % columns).
 pub(crate) fn map_motion(cameras: &[Camera<u64>], columns: usize, ab: usize) -> Vec<(usize, u64)> {
     let (a, b) = (ab / columns, ab % columns);
-    let motion = cameras.iter().enumerate().flat_map(|(v, p)| [0, 1, 2].map(|r| (3 * (columns * v + b) + r, p[r][a])));
+    let motion = cameras
+        .iter()
+        .enumerate()
+        .flat_map(|(v, p)| [0, 1, 2].map(|r| (3 * (columns * v + b) + r, p[r][a])));
     motion.collect()
 }
 
 /// The motion that scales camera v.
 pub(crate) fn scale_motion(cameras: &[Camera<u64>], v: usize) -> Vec<(usize, u64)> {
-    (0..12).map(|at| (12 * v + at, cameras[v][at % 3][at / 3])).collect()
-}
-
-/// How a kernel vector moves an edge: the matrix X, row by row, with dP_i = P_i X and dP_j = P_j X + lambda P_j, less a multiple
-/// of I. In the calibrated model y = s c + t is the only column of [ I | -c ] X, with X = (t, -s).
-pub(crate) fn edge_motion(
-    field: &Field, core: &Core, centres: &[[u64; 3]], vector: &[u64], edge: usize,
-) -> Checked<Vec<u64>> {
-    let columns = vector.len() / (3 * core.nodes);
-    let ends = [core.edges[edge].0, core.edges[edge].1];
-    let cameras = ends.map(|v| camera_at(field, &centres[v]));
-    let mut motions: Vec<_> = (0..4 * columns).map(|ab| map_motion(&cameras, columns, ab)).collect();
-    motions.extend((columns == 4).then(|| scale_motion(&cameras, 1)));
-    let mut echelon = Echelon::new(field, 6 * columns);
-    let independent = motions.into_iter().all(|motion| echelon.push(motion, None));
-    let mut moved = ends.map(|v| &vector[3 * columns * v..3 * columns * (v + 1)]).concat();
-    let mut x = echelon.solve(&mut moved);
-    let solved = independent && moved.iter().all(|&entry| entry == 0);
-    ensure!(solved, "not a kernel vector at the core edge {edge}");
-    x.truncate(4 * columns);
-    if let Some(&last) = x.get(15) {
-        [0, 5, 10, 15].iter().for_each(|&diagonal: &usize| x[diagonal] = field.sub(x[diagonal], last));
-    }
-    Ok(x)
+    (0..12)
+        .map(|at| (12 * v + at, cameras[v][at % 3][at / 3]))
+        .collect()
 }

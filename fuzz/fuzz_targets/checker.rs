@@ -37,7 +37,7 @@ fuzz_target!(|data: &[u8]| {
         outcomes.map(|outcome| outcome.map(|verified| verified.to_string())),
         Certificate::parse(data).map(|certificate| certificate.graph_sha256().to_owned()),
     );
-    let _ = Graph::read(data, || None);
+    let _ = (Graph::read(data, || None), Graph::read_edges(data));
 
     let mut bytes = data.iter().copied();
     let (valid, graph) = &VALID[usize::from(bytes.next().unwrap_or(0)) % VALID.len()];

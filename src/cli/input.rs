@@ -1,10 +1,11 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{BAD_INPUT, GOOD, TOO_LARGE};
-use crate::graph::{Format, NamedGraph, ReadError, ReadOptions, read_graphs};
-use anyhow::{Context, Result};
+use super::{GOOD, certificates, ends_run, exit_code, running};
+use crate::graph::{Format, NamedGraph, ReadOptions, read_graphs};
+use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
 /// What the graphs' files are, for those that do not show it.
@@ -44,11 +45,16 @@ impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
     /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
     ///
+    /// If there is a `single` file for what comes out, an input with a second graph is refused before
+    /// `each` has seen the first.
+    ///
     /// # Errors
-    /// If the output is gone: nobody reads on, and the rest would be work for nothing.
+    /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit
+    /// or a signal has ended the run.
     pub(super) fn for_each<W: Write>(
         &self,
         paths: &[String],
+        single: Option<&Path>,
         out: &mut W,
         mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
@@ -56,22 +62,29 @@ impl InputArguments {
         let options = self.read_options();
         for path in paths {
             let mut start = Instant::now();
-            for input in read_graphs(path, &options) {
+            running::reading(path);
+            let mut graphs = read_graphs(path, &options).peekable();
+            while let Some(input) = graphs.next() {
+                if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
+                    let several = format!("several in {path}");
+                    return Err(anyhow!(certificates::too_many(file, &several)));
+                }
+                running::hide();
+                if let Ok(input) = &input {
+                    running::doing(format!("working on {}", input.name));
+                }
                 let done = input.map_err(Into::into);
                 let done = done.and_then(|input| each(out, &input, start));
                 code = code.max(match done {
                     Ok(code) => code,
+                    Err(error) if ends_run(&error) => return Err(error),
                     Err(error) => {
                         writeln!(std::io::stderr(), "verify: {error:#}")?;
-                        let refused = error.downcast_ref::<ReadError>();
-                        if refused.is_some_and(|refused| refused.problem.is_size()) {
-                            TOO_LARGE
-                        } else {
-                            BAD_INPUT
-                        }
+                        exit_code(&error)
                     }
                 });
                 out.flush().context("standard output")?;
+                running::reading(path);
                 start = Instant::now();
             }
         }

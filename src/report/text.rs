@@ -1,6 +1,6 @@
 //! A few lines a graph, for people.
 
-use super::Report;
+use super::{Report, counted, size};
 use crate::evidence::{Evidence, Strength, Witness};
 use crate::model::Model;
 use crate::verdict::{Value, Verdict};
@@ -16,12 +16,7 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
-    let nodes = input.graph.nodes();
-    writeln!(
-        out,
-        "  graph       {nodes} cameras, {} pairs",
-        input.graph.edges().len()
-    )?;
+    writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
@@ -98,7 +93,10 @@ fn reason(report: &Report) -> String {
             Some(Evidence::IntegerMinor(minor)) => {
                 let witness = match &minor.witness {
                     Witness::Determinant(determinant) => {
-                        format!("a determinant of {} bits", determinant.bits())
+                        format!(
+                            "a determinant of {}",
+                            counted(determinant.bits() as usize, "bit")
+                        )
                     }
                     Witness::Prime(prime) => format!("not even modulo {prime}"),
                 };
@@ -135,11 +133,8 @@ fn sizes(verdict: &Verdict) -> String {
         .iter()
         .take(SHOWN)
         .map(|component| {
-            let plural = if component.edges == 1 { "" } else { "s" };
-            format!(
-                "{} cameras / {} pair{plural}",
-                component.nodes, component.edges
-            )
+            let (nodes, edges) = (component.nodes, component.edges);
+            format!("{} / {}", counted(nodes, "camera"), counted(edges, "pair"))
         })
         .collect();
     if verdict.components.len() > SHOWN {

@@ -7,7 +7,17 @@ const PRIMES: [u64; 5] = [5, 7, 4_294_967_291, (1 << 61) - 1, (1 << 62) - 57];
 fn arithmetic_agrees_with_long_division() {
     for p in PRIMES {
         let field = Field::new(p).unwrap();
-        let samples = [0, 1, 2, 3, 4, p / 2, p - 2, p - 1, 0x1234_5678_9abc_def0 % p];
+        let samples = [
+            0,
+            1,
+            2,
+            3,
+            4,
+            p / 2,
+            p - 2,
+            p - 1,
+            0x1234_5678_9abc_def0 % p,
+        ];
         for a in samples.map(|a| a % p) {
             for b in samples.map(|b| b % p) {
                 let wide = |x: u128| field.element((x % u128::from(p)) as u64);
@@ -16,10 +26,19 @@ fn arithmetic_agrees_with_long_division() {
                 assert_eq!(field.add(x, y), wide(u128::from(a) + u128::from(b)));
                 assert_eq!(field.sub(x, y), wide(u128::from(a) + u128::from(p - b)));
                 let sum = field.add_products(x, LANES as u128 * u128::from(x) * u128::from(y));
-                assert_eq!(sum, wide(u128::from(a) + LANES as u128 * (u128::from(a) * u128::from(b) % u128::from(p))));
+                assert_eq!(
+                    sum,
+                    wide(
+                        u128::from(a)
+                            + LANES as u128 * (u128::from(a) * u128::from(b) % u128::from(p))
+                    )
+                );
             }
             let x = field.element(a);
-            assert_eq!(field.mul(x, field.inverse(x)), if a == 0 { 0 } else { field.one });
+            assert_eq!(
+                field.mul(x, field.inverse(x)),
+                if a == 0 { 0 } else { field.one }
+            );
         }
         // The largest stored values, whatever they stand for.
         let top = field.add_products(p - 1, LANES as u128 * u128::from(p - 1).pow(2));
@@ -32,116 +51,18 @@ fn primes_are_told_from_composites() {
     let below_100: Vec<u64> = (0..100).filter(|&p| is_prime(p)).collect();
     assert_eq!(below_100.len(), 25);
     assert!(PRIMES.iter().all(|&p| is_prime(p)));
-    // Strong pseudoprimes to the bases 2, 3, 5, 7 and to the first nine primes; a square of a prime; 2^62 - 1.
-    for composite in [3_215_031_751, 3_825_123_056_546_413_051, 2_147_483_647 * 2_147_483_647, (1 << 62) - 1] {
+    // Strong pseudoprimes to the bases 2, 3, 5, 7 and to the first nine primes; a square of a
+    // prime; 2^62 - 1.
+    for composite in [
+        3_215_031_751,
+        3_825_123_056_546_413_051,
+        2_147_483_647 * 2_147_483_647,
+        (1 << 62) - 1,
+    ] {
         assert!(!is_prime(composite), "{composite}");
         assert!(Field::new(composite).is_err());
     }
     for p in [0, 1, 2, 3, 4, 1 << 62, (1 << 63) + 29] {
         assert!(Field::new(p).is_err(), "{p}");
     }
-}
-
-use crate::cameras::Stream;
-
-/// A random matrix with a given share (of 100) of entries that are not zero, and a diagonal without zeros.
-fn random(field: &Field, size: usize, share: u64) -> Vec<Vec<u64>> {
-    let mut stream = Stream::new("test", &[7; 32], size as u64, 0).unwrap();
-    let entry = |k, j, stream: &mut Stream| {
-        if k == j || stream.below(100) < share { field.element(1 + stream.below(field.p - 1)) } else { 0 }
-    };
-    (0..size).map(|k| (0..size).map(|j| entry(k, j, &mut stream)).collect()).collect()
-}
-
-fn sparse(row: &[u64]) -> Vec<(usize, u64)> {
-    row.iter().copied().enumerate().collect()
-}
-
-#[test]
-fn solutions_solve_the_system_at_every_density() {
-    for p in [1_000_003, (1 << 61) - 1, (1 << 62) - 57] {
-        let field = Field::new(p).unwrap();
-        for (size, share) in [(1, 100), (7, 100), (8, 50), (17, 100), (40, 2), (150, 1), (120, 100), (130, 0)] {
-            let matrix = random(&field, size, share);
-            let mut echelon = Echelon::new(&field, size);
-            assert!(matrix.iter().all(|row| echelon.push(sparse(row), None)));
-            for wanted in &random(&field, size, 30)[..size.min(20)] {
-                let mut left = wanted.clone();
-                let solution = echelon.solve(&mut left);
-                assert!(left.iter().all(|&entry| entry == 0));
-                for (column, wanted) in wanted.iter().enumerate() {
-                    let products = solution.iter().zip(&matrix).map(|(&x, row)| field.mul(x, row[column]));
-                    assert_eq!(products.fold(0, |sum, product| field.add(sum, product)), *wanted, "{size}, {share}");
-                }
-            }
-        }
-    }
-}
-
-/// Rows that are short of the full width: what a combination of them cannot reach is left.
-#[test]
-fn the_difference_is_left() {
-    let field = Field::new(101).unwrap();
-    let mut echelon = Echelon::new(&field, 3);
-    assert!(echelon.push([(0, field.element(2)), (1, field.element(4))], Some(0)));
-    assert!(!echelon.push([(0, field.element(3)), (1, field.element(6))], Some(1)), "a multiple of the first");
-    assert!(!echelon.push([(2, field.element(1))], Some(1)), "zero at the prescribed pivot");
-    let mut row = [1, 5, 7].map(|entry| field.element(entry));
-    assert_eq!(echelon.solve(&mut row), [field.element(51)]);
-    assert_eq!(row, [0, 3, 7].map(|entry| field.element(entry)));
-}
-
-/// The same leading minors by both kinds of elimination, at sizes around multiples of the lanes and of the threads' start.
-#[test]
-fn diagonal_is_that_of_prescribed_pivots() {
-    for p in [5, 1_000_003, (1 << 29) - 3, (1 << 62) - 57] {
-        let field = Field::new(p).unwrap();
-        for size in [0, 1, 2, 11, 12, 13, 24, 25, 63, 64, 65, 77, 130, 200] {
-            let matrix = random(&field, size, 100);
-            let mut echelon = Echelon::new(&field, size);
-            let vanishing = (0..size).find(|&k| !echelon.push(sparse(&matrix[k]), Some(k)));
-            let found = check_diagonal(&field, &mut matrix.clone());
-            let wanted = vanishing.map(|k| format!("pivot {k} vanishes"));
-            assert_eq!(found.err().map(|error| error.reason), wanted, "{p}, {size}");
-        }
-    }
-}
-
-/// As many of the largest products as are summed before they are reduced, in words and in 128 bits.
-#[test]
-fn sums_do_not_overflow() {
-    for (p, most) in [((1 << 29) - 3, SMALL_LANES), ((1 << 62) - 57, LANES)] {
-        let field = Field::new(p).unwrap();
-        let (factors, lane) = (vec![p - 1; most], [p - 1; TILE]);
-        let term = field.mul(p - 1, p - 1);
-        let wanted = (0..most).fold(p - 1, |sum, _| field.add(sum, term));
-        let mut entries = [p - 1; TILE];
-        if p < SMALL {
-            add_lanes::<u64>(&field, &mut entries, &factors, &vec![&lane[..]; most], |residue| residue & 0xffff_ffff);
-        } else {
-            add_lanes::<u128>(&field, &mut entries, &factors, &vec![&lane[..]; most], u128::from);
-        }
-        assert_eq!(entries, [wanted; TILE]);
-    }
-}
-
-#[test]
-fn a_vanishing_pivot_is_named() {
-    let field = Field::new(7).unwrap();
-    // Rows 0 and 1 agree in columns 0 and 1, so that the second pivot vanishes although the matrix is invertible.
-    let mut matrix = [[1, 1, 0], [1, 1, 1], [0, 1, 1]].map(|row| row.map(|entry| field.element(entry)).to_vec());
-    assert_eq!(check_diagonal(&field, &mut matrix).unwrap_err().reason, "pivot 1 vanishes");
-}
-
-#[test]
-fn rank_of_products() {
-    let field = Field::new((1 << 61) - 1).unwrap();
-    // 12 x 9 as a product through 4 dimensions.
-    let (left, right) = (random(&field, 12, 60), random(&field, 9, 60));
-    let row = |k: usize| {
-        let sum = |j: usize| (0..4).fold(0, |sum, t| field.add(sum, field.mul(left[k][t], right[t][j])));
-        (0..9).map(|j| (j, sum(j))).collect::<Vec<_>>()
-    };
-    let mut echelon = Echelon::new(&field, 9);
-    assert_eq!((0..12).filter(|&k| echelon.push(row(k), None)).count(), 4);
 }

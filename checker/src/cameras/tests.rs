@@ -1,7 +1,9 @@
 use super::*;
 
 fn bytes(stream: &mut Stream, words: usize) -> Vec<u8> {
-    (0..words).flat_map(|_| stream.word().to_le_bytes()).collect()
+    (0..words)
+        .flat_map(|_| stream.word().to_le_bytes())
+        .collect()
 }
 
 fn hex(bytes: &[u8]) -> String {

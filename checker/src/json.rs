@@ -1,0 +1,268 @@
+//! A strict reading of JSON (sections 1 and 3 of the specification). `serde_json` reads the text;
+//! what is here sees to it that each value is of its own type and each member is there, once.
+
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use std::borrow::Cow;
+use std::fmt;
+use std::marker::PhantomData;
+use std::str::FromStr;
+
+/// A value of the certificate's grammar.
+pub(crate) trait Value: Sized {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
+}
+
+/// A value where `serde` reads it: an entry of a list, or the value of a member.
+pub(crate) struct Strict<T>(pub T);
+
+impl<'de, T: Value> Deserialize<'de> for Strict<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        T::read(from).map(Strict)
+    }
+}
+
+/// Section 1, *int*. `serde_json` hands on what has a fraction, an exponent or a minus before zero
+/// as a floating point number, which is refused here, and refuses leading zeros by itself.
+struct Int;
+
+const INT_LIMIT: u64 = 1 << 53;
+
+impl Visitor<'_> for Int {
+    type Value = i64;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an integer below 2^53")
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<i64, E> {
+        let wrong = || E::invalid_value(Unexpected::Unsigned(value), &self);
+        (value < INT_LIMIT)
+            .then_some(value as i64)
+            .ok_or_else(wrong)
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<i64, E> {
+        let wrong = || E::invalid_value(Unexpected::Signed(value), &self);
+        let small = value.unsigned_abs() < INT_LIMIT;
+        small.then_some(value).ok_or_else(wrong)
+    }
+}
+
+macro_rules! ints {
+    ($($type:ty),*) => {$(
+        impl Value for $type {
+            fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                let value = from.deserialize_i64(Int)?;
+                let wrong = |_| D::Error::custom(format!("{value} is out of range"));
+                <$type>::try_from(value).map_err(wrong)
+            }
+        }
+    )*};
+}
+
+ints!(u32, u64, usize, i64);
+
+impl Value for String {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        String::deserialize(from)
+    }
+}
+
+/// `null`, or a value.
+impl<T: Value> Value for Option<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let value = Option::<Strict<T>>::deserialize(from)?;
+        Ok(value.map(|Strict(value)| value))
+    }
+}
+
+struct List<T>(PhantomData<T>);
+
+impl<'de, T: Value> Visitor<'de> for List<T> {
+    type Value = Vec<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Vec<T>, A::Error> {
+        let mut list = Vec::new();
+        while let Some(Strict(entry)) = entries.next_element()? {
+            list.push(entry);
+        }
+        Ok(list)
+    }
+}
+
+impl<T: Value> Value for Vec<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_seq(List(PhantomData))
+    }
+}
+
+/// Exactly so many nodes.
+struct Nodes<const N: usize>;
+
+impl<'de, const N: usize> Visitor<'de> for Nodes<N> {
+    type Value = [u32; N];
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a list of {N} nodes")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<[u32; N], A::Error> {
+        let mut list = [0; N];
+        for (k, place) in list.iter_mut().enumerate() {
+            let Strict(node) = entries
+                .next_element()?
+                .ok_or_else(|| Error::invalid_length(k, &self))?;
+            *place = node;
+        }
+        match entries.next_element::<Strict<u32>>()? {
+            None => Ok(list),
+            Some(_) => Err(Error::invalid_length(N + 1, &self)),
+        }
+    }
+}
+
+impl<const N: usize> Value for [u32; N] {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_seq(Nodes::<N>)
+    }
+}
+
+/// Section 1, *big*: a decimal integer in its only spelling, as a number or as its digits.
+#[derive(Debug)]
+pub(crate) struct Big<T>(pub T);
+
+struct Decimal<T>(PhantomData<T>);
+
+impl<T: FromStr> Visitor<'_> for Decimal<T> {
+    type Value = Big<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a string that holds a decimal integer")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Big<T>, E> {
+        let digits = text.strip_prefix('-').unwrap_or(text).as_bytes();
+        let only_spelling = match digits {
+            [b'0'] => digits.len() == text.len(),
+            [b'1'..=b'9', rest @ ..] => rest.iter().all(u8::is_ascii_digit),
+            _ => false,
+        };
+        let value = only_spelling.then(|| text.parse().ok()).flatten();
+        let wrong = || E::custom(format!("`{text}` is not an integer in range"));
+        value.map(Big).ok_or_else(wrong)
+    }
+}
+
+impl<T: FromStr> Value for Big<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_str(Decimal(PhantomData))
+    }
+}
+
+/// The name of a member, after its escapes are read.
+pub(crate) struct Name<'de>(Cow<'de, str>);
+
+impl Name<'_> {
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+struct NameVisitor;
+
+impl<'de> Visitor<'de> for NameVisitor {
+    type Value = Name<'de>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a member")
+    }
+
+    fn visit_borrowed_str<E: Error>(self, name: &'de str) -> Result<Name<'de>, E> {
+        Ok(Name(Cow::Borrowed(name)))
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Name<'de>, E> {
+        Ok(Name(Cow::Owned(name.to_owned())))
+    }
+}
+
+impl<'de> Deserialize<'de> for Name<'de> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_str(NameVisitor)
+    }
+}
+
+/// Reads the value of a member, which must not have been there before.
+pub(crate) fn fill<'de, A: MapAccess<'de>, T: Value>(
+    object: &mut A,
+    name: &str,
+    place: &mut Option<T>,
+) -> Result<(), A::Error> {
+    if place.is_some() {
+        return Err(Error::custom(format!("the member `{name}` is repeated")));
+    }
+    let Strict(value) = object.next_value()?;
+    *place = Some(value);
+    Ok(())
+}
+
+pub(crate) fn unknown<E: Error>(name: &str) -> E {
+    Error::custom(format!("the member `{name}` does not belong there"))
+}
+
+/// The value of a member, which must be there.
+pub(crate) fn present<T, E: Error>(value: Option<T>, name: &str) -> Result<T, E> {
+    value.ok_or_else(|| Error::custom(format!("the member `{name}` is missing")))
+}
+
+/// Declares types that are read from objects with exactly these members, in any order.
+macro_rules! objects {
+    ($($(#[$doc:meta])* $name:ident { $($member:ident: $type:ty),* $(,)? })*) => {$(
+        $(#[$doc])*
+        #[derive(Debug)]
+        // A few members are for people alone; they are read so that their type is checked.
+        #[allow(dead_code)]
+        pub(crate) struct $name {
+            $(pub $member: $type),*
+        }
+
+        impl $crate::json::Value for $name {
+            fn read<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                struct ExactMembers;
+
+                impl<'de> serde::de::Visitor<'de> for ExactMembers {
+                    type Value = $name;
+
+                    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        f.write_str("an object")
+                    }
+
+                    fn visit_map<A: serde::de::MapAccess<'de>>(
+                        self,
+                        mut object: A,
+                    ) -> Result<$name, A::Error> {
+                        $(let mut $member: Option<$type> = None;)*
+                        while let Some(name) = object.next_key::<$crate::json::Name>()? {
+                            match name.as_str() {
+                                $(stringify!($member) => $crate::json::fill(
+                                    &mut object, stringify!($member), &mut $member,
+                                )?,)*
+                                other => return Err($crate::json::unknown(other)),
+                            }
+                        }
+                        Ok($name {
+                            $($member: $crate::json::present($member, stringify!($member))?),*
+                        })
+                    }
+                }
+
+                from.deserialize_map(ExactMembers)
+            }
+        }
+    )*};
+}
+pub(crate) use objects;

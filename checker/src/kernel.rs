@@ -1,0 +1,152 @@
+//! `kernel` (section 7 of the specification): a motion of the cameras of a core that tells the
+//! classes of its members apart.
+
+use crate::algebra::{Field, Ring};
+use crate::cameras::{self, Stream};
+use crate::document::{Kernel, Model};
+use crate::draws::{Drawn, own_centres};
+use crate::elimination::Echelon;
+use crate::matrices::{camera_at, map_motion, scale_motion};
+use crate::rejection::{Checked, Within, ensure};
+use crate::setting::{Draw, Setting};
+use crate::structure::Core;
+
+/// Where classes were told apart.
+#[derive(PartialEq)]
+pub(crate) enum Place {
+    /// At a draw of centres modulo a prime that the certificate names.
+    Named(Draw),
+    /// At the draw of `draws` with this number.
+    Drawn(u64),
+}
+
+/// The centres of a `kernel`, and what they are.
+struct Centres {
+    field: Field,
+    centres: Vec<[u64; 3]>,
+    place: Place,
+}
+
+/// Verifies `kernel`, for classes of which `owner` has that of each member; returns where it tells
+/// them apart.
+pub(crate) fn check_kernel(
+    kernel: &Kernel,
+    setting: &Setting,
+    core: &Core,
+    (owner, classes): (&[usize], usize),
+    drawn: Option<&Drawn>,
+) -> Checked<Place> {
+    setting.charge_draw(core)?;
+    let Centres {
+        field,
+        centres,
+        place,
+    } = centres(kernel, setting, core, drawn)?;
+    let vector = residues(kernel, setting, core, &field)?;
+    let mut motions: Vec<Option<Vec<u64>>> = vec![None; classes];
+    for (edge, &member) in core.member.iter().enumerate() {
+        let motion = edge_motion(&field, setting, core, &centres, &vector, edge)?;
+        let class = owner[member];
+        let same = *motions[class].get_or_insert_with(|| motion.clone()) == motion;
+        ensure!(same, "class {class} does not move as one");
+    }
+    motions.sort_unstable();
+    ensure!(
+        motions.windows(2).all(|pair| pair[0] != pair[1]),
+        "two classes move alike"
+    );
+    Ok(place)
+}
+
+/// The centres at which the motion is: those of a draw of `draws` if the certificate names one of
+/// these, with its prime.
+fn centres(
+    kernel: &Kernel,
+    setting: &Setting,
+    core: &Core,
+    drawn: Option<&Drawn>,
+) -> Checked<Centres> {
+    let Kernel {
+        prime, seed, draw, ..
+    } = *kernel;
+    let field = Field::new(prime).within(|| "prime".into())?;
+    if drawn.is_some_and(|drawn| drawn.seed == seed && drawn.numbers.contains(&draw)) {
+        let (own, centres) = own_centres(setting, seed, draw, core)?;
+        if own.p == prime {
+            let place = Place::Drawn(draw);
+            return Ok(Centres {
+                field,
+                centres,
+                place,
+            });
+        }
+    }
+    let mut stream = Stream::new("draw", setting.hashes(core), seed, draw);
+    let centres = cameras::centres(&mut stream, &field, core.nodes)?;
+    let place = Place::Named((prime, seed, draw));
+    Ok(Centres {
+        field,
+        centres,
+        place,
+    })
+}
+
+/// The entries of the vector.
+fn residues(kernel: &Kernel, setting: &Setting, core: &Core, field: &Field) -> Checked<Vec<u64>> {
+    let width = match setting.model {
+        Model::Projective => 12 * core.nodes,
+        Model::Calibrated => 3 * core.nodes,
+    };
+    let vector = &kernel.vector;
+    ensure!(
+        vector.len() == width,
+        "`vector` has {} entries instead of {width}",
+        vector.len()
+    );
+    ensure!(
+        vector.iter().all(|entry| entry.0 < field.p),
+        "an entry is not a residue modulo {}",
+        field.p
+    );
+    Ok(vector.iter().map(|entry| field.element(entry.0)).collect())
+}
+
+/// How a kernel vector moves an edge: the matrix X, row by row, with dP_i = P_i X and
+/// dP_j = P_j X + lambda P_j, less a multiple of I. In the calibrated model y = s c + t is the only
+/// column of [ I | -c ] X, with X = (t, -s).
+fn edge_motion(
+    field: &Field,
+    setting: &Setting,
+    core: &Core,
+    centres: &[[u64; 3]],
+    vector: &[u64],
+    edge: usize,
+) -> Checked<Vec<u64>> {
+    let columns = vector.len() / (3 * core.nodes);
+    let ends = [core.edges[edge].0, core.edges[edge].1];
+    let cameras = ends.map(|v| camera_at(field, &centres[v]));
+    let mut motions: Vec<_> = (0..4 * columns)
+        .map(|ab| map_motion(&cameras, columns, ab))
+        .collect();
+    motions.extend((columns == 4).then(|| scale_motion(&cameras, 1)));
+    // They are independent, as the two centres are different.
+    let mut echelon = Echelon::new(field, 6 * columns, setting.meter).solvable();
+    for motion in motions {
+        echelon.push(motion, None)?;
+    }
+    let mut moved = ends
+        .map(|v| &vector[3 * columns * v..3 * columns * (v + 1)])
+        .concat();
+    let mut x = echelon.solve(&mut moved)?;
+    ensure!(
+        moved.iter().all(|&entry| entry == 0),
+        "not a kernel vector at the core edge {edge}"
+    );
+    x.truncate(4 * columns);
+    if let Some(&last) = x.get(15) {
+        for diagonal in [0, 5, 10, 15] {
+            x[diagonal] = field.sub(x[diagonal], last);
+        }
+    }
+    Ok(x)
+}

@@ -1,0 +1,211 @@
+//! `plane-flow` (section 7 of the specification): the rank of J_P from that of the bearing matrix N
+//! and of the matrix Lambda of flows, which are vectors w with w N = 0.
+
+use crate::algebra::{Field, Ring};
+use crate::cameras::{self, Stream};
+use crate::document::{Model, PlaneFlow};
+use crate::elimination::{Echelon, SPARSE, check_diagonal, for_all};
+use crate::limits::Meter;
+use crate::matrices::{Bearing, bearings, dot};
+use crate::pivots::{Pivots, eliminate};
+use crate::rejection::{Checked, Within, ensure};
+use crate::setting::{Lower, Setting};
+use crate::structure::Core;
+
+/// Entries of the flows that are computed at the same time.
+const BATCH_ENTRIES: usize = 1 << 22;
+
+/// Verifies `plane-flow`: the ranks of N and of Lambda at centres modulo p.
+pub(crate) fn check_plane_flow(
+    evidence: &PlaneFlow,
+    setting: &Setting,
+    core: &Core,
+) -> Checked<Lower> {
+    let PlaneFlow {
+        prime,
+        seed,
+        draw,
+        rows,
+        ..
+    } = evidence;
+    let field = &Field::new(*prime)?;
+    let mut stream = Stream::new("draw", setting.hashes(core), *seed, *draw);
+    let centres = &cameras::centres(&mut stream, field, core.nodes)?;
+    let flows = Flows::new(evidence, setting, core, field, centres)?;
+    let stream = Stream::new("flow", setting.hashes(core), *seed, *draw);
+    let mut lambda = flows.lambda(evidence, stream)?;
+    check_diagonal(field, setting.meter, &mut lambda).within(|| "Lambda".into())?;
+    let (a, b, m) = (
+        rows.len() as i64,
+        lambda.len() as i64,
+        core.edges.len() as i64,
+    );
+    let rank = match setting.model {
+        Model::Projective => 4 * a + b - m,
+        Model::Calibrated => a,
+    };
+    let at = Some((*prime, *seed, *draw));
+    Ok(Lower {
+        rank,
+        at,
+        note: None,
+    })
+}
+
+/// What all flows are computed from.
+struct Flows<'a> {
+    field: &'a Field,
+    meter: &'a Meter,
+    core: &'a Core,
+    centres: &'a [[u64; 3]],
+    n: Vec<Bearing>,
+    /// The pivot rows of N, eliminated.
+    echelon: Echelon<'a>,
+    pivots: Pivots<'a>,
+    /// The rows of N that are not pivots, at which the entries of flows are prescribed.
+    free: Vec<usize>,
+}
+
+/// One flow, and what is left of it.
+struct Flow<'a> {
+    /// Its entries; at the rows of N that are pivots they are zero until they are computed.
+    entries: Vec<u64>,
+    /// Where its rows of Lambda belong: the pivots' numbers, with k from 0 to 3.
+    wanted: &'a [(usize, usize)],
+    rows: Checked<Vec<Vec<u64>>>,
+}
+
+impl<'a> Flows<'a> {
+    /// Verifies the pivots of N, and that there may be as many flows.
+    fn new(
+        evidence: &'a PlaneFlow,
+        setting: &Setting<'a>,
+        core: &'a Core,
+        field: &'a Field,
+        centres: &'a [[u64; 3]],
+    ) -> Checked<Flows<'a>> {
+        let (height, width) = (2 * core.edges.len(), 3 * core.nodes);
+        let n = bearings(field, core, centres);
+        let pivots = Pivots::new(&evidence.rows, &evidence.cols, [height, width]);
+        let pivots = pivots.within(|| "N".into())?;
+        let echelon = Echelon::new(field, width, setting.meter).solvable();
+        let echelon = eliminate(echelon, &pivots, |row| n[row]).within(|| "N".into())?;
+        // The left kernel of the pivots' columns has no more dimensions than this.
+        let most = height - pivots.rows.len();
+        ensure!(
+            evidence.flows <= most,
+            "{} flows, but only {most} rows are not pivots",
+            evidence.flows
+        );
+        ensure!(
+            setting.model == Model::Projective || evidence.flows == 0,
+            "flows in the calibrated model"
+        );
+        setting.meter.allow_flows(evidence.flows)?;
+        let mut is_pivot = vec![false; height];
+        pivots.rows.iter().for_each(|&row| is_pivot[row] = true);
+        let free = (0..height).filter(|&row| !is_pivot[row]).collect();
+        Ok(Flows {
+            field,
+            meter: setting.meter,
+            core,
+            centres,
+            n,
+            echelon,
+            pivots,
+            free,
+        })
+    }
+
+    /// Computes all flows, and of Lambda the pivot rows in the pivot columns. As many flows are
+    /// kept at a time as `BATCH_ENTRIES` allows.
+    fn lambda(&self, evidence: &PlaneFlow, mut stream: Stream) -> Checked<Vec<Vec<u64>>> {
+        let PlaneFlow {
+            flows,
+            lambda_rows,
+            lambda_cols,
+            ..
+        } = evidence;
+        let size = [4 * flows, self.core.edges.len()];
+        let pivots = Pivots::new(lambda_rows, lambda_cols, size).within(|| "Lambda".into())?;
+        // Pivots by their rows: flow after flow.
+        let mut order: Vec<(usize, usize)> = pivots.rows.iter().copied().zip(0..).collect();
+        order.sort_unstable();
+        let mut rest: &[(usize, usize)] = &order;
+        let mut lambda = vec![Vec::new(); order.len()];
+        let height = self.n.len();
+        let batch = (BATCH_ENTRIES / height.max(1)).clamp(1, 256);
+        for first in (0..*flows).step_by(batch) {
+            let mut all = Vec::new();
+            for number in first..(first + batch).min(*flows) {
+                let mut entries = vec![0; height];
+                for &row in &self.free {
+                    entries[row] = self.field.element(stream.below(self.field.p));
+                }
+                let own = rest.partition_point(|(row, _)| row / 4 == number);
+                let (wanted, after) = rest.split_at(own);
+                rest = after;
+                all.push(Flow {
+                    entries,
+                    wanted,
+                    rows: Ok(Vec::new()),
+                });
+            }
+            for_all(&mut all, |flows| {
+                for flow in flows {
+                    flow.rows = self.rows_of_lambda(flow, lambda_cols);
+                }
+            });
+            for (number, flow) in (first..).zip(all) {
+                let rows = flow.rows.within(|| format!("flow {number}"))?;
+                for (&(_, pivot), row) in flow.wanted.iter().zip(rows) {
+                    lambda[pivot] = row;
+                }
+            }
+        }
+        Ok(lambda)
+    }
+
+    /// Completes a flow and sees that it vanishes in all columns of N; returns what is wanted of
+    /// its four rows of Lambda.
+    fn rows_of_lambda(&self, flow: &mut Flow, columns: &[usize]) -> Checked<Vec<Vec<u64>>> {
+        let (field, entries) = (self.field, &mut flow.entries);
+        let outside = self.free.len() + flow.wanted.len() * columns.len();
+        self.meter
+            .charge(2 * SPARSE * (self.n.len() + outside) as u64)?;
+        let mut product = vec![0; 3 * self.core.nodes];
+        for &free in &self.free {
+            for (at, value) in self.n[free] {
+                product[at] = field.add(product[at], field.mul(entries[free], value));
+            }
+        }
+        // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
+        let taken_off = self.echelon.solve(&mut product)?;
+        for (&row, entry) in self.pivots.rows.iter().zip(taken_off) {
+            entries[row] = field.neg(entry);
+        }
+        ensure!(
+            product.iter().all(|&entry| entry == 0),
+            "it does not vanish in all columns of N"
+        );
+        let row = |&(row, _): &(usize, usize)| {
+            columns
+                .iter()
+                .map(|&e| self.lambda_entry(entries, e, row % 4))
+                .collect()
+        };
+        Ok(flow.wanted.iter().map(row).collect())
+    }
+
+    /// Entry (k, e) of the rows of Lambda that come from a flow: omega_e, and -omega_e . c_j.
+    fn lambda_entry(&self, flow: &[u64], e: usize, k: usize) -> u64 {
+        let weights = [flow[2 * e], flow[2 * e + 1]];
+        let directions = [&self.n[2 * e], &self.n[2 * e + 1]];
+        let omega = |k: usize| dot(self.field, weights, directions.map(|row| row[k].1));
+        if k < 3 {
+            return omega(k);
+        }
+        let far = self.centres[self.core.edges[e].1];
+        self.field.neg(dot(self.field, [0, 1, 2].map(omega), far))
+    }
+}

@@ -1,0 +1,298 @@
+//! Members - final bodies and loose edges -, the pieces and other sets of them, and the cores of
+//! these (section 6 of the specification).
+
+use crate::bodies::build_all;
+use crate::document::{Body, Pair};
+use crate::elimination::SPARSE;
+use crate::graph::Graph;
+use crate::limits::Meter;
+use crate::rejection::{Checked, Failure, ensure};
+use sha2::{Digest, Sha256};
+
+/// A set of members, in increasing order. The number of a final body is its position in the list of
+/// bodies; that of a loose edge is the length of this list plus the edge's number.
+pub(crate) type Part = Vec<usize>;
+
+/// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
+struct BodiesOfNodes {
+    all: Vec<usize>,
+    end: Vec<usize>,
+}
+
+impl BodiesOfNodes {
+    fn list(&self, node: u32) -> &[usize] {
+        &self.all[self.end[node as usize]..self.end[node as usize + 1]]
+    }
+}
+
+/// The members of the graph.
+pub(crate) struct Structure<'a> {
+    graph: &'a Graph,
+    meter: &'a Meter,
+    /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
+    bodies: Vec<Option<Vec<u32>>>,
+    pub everything: Part,
+}
+
+/// The graph on which a part is computed; `member` is for each edge the position of its member in
+/// the part.
+pub(crate) struct Core {
+    pub nodes: usize,
+    pub edges: Vec<(usize, usize)>,
+    pub member: Vec<usize>,
+    /// The hash of its canonical form, to which draws are bound.
+    pub sha256: [u8; 32],
+}
+
+impl<'a> Structure<'a> {
+    /// Rebuilds all bodies and finds which edges each of them covers (sections 5 and 6); rejects an
+    /// edge covered twice.
+    pub fn new(graph: &'a Graph, list: &[Body], meter: &'a Meter) -> Checked<Structure<'a>> {
+        let bodies = build_all(graph, list)?.into_iter();
+        let mut structure = Structure {
+            graph,
+            meter,
+            bodies: bodies.map(|nodes| nodes.map(sorted)).collect(),
+            everything: Part::new(),
+        };
+        let bodies = (0..list.len()).filter(|&k| structure.bodies[k].is_some());
+        let mut everything: Part = bodies.collect();
+        everything.extend(structure.loose_edges()?);
+        structure.everything = everything;
+        Ok(structure)
+    }
+
+    /// The members that are edges: those that no body covers. No edge is covered by two.
+    fn loose_edges(&self) -> Checked<Vec<usize>> {
+        let bodies_of = self.bodies_of_nodes();
+        let (mut loose, mut steps) = (Vec::new(), 0);
+        for (number, &[i, j]) in self.graph.pairs.iter().enumerate() {
+            let (a, b) = (bodies_of.list(i), bodies_of.list(j));
+            // The shorter list is walked, the longer one searched: nodes in many bodies stay cheap.
+            let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+            steps += short.len() as u64;
+            if steps > 1 << 16 {
+                self.meter.charge(SPARSE * std::mem::take(&mut steps))?;
+            }
+            let covering = short.iter().filter(|body| long.binary_search(body).is_ok());
+            let covering = covering.count();
+            ensure!(
+                covering <= 1,
+                "the edge [{i}, {j}] is covered by two bodies"
+            );
+            loose.extend((covering == 0).then_some(self.bodies.len() + number));
+        }
+        Ok(loose)
+    }
+
+    fn bodies_of_nodes(&self) -> BodiesOfNodes {
+        // The bodies of node i end at end[i + 1], which is where its next one goes until all are
+        // there.
+        let mut end = vec![0; self.graph.nodes() + 2];
+        let nodes = self.bodies.iter().flatten().flatten();
+        nodes.for_each(|&node| end[node as usize + 2] += 1);
+        (2..end.len()).for_each(|i| end[i] += end[i - 1]);
+        let mut all = vec![0; end[self.graph.nodes() + 1]];
+        for (k, nodes) in self.bodies.iter().enumerate() {
+            nodes.iter().flatten().for_each(|&node| {
+                all[end[node as usize + 1]] = k;
+                end[node as usize + 1] += 1;
+            });
+        }
+        BodiesOfNodes { all, end }
+    }
+
+    /// The part with these final bodies and edges. Whether the edges are loose is for `owners` to
+    /// see.
+    pub fn part(&self, bodies: &[u32], edges: &[Pair]) -> Checked<Part> {
+        let mut part: Part = bodies.iter().map(|&body| body as usize).collect();
+        let is_final = |&&body: &&usize| self.bodies.get(body).is_some_and(Option::is_some);
+        let wrong = part.iter().find(|body| !is_final(body));
+        ensure!(
+            wrong.is_none(),
+            "{} is not a final body",
+            wrong.unwrap_or(&0)
+        );
+        for &pair in edges {
+            part.push(self.bodies.len() + self.graph.edge(pair)?);
+        }
+        ensure!(
+            part.is_sorted_by(|a, b| a < b),
+            "the bodies or the edges are not increasing"
+        );
+        ensure!(!part.is_empty(), "neither bodies nor edges");
+        // The same bodies may be listed in many places. What is done with a list of members each
+        // time sorts their nodes.
+        let nodes = part.iter().map(|&member| self.nodes_of(member).len());
+        self.meter.charge(SPARSE * nodes.sum::<usize>() as u64)?;
+        Ok(part)
+    }
+
+    /// The parts of a list, which must be a partition of a whole, and the number of its part for
+    /// each member of the whole.
+    pub fn partition<'p>(
+        &self,
+        whole: &Part,
+        list: impl Iterator<Item = (&'p Vec<u32>, &'p Vec<Pair>)>,
+    ) -> Checked<(Vec<Part>, Vec<usize>)> {
+        let parts = list
+            .map(|(bodies, edges)| self.part(bodies, edges))
+            .collect::<Checked<Vec<Part>>>()?;
+        let owner = self.owners(whole, &parts)?;
+        Ok((parts, owner))
+    }
+
+    pub fn owners(&self, whole: &Part, parts: &[Part]) -> Checked<Vec<usize>> {
+        let mut owner = vec![usize::MAX; whole.len()];
+        for (k, &member) in parts
+            .iter()
+            .enumerate()
+            .flat_map(|(k, part)| part.iter().map(move |member| (k, member)))
+        {
+            let elsewhere = |_| Failure::rejected(format!("{} is out of place", self.name(member)));
+            let owner = &mut owner[whole.binary_search(&member).map_err(elsewhere)?];
+            ensure!(*owner == usize::MAX, "{} is there twice", self.name(member));
+            *owner = k;
+        }
+        let missing = owner
+            .iter()
+            .position(|&part| part == usize::MAX)
+            .map(|position| self.name(whole[position]));
+        ensure!(
+            missing.is_none(),
+            "{} is left out",
+            missing.unwrap_or_default()
+        );
+        Ok(owner)
+    }
+
+    fn name(&self, member: usize) -> String {
+        let edge = member
+            .checked_sub(self.bodies.len())
+            .map(|edge| self.graph.pairs[edge]);
+        edge.map_or(format!("body {member}"), |edge| {
+            format!("the edge {edge:?}")
+        })
+    }
+
+    pub fn nodes_of(&self, member: usize) -> &[u32] {
+        let edge = || &self.graph.pairs[member - self.bodies.len()][..];
+        self.bodies
+            .get(member)
+            .map_or_else(edge, |body| body.as_deref().unwrap_or_default())
+    }
+
+    /// The nodes of several members, in increasing order.
+    pub fn nodes(&self, part: &[usize]) -> Vec<u32> {
+        let mut nodes = sorted(
+            part.iter()
+                .flat_map(|&member| self.nodes_of(member))
+                .copied(),
+        );
+        nodes.dedup();
+        nodes
+    }
+
+    /// Rejects a cycle of pieces.
+    pub fn check_acyclic(&self, pieces: &[Part]) -> Checked<()> {
+        let nodes = self.nodes(&pieces.concat());
+        let mut forest: Vec<usize> = (0..nodes.len() + pieces.len()).collect();
+        for (k, piece) in pieces.iter().enumerate() {
+            for node in self.nodes(piece) {
+                let new = unite(
+                    &mut forest,
+                    nodes.partition_point(|&other| other < node),
+                    nodes.len() + k,
+                );
+                ensure!(new, "a piece closes a cycle of pieces at node {node}");
+            }
+        }
+        Ok(())
+    }
+
+    /// The core of a part (section 6).
+    pub fn core(&self, part: &Part) -> Checked<Core> {
+        let nodes = self.core_nodes(part);
+        self.meter.allow_core(nodes.len())?;
+        let mut edges = Vec::new();
+        for (position, &member) in part.iter().enumerate() {
+            let inside = self.nodes_of(member).iter();
+            let chain: Vec<usize> = inside.flat_map(|node| nodes.binary_search(node)).collect();
+            ensure!(
+                chain.len() >= 2,
+                "{} has fewer than two nodes in the core",
+                self.name(member)
+            );
+            for distance in [1, 2] {
+                let pairs = chain.iter().zip(&chain[distance..]);
+                edges.extend(pairs.map(|(&i, &j)| ((i, j), position)));
+            }
+        }
+        edges.sort_unstable();
+        ensure!(
+            edges.windows(2).all(|pair| pair[0].0 != pair[1].0),
+            "an edge of the core arises twice"
+        );
+        let (edges, member): (Vec<_>, _) = edges.into_iter().unzip();
+        Ok(Core {
+            sha256: core_sha256(&nodes, &edges),
+            nodes: nodes.len(),
+            edges,
+            member,
+        })
+    }
+
+    /// The ends of the part's edges, and the nodes that lie in two or more of its bodies.
+    fn core_nodes(&self, part: &Part) -> Vec<u32> {
+        // Nodes that come twice, if the ends of edges do in any case.
+        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
+        let all = part
+            .iter()
+            .flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
+        let all = sorted(all.flatten().copied());
+        let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
+        let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
+        nodes.dedup();
+        nodes
+    }
+}
+
+/// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in
+/// the graph.
+fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
+    let mut hash = Sha256::new();
+    hash.update(b"viewcert core 2\n");
+    hash.update((nodes.len() as u64).to_le_bytes());
+    hash.update((edges.len() as u64).to_le_bytes());
+    nodes
+        .iter()
+        .for_each(|node| hash.update(node.to_le_bytes()));
+    // A core has fewer nodes than the graph, so that its numbers have 32 bits too.
+    for &(i, j) in edges {
+        hash.update((i as u32).to_le_bytes());
+        hash.update((j as u32).to_le_bytes());
+    }
+    hash.finalize().into()
+}
+
+fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
+    let mut nodes: Vec<u32> = nodes.into_iter().collect();
+    nodes.sort_unstable();
+    nodes
+}
+
+/// The smallest index connected to this one in a forest of parents (union-find with path halving).
+pub(crate) fn root(forest: &mut [usize], mut at: usize) -> usize {
+    while forest[at] != at {
+        forest[at] = forest[forest[at]];
+        at = forest[at];
+    }
+    at
+}
+
+/// Connects two indices; returns whether they were not connected before.
+pub(crate) fn unite(forest: &mut [usize], a: usize, b: usize) -> bool {
+    let (a, b) = (root(forest, a), root(forest, b));
+    forest[a.max(b)] = a.min(b);
+    a != b
+}

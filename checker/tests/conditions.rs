@@ -1,0 +1,1295 @@
+//! A certificate for each condition of the specification that breaks it and, as far as that can be,
+//! nothing else; with the reason that must be given. `conditions.py` sees to it that there is one
+//! for each condition.
+
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use viewcert_check::{Certificate, Failure, Graph, Limits, check};
+
+fn named(name: &str) -> Value {
+    let path = format!("tests/certificates/{name}.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// Where the members stand that are changed most.
+fn expand(pointer: &str) -> String {
+    match (pointer.strip_prefix('E'), pointer.strip_prefix('P')) {
+        (Some(rest), _) => format!("/pieces/0/evidence{rest}"),
+        (_, Some(rest)) => format!("/pieces/0{rest}"),
+        _ => pointer.to_owned(),
+    }
+}
+
+fn at<'v>(value: &'v mut Value, pointer: &str) -> &'v mut Value {
+    let pointer = expand(pointer);
+    value
+        .pointer_mut(&pointer)
+        .unwrap_or_else(|| panic!("no {pointer}"))
+}
+
+/// Changes values; `remove` takes one out of its list, `repeat` adds it again.
+fn changed(name: &str, changes: &[(&str, Value)]) -> Value {
+    let mut value = named(name);
+    for (pointer, new) in changes {
+        if *new == json!("remove") {
+            let (list, number) = pointer.rsplit_once('/').unwrap();
+            let list = at(&mut value, list).as_array_mut().unwrap();
+            list.remove(number.parse().unwrap());
+        } else if *new == json!("repeat") {
+            let (list, number) = pointer.rsplit_once('/').unwrap();
+            let list = at(&mut value, list).as_array_mut().unwrap();
+            let entry = list[number.parse::<usize>().unwrap()].clone();
+            list.push(entry);
+        } else {
+            let place = at(&mut value, pointer);
+            assert_ne!(place, new, "{name}: {pointer} is not changed");
+            *place = new.clone();
+        }
+    }
+    value
+}
+
+fn rejection(value: &Value, graph: Option<&Graph>) -> String {
+    match check(value.to_string().as_bytes(), graph) {
+        Err(Failure::Rejected(rejection)) => rejection.to_string(),
+        other => panic!("not rejected: {other:?}"),
+    }
+}
+
+fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
+    let reason = rejection(&changed(name, changes), None);
+    let wanted = wanted.replace("E/", "pieces[0].evidence");
+    assert!(reason.starts_with(&wanted), "{name} {changes:?}: {reason}");
+}
+
+#[test]
+fn section_3_the_graph() {
+    refused(
+        "square",
+        &[("/graph/nodes", json!(5))],
+        "graph: the graph has 4 nodes and 4 edges, not 5 and 4",
+    );
+    refused(
+        "square",
+        &[("/graph/edges", json!(3))],
+        "graph: the graph has 4 nodes and 4 edges, not 4 and 3",
+    );
+    let other = "0ac8d97b8710d2c0fe901270dcfd1aa77fc5e73a9d406ddf480210a460626727";
+    refused(
+        "square",
+        &[("/graph/sha256", json!(other))],
+        "graph: the graph has another hash than `sha256`",
+    );
+    let upper = "9AC8D97B8710D2C0FE901270DCFD1AA77FC5E73A9D406DDF480210A460626727";
+    refused(
+        "square",
+        &[("/graph/sha256", json!(upper))],
+        "graph: the graph has another hash than `sha256`",
+    );
+    refused(
+        "square",
+        &[("/graph/graph6", json!("C~"))],
+        "graph: the graph has another hash than `sha256`",
+    );
+    refused(
+        "square",
+        &[("/graph/graph6", json!(">>graph6<<Cl"))],
+        "graph: graph6: a byte that is not from 63",
+    );
+    refused(
+        "square",
+        &[("/graph/graph6", json!(null))],
+        "graph: the certificate does not hold the graph",
+    );
+    let square = Graph::from_graph6(b"Cl").unwrap();
+    let other = Graph::from_graph6(b"C~").unwrap();
+    let without = changed("square", &[("/graph/graph6", json!(null))]);
+    assert!(check(without.to_string().as_bytes(), Some(&square)).is_ok());
+    assert_eq!(
+        rejection(&named("square"), Some(&other)),
+        "graph: the graph given is not the one in `graph6`"
+    );
+    assert_eq!(
+        rejection(&without, Some(&other)),
+        "graph: the graph has another hash than `sha256`"
+    );
+}
+
+/// A certificate without evidence, about a graph that it does not hold.
+fn about(graph: &Graph, edges: usize) -> Value {
+    let sha256: String = graph
+        .sha256()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    changed(
+        "pair",
+        &[
+            (
+                "/graph",
+                json!({"name": "", "nodes": graph.nodes(), "edges": edges, "sha256": sha256, "graph6": null}),
+            ),
+            ("/rigid/edges", json!([])),
+        ],
+    )
+}
+
+fn claim(value: &mut Value, verdict: &str, [rank, required, components]: [usize; 3]) {
+    value["claim"]["verdict"]["value"] = json!(verdict);
+    value["claim"]["rank"]["value"] = json!(rank);
+    value["claim"]["rank"]["required"] = json!(required);
+    value["claim"]["components"]["value"] = json!(components);
+}
+
+#[test]
+fn section_8_graphs_without_edges() {
+    let none = Graph::new(0, []).unwrap();
+    assert_eq!(
+        rejection(&about(&none, 0), Some(&none)),
+        "graph: the graph has no nodes"
+    );
+    let one = Graph::new(1, []).unwrap();
+    let mut value = about(&one, 0);
+    claim(&mut value, "solvable", [0, 0, 0]);
+    let verified = check(value.to_string().as_bytes(), Some(&one)).unwrap();
+    assert!(
+        verified
+            .to_string()
+            .contains("rank: 0 of 0 required (proof)"),
+        "{verified}"
+    );
+    claim(&mut value, "finite-solvable", [0, 0, 0]);
+    assert!(
+        rejection(&value, Some(&one)).starts_with("claim.verdict: `finite-solvable` is claimed")
+    );
+    let three = Graph::new(3, []).unwrap();
+    let mut value = about(&three, 0);
+    claim(&mut value, "not-finite-solvable", [0, 18, 0]);
+    assert!(check(value.to_string().as_bytes(), Some(&three)).is_ok());
+    claim(&mut value, "solvable", [0, 18, 0]);
+    assert!(rejection(&value, Some(&three)).starts_with("claim.verdict: `solvable` is claimed"));
+}
+
+#[test]
+fn section_4_draws() {
+    refused(
+        "square",
+        &[("E/0/prime", json!("1000001"))],
+        "E/[0] (plane-flow): 1000001 is not a prime",
+    );
+    refused(
+        "square",
+        &[("E/0/prime", json!("3"))],
+        "E/[0] (plane-flow): 3 is not a prime with 5 <= p",
+    );
+    let above = "4611686018427388039";
+    refused(
+        "square",
+        &[("E/0/prime", json!(above))],
+        "E/[0] (plane-flow): 4611686018427388039 is not a prime",
+    );
+    refused(
+        "square",
+        &[("E/3/prime", json!("1000001"))],
+        "E/[3] (kernel).prime: 1000001 is not a prime",
+    );
+    let small = |seed: &str| [("E/0/prime", json!("5")), ("E/0/seed", json!(seed))];
+    refused(
+        "square",
+        &small(SAME_CENTRE),
+        "E/[0] (plane-flow): the draw is void: two nodes have the same centre",
+    );
+    let out_of_range = "E/[0] (integer-minor): `numerator` or `denominator` is out of range";
+    for (member, value) in [
+        ("numerator", 0),
+        ("numerator", 101),
+        ("denominator", 0),
+        ("denominator", 13),
+    ] {
+        refused(
+            "integer",
+            &[(&format!("E/0/{member}"), json!(value))],
+            out_of_range,
+        );
+    }
+    let flat = [
+        ("E/0/numerator", json!(1)),
+        ("E/0/denominator", json!(1)),
+        ("E/0/seed", json!(FLAT_CAMERA)),
+    ];
+    refused(
+        "integer",
+        &flat,
+        "E/[0] (integer-minor): the draw is void: a camera has rank below 3",
+    );
+    // General cameras modulo 5, one of which has rank below 3.
+    let minor =
+        json!({"kind": "minor", "prime": "5", "seed": "3", "draw": 0, "rows": [], "cols": []});
+    let flat = "E/[0] (minor): the draw is void: a camera has rank below 3";
+    refused("square", &[("E/0", minor)], flat);
+}
+
+const SAME_CENTRE: &str = "14";
+const FLAT_CAMERA: &str = "1";
+
+#[test]
+fn section_5_bodies() {
+    for (name, pointer, new, wanted) in [
+        (
+            "triangle",
+            "/bodies/0/add/0",
+            json!([2, 0, 0]),
+            "bodies[0].add[0]: the two nodes of the body are the same",
+        ),
+        (
+            "triangle",
+            "/bodies/0/add/0",
+            json!([1, 0, 2]),
+            "bodies[0].add[0]: node 2 is not in the body",
+        ),
+        (
+            "merges",
+            "/bodies/0/add",
+            json!([[2, 0, 1], [3, 0, 2]]),
+            "bodies[0].add[1]: 3 and 0 are not joined by an edge",
+        ),
+        (
+            "triangle",
+            "/bodies/0/add",
+            json!([[2, 0, 1], [2, 0, 1]]),
+            "bodies[0].add[1]: node 2 is in the body already",
+        ),
+        (
+            "merges",
+            "/bodies/3/seed",
+            json!([0, 6]),
+            "bodies[3].seed: [0, 6] is not an edge (i < j) of the graph",
+        ),
+        (
+            "merges",
+            "/bodies/3/seed",
+            json!([1, 0]),
+            "bodies[3].seed: [1, 0] is not an edge (i < j) of the graph",
+        ),
+        (
+            "merges",
+            "/bodies/3/seed",
+            json!(3),
+            "bodies[3].seed: body 3 is not an earlier one, or is used a second time",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/with",
+            json!([1, 1]),
+            "bodies[3].merge[0]: body 1 is not an earlier one",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/with",
+            json!([0, 2]),
+            "bodies[3].merge[0]: body 0 is not an earlier one",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/1/with",
+            json!([[1, 5], [5, 6]]),
+            "bodies[3].merge[1]: [1, 5] is not an edge",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([2, 0]),
+            "bodies[3].merge[0]: `with` and `at` have one and two",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/with",
+            json!([1]),
+            "bodies[3].merge[0]: `with` and `at` have one and two",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([2, 0, 2]),
+            "bodies[3].merge[0]: the nodes of `at` are not different",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([1, 0, 4]),
+            "bodies[3].merge[0]: node 1 is not where the merge",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([2, 1, 4]),
+            "bodies[3].merge[0]: node 1 is not where the merge",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([2, 0, 3]),
+            "bodies[3].merge[0]: node 3 is not where the merge",
+        ),
+        (
+            "merges",
+            "/bodies/3/merge/0/at",
+            json!([3, 0, 4]),
+            "bodies[3].merge[0]: node 3 is not where the merge",
+        ),
+    ] {
+        refused(name, &[(pointer, new)], wanted);
+    }
+    // Two bodies that share one node, and two that share two.
+    let two = |at: [u32; 2]| {
+        let bodies = json!([
+            {"seed": [0, 1], "add": [[2, 0, 1]], "merge": []},
+            {"seed": [2, 3], "add": [[4, 2, 3]], "merge": [{"with": [0], "at": at}]}
+        ]);
+        rejection(&changed("merges", &[("/bodies", bodies)]), None)
+    };
+    assert_eq!(
+        two([2, 2]),
+        "bodies[1].merge[0]: the nodes of `at` are not different"
+    );
+    assert_eq!(
+        two([2, 0]),
+        "bodies[1].merge[0]: node 0 is not where the merge needs it"
+    );
+}
+
+#[test]
+fn section_6_pieces() {
+    let all = json!([[0, 1], [0, 2], [1, 2]]);
+    for (name, changes, wanted) in [
+        (
+            "triangle",
+            vec![(
+                "/bodies",
+                json!([{"seed": [0, 1], "add": [], "merge": []}, {"seed": [0, 1], "add": [], "merge": []}]),
+            )],
+            "the edge [0, 1] is covered by two bodies",
+        ),
+        (
+            "triangle",
+            vec![
+                ("/bodies", json!([])),
+                ("/rigid/bodies", json!([])),
+                ("/rigid/edges", all),
+            ],
+            "pieces: a piece closes a cycle of pieces at node 2",
+        ),
+        (
+            "triangle",
+            vec![("/rigid/bodies", json!([1]))],
+            "rigid: 1 is not a final body",
+        ),
+        (
+            "merges",
+            vec![("/rigid/bodies", json!([0]))],
+            "rigid: 0 is not a final body",
+        ),
+        (
+            "triangle",
+            vec![("/rigid/edges", json!([[0, 1]]))],
+            "pieces: the edge [0, 1] is out of place",
+        ),
+        (
+            "pair",
+            vec![("/rigid/edges", json!([]))],
+            "pieces: the edge [0, 1] is left out",
+        ),
+        (
+            "pair",
+            vec![("/rigid/edges", json!([[0, 1], [0, 1]]))],
+            "rigid: the bodies or the edges are not increasing",
+        ),
+        (
+            "pair",
+            vec![("/rigid/edges", json!([[1, 0]]))],
+            "rigid: [1, 0] is not an edge (i < j) of the graph",
+        ),
+        (
+            "prism",
+            vec![("P/bodies", json!([1, 0]))],
+            "pieces[0]: the bodies or the edges are not increasing",
+        ),
+        (
+            "square",
+            vec![("/rigid/edges", json!([[0, 1]]))],
+            "pieces: the edge [0, 1] is there twice",
+        ),
+        (
+            "square",
+            vec![("P/edges", json!([[0, 1], [0, 3], [1, 2]]))],
+            "pieces: the edge [2, 3] is left out",
+        ),
+        (
+            "path",
+            vec![
+                ("/rigid/edges", json!([[1, 2]])),
+                (
+                    "/pieces",
+                    json!([{"bodies": [], "edges": [[0, 2]], "evidence": []}]),
+                ),
+            ],
+            "pieces[0] has fewer than two bodies and edges",
+        ),
+        (
+            "path",
+            vec![(
+                "/pieces",
+                json!([{"bodies": [], "edges": [], "evidence": []}]),
+            )],
+            "pieces[0]: neither bodies nor edges",
+        ),
+    ] {
+        let changes = match name {
+            // The two edges of the path, whatever their names are.
+            "path" => changes
+                .into_iter()
+                .map(|(pointer, value)| (pointer, of_path(value)))
+                .collect(),
+            _ => changes,
+        };
+        refused(name, &changes, wanted);
+    }
+}
+
+/// The middle of the path is node 0, 1 or 2: its edges in the place of 0-2 and 1-2.
+fn of_path(value: Value) -> Value {
+    let edges = named("path")["rigid"]["edges"].clone();
+    let text = value.to_string().replace("[0,2]", &edges[0].to_string());
+    serde_json::from_str(&text.replace("[1,2]", &edges[1].to_string())).unwrap()
+}
+
+#[test]
+fn section_6_cores() {
+    // A triangle with an edge at it: the two share one node.
+    let graph = Graph::new(4, [(0, 1), (0, 2), (1, 2), (2, 3)]).unwrap();
+    let mut value = about(&graph, 4);
+    value["bodies"] = json!([{"seed": [0, 1], "add": [[2, 0, 1]], "merge": []}]);
+    value["pieces"] = json!([{"bodies": [0], "edges": [[2, 3]], "evidence": []}]);
+    let wanted = "pieces[0]: body 0 has fewer than two nodes in the core";
+    assert_eq!(rejection(&value, Some(&graph)), wanted);
+    // Two bodies on the same two nodes, 0 and 3, which are not joined.
+    let body = |x, y| [(0, x), (0, y), (x, y), (x, 3), (y, 3)];
+    let graph = Graph::new(6, [body(1, 2), body(4, 5)].concat()).unwrap();
+    let mut value = about(&graph, 10);
+    value["bodies"] = json!([
+        {"seed": [0, 1], "add": [[2, 0, 1], [3, 1, 2]], "merge": []},
+        {"seed": [0, 4], "add": [[5, 0, 4], [3, 4, 5]], "merge": []}
+    ]);
+    value["pieces"] = json!([{"bodies": [0, 1], "edges": [], "evidence": []}]);
+    let wanted = "pieces[0]: an edge of the core arises twice";
+    assert_eq!(rejection(&value, Some(&graph)), wanted);
+}
+
+#[test]
+fn section_7_evidence_of_a_piece() {
+    for (name, changes, wanted) in [
+        (
+            "square",
+            vec![("E/0", json!("remove"))],
+            "pieces[0]: no lower bound on the rank",
+        ),
+        (
+            "draws",
+            vec![("E/1", json!("repeat"))],
+            "E/[6] (draws): a second `draws` in the piece",
+        ),
+        (
+            "square",
+            vec![("E/2", json!("repeat"))],
+            "E/[4] (classes): a second `classes` in the piece",
+        ),
+        (
+            "square",
+            vec![("E/3", json!("remove")), ("E/2", json!("remove"))],
+            "pieces[0]: rank 28 is proved, but one component needs 29",
+        ),
+        (
+            "square",
+            vec![("E/2", json!("remove"))],
+            "E/[2] (kernel): a kernel in a piece without `classes`",
+        ),
+        (
+            "square-calibrated",
+            vec![("E/0", minor())],
+            "E/[0] (minor): not evidence in the calibrated model",
+        ),
+        (
+            "square-calibrated",
+            vec![(
+                "P/evidence",
+                json!([{"kind": "draws", "seed": "1", "count": 3, "rank": 8}]),
+            )],
+            "E/[0] (draws): not evidence in the calibrated model",
+        ),
+        (
+            "rigid-class",
+            vec![(
+                "E/2/classes/0/evidence",
+                json!([{"kind": "counting", "blocks": [], "bound": 1}]),
+            )],
+            "E/[2] (classes).classes[0].evidence[0] (counting): not a lower bound",
+        ),
+    ] {
+        refused(name, &changes, wanted);
+    }
+}
+
+fn minor() -> Value {
+    json!({"kind": "minor", "prime": "101", "seed": "1", "draw": 0, "rows": [], "cols": []})
+}
+
+#[test]
+fn section_7_pivots() {
+    for (name, changes, wanted) in [
+        (
+            "square",
+            vec![("E/0/rows/7", json!("remove"))],
+            "E/[0] (plane-flow).N: 7 pivot rows, but 8 pivot columns",
+        ),
+        (
+            "square",
+            vec![("E/0/rows/7", json!(0))],
+            "E/[0] (plane-flow).N: the pivots are not different indices below 8",
+        ),
+        (
+            "square",
+            vec![("E/0/rows/7", json!(8))],
+            "E/[0] (plane-flow).N: the pivots are not different indices below 8",
+        ),
+        (
+            "square",
+            vec![("E/0/cols/7", json!(0))],
+            "E/[0] (plane-flow).N: the pivots are not different indices below 12",
+        ),
+        (
+            "square",
+            vec![("E/0/cols/7", json!(12))],
+            "E/[0] (plane-flow).N: the pivots are not different indices below 12",
+        ),
+        (
+            "square",
+            vec![("E/0/cols/0", json!(11))],
+            "E/[0] (plane-flow).N: pivot 0 vanishes",
+        ),
+        (
+            "bipartite",
+            vec![("E/1/cols/0", json!(70))],
+            "E/[1] (minor): pivot 0 vanishes",
+        ),
+        (
+            "bipartite",
+            vec![("E/1/rows/0", json!(90))],
+            "E/[1] (minor): the pivots are not different indices below 90",
+        ),
+        (
+            "bipartite",
+            vec![("E/1/cols/0", json!(72))],
+            "E/[1] (minor): the pivots are not different indices below 72",
+        ),
+        (
+            "bipartite",
+            vec![("E/0/lambda_rows/3", json!(16))],
+            "E/[0] (plane-flow).Lambda: the pivots are not different indices below 16",
+        ),
+        (
+            "bipartite",
+            vec![("E/0/lambda_cols/3", json!(9))],
+            "E/[0] (plane-flow).Lambda: the pivots are not different indices below 9",
+        ),
+        (
+            "bipartite",
+            vec![("E/0/lambda_cols/3", json!("remove"))],
+            "E/[0] (plane-flow).Lambda: 4 pivot rows, but 3 pivot columns",
+        ),
+        (
+            "integer",
+            vec![("E/0/cols/0", json!(40))],
+            "E/[0] (integer-minor): pivot 0 vanishes",
+        ),
+        (
+            "integer-prime",
+            vec![("E/0/cols/0", json!(40))],
+            "E/[0] (integer-minor): pivot 0 vanishes",
+        ),
+    ] {
+        refused(name, &changes, wanted);
+    }
+}
+
+#[test]
+fn section_7_flows() {
+    refused(
+        "square",
+        &[("E/0/flows", json!(1))],
+        "E/[0] (plane-flow): 1 flows, but only 0 rows are not pivots",
+    );
+    let fewer = [
+        ("E/0/rows/7", json!("remove")),
+        ("E/0/cols/7", json!("remove")),
+        ("E/0/flows", json!(1)),
+    ];
+    refused(
+        "square-calibrated",
+        &fewer,
+        "E/[0] (plane-flow): flows in the calibrated model",
+    );
+    // A flow that vanishes at the pivots only, also if Lambda has no pivots.
+    let fewer = [
+        ("E/0/rows/13", json!("remove")),
+        ("E/0/cols/13", json!("remove")),
+        ("E/0/flows", json!(5)),
+        ("E/0/lambda_rows", json!([])),
+        ("E/0/lambda_cols", json!([])),
+    ];
+    refused(
+        "bipartite",
+        &fewer,
+        "E/[0] (plane-flow).flow 0: it does not vanish in all columns of N",
+    );
+    // Rows 0 and 4 of Lambda, the same column twice in effect: the second pivot vanishes.
+    let dependent = [
+        ("E/0/lambda_rows", json!([0, 1, 2, 3, 4])),
+        ("E/0/lambda_cols", json!([0, 1, 3, 4, 5])),
+    ];
+    let reason = rejection(&changed("bipartite", &dependent), None);
+    assert!(
+        reason.contains("Lambda: pivot 4 vanishes") || reason.contains("impossible"),
+        "{reason}"
+    );
+}
+
+#[test]
+fn section_7_integers() {
+    let step = "E/[0] (integer-minor)";
+    let mut value = named("integer");
+    let vector = value["pieces"][0]["evidence"][0]["kernel"][0].clone();
+    assert!(vector.is_array());
+    let determinant = at(&mut value, "E/0/determinant")
+        .as_str()
+        .unwrap()
+        .to_owned();
+    let negated = determinant.replace('-', "");
+    for (name, changes, wanted) in [
+        (
+            "integer",
+            vec![("E/0/determinant", json!(negated))],
+            "`determinant` is not that of the minor",
+        ),
+        (
+            "integer",
+            vec![("E/0/determinant", json!("0"))],
+            "`determinant` is zero",
+        ),
+        (
+            "integer",
+            vec![("E/0/prime", json!("2305843009213693951"))],
+            "one of `determinant` and `prime` is null",
+        ),
+        (
+            "integer-prime",
+            vec![("E/0/prime", json!(null))],
+            "one of `determinant` and `prime` is null",
+        ),
+        (
+            "integer-prime",
+            vec![("E/0/prime", json!("9"))],
+            "9 is not a prime",
+        ),
+    ] {
+        refused(name, &changes, &format!("{step}: {wanted}"));
+    }
+    let kernel = format!("{step}.kernel");
+    refused(
+        "integer",
+        &[("E/0/kernel/0", json!("repeat"))],
+        &format!("{kernel}: the vectors depend on each other"),
+    );
+    refused(
+        "integer",
+        &[("E/0/kernel/0/0", json!("remove"))],
+        &format!("{kernel}: vector 0 has 47 entries instead of 48"),
+    );
+    refused(
+        "integer",
+        &[("E/0/kernel/0/0", json!("1"))],
+        &format!("{kernel}: vector 0 is not in the kernel"),
+    );
+}
+
+#[test]
+fn section_7_counting() {
+    refused(
+        "square",
+        &[("E/1/bound", json!(27))],
+        "E/[1] (counting): the bound is 27, but the blocks sum up to 28",
+    );
+    refused(
+        "square",
+        &[("E/1/blocks/0", json!("remove"))],
+        "E/[1] (counting).blocks: the edge [0, 1] is left out",
+    );
+    refused(
+        "square",
+        &[("E/1/blocks/0", json!("repeat"))],
+        "E/[1] (counting).blocks: the edge [0, 1] is there twice",
+    );
+    refused(
+        "square",
+        &[("E/1/blocks/0/edges", json!([]))],
+        "E/[1] (counting).blocks: neither bodies nor edges",
+    );
+    refused(
+        "prism",
+        &[("E/1/blocks/0/bodies", json!([0, 0]))],
+        "E/[1] (counting).blocks: the bodies or the edges are not increasing",
+    );
+    let hub = named("hub")["pieces"][0]["evidence"][1]["blocks"][0]["hubs"].clone();
+    refused(
+        "pentagon-calibrated",
+        &[("E/1/blocks/0/hubs", hub)],
+        "E/[1] (counting): blocks[0] has a hub in the calibrated model",
+    );
+    refused(
+        "hub",
+        &[("E/1/blocks/0/hubs/0", json!("repeat"))],
+        "E/[1] (counting): blocks[0] has more than one hub",
+    );
+    let h = |member: &str| format!("E/1/blocks/0/hubs/0/{member}");
+    for (member, new, wanted) in [
+        ("node", json!(4), "node 4 is not in the block"),
+        (
+            "node",
+            json!(1),
+            "a part is split that does not contain node 1",
+        ),
+        (
+            "split",
+            json!([0, 2]),
+            "a part is split that does not contain node 0",
+        ),
+        (
+            "split",
+            json!([0]),
+            "the split graph has 1 components, not 2",
+        ),
+        (
+            "split",
+            json!([1, 0]),
+            "`split` is not an increasing list of parts",
+        ),
+        (
+            "split",
+            json!([0, 4]),
+            "`split` is not an increasing list of parts",
+        ),
+        (
+            "components",
+            json!(1),
+            "the split graph has 2 components, not 1",
+        ),
+        ("less", json!(2), "the hub takes off 1, not 2"),
+        ("groups", json!([[0], [1], [2]]), "a part is in no group"),
+        (
+            "groups",
+            json!([[0], [1], [2], [3], [0]]),
+            "part 0 stands in two groups",
+        ),
+        (
+            "groups",
+            json!([[0], [1], [2], [3], []]),
+            "groups[4] is not an increasing list of parts",
+        ),
+        (
+            "groups",
+            json!([[0], [1], [2], [4]]),
+            "groups[3] is not an increasing list of parts",
+        ),
+        (
+            "groups",
+            json!([[0], [1], [3, 2]]),
+            "groups[2] is not an increasing list of parts",
+        ),
+        // One group of both edges at node 0 has four nodes, two of them copies: s = 8 + 2 + 2 - 8
+        // = 4, and 2 - 1 - 3 s = -11.
+        (
+            "groups",
+            json!([[0, 1], [2], [3]]),
+            "the hub takes off -11, not 1",
+        ),
+    ] {
+        let step = "E/[1] (counting).blocks[0].hubs[0]: ";
+        refused("hub", &[(&h(member), new)], &format!("{step}{wanted}"));
+    }
+    refused(
+        "hub",
+        &[(&h("parts/3"), json!("remove"))],
+        "E/[1] (counting).blocks[0].hubs[0].parts: the edge [2, 3] is left out",
+    );
+}
+
+/// A hub that takes off nothing, and a block of two edges that do not meet.
+#[test]
+fn section_7_hubs() {
+    let edge = |i: u32, j: u32| json!({"bodies": [], "edges": [[i, j]]});
+    let hub = |parts: Value, split: Value, groups: Value, components: u32, less: i64| json!([{"node": 0, "parts": parts, "split": split, "groups": groups, "components": components, "less": less}]);
+    let none = hub(
+        json!([edge(0, 1), edge(0, 3), edge(1, 2), edge(2, 3)]),
+        json!([]),
+        json!([[0], [1], [2], [3]]),
+        1,
+        0,
+    );
+    let step = "E/[1] (counting).blocks[0].hubs[0]: ";
+    refused(
+        "hub",
+        &[("E/1/blocks/0/hubs", none)],
+        &format!("{step}the hub takes off 0, not 0"),
+    );
+    let apart = json!([
+        {"bodies": [], "edges": [[0, 1], [2, 3]], "hubs": hub(json!([edge(0, 1), edge(2, 3)]), json!([0]), json!([[0], [1]]), 3, 1)},
+        {"bodies": [], "edges": [[0, 3], [1, 2]], "hubs": []}
+    ]);
+    refused(
+        "hub",
+        &[("E/1/blocks", apart)],
+        &format!("{step}the block is not connected"),
+    );
+}
+
+#[test]
+fn section_7_classes() {
+    let step = "E/[2] (classes)";
+    let split = json!({"rigid": {"bodies": [], "edges": [[0, 1], [0, 3]]}, "pieces": []});
+    let joined = |split: Value| {
+        vec![
+            ("E/2/classes/1", json!("remove")),
+            ("E/2/classes/0/edges", json!([[0, 1], [0, 3]])),
+            ("E/2/classes/0/split", split),
+        ]
+    };
+    refused(
+        "square",
+        &joined(split.clone()),
+        "E/[3] (kernel): class 0 does not move as one",
+    );
+    let unsplit = vec![
+        ("E/2/classes/1", json!("remove")),
+        ("E/2/classes/0/edges", json!([[0, 1], [0, 3]])),
+    ];
+    refused(
+        "square",
+        &unsplit,
+        &format!("{step}.classes[0]: the class is not proved to have the rank 18"),
+    );
+    let single = json!({"rigid": {"bodies": [], "edges": [[0, 1]]}, "pieces": []});
+    refused(
+        "square",
+        &[("E/2/classes/0/split", single)],
+        &format!("{step}.classes[0]: a class that is single is not split"),
+    );
+    refused(
+        "square",
+        &[("E/2/classes/0/evidence", json!([minor()]))],
+        &format!("{step}.classes[0]: evidence for a class that is single"),
+    );
+    let mut with_evidence = joined(split);
+    with_evidence.push(("E/2/classes/0/evidence", json!([minor()])));
+    refused(
+        "square",
+        &with_evidence,
+        &format!("{step}.classes[0]: evidence for a class that is split"),
+    );
+    let all = json!([{"bodies": [], "edges": [[0, 1], [0, 3], [1, 2], [2, 3]], "evidence": [], "split": null}]);
+    refused(
+        "square",
+        &[("E/2/classes", all)],
+        &format!("{step}: fewer than two classes"),
+    );
+    refused(
+        "square",
+        &[("E/2/classes/3", json!("remove"))],
+        &format!("{step}.classes: the edge [2, 3] is left out"),
+    );
+    let mut calibrated = named("pentagon-calibrated");
+    let first = at(&mut calibrated, "E/2/classes/0/edges/0").clone();
+    let second = at(&mut calibrated, "E/2/classes/1/edges/0").clone();
+    let both = json!([first, second]);
+    let changes = [
+        ("E/2/classes/1", json!("remove")),
+        ("E/2/classes/0/edges", both.clone()),
+        (
+            "E/2/classes/0/split",
+            json!({"rigid": {"bodies": [], "edges": both}, "pieces": []}),
+        ),
+    ];
+    refused(
+        "pentagon-calibrated",
+        &changes,
+        &format!("{step}.classes[0]: a split class in the calibrated model"),
+    );
+    // Inside of a class the conditions are those of section 6.
+    let inner = "E/2/classes/0/split/pieces/0";
+    refused(
+        "theta",
+        &[(&format!("{inner}/evidence/1/bound"), json!(27))],
+        &format!("{step}.classes[0].split.pieces[0].evidence[1] (counting): the bound is 27"),
+    );
+    refused(
+        "theta",
+        &[(&format!("{inner}/edges/3"), json!("remove"))],
+        &format!("{step}.classes[0].split.pieces: the edge [2, 3] is left out"),
+    );
+    refused(
+        "theta",
+        &[(&format!("{inner}/edges/3"), json!([4, 5]))],
+        &format!("{step}.classes[0].split.pieces: the edge [4, 5] is out of place"),
+    );
+    refused(
+        "rigid-class",
+        &[("E/2/classes/0/evidence/0/prime", json!("9"))],
+        &format!("{step}.classes[0].evidence[0] (plane-flow)"),
+    );
+    // One pivot less: the class may be flexible.
+    let fewer = [
+        ("E/2/classes/0/evidence/0/lambda_rows/3", json!("remove")),
+        ("E/2/classes/0/evidence/0/lambda_cols/3", json!("remove")),
+    ];
+    refused(
+        "rigid-class",
+        &fewer,
+        &format!("{step}.classes[0]: the class is not proved to have the rank 51"),
+    );
+}
+
+#[test]
+fn section_7_kernels() {
+    let step = "E/[3] (kernel)";
+    let vector = |entry: &str, size: usize| json!(vec![entry; size]);
+    let changes = |value: Value| [("E/3/vector", value)];
+    refused(
+        "square",
+        &changes(vector("0", 48)),
+        &format!("{step}: two classes move alike"),
+    );
+    refused(
+        "square",
+        &changes(vector("0", 47)),
+        &format!("{step}: `vector` has 47 entries instead of 48"),
+    );
+    refused(
+        "square",
+        &changes(vector("1000003", 48)),
+        &format!("{step}: an entry is not a residue modulo 1000003"),
+    );
+    let mut unit = vec!["0"; 48];
+    unit[0] = "1";
+    refused(
+        "square",
+        &changes(json!(unit)),
+        &format!("{step}: not a kernel vector at the core edge 0"),
+    );
+    // At other cameras the vector is none.
+    refused(
+        "square",
+        &[("E/3/seed", json!("2"))],
+        &format!("{step}: not a kernel vector at the core edge"),
+    );
+    refused(
+        "draws",
+        &[("E/3/prime", json!("1000003"))],
+        "E/[3] (kernel): an entry is not a residue",
+    );
+    refused(
+        "pentagon-calibrated",
+        &changes(vector("0", 15)),
+        &format!("{step}: two classes move alike"),
+    );
+    refused(
+        "pentagon-calibrated",
+        &changes(vector("0", 60)),
+        &format!("{step}: `vector` has 60 entries instead of 15"),
+    );
+}
+
+/// What separates classes: a motion at the very cameras at which the rank is that of counting.
+#[test]
+fn section_7_separation() {
+    let not_separated = "claim.components: classes of a piece are not separated";
+    refused("square", &[("E/3", json!("remove"))], not_separated);
+    // The rank is proved at other cameras than those of the motion.
+    let mut value = named("integer");
+    let evidence = value["pieces"][0]["evidence"].as_array_mut().unwrap();
+    let flow = evidence
+        .iter()
+        .position(|one| one["kind"] == "plane-flow")
+        .unwrap();
+    let seed = evidence[flow]["seed"].clone();
+    let kernel = evidence.iter().find(|one| one["kind"] == "kernel").unwrap();
+    assert_eq!(kernel["seed"], seed);
+    evidence.remove(flow);
+    assert_eq!(rejection(&value, None), not_separated);
+    // One of the draws has no motion.
+    refused("draws", &[("E/3", json!("remove"))], not_separated);
+    refused("draws", &[("E/5", json!("remove"))], not_separated);
+}
+
+#[test]
+fn section_9_draws() {
+    let step = "E/[1] (draws)";
+    refused(
+        "draws",
+        &[("E/1/count", json!(1))],
+        &format!("{step}: `count` must be 3"),
+    );
+    refused(
+        "draws",
+        &[("E/1/count", json!(4))],
+        &format!("{step}: `count` must be 3"),
+    );
+    for rank in [27, 29] {
+        let wanted = format!("{step}: the largest of the ranks [28, 28, 28] is not {rank}");
+        refused("draws", &[("E/1/rank", json!(rank))], &wanted);
+    }
+}
+
+#[test]
+fn section_8_claims() {
+    let proof = |pointer: &str| {
+        vec![
+            (format!("{pointer}/strength"), json!("proof")),
+            (format!("{pointer}/error_log2"), json!(null)),
+        ]
+    };
+    let bound = |pointer: &str, error: i64| {
+        vec![
+            (format!("{pointer}/strength"), json!("error-bound")),
+            (format!("{pointer}/error_log2"), json!(error)),
+        ]
+    };
+    for member in ["verdict", "rank", "components"] {
+        let pointer = format!("/claim/{member}");
+        for (name, changes, wanted) in [
+            (
+                "draws",
+                proof(&pointer),
+                "the strength is not `proof`, but `error at most 2^-153 over the draws`",
+            ),
+            (
+                "square",
+                bound(&pointer, -153),
+                "the strength is not `error at most 2^-153 over the draws`, but `proof`",
+            ),
+            (
+                "draws",
+                vec![(format!("{pointer}/error_log2"), json!(-152))],
+                "the strength is not `error at most 2^-152",
+            ),
+            (
+                "draws",
+                vec![(format!("{pointer}/error_log2"), json!(-154))],
+                "the strength is not `error at most 2^-154",
+            ),
+            (
+                "draws",
+                vec![(format!("{pointer}/error_log2"), json!(null))],
+                "`error-bound` is no strength with this `error_log2`",
+            ),
+            (
+                "square",
+                vec![(format!("{pointer}/error_log2"), json!(-153))],
+                "`proof` is no strength with this `error_log2`",
+            ),
+            (
+                "square",
+                vec![(format!("{pointer}/strength"), json!("guess"))],
+                "`guess` is no strength with this `error_log2`",
+            ),
+        ] {
+            let changes: Vec<_> = changes
+                .iter()
+                .map(|(pointer, value)| (&**pointer, value.clone()))
+                .collect();
+            refused(name, &changes, &format!("claim.{member}: {wanted}"));
+        }
+    }
+    for (name, pointer, new, wanted) in [
+        (
+            "pair",
+            "/claim/verdict/value",
+            json!("finite-solvable"),
+            "verdict: `finite-solvable` is claimed, but the evidence gives `solvable`",
+        ),
+        (
+            "bipartite",
+            "/claim/verdict/value",
+            json!("solvable"),
+            "verdict: `solvable` is claimed, but the evidence gives `finite-solvable`",
+        ),
+        (
+            "square",
+            "/claim/verdict/value",
+            json!("finite-solvable"),
+            "verdict: `finite-solvable` is claimed",
+        ),
+        (
+            "square-calibrated",
+            "/claim/verdict/value",
+            json!("finite-solvable"),
+            "verdict: `finite-solvable` is claimed",
+        ),
+        (
+            "square",
+            "/claim/verdict/value",
+            json!("maybe\nVERIFIED"),
+            "verdict: `maybe\\nVERIFIED` is claimed",
+        ),
+        (
+            "pair",
+            "/claim/rank/value",
+            json!(6),
+            "rank: `6` is claimed, but the evidence gives `7`",
+        ),
+        (
+            "square",
+            "/claim/rank/required",
+            json!(28),
+            "rank.required is 29, not 28",
+        ),
+        (
+            "path",
+            "/claim/components/value",
+            json!(1),
+            "components: `1` is claimed, but the evidence gives `2`",
+        ),
+    ] {
+        refused(
+            name,
+            &[(pointer, new)],
+            &format!("claim.{wanted}").replace("claim.rank.required", "claim: rank.required"),
+        );
+    }
+    // No upper bound: the piece may have the required rank.
+    refused(
+        "square",
+        &[("E/1", json!("remove"))],
+        "claim.verdict: the evidence decides neither way",
+    );
+    // An upper bound that decides the verdict and not the rank: two edges in one block.
+    let blocks = json!([
+        {"bodies": [], "edges": [[0, 1], [1, 2]], "hubs": []}, {"bodies": [], "edges": [[0, 4]], "hubs": []},
+        {"bodies": [], "edges": [[2, 3]], "hubs": []}, {"bodies": [], "edges": [[3, 4]], "hubs": []}
+    ]);
+    let mut value = named("pentagon");
+    let evidence = value["pieces"][0]["evidence"].as_array_mut().unwrap();
+    let counting = evidence
+        .iter_mut()
+        .find(|one| one["kind"] == "counting")
+        .unwrap();
+    counting["blocks"] = blocks;
+    counting["bound"] = json!(18 + 3 * 7);
+    assert_eq!(
+        rejection(&value, None),
+        "claim.rank: a piece has a rank from 35 to 39"
+    );
+}
+
+/// Every limit stops what needs more, with an answer that is no rejection; with just enough it does
+/// not.
+#[test]
+fn section_11_limits() {
+    let run = |name: &str, limits: &Limits| {
+        let text = named(name).to_string();
+        Certificate::parse(text.as_bytes())
+            .unwrap()
+            .check_within(None, limits)
+    };
+    let all = Limits::default;
+    for (name, enough, limits, option) in [
+        ("square", true, Limits { core: 4, ..all() }, "--max-core"),
+        ("square", false, Limits { core: 3, ..all() }, "--max-core"),
+        (
+            "bipartite",
+            true,
+            Limits { flows: 4, ..all() },
+            "--max-flows",
+        ),
+        (
+            "bipartite",
+            false,
+            Limits { flows: 3, ..all() },
+            "--max-flows",
+        ),
+        (
+            "integer",
+            false,
+            Limits { bits: 100, ..all() },
+            "--max-bits",
+        ),
+        (
+            "integer-prime",
+            false,
+            Limits { bits: 40, ..all() },
+            "--max-bits",
+        ),
+        (
+            "integer-prime",
+            true,
+            Limits { bits: 60, ..all() },
+            "--max-bits",
+        ),
+        (
+            "merges",
+            false,
+            Limits {
+                operations: 10,
+                ..all()
+            },
+            "--max-operations",
+        ),
+    ] {
+        match run(name, &limits) {
+            Ok(_) => assert!(enough, "{name}: {option} does not limit"),
+            Err(Failure::TooLarge(limit)) => {
+                assert!(!enough, "{name}: {limit}");
+                assert_eq!(limit.option, option, "{name}: {limit}");
+                assert!(limit.to_string().starts_with("too large for the limits: "));
+            }
+            Err(Failure::Rejected(rejection)) => panic!("{name}: {rejection}"),
+        }
+    }
+    // Every kind of evidence is counted: whatever the limit, the answer is the right one or none.
+    for name in [
+        "integer",
+        "integer-prime",
+        "draws",
+        "rigid-class",
+        "theta",
+        "prism",
+        "pentagon-calibrated",
+    ] {
+        let mut steps = 0;
+        for operations in (0..40).map(|k| 1 << k) {
+            match run(
+                name,
+                &Limits {
+                    operations,
+                    ..all()
+                },
+            ) {
+                Ok(_) => steps += 1,
+                Err(Failure::TooLarge(limit)) => {
+                    assert_eq!((steps, limit.option), (0, "--max-operations"), "{name}");
+                }
+                Err(Failure::Rejected(rejection)) => panic!("{name}: {rejection}"),
+            }
+        }
+        assert!((5..30).contains(&steps), "{name}: {steps}");
+    }
+}

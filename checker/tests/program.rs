@@ -1,0 +1,287 @@
+//! The program: what it prints where, its options, and its exit codes.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+struct Run {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+fn run_with(input: &str, arguments: &[&str]) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_viewcert-check"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The program may end before it reads everything.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Run {
+        code: output.status.code().unwrap(),
+        out: text(output.stdout),
+        err: text(output.stderr),
+    }
+}
+
+fn run(arguments: &[&str]) -> Run {
+    run_with("", arguments)
+}
+
+fn path(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/certificates");
+    folder.join(format!("{name}.json")).display().to_string()
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(path(name)).unwrap()
+}
+
+/// A file of the test's own.
+fn file(name: &str, bytes: &[u8]) -> String {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn verified_lines() {
+    let run = run(&[&path("square")]);
+    assert_eq!((run.code, run.err.as_str()), (0, ""));
+    let lines: Vec<&str> = run.out.lines().collect();
+    assert_eq!(lines.len(), 4);
+    assert!(lines.iter().all(|line| line.starts_with("VERIFIED ")));
+    assert!(lines[0].starts_with("VERIFIED graph: 4 nodes, 4 edges, SHA-256 9ac8d97b"));
+    assert!(lines[1].starts_with("VERIFIED not-finite-solvable: "));
+    assert_eq!(lines[2], "VERIFIED rank: 28 of 29 required (proof)");
+    assert_eq!(lines[3], "VERIFIED components: 4 maximal (proof)");
+    let read = run_with(&text("square"), &["-"]);
+    assert_eq!((read.code, read.out), (0, run.out));
+}
+
+/// Nothing that a certificate holds can pass for an answer.
+#[test]
+fn a_rejected_file_says_nothing() {
+    let hostile = text("square").replace("\"plane-flow\"", "\"x\\nVERIFIED y\\u001b[2K\"");
+    let run = run_with(&hostile, &["-"]);
+    assert_eq!((run.code, run.out.as_str()), (1, "REJECTED\n"));
+    assert_eq!(run.err.lines().count(), 1);
+    assert!(run.err.starts_with("viewcert-check: "), "{}", run.err);
+    assert!(
+        run.err.contains("`x\\nVERIFIED y\\u{1b}[2K`"),
+        "{}",
+        run.err
+    );
+    let long = text("square").replace("\"plane-flow\"", &format!("\"{}\"", "x".repeat(100_000)));
+    assert!(run_with(&long, &["-"]).err.len() < 300);
+    // Names that are verified are not printed either.
+    let name = text("square").replace("\"example\"", "\"\\nVERIFIED everything\"");
+    let run = run_with(&name, &["-"]);
+    assert_eq!(run.code, 0);
+    assert!(!run.out.contains("everything"), "{}", run.out);
+}
+
+#[test]
+fn help_and_version() {
+    for option in ["--help", "-h", "--version", "-V"] {
+        let run = run(&[option]);
+        assert_eq!((run.code, run.err.as_str()), (0, ""), "{option}");
+        assert!(!run.out.contains("VERIFIED ") && !run.out.is_empty());
+    }
+    let help = run(&["--help"]).out;
+    for option in [
+        "--expect",
+        "--proofs-only",
+        "--max-operations",
+        "[10",
+        "--format",
+    ] {
+        assert!(help.contains(option), "{option}");
+    }
+}
+
+#[test]
+fn bad_usage() {
+    let square = path("square");
+    for arguments in [
+        &[][..],
+        &["--what"],
+        &[&square, &square, &square],
+        &[&square, "--expect", "maybe"],
+        &[&square, "--expect"],
+        &[&square, "--model", "affine"],
+        &[&square, "--nodes", "four"],
+        &[&square, "--nodes", "-4"],
+        &[&square, "--sha256", "9ac8"],
+        &[&square, "--format", "graph6"],
+        &[&square, "--max-core", "1e3"],
+        &["-", "-"],
+        &["no-such-file.json"],
+        &[&square, "no-such-file.txt"],
+    ] {
+        let run = run(arguments);
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{arguments:?}");
+        assert!(run.err.starts_with("viewcert-check: "), "{}", run.err);
+    }
+}
+
+#[test]
+fn what_is_expected() {
+    const HASH: &str = "9ac8d97b8710d2c0fe901270dcfd1aa77fc5e73a9d406ddf480210a460626727";
+    let square = path("square");
+    let fine = [
+        &["--expect", "not-finite-solvable"][..],
+        &["--model=projective", "--nodes=4", "--edges", "4"],
+        &["--sha256", HASH],
+        &["--sha256", &HASH.to_uppercase()],
+        &["--proofs-only"],
+    ];
+    for options in fine {
+        let run = run(&[options, &[&square]].concat());
+        assert_eq!((run.code, run.err.as_str()), (0, ""), "{options:?}");
+        assert!(run.out.starts_with("VERIFIED "));
+    }
+    let other = HASH.replace('9', "8");
+    for (name, options, wanted) in [
+        (
+            "square",
+            &["--expect", "solvable"][..],
+            "the verdict is not-finite-solvable",
+        ),
+        (
+            "square",
+            &["--expect=finite-solvable"],
+            "the verdict is not-finite-solvable",
+        ),
+        (
+            "square",
+            &["--model", "calibrated"],
+            "the model is projective",
+        ),
+        (
+            "square-calibrated",
+            &["--model", "projective"],
+            "the model is calibrated",
+        ),
+        ("square", &["--nodes", "5"], "the graph has 4 nodes"),
+        ("square", &["--edges", "5"], "the graph has 4 edges"),
+        (
+            "square",
+            &["--sha256", &other],
+            "the graph has the SHA-256 9ac8",
+        ),
+        (
+            "draws",
+            &["--proofs-only"],
+            "the verdict is not proved: error at most 2^-153",
+        ),
+        (
+            "draws",
+            &["--proofs-only"],
+            "the rank is not proved: error at most 2^-153",
+        ),
+        (
+            "draws",
+            &["--proofs-only"],
+            "the number of components is not proved",
+        ),
+    ] {
+        let run = run(&[options, &[&path(name)]].concat());
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{options:?}");
+        assert!(run.err.contains(wanted), "{}", run.err);
+    }
+    // What is expected does not turn a rejection into anything else.
+    let wrong = text("square").replace("\"bound\":28", "\"bound\":27");
+    let run = run_with(&wrong, &["-", "--expect=solvable"]);
+    assert_eq!((run.code, run.out.as_str()), (1, "REJECTED\n"));
+}
+
+#[test]
+fn limits_have_an_answer_of_their_own() {
+    for (name, option) in [
+        ("square", "--max-bytes"),
+        ("square", "--max-core"),
+        ("bipartite", "--max-flows"),
+        ("integer", "--max-bits"),
+        ("integer", "--max-operations"),
+    ] {
+        let stopped = run(&[&path(name), option, "3"]);
+        assert_eq!((stopped.code, stopped.out.as_str()), (3, ""), "{option}");
+        assert!(
+            stopped.err.contains("too large for the limits: "),
+            "{}",
+            stopped.err
+        );
+        assert!(
+            stopped.err.contains(&format!("raise it with {option}")),
+            "{}",
+            stopped.err
+        );
+        assert_eq!(run(&[&path(name), option, "9000000000000"]).code, 0);
+    }
+    let size = text("square").len().to_string();
+    assert_eq!(run(&[&path("square"), "--max-bytes", &size]).code, 0);
+    let one_less = (text("square").len() - 1).to_string();
+    assert_eq!(run(&[&path("square"), "--max-bytes", &one_less]).code, 3);
+    assert_eq!(
+        run_with(&text("square"), &["-", "--max-bytes", &one_less]).code,
+        3
+    );
+}
+
+#[test]
+fn graphs_in_files() {
+    let square = path("square");
+    let list = file("square.txt", b"a b\nb c\nc d\nd a\n");
+    assert_eq!(run(&[&square, &list]).code, 0);
+    let other = file("path.txt", b"a b\nb c\nc d\n");
+    let run_other = run(&[&square, &other]);
+    assert_eq!((run_other.code, run_other.out.as_str()), (1, "REJECTED\n"));
+    // The right one of several, as the certificate says.
+    let several = file("several.g6", b"Bw\nC~\nCl\n");
+    assert_eq!(run(&[&square, &several]).code, 0);
+    // A line that is a graph6 graph makes no graph6 file.
+    let mixed = file("mixed.txt", b"Cl\na b\nb c\n");
+    let unreadable = run(&[&square, &mixed]);
+    assert_eq!((unreadable.code, unreadable.out.as_str()), (2, ""));
+    assert!(
+        unreadable
+            .err
+            .contains("mixed.txt: line 1: one field is no pair"),
+        "{}",
+        unreadable.err
+    );
+    // Five columns: only who says that it is an edge list is believed.
+    let wide = file("wide.txt", b"a b 1 2 3\nb c x y z\nc d\nd a -\n");
+    assert_eq!(run(&[&square, &wide]).code, 2);
+    assert_eq!(run(&[&square, &wide, "--format", "edges"]).code, 0);
+    assert_eq!(run(&[&square, &wide, "--format", "auto"]).code, 2);
+    for (name, bytes) in [
+        ("square.mat", &b"MATLAB 5.0 MAT-file\0"[..]),
+        ("square.gz", b"\x1f\x8b\x08"),
+        ("square.json", b"{\"edges\": []}"),
+        ("square.xml", b"<graphml>"),
+        ("square.bin", b"a b\0"),
+    ] {
+        let unreadable = run(&[&square, &file(name, bytes)]);
+        assert_eq!(
+            (unreadable.code, unreadable.out.as_str()),
+            (2, ""),
+            "{name}"
+        );
+    }
+    // An unreadable graph is no answer about a certificate that is wrong.
+    let wrong = file(
+        "wrong.json",
+        text("square")
+            .replace("\"bound\":28", "\"bound\":27")
+            .as_bytes(),
+    );
+    assert_eq!(run(&[&wrong, &mixed]).code, 2);
+    assert_eq!(run(&[&wrong, &list]).code, 1);
+}
