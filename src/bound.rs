@@ -23,6 +23,7 @@ use crate::exact::prime::PrimeField;
 use crate::formulation::plane_flow::PlaneFlows;
 use crate::model::Model;
 use crate::piece::{Assembly, Members};
+use crate::watch::{Stopped, Task};
 
 pub use hub::Hub;
 
@@ -73,34 +74,55 @@ impl Counting {
     }
 }
 
+/// How a search draws, computes and can be stopped.
+pub struct Search<'a> {
+    /// The field of its matrices. Where to look is not a claim, so that any field does.
+    pub field: &'a PrimeField,
+    /// Gives uniform residues; the choice steers the search but not the validity of what it
+    /// finds.
+    pub random: &'a mut dyn FnMut() -> u64,
+    /// What it counts as.
+    pub task: Task<'a>,
+}
+
+impl Search<'_> {
+    /// Random centres for so many nodes.
+    fn centres(&mut self, nodes: usize) -> Vec<[u64; 3]> {
+        (0..nodes)
+            .map(|_| std::array::from_fn(|_| (self.random)()))
+            .collect()
+    }
+}
+
 /// The best bound the search finds for a piece with the given components; stops as soon
-/// as it meets `target`, a lower bound on the rank. `random` gives uniform residues; the
-/// choice steers the search but not the validity of what it finds.
+/// as it meets `target`, a lower bound on the rank.
+///
+/// # Errors
+/// If the search was stopped.
 pub fn count(
     model: Model,
     assembly: &Assembly,
     piece: &Members,
     components: &[Members],
     target: usize,
-    field: &PrimeField,
-    random: &mut dyn FnMut() -> u64,
-) -> Counting {
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
     let partition = Counting::partition(model, assembly, components);
     if partition.bound <= target || model == Model::Calibrated {
-        return partition;
+        return Ok(partition);
     }
-    let whole = with_hub(assembly, piece, components, field, random);
+    let whole = with_hub(assembly, piece, components, by)?;
     if whole.bound <= target {
-        return whole;
+        return Ok(whole);
     }
-    let mut best = by_rigid_blocks(assembly, piece, components, field, random);
+    let mut best = by_rigid_blocks(assembly, piece, components, by)?;
     for bound in [partition, whole] {
         if bound.bound < best.bound {
             best = bound;
         }
     }
     if components.len() > MAX_LEFT_OUT {
-        return best;
+        return Ok(best);
     }
     for (k, left_out) in components.iter().enumerate() {
         if best.bound <= target {
@@ -110,14 +132,14 @@ pub fn count(
         let others: Vec<Members> = [&components[..k], &components[k + 1..]].concat();
         others.iter().for_each(|component| rest.extend(component));
         let joined = Counting::join(vec![
-            by_rigid_blocks(assembly, &rest, &others, field, random),
+            by_rigid_blocks(assembly, &rest, &others, by)?,
             Counting::partition(model, assembly, std::slice::from_ref(left_out)),
         ]);
         if joined.bound < best.bound {
             best = joined;
         }
     }
-    best
+    Ok(best)
 }
 
 /// The parallel-rigid components of a part as blocks, each with a hub or else divided into
@@ -126,11 +148,11 @@ fn by_rigid_blocks(
     assembly: &Assembly,
     part: &Members,
     components: &[Members],
-    field: &PrimeField,
-    random: &mut dyn FnMut() -> u64,
-) -> Counting {
-    let rigid = parallel_rigid_components(assembly, part, field, random);
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let rigid = parallel_rigid_components(assembly, part, by)?;
     let blocks = rigid.iter().map(|block| {
+        by.task.check()?;
         let inside: Vec<Members> = components
             .iter()
             .filter(|component| block.contains(component))
@@ -138,12 +160,12 @@ fn by_rigid_blocks(
             .collect();
         let split = Counting::partition(Model::Projective, assembly, &inside);
         if inside.len() < 2 {
-            return split;
+            return Ok(split);
         }
-        let one = with_hub(assembly, block, &inside, field, random);
-        if one.bound < split.bound { one } else { split }
+        let one = with_hub(assembly, block, &inside, by)?;
+        Ok(if one.bound < split.bound { one } else { split })
     });
-    Counting::join(blocks.collect())
+    Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
 }
 
 /// One block, with the best hub that the search finds.
@@ -151,35 +173,31 @@ fn with_hub(
     assembly: &Assembly,
     block: &Members,
     components: &[Members],
-    field: &PrimeField,
-    random: &mut dyn FnMut() -> u64,
-) -> Counting {
-    let mut best = hub::search(assembly, block, components, field, random);
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let mut best = hub::search(assembly, block, components, by)?;
     if best.is_none() && components.len() < block.len() {
-        best = hub::search(assembly, block, &block.singles(), field, random);
+        best = hub::search(assembly, block, &block.singles(), by)?;
     }
     let required = Model::Projective.required(assembly.count_nodes(block));
-    Counting {
+    Ok(Counting {
         bound: required - best.as_ref().map_or(0, |hub| hub.less),
         blocks: vec![Block {
             members: block.clone(),
             hub: best,
         }],
-    }
+    })
 }
 
 /// The components of the calibrated model: where N alone leaves no freedom.
 fn parallel_rigid_components(
     assembly: &Assembly,
     piece: &Members,
-    field: &PrimeField,
-    random: &mut dyn FnMut() -> u64,
-) -> Vec<Members> {
+    by: &mut Search,
+) -> Result<Vec<Members>, Stopped> {
     let core = assembly.core(piece);
-    let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
-        .map(|_| std::array::from_fn(|_| random()))
-        .collect();
-    let flows = PlaneFlows::new(field, &core.graph, &centres);
-    let (_, transforms) = flows.calibrated_motion(random);
-    component::classes(piece, &core, &transforms)
+    let centres = by.centres(core.graph.nodes());
+    let flows = PlaneFlows::watched(by.field, &core.graph, &centres, &by.task.untold())?;
+    let (_, transforms) = flows.calibrated_motion(&mut by.random);
+    Ok(component::classes(piece, &core, &transforms))
 }

@@ -23,6 +23,7 @@ pub mod piece;
 pub mod report;
 pub mod union_find;
 pub mod verdict;
+pub mod watch;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

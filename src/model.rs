@@ -13,9 +13,10 @@ pub enum Model {
 
 impl Model {
     /// The rank of a solvable graph (or body) with n >= 2 nodes: 11 n - 15 of J_P, in
-    /// the calibrated model 3 n - 4 of N.
+    /// the calibrated model 3 n - 4 of N. A single node is solvable without any.
     pub fn required(self, n: usize) -> usize {
         match self {
+            _ if n < 2 => 0,
             Self::Projective => 11 * n - 15,
             Self::Calibrated => 3 * n - 4,
         }

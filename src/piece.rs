@@ -164,9 +164,9 @@ impl Assembly {
     }
 
     /// Some members as one piece, whatever their articulations (a single member is rigid
-    /// all the same).
+    /// all the same, and none are no piece).
     pub fn whole(&self, part: &Members) -> Split {
-        let (rigid, pieces) = if part.len() == 1 {
+        let (rigid, pieces) = if part.len() < 2 {
             (part.clone(), Vec::new())
         } else {
             (Members::default(), vec![part.clone()])

@@ -10,6 +10,7 @@ use crate::exact::prime::{PrimeField, SMALL_PRIME};
 use crate::graph::{Graph, sha256};
 use crate::model::Model;
 use crate::piece::{Assembly, Members};
+use crate::watch::{Step, Stopped, Watch};
 
 /// How the question is decided.
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct Options {
     pub counting: bool,
     /// The seed of all draws.
     pub seed: u64,
+    /// Who is told what is being done, and may stop it.
+    pub watch: Watch,
 }
 
 /// From so many nodes on elimination is most of the work on a core.
@@ -57,6 +60,7 @@ impl Default for Options {
             contraction: true,
             counting: true,
             seed: 1,
+            watch: Watch::default(),
         }
     }
 }
@@ -185,20 +189,27 @@ pub enum VerdictError {
         /// What to do instead.
         advice: &'static str,
     },
+    /// The work was stopped before there was an answer.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }
 
 /// Decides a graph.
 ///
 /// # Errors
-/// If cameras cannot be drawn, a small prime leaves the question open, or the matrix is
-/// too large for the method.
+/// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
+/// too large for the method, or the work is stopped.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
+    let task = options.watch.task(Step::Contraction, graph.nodes());
+    let work = task.begin(0);
+    work.done(0)?;
     let sha256 = sha256(graph);
     let contraction = if options.contraction {
         Contraction::new(graph)
     } else {
         Contraction::none(graph)
     };
+    work.done(0)?;
     let assembly = Assembly::new(graph, &contraction);
     let all = assembly.all();
     let split = if options.contraction {
@@ -206,6 +217,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     } else {
         assembly.whole(&all)
     };
+    drop(work);
     let pieces = piece::decide_all(&assembly, &split.pieces, &sha256, options)?;
     Ok(conclude(
         graph,
@@ -242,7 +254,7 @@ fn conclude(
         .first()
         .is_some_and(|piece| all_nodes(&piece.members) && rank == required);
     let value = match model {
-        _ if is_body => Value::Solvable,
+        _ if is_body || graph.nodes() == 1 => Value::Solvable,
         Model::Calibrated if is_full => Value::Solvable,
         Model::Projective if is_full => Value::FiniteSolvable,
         _ => Value::NotFiniteSolvable,

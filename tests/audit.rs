@@ -119,7 +119,7 @@ fn too_large_for_the_dense_method() {
     let path: String = (0..2000).map(|k| format!("{k} {}\n", k + 1)).collect();
     let path = graph_file(folder.path(), "path.txt", &path);
     let run = verify(&["audit", "--method", "dense", &path]);
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("22016 x 24012"), "{}", run.err);
     assert!(run.err.contains("--method sparse"), "{}", run.err);
 }
@@ -190,10 +190,160 @@ fn claims_confirmed_refuted_open_and_bad() {
         (4, "contradict"),
         (5, "not a number"),
     ] {
-        let start = format!("verify: row {row}: ");
-        let said = run.err.lines().find(|line| line.starts_with(&start));
+        // The first row is on the second line.
+        let place = format!("claims.csv:{}: ", row + 1);
+        let said = run.err.lines().find(|line| line.contains(&place));
         assert!(said.is_some_and(|line| line.contains(word)), "{}", run.err);
     }
+}
+
+/// A table that may not say what its author means is refused whole, with the line: nothing of it
+/// is ruled on.
+#[test]
+fn tables_that_are_not_understood_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let audit = |table: &str| {
+        let table = graph_file(folder.path(), "claims.csv", table);
+        verify(&["audit", "--claims", &table])
+    };
+    for (table, line, why) in [
+        ("", 1, "empty"),
+        ("graph,rank\n", 1, "no rows"),
+        ("[]", 1, "no rows"),
+        ("graph,rang\nC~,29\n", 1, "unknown column \"rang\""),
+        ("graph,rank,Rank\nC~,29,29\n", 1, "twice"),
+        ("graph,rank\nC~,29\nC~\n", 3, "1 cell, and the head has 2"),
+        ("graph,rank\n\nC~,29,1\n", 3, "3 cells"),
+        (
+            "[{\"graph\": \"C~\", \"rank\": 29},\n{\"graph\": \"C~\", \"verdit\": \"solvable\"}]",
+            2,
+            "\"verdit\"",
+        ),
+        (
+            "{\"graph\": \"C~\",\n \"rank\": [29]}",
+            1,
+            "a list or an object",
+        ),
+        ("{\"graph\": \"C~\", \"rank\": 1, \"rank\": 29}", 1, "twice"),
+        (
+            "{\"graph\": \"C~\"}\n[3]\n",
+            2,
+            "not a JSON list of objects",
+        ),
+        ("{\"graph\": {\"name\": \"C~\"}}", 1, "verify --json"),
+    ] {
+        let run = audit(table);
+        assert_eq!(run.code, 2, "{table}: {}", run.out);
+        assert_eq!(run.out, "", "{table}");
+        let place = format!("claims.csv:{line}: ");
+        assert!(run.err.contains(&place), "{table}: {}", run.err);
+        assert!(run.err.contains(why), "{table}: {}", run.err);
+    }
+    // A column is left out where that is said.
+    let table = graph_file(folder.path(), "claims.csv", "graph,rank,mood\nC~,29,good\n");
+    let run = verify(&["audit", "--claims", &table, "--ignore", "Mood"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("1 confirmed, 0 refuted"), "{}", run.out);
+}
+
+/// What `verify --json` prints is a table of claims, in both models, of files and of lines of
+/// files; and one that has been tampered with is refuted.
+#[test]
+fn the_programs_own_lines_are_claims() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = graph_file(folder.path(), "square.txt", SQUARE);
+    let lines = graph_file(folder.path(), "two.g6", "Bw\nC~\nDFw\n");
+    let audit = |claims: &str| {
+        let table = graph_file(folder.path(), "claims.jsonl", claims);
+        verify(&["audit", "--json", "--claims", &table])
+    };
+    for extra in [&[][..], &["--components"], &["--model", "calibrated"]] {
+        let own = verify(&[&["--json", &square, &lines], extra].concat());
+        let run = audit(&own.out);
+        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+        let rulings = run.json();
+        assert_eq!(rulings.len(), 4);
+        assert!(rulings.iter().all(|line| line["ruling"] == "confirmed"));
+        // As a list, too.
+        let list = own.out.trim().replace('\n', ",\n");
+        assert_eq!(audit(&format!("[{list}]")).code, 0);
+    }
+    let own = verify(&["--json", &square]).out;
+    for (from, to, why) in [
+        ("\"rank\":28", "\"rank\":27", "claimed rank 27, is 28"),
+        (
+            "\"rank_required\":29",
+            "\"rank_required\":28",
+            "claimed rank_required 28, is 29",
+        ),
+        (
+            "not-finite-solvable",
+            "finite-solvable",
+            "contradict each other",
+        ),
+        (
+            "{\"nodes\":2,\"edges\":1}]",
+            "{\"nodes\":3,\"edges\":1}]",
+            "other sizes",
+        ),
+        ("\"sha256\":\"", "\"sha256\":\"0", "another graph is meant"),
+        ("\"mode\"", "\"mood\"", "unknown member"),
+    ] {
+        let claim = own.replacen(from, to, 1);
+        assert_ne!(claim, own, "{from}");
+        let run = audit(&claim);
+        let said = format!("{}{}", run.out, run.err);
+        assert!(said.contains(why), "{from}: {said}");
+        assert!(!said.contains("confirmed"), "{said}");
+    }
+    // Of standard input nothing is left.
+    let run = audit(&own.replace(&square, "-"));
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("standard input"), "{}", run.err);
+}
+
+/// Psi of docs/theory.md, Example 6.2: the published method merges what is not one component, and
+/// how many it finds depends on the pair it begins at. That is not blamed on rounding.
+#[test]
+fn a_disagreement_is_explained() {
+    let psi = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/psi.txt");
+    let psi = psi.to_str().unwrap();
+    let run = verify(&["audit", psi]);
+    assert_eq!(run.code, 1, "{}", run.out);
+    for words in [
+        "DISAGREE",
+        "the published method of components, not rounding",
+        "Example 6.2",
+        "it finds 12 instead of 15",
+        "begun at one or another of 15 pairs, 12 to 15",
+    ] {
+        assert!(run.out.contains(words), "{words}: {}", run.out);
+    }
+    let run = verify(&["audit", "--json", psi]);
+    let line = &run.json()[0];
+    assert_eq!(line["agree"], false);
+    assert!(line["reason"].as_str().unwrap().contains("Example 6.2"));
+    let method = &line["published_method"];
+    for (member, value) in [
+        ("components", 12),
+        ("components_least_by_start", 12),
+        ("components_most_by_start", 15),
+        ("starts", 15),
+    ] {
+        assert_eq!(method[member], value, "{member}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let complete = graph_file(folder.path(), "complete.txt", COMPLETE);
+    let run = verify(&["audit", "--json", "--tolerance", "1e9", &complete]);
+    let line = &run.json()[0];
+    let reason = line["reason"].as_str().unwrap();
+    assert!(
+        reason.contains("wrong side of the tolerance at 1 of 1 draw"),
+        "{reason}"
+    );
+    assert!(line["published_method"].is_null());
+    let run = verify(&["audit", "--json", &complete]);
+    assert!(run.json()[0]["reason"].is_null());
 }
 
 /// The paper's Table 3: both methods' numbers of components, and the sizes.

@@ -475,12 +475,213 @@ fn the_published_catalog_is_reproducible() {
         .map(|file| file.unwrap().file_name())
         .collect();
     files.sort();
-    // Two files of 5, 6 and 7 nodes, one of 3 and 4, two lists, page, counts, README.
-    assert_eq!(files.len(), 6 + 2 + 2 + 3);
+    // Two files of 5, 6 and 7 nodes, one of 3 and 4, two lists, page, counts, README, manifest.
+    assert_eq!(files.len(), 6 + 2 + 2 + 4);
     for file in files {
         let read = |folder: &PathBuf| fs::read(folder.join(&file)).unwrap();
         assert_eq!(read(&names[0]), read(&names[1]), "{file:?}");
     }
     let listed = fs::read_to_string(names[0].join("n08-finite-solvable.g6")).unwrap();
     assert_eq!(listed.lines().count(), 36);
+}
+
+/// A published folder is complete by its manifest, until something is missing, extra or changed.
+#[test]
+fn a_folder_says_whether_it_is_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let path = out.to_str().unwrap();
+    let publish = ["catalog", "publish", "--certified", "6", "--listed", "7"];
+    good(&verify(&[&publish[..], &[path]].concat()));
+    let check = |code: i32| {
+        let run = verify(&["check", path]);
+        assert_eq!(run.status.code(), Some(code), "{}", text(&run.stdout));
+        (text(&run.stdout), text(&run.stderr))
+    };
+    // 1 + 1 + 2 + 9 candidates; 1 and 1, 2 and 2 files of certificates, 2 of a list, 3 others.
+    let (said, skipped) = check(0);
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines[0], "13 certificates verified, 0 rejected");
+    assert_eq!(lines[1], "13 distinct graphs");
+    assert_eq!(
+        lines[2],
+        format!("{path}: complete by its manifest of 11 files")
+    );
+    assert_eq!(skipped, "");
+
+    let file = out.join("n06-refuted.jsonl.gz");
+    let hidden = folder.path().join("hidden");
+    fs::rename(&file, &hidden).unwrap();
+    let (said, _) = check(1);
+    assert!(
+        said.contains(&format!("MISSING {}", file.display())),
+        "{said}"
+    );
+    assert!(said.contains("1 difference to its manifest"), "{said}");
+    fs::rename(&hidden, &file).unwrap();
+
+    // A certificate more, which is good, and once more by itself: a graph less than certificates.
+    let extra = out.join("extra.json");
+    let run = with_input(&["-", "--certificate", extra.to_str().unwrap()], b"1 2\n");
+    good(&run);
+    fs::copy(&extra, out.join("more.json")).unwrap();
+    let (said, _) = check(1);
+    assert!(
+        said.contains(&format!("EXTRA {}", extra.display())),
+        "{said}"
+    );
+    assert!(said.contains("15 certificates verified"), "{said}");
+    assert!(said.contains("14 distinct graphs"), "{said}");
+    fs::remove_file(&extra).unwrap();
+    fs::remove_file(out.join("more.json")).unwrap();
+
+    // Other contents: of a list, and of a file whose certificates are all good.
+    let list = out.join("n07-finite-solvable.g6");
+    let before = fs::read(&list).unwrap();
+    fs::write(&list, [&before[..], b"Bw\n"].concat()).unwrap();
+    let (said, _) = check(1);
+    assert!(
+        said.contains(&format!("CHANGED {}", list.display())),
+        "{said}"
+    );
+    fs::write(&list, before).unwrap();
+    let twin = fs::read(out.join("n05-refuted.jsonl.gz")).unwrap();
+    let whole = fs::read(&file).unwrap();
+    fs::write(&file, twin).unwrap();
+    let (said, _) = check(1);
+    assert!(
+        said.contains(&format!("CHANGED {}", file.display())),
+        "{said}"
+    );
+    assert!(said.contains("0 rejected"), "{said}");
+    fs::write(&file, whole).unwrap();
+
+    // The manifest with other counts, and one that is none.
+    let manifest = out.join("manifest.json");
+    let before = fs::read_to_string(&manifest).unwrap();
+    let other = before.replacen("\"graphs\": 5", "\"graphs\": 4", 1);
+    assert_ne!(other, before);
+    fs::write(&manifest, other).unwrap();
+    let (said, _) = check(1);
+    assert!(
+        said.contains("5 graphs (5 not-finite-solvable), and the manifest says 4 graphs"),
+        "{said}"
+    );
+    fs::write(&manifest, "{}").unwrap();
+    let run = verify(&["check", path]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("manifest.json: not a manifest"));
+    fs::remove_file(&manifest).unwrap();
+    let (said, skipped) = check(0);
+    assert!(said.contains("no manifest.json"), "{said}");
+    for name in ["README.md", "counts.tsv", "finite-solvable.svg"] {
+        let line = format!("skipped {}", out.join(name).display());
+        assert!(skipped.contains(&line), "{skipped}");
+    }
+}
+
+/// Links that lead around are followed once, and what is no file is not waited for.
+#[test]
+#[cfg(unix)]
+fn a_folder_of_links_ends() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir_all(at("sub/deeper")).unwrap();
+    let one = at("one.json");
+    good(&with_input(
+        &["-", "--certificate", one.to_str().unwrap()],
+        b"1 2\n",
+    ));
+    symlink("..", at("sub/up")).unwrap();
+    symlink("../..", at("sub/deeper/top")).unwrap();
+    symlink("nowhere", at("gone.json")).unwrap();
+    symlink("one.json", at("same.json")).unwrap();
+    let pipe = at("pipe.json");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let run = verify(&["check", folder.path().to_str().unwrap()]);
+    let said = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{said}");
+    assert!(
+        said.starts_with("2 certificates verified, 0 rejected\n1 distinct graph\n"),
+        "{said}"
+    );
+    let skipped = text(&run.stderr);
+    for (name, why) in [
+        ("sub/up", "checked already"),
+        ("sub/deeper/top", "checked already"),
+        ("gone.json", "a link to nothing"),
+        ("pipe.json", "not a file"),
+    ] {
+        let line = skipped.lines().find(|line| line.contains(name));
+        assert!(line.is_some_and(|line| line.contains(why)), "{skipped}");
+    }
+}
+
+/// A certificate can hold what a terminal would obey.
+#[test]
+fn the_reason_of_a_rejection_is_escaped() {
+    let folder = tempfile::tempdir().unwrap();
+    let bad = folder.path().join("bad.json");
+    fs::write(&bad, "{\"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1}").unwrap();
+    for path in [bad.as_path(), folder.path()] {
+        let run = verify(&["check", path.to_str().unwrap()]);
+        assert_eq!(run.status.code(), Some(1));
+        let said = text(&run.stdout);
+        assert!(said.starts_with("REJECTED"), "{said}");
+        assert!(said.contains("\\u{1b}[2J"), "{said}");
+        assert!(!said.contains(['\u{1b}', '\u{202e}']), "{said:?}");
+        assert!(
+            !said.lines().any(|line| line.starts_with("VERIFIED")),
+            "{said}"
+        );
+    }
+}
+
+/// A shard counts its own candidates only; so does its estimate of the time that is left.
+#[test]
+fn a_shard_says_how_many_candidates_are_its_own() {
+    let mut sum = 0;
+    for index in 1..=3 {
+        let shard = format!("{index}/3");
+        let run = verify(&["catalog", "--nodes", "9", "--shard", &shard]);
+        let own = counts(&good(&run))[0][0];
+        let said = text(&run.stderr);
+        let expected = format!("verify: shard {shard}: {own} of 433 candidates\n");
+        assert_eq!(said, expected);
+        sum += own;
+    }
+    assert_eq!(sum, 433);
+}
+
+/// A folder with a README of its own is not one to publish to; a published one is.
+#[test]
+fn a_readme_of_somebody_else_is_not_overwritten() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let readme = folder.path().join("README.md");
+    fs::write(&readme, "mine").unwrap();
+    let publish = [
+        "catalog",
+        "publish",
+        "--certified",
+        "3",
+        "--listed",
+        "3",
+        path,
+    ];
+    let run = verify(&publish);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("README.md"));
+    assert_eq!(fs::read_to_string(&readme).unwrap(), "mine");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    fs::remove_file(&readme).unwrap();
+    good(&verify(&publish));
+    good(&verify(&publish));
 }

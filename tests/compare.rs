@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{TABLE_1, geng, verify, verify_with};
+use common::{TABLE_1, data, geng, verify, verify_with};
 use std::path::Path;
 use viewcert::camera::{Camera, DrawKey, cameras_rational};
 use viewcert::exact::bareiss;
@@ -11,7 +11,8 @@ use viewcert::exact::dense::Matrix;
 use viewcert::exact::integer::Integer;
 use viewcert::exact::prime::PrimeField;
 use viewcert::exact::rational::{Rational, Rationals};
-use viewcert::formulation::{all, compare, rank::RankField};
+use viewcert::formulation::compare::{self, Limits, MAX_RATIONALS, MAX_RESIDUES};
+use viewcert::formulation::{all, rank::RankField};
 use viewcert::graph::{Graph, graph6};
 
 fn graph_file(folder: &Path, name: &str, pairs: &str) -> String {
@@ -37,7 +38,7 @@ fn a_table_and_json_in_both_fields() {
         assert_eq!(done.code, 0, "{}", done.out);
         assert!(
             done.out
-                .contains("all agree: at these cameras 1 dimensions"),
+                .contains("all agree: at these cameras 1 dimension of motions"),
             "{}",
             done.out
         );
@@ -97,26 +98,100 @@ fn bad_input_is_said_and_the_rest_goes_on() {
     let path: String = (0..400).map(|k| format!("{k} {}\n", k + 1)).collect();
     let path = graph_file(folder.path(), "path.txt", &path);
     let done = verify(&["compare", "--rational", &path]);
-    assert_eq!(done.code, 2);
+    assert_eq!(done.code, 3);
     assert!(done.err.contains("too large"), "{}", done.err);
+    assert!(done.err.contains("--limit"), "{}", done.err);
+    // Bounds that are out of range are refused whatever they are used for.
+    for bounds in [
+        ["--numerator", "0"],
+        ["--numerator", "101"],
+        ["--denominator", "13"],
+    ] {
+        let done = verify(&[&["compare", "--rational", &square], &bounds[..]].concat());
+        assert_eq!(done.code, 2, "{bounds:?}");
+        assert!(done.err.contains(" is not in 1..="), "{}", done.err);
+    }
+}
+
+/// What was not computed is no disagreement, and one formulation alone is no agreement.
+#[test]
+fn nothing_compared_is_neither_agreement_nor_disagreement() {
+    let star: String = (1..=60).map(|leaf| format!("0 {leaf}\n")).collect();
+    // N and Lambda are below the limit, all other matrices above.
+    let limited = ["compare", "--rational", "--limit", "30000", "-"];
+    let run = verify_with(star.as_bytes(), &limited);
+    assert_eq!(run.code, 3, "{}", run.err);
+    assert!(
+        run.out.contains("result      nothing compared: 1 of 6"),
+        "{}",
+        run.out
+    );
+    let run = verify_with(star.as_bytes(), &[&limited[..], &["--json"]].concat());
+    assert_eq!(run.code, 3);
+    let line = &run.json()[0];
+    assert!(line["agree"].is_null());
+    assert_eq!(line["computed"], 1);
+    // Some above, some below; all below. Not even N.
+    for (limit, code, words) in [
+        ("400000", 0, "that were computed agree"),
+        ("100000000", 0, "all agree"),
+        ("1000", 3, ""),
+    ] {
+        let run = verify_with(star.as_bytes(), &["compare", "--limit", limit, "-"]);
+        assert_eq!(run.code, code, "{limit}: {}{}", run.out, run.err);
+        assert!(run.out.contains(words), "{limit}: {}", run.out);
+    }
+}
+
+/// What may take minutes is said before, on standard error, and nothing else is.
+#[test]
+fn long_runs_are_announced() {
+    let path = |nodes: u32| -> String { (1..nodes).map(|k| format!("{} {k}\n", k - 1)).collect() };
+    let run = verify_with(path(625).as_bytes(), &["compare", "--json", "-"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let said: Vec<&str> = run.err.lines().collect();
+    assert!(!said.is_empty());
+    for line in said {
+        assert!(line.starts_with("verify: -: "), "{line}");
+        assert!(line.contains("which may take minutes"), "{line}");
+    }
+    assert_eq!(run.json()[0]["agree"], true);
+    let run = verify_with(path(100).as_bytes(), &["compare", "--json", "-"]);
+    assert_eq!(run.err, "");
+}
+
+/// None of the real graphs is reported as a disagreement where nothing was computed.
+#[test]
+fn large_real_graphs_are_not_disagreements() {
+    let Some(data) = data() else { return };
+    for name in ["Piccadilly", "Quad", "Alamo"] {
+        let graph = data.join("table3").join(name).with_extension("mat");
+        let run = verify(&["compare", graph.to_str().unwrap()]);
+        assert_eq!(run.code, 3, "{name}: {}{}", run.out, run.err);
+        assert!(!run.out.contains("DISAGREE"), "{}", run.out);
+    }
 }
 
 /// What is too large for some of the matrices is compared by the others.
 #[test]
 fn the_large_matrices_are_left_out() {
-    // A star of 60 pairs: 10 * (60^2 + 60) - 19 * 60 + 15 = 35,475 rows by 960 columns
-    // for all equations of two pairs, and 120 x 183 for N.
-    let star: String = (1..=60).map(|leaf| format!("0 {leaf}\n")).collect();
+    // A star of 40 pairs: 10 * (40^2 + 40) - 19 * 40 + 15 = 15,655 rows by 640 columns for all
+    // equations of two pairs, and 80 x 123 for N.
+    let star: String = (1..=40).map(|leaf| format!("0 {leaf}\n")).collect();
     let run = verify_with(star.as_bytes(), &["compare", "--rational", "--json", "-"]);
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
     let json = &run.json()[0];
     let lines = json["formulations"].as_array().unwrap();
-    assert_eq!(lines[0]["matrices"][0]["rows"], 35_475);
+    assert_eq!(lines[0]["matrices"][0]["rows"], 15_655);
     assert!(lines[0]["rank"].is_null() && lines[0]["matrices"][0]["rank"].is_null());
     // Every pair adds 7, and N two rows; there are no flows.
-    assert_eq!(lines[5]["rank"], 7 * 60);
-    assert_eq!(lines[5]["matrices"][0]["rank"], 120);
-    assert_eq!(json["excess"], 11 * 61 - 15 - 7 * 60);
+    assert_eq!(lines[5]["rank"], 7 * 40);
+    assert_eq!(lines[5]["matrices"][0]["rank"], 80);
+    assert_eq!(json["excess"], 11 * 41 - 15 - 7 * 40);
+    assert_eq!(
+        (&json["agree"], &json["computed"]),
+        (&true.into(), &4.into())
+    );
 }
 
 /// The format and the MATLAB variable are taken as by the verifier itself.
@@ -163,12 +238,12 @@ fn table_1(compare: impl Fn(&Graph) -> compare::Comparison) {
 #[test]
 fn table_1_modulo_a_prime() {
     let field = PrimeField::mersenne61();
-    table_1(|graph| compare::modular(&field, graph, 1).unwrap());
+    table_1(|graph| compare::modular(&field, graph, 1, &Limits::new(MAX_RESIDUES)).unwrap());
 }
 
 #[test]
 fn table_1_over_the_rationals() {
-    table_1(|graph| compare::rational(graph, (3, 1), 1).unwrap());
+    table_1(|graph| compare::rational(graph, (3, 1), 1, &Limits::new(MAX_RATIONALS)).unwrap());
 }
 
 /// Fraction-free elimination, which shares nothing with the ranks by a prime and verified

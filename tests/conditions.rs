@@ -104,12 +104,42 @@ fn what_does_not_apply_says_why() {
     assert_eq!(output.code, 2);
 }
 
-/// The 4-cycle in graph6 is no edge list.
+/// The 4-cycle in graph6 is a camera without pairs in an edge list.
 #[test]
 fn the_format_can_be_said() {
     let output = conditions(b"Cl\n", &["--json", "--format", "graph6"]);
     assert_eq!(output.code, 1);
     assert_eq!(output.json()[0]["edges"], 4);
-    let output = conditions(b"Cl\n", &["--format", "edge-list"]);
-    assert_eq!(output.code, 2);
+    let output = conditions(b"Cl\n", &["--json", "--format", "edge-list"]);
+    assert_eq!(output.code, 0);
+    assert_eq!(output.json()[0]["nodes"], 1);
+}
+
+/// A ring of 30,000 cameras in a moment: what looks at the whole graph for every node of it takes
+/// minutes.
+#[test]
+fn a_long_ring_takes_no_time() {
+    let start = std::time::Instant::now();
+    let output = conditions(common::cycle(30_000).as_bytes(), &["--json"]);
+    assert_eq!(output.code, 1, "{}", output.err);
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    let line = &output.json()[0];
+    assert_eq!(answer(line, "biconnected")["answer"], "yes");
+    assert_eq!(
+        answer(line, "grows from a triangle")["witness"][0],
+        "at most 2 of 30000 cameras are reached"
+    );
+}
+
+#[test]
+fn one_is_not_many() {
+    let output = conditions(b"1 2\n", &[]);
+    assert!(output.out.contains("2 cameras, 1 pair\n"), "{}", output.out);
+    // The only pair of K4 without an edge is found by no move if an edge more is missing.
+    let output = conditions(b"1 2\n2 3\n", &["--json"]);
+    let line = output.json().remove(0);
+    assert_eq!(
+        answer(&line, "moves")["witness"][0],
+        "1 edge of the complete graph missing"
+    );
 }

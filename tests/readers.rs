@@ -98,6 +98,479 @@ fn synthetic_graphs_and_their_true_components() {
     }
 }
 
+/// Section 2 of docs/certificate.md, written down once more without any thought of speed.
+mod the_page {
+    use std::collections::BTreeSet;
+
+    pub struct Field {
+        text: String,
+        quoted: bool,
+    }
+
+    impl Field {
+        fn is_number(&self) -> bool {
+            !self.quoted && is_number(&self.text)
+        }
+
+        fn integer(&self) -> Option<u64> {
+            if self.quoted {
+                None
+            } else {
+                integer(&self.text)
+            }
+        }
+    }
+
+    fn is_number(text: &str) -> bool {
+        let text = text.strip_prefix(['+', '-']).unwrap_or(text);
+        let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+            None => (text, None),
+        };
+        let digits = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        digits(whole)
+            && digits(fraction)
+            && !(whole.is_empty() && fraction.is_empty())
+            && exponent.is_none_or(|exponent| {
+                let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+                !exponent.is_empty() && digits(exponent)
+            })
+    }
+
+    fn integer(text: &str) -> Option<u64> {
+        let value: u64 = text.parse().ok()?;
+        (value.to_string() == text).then_some(value)
+    }
+
+    /// The lines of a text.
+    fn lines(bytes: &[u8]) -> Option<Vec<String>> {
+        let text = String::from_utf8(bytes.to_vec()).ok()?;
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let lines: Vec<String> = text
+            .split('\n')
+            .map(|line| line.strip_suffix('\r').unwrap_or(line).to_owned())
+            .collect();
+        let bad = |c: char| c < ' ' && c != '\t' || c == '\x7f' || c == '\u{feff}';
+        (!lines.iter().any(|line| line.contains(bad))).then_some(lines)
+    }
+
+    fn fields(line: &str) -> Option<Vec<Field>> {
+        let mut rest: &str = line;
+        let mut fields = Vec::new();
+        loop {
+            let trimmed = rest.trim_start_matches([' ', '\t', ',']);
+            let commas = rest[..rest.len() - trimmed.len()].matches(',').count();
+            rest = trimmed;
+            let over = rest.is_empty() || rest.starts_with(['#', '%']);
+            if commas > 1 || commas == 1 && (over || fields.is_empty()) {
+                return None;
+            }
+            if over {
+                return Some(fields);
+            }
+            if let Some(inner) = rest.strip_prefix('"') {
+                // Doubled quotes are hidden while the closing one is looked for.
+                let hidden = inner.replace("\"\"", "\u{1}\u{1}");
+                let end = hidden.find('"')?;
+                let text = hidden[..end].replace("\u{1}\u{1}", "\"");
+                rest = &inner[end + 1..];
+                if text.is_empty() || !(rest.is_empty() || rest.starts_with([' ', '\t', ','])) {
+                    return None;
+                }
+                fields.push(Field { text, quoted: true });
+            } else {
+                let end = rest.find([' ', '\t', ',']).unwrap_or(rest.len());
+                let text = rest[..end].to_owned();
+                rest = &rest[end..];
+                if text.contains('"') {
+                    return None;
+                }
+                let quoted = false;
+                fields.push(Field { text, quoted });
+            }
+        }
+    }
+
+    fn brackets_close(text: &str) -> bool {
+        let mut left: String = text.chars().filter(|c| "()[]{}".contains(*c)).collect();
+        loop {
+            let shorter = left.replace("()", "").replace("[]", "").replace("{}", "");
+            if shorter == left {
+                return left.is_empty();
+            }
+            left = shorter;
+        }
+    }
+
+    const PAIRS: &str = "source target from to src dst node1 node2 node_1 node_2 image1 image2 \
+         image_1 image_2 image_id1 image_id2 name1 name2 name_1 name_2 id1 id2";
+
+    fn is_head(a: &str, b: &str) -> bool {
+        let words: Vec<&str> = PAIRS.split_whitespace().collect();
+        let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
+        words.chunks(2).any(|pair| pair[0] == a && pair[1] == b)
+    }
+
+    /// Labels in the order of the nodes, and the edges.
+    pub type Listed = (Vec<String>, BTreeSet<(usize, usize)>);
+
+    fn numbered(pairs: &[(String, String)], singles: &[String]) -> Option<Listed> {
+        let mut labels: Vec<String> = pairs
+            .iter()
+            .flat_map(|(a, b)| [a.clone(), b.clone()])
+            .chain(singles.iter().cloned())
+            .collect();
+        if labels.iter().all(|label| integer(label).is_some()) {
+            labels.sort_by_key(|label| integer(label));
+        } else {
+            labels.sort();
+        }
+        labels.dedup();
+        let place = |label: &String| labels.iter().position(|other| other == label).unwrap();
+        let mut edges = BTreeSet::new();
+        for (a, b) in pairs {
+            if a == b {
+                return None;
+            }
+            edges.insert((place(a).min(place(b)), place(a).max(place(b))));
+        }
+        Some((labels, edges))
+    }
+
+    pub fn lenient(bytes: &[u8]) -> Option<Listed> {
+        let (mut pairs, mut singles) = (Vec::new(), Vec::new());
+        for line in lines(bytes)? {
+            match &fields(&line)?[..] {
+                [] => {}
+                [one] => singles.push(one.text.clone()),
+                [a, b, ..] => pairs.push((a.text.clone(), b.text.clone())),
+            }
+        }
+        if pairs.is_empty() && singles.is_empty() {
+            return None;
+        }
+        numbered(&pairs, &singles)
+    }
+
+    pub fn strict(bytes: &[u8]) -> Option<Listed> {
+        let lines = lines(bytes)?;
+        let mut rows: Vec<Vec<Field>> = Vec::new();
+        let mut hashes = Vec::new();
+        for line in &lines {
+            let found = fields(line)?;
+            if line.trim_matches([' ', '\t']) == "#" {
+                hashes.push(rows.len());
+            }
+            if !found.is_empty() {
+                rows.push(found);
+            }
+        }
+        let columns = rows.first()?.len();
+        if ![2, 3, 9, 14].contains(&columns) || rows.iter().any(|row| row.len() != columns) {
+            return None;
+        }
+        for field in rows.iter().flatten().filter(|field| !field.quoted) {
+            let word = |c: char| c.is_ascii_alphanumeric() || !c.is_ascii();
+            if !field.text.contains(word) || field.text.starts_with("//") {
+                return None;
+            }
+        }
+        // The head.
+        let first = &rows[0];
+        let occurs = |label: &str| {
+            let labels = rows[1..].iter().flat_map(|row| &row[..2]);
+            labels.into_iter().any(|field| field.text == label)
+        };
+        let either_occurs = first[..2].iter().any(|field| occurs(&field.text));
+        let numbers = first[2..].iter().all(Field::is_number);
+        let head = if !numbers && first[..2].iter().all(|field| field.integer().is_none()) {
+            let mut behind = first[1..].windows(2);
+            if behind.any(|two| is_head(&two[0].text, &two[1].text)) || either_occurs {
+                return None;
+            }
+            true
+        } else {
+            numbers && is_head(&first[0].text, &first[1].text) && !either_occurs
+        };
+        let rows = &rows[usize::from(head)..];
+        if rows.is_empty()
+            || rows
+                .iter()
+                .any(|row| !row[2..].iter().all(Field::is_number))
+        {
+            return None;
+        }
+        for field in rows
+            .iter()
+            .flat_map(|row| &row[..2])
+            .filter(|field| !field.quoted)
+        {
+            if field.text.ends_with([';', ':']) || !brackets_close(&field.text) {
+                return None;
+            }
+        }
+        let pairs: Vec<(String, String)> = rows
+            .iter()
+            .map(|row| (row[0].text.clone(), row[1].text.clone()))
+            .collect();
+        let listed = numbered(&pairs, &[])?;
+        // What it could be else.
+        let quoted = rows.iter().any(|row| row[0].quoted || row[1].quoted);
+        let integers: Option<Vec<Vec<u64>>> = rows
+            .iter()
+            .map(|row| row.iter().map(Field::integer).collect())
+            .collect();
+        if !head
+            && !quoted
+            && let Some(rows) = &integers
+        {
+            let others: BTreeSet<u64> = rows[1..].iter().flatten().copied().collect();
+            let counts = columns == 2
+                && rows[0][1] == rows.len() as u64 - 1
+                && rows[0][0] >= others.len() as u64;
+            let matrix = rows.len() == columns && rows.iter().flatten().all(|&value| value < 2);
+            if counts || matrix {
+                return None;
+            }
+            if columns == 3 {
+                let largest = rows.iter().map(|row| row[0].max(row[1])).max()?;
+                let stars = rows.iter().all(|row| {
+                    row[0] < row[1] && row[1] < row[2] && row[2] <= largest.saturating_add(1)
+                });
+                let behind = |node: u64, other: u64| {
+                    let mut lines = rows.iter();
+                    lines.any(|row| row[0] == node && row[1..].contains(&other))
+                };
+                let neighbours = rows.windows(2).all(|two| two[0][0] < two[1][0])
+                    && rows.iter().all(|row| {
+                        row[0] != row[1]
+                            && row[0] != row[2]
+                            && row[1] != row[2]
+                            && behind(row[1], row[0])
+                            && behind(row[2], row[0])
+                    });
+                if stars || neighbours {
+                    return None;
+                }
+            }
+        }
+        if let [at] = hashes[..] {
+            let at = at.saturating_sub(usize::from(head));
+            let (nodes, edges) = pairs.split_at(at);
+            let firsts: BTreeSet<&String> = nodes.iter().map(|pair| &pair.0).collect();
+            let listed = |label| firsts.contains(label);
+            if !nodes.is_empty()
+                && !edges.is_empty()
+                && firsts.len() == nodes.len()
+                && edges.iter().all(|(a, b)| listed(a) && listed(b))
+            {
+                return None;
+            }
+        }
+        let (own, other): (Vec<&String>, Vec<&String>) = listed
+            .0
+            .iter()
+            .partition(|label| **label == pairs[0].0 || **label == pairs[0].1);
+        if !head
+            && pairs.len() > 1
+            && !either_occurs
+            && own.iter().all(|label| !is_number(label))
+            && other.iter().all(|label| integer(label).is_some())
+        {
+            return None;
+        }
+        let decimal = |label: &String| label.contains(['.', 'e', 'E']);
+        if !quoted && listed.0.iter().all(|label| is_number(label)) && listed.0.iter().any(decimal)
+        {
+            return None;
+        }
+        Some(listed)
+    }
+}
+
+/// The reader of edge lists and the page agree on every text.
+mod edge_lists {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, TestRunner};
+    use std::cell::Cell;
+    use viewcert::graph::read::graphs;
+    use viewcert::graph::{Format, ReadError};
+
+    fn choice(words: &'static str) -> impl Strategy<Value = String> + Clone {
+        let words: Vec<&str> = words.split(' ').collect();
+        prop::sample::select(words).prop_map(|word| word.replace('_', " "))
+    }
+
+    /// A text that is an edge list, or nearly one: a kind of labels, so many columns, and little
+    /// that does not belong.
+    fn text() -> impl Strategy<Value = String> {
+        let label = |kind: u8| match kind {
+            0 => (0..5u32).prop_map(|value| value.to_string()).boxed(),
+            1 => (0..2u32).prop_map(|value| value.to_string()).boxed(),
+            2 => choice("7 4294967295 4294967296 18446744073709551615 18446744073709551616 10 9")
+                .boxed(),
+            3 => choice("1 1.5 2 -2 3e1 07 .5").boxed(),
+            4 => choice("a b c d \"a\" \"x_y\" 1 \"1\" \"q\"\"r\" f(1) \u{e9}").boxed(),
+            _ => choice("from to source target a 1").boxed(),
+        };
+        let odd = choice(
+            "-> // //a x; k: (1 \"\" \" a\"b \"a\"b nan i \"->\" \"(1\" # %c \u{feff} 1e 0.5 [a](b) (a] a,,b ,",
+        );
+        let head = choice(
+            "source,target from_to FROM,To id,source,target i_j_w a_b_c image1,image2,9 \"name1\",\"name2\" 5_4 4_3 3_2 5_5 src,dst,n,1,2,3,4,5,6",
+        );
+        let further = |kind: u8| match kind {
+            0 => choice("1 0.5 -3. +.5e-7 7").boxed(),
+            1 => choice("2 3 4 5 6").boxed(),
+            _ => choice("1 2 9").boxed(),
+        };
+        let separator = || prop::sample::select(vec![" ", " ", "\t", ",", ", ", " ,", "  "]);
+        let end = || {
+            prop::sample::select(vec![
+                "\n", "\n", "\n", "\r\n", " \n", " # c\n", "\n\n", "\n#\n",
+            ])
+        };
+        let columns = prop::sample::select(vec![2usize, 2, 2, 2, 3, 3, 3, 9, 14, 1, 4]);
+        (0..6u8, 0..3u8, columns)
+            .prop_flat_map(move |(kind, more, columns)| {
+                let fields = (
+                    label(kind),
+                    label(kind),
+                    prop::collection::vec(further(more), columns.saturating_sub(2)),
+                );
+                let line =
+                    (fields, separator(), end()).prop_map(move |((a, b, more), separator, end)| {
+                        let mut fields = vec![a, b];
+                        fields.extend(more);
+                        fields.truncate(columns);
+                        fields.join(separator) + end
+                    });
+                (
+                    prop::collection::vec(line, 0..24),
+                    prop::option::weighted(0.3, head.clone()),
+                    prop::option::weighted(0.2, (odd.clone(), any::<prop::sample::Index>())),
+                    any::<bool>(),
+                )
+            })
+            .prop_map(|(lines, head, odd, cut)| {
+                let mut text: String = head
+                    .map(|head| head + "\n")
+                    .into_iter()
+                    .chain(lines)
+                    .collect();
+                if let Some((odd, at)) = odd {
+                    let places: Vec<usize> = text
+                        .char_indices()
+                        .map(|(at, _)| at)
+                        .chain([text.len()])
+                        .collect();
+                    text.insert_str(places[at.index(places.len())], &odd);
+                }
+                if cut && text.ends_with('\n') {
+                    text.pop();
+                }
+                text
+            })
+    }
+
+    fn read(text: &str, format: Option<Format>) -> Result<the_page::Listed, ReadError> {
+        let options = ReadOptions {
+            format,
+            variable: None,
+        };
+        let input = std::io::Cursor::new(text.as_bytes().to_vec());
+        let mut graphs = graphs("in".to_owned(), input, options);
+        let named = graphs.next().unwrap()?;
+        let nodes = 0..named.graph.nodes() as u32;
+        let labels = nodes.map(|node| named.labels.label(node).into_owned());
+        let edges = named.graph.edges().iter();
+        let edges = edges.map(|&(i, j)| (i as usize, j as usize));
+        Ok((labels.collect(), edges.collect()))
+    }
+
+    #[test]
+    fn agree_with_the_page() {
+        let (strict, lenient) = (Cell::new(0), Cell::new(0));
+        let cases = 20_000;
+        let mut runner = TestRunner::new(Config::with_cases(cases));
+        runner
+            .run(&text(), |text| {
+                let expected = the_page::strict(text.as_bytes());
+                strict.set(strict.get() + usize::from(expected.is_some()));
+                prop_assert_eq!(read(&text, None).ok(), expected, "strictly");
+                let expected = the_page::lenient(text.as_bytes());
+                lenient.set(lenient.get() + usize::from(expected.is_some()));
+                let found = read(&text, Some(Format::Edges));
+                prop_assert_eq!(found.ok(), expected, "leniently");
+                Ok(())
+            })
+            .unwrap();
+        // Enough of both kinds to mean something.
+        for accepted in [strict.get(), lenient.get()] {
+            assert!((1000..19_000).contains(&accepted), "{accepted} of {cases}");
+        }
+    }
+}
+
+/// nauty's programs write the same graphs in three encodings.
+mod sparse6 {
+    use super::*;
+    use std::process::Command;
+
+    /// What a program of nauty writes on standard output; `None` if it is not installed.
+    fn nauty(program: &str, arguments: &[&str]) -> Option<Vec<u8>> {
+        for name in [program.to_owned(), format!("nauty-{program}")] {
+            if let Ok(made) = Command::new(&name).args(arguments).output() {
+                assert!(made.status.success(), "{name} {arguments:?}");
+                return Some(made.stdout);
+            }
+        }
+        eprintln!("SKIPPED: neither {program} nor nauty-{program} is installed");
+        None
+    }
+
+    #[test]
+    fn random_graphs_are_those_of_graph6() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+        let mut graphs = 0;
+        for (nodes, seed) in [1, 2, 3, 4, 5, 7, 8, 9, 16, 17, 32, 33, 63, 64, 70, 130]
+            .into_iter()
+            .zip(1..)
+        {
+            let (nodes, seed) = (nodes.to_string(), format!("-S{seed}"));
+            for density in ["-P2", "-P9"] {
+                let arguments = ["-s", "-q", density, &seed, &nodes, "65"];
+                let Some(made) = nauty("genrang", &arguments) else {
+                    return;
+                };
+                let random = path("random.s6");
+                std::fs::write(&random, &made).unwrap();
+                let all = |name: &str, option: &str| -> Option<Vec<Graph>> {
+                    let file = path(name);
+                    std::fs::write(&file, nauty("copyg", &[option, "-q", &random])?).unwrap();
+                    let graphs = read_graphs(&file, &ReadOptions::default());
+                    Some(graphs.map(|graph| graph.unwrap().graph).collect())
+                };
+                let Some(graph6) = all("random.g6", "-g") else {
+                    return;
+                };
+                let sparse: Vec<Graph> = read_graphs(&random, &ReadOptions::default())
+                    .map(|graph| graph.unwrap().graph)
+                    .collect();
+                assert_eq!(sparse, graph6);
+                for option in ["-i", "-I3", "-sh"] {
+                    assert_eq!(all("other.s6", option).unwrap(), graph6, "{option}");
+                }
+                graphs += graph6.len();
+            }
+        }
+        assert_eq!(graphs, 2080);
+    }
+}
+
 /// Two programs read edge lists, the prover and the checker, without a line in common. What the first accepts, the second
 /// must read as the same graph (the first refuses more: control characters, graphs without pairs).
 mod two_readers {

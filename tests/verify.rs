@@ -38,6 +38,7 @@ fn json_has_the_documented_members() {
     let members: Vec<_> = line.as_object().unwrap().keys().cloned().collect();
     for member in [
         "graph",
+        "notes",
         "verdict",
         "strength",
         "error_log2",
@@ -77,7 +78,7 @@ fn labels_are_kept() {
 
 #[test]
 fn isolated_cameras_are_never_determined() {
-    let run = verify_with(b"a b\nb c\nc a\nd\n", &["-", "--json"]);
+    let run = verify_with(b"a b\nb c\nc a\nd\n", &["-", "--json", "--format", "edges"]);
     assert_eq!(run.code, 1);
     let line = &run.json()[0];
     assert_eq!(
@@ -316,6 +317,46 @@ fn calibrated_is_weaker_to_ask_and_easier_to_answer() {
     assert_eq!(line["components"].as_array().unwrap().len(), 5);
 }
 
+/// There is no rational mode of the calibrated model, and none is claimed.
+#[test]
+fn the_mode_is_what_was_computed() {
+    let arguments = ["-", "--json", "--model", "calibrated"];
+    let run = verify_with(
+        cycle(5).as_bytes(),
+        &[&arguments[..], &["--rational"]].concat(),
+    );
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("calibrated model"), "{}", run.err);
+    assert_eq!(run.out, "");
+    for (extra, mode) in [(&["--rational"][..], "rational"), (&[], "prime")] {
+        let run = verify_with(cycle(5).as_bytes(), &[&["-", "--json"], extra].concat());
+        assert_eq!(run.json()[0]["mode"], mode);
+    }
+}
+
+/// A pair needs no cameras, and its bounds are looked at all the same.
+#[test]
+fn bounds_are_validated_where_they_are_not_used() {
+    for bounds in [
+        ["--numerator", "0"],
+        ["--numerator", "101"],
+        ["--denominator", "0"],
+        ["--denominator", "13"],
+    ] {
+        let run = verify_with(b"1 2\n", &[&["-", "--rational"], &bounds[..]].concat());
+        assert_eq!(run.code, 2, "{bounds:?}");
+        assert!(run.err.contains(" is not in 1..="), "{}", run.err);
+    }
+    assert_eq!(verify_with(b"1 2\n", &["-", "--prime=91"]).code, 2);
+}
+
+#[test]
+fn one_is_not_many() {
+    let run = verify_with(b"1 2\n3\n", &["-"]);
+    assert!(run.out.contains("3 cameras, 1 pair\n"), "{}", run.out);
+    assert!(run.out.contains("2 cameras / 1 pair\n"), "{}", run.out);
+}
+
 #[test]
 fn one_bad_file_does_not_stop_the_others() {
     let folder = tempfile::tempdir().unwrap();
@@ -392,13 +433,13 @@ fn too_large_is_said_at_once() {
         cycle(40_000).as_bytes(),
         &["-", "--no-contraction", "--prime"],
     );
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("MiB"), "{}", run.err);
     let run = verify_with(
         cycle(2000).as_bytes(),
         &["-", "--no-contraction", "--rational"],
     );
-    assert_eq!(run.code, 2);
+    assert_eq!(run.code, 3);
     assert!(run.err.contains("--prime"), "{}", run.err);
 }
 

@@ -337,6 +337,38 @@ def merge_groups(document, rng):
         groups.append(other)
 
 
+def random_hub(document, rng):
+    """Counting with a random partition into blocks, one of which has a random hub."""
+    piece = rng.choice(document["pieces"])
+    members = piece["bodies"] + [tuple(edge) for edge in piece["edges"]]
+    blocks = random_partition(members, rng, rng.choice([1, 1, 2, 3]))
+    hub_block = max(blocks, key=len)
+    most = len(hub_block)
+    parts = random_partition(hub_block, rng, most if rng.random() < 0.6 else rng.randrange(2, most + 1))
+    body_nodes = check.Check(copy_of(document)).bodies if piece["bodies"] else []
+    nodes = [set().union(*(body_nodes[m] if type(m) is int else m for m in part)) for part in parts]
+    v = rng.choice(sorted(set().union(*nodes)))
+    split = [t for t in range(len(parts)) if v in nodes[t] and rng.random() < 0.8]
+    most = len(parts)
+    groups = random_partition(list(range(most)), rng, most if rng.random() < 0.7 else rng.randrange(1, most + 1))
+    hub = {"node": v, "parts": [make.listed(part) for part in parts], "split": split, "groups": groups}
+    counting = {"kind": "counting", "blocks": [{**make.listed(block), "hubs": []} for block in blocks], "bound": 0}
+    counting["blocks"][blocks.index(hub_block)]["hubs"] = [{**hub, "components": 0, "less": 0}]
+    piece["evidence"] = [e for e in piece["evidence"] if e["kind"] != "counting" or rng.random() < 0.5]
+    piece["evidence"].append(counting)
+    repair(document, rng)
+
+
+def random_partition(entries, rng, size):
+    """A random partition into at most so many parts."""
+    parts = [[] for _ in range(size)]
+    if size == len(entries):
+        return [[entry] for entry in entries]
+    for entry in entries:
+        rng.choice(parts).append(entry)
+    return [part for part in parts if part]
+
+
 def into_rigid(document, rng):
     """A member moves between `rigid` and a piece."""
     name = rng.choice(["bodies", "edges"])
@@ -419,7 +451,8 @@ def remake(document, rng):
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
-    *(merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model, remake),
+    *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
+    remake,
 )
 
 
@@ -481,7 +514,8 @@ def change_text(text, rng):
         return text[:at] + escaped + text[at + 1 :]
     if way == 7:
         at = rng.choice(letters)
-        return text[:at] + rng.choice(["\\ud800", "\\udc00", "\\ud83d\\ude00", "\\/", "\\", "\u00e9", '\\"']) + text[at:]
+        odd = rng.choice(["\\ud800", "\\udc00", "\\ud83d\\ude00", "\\/", "\\", "\u00e9", '\\"'])
+        return text[:at] + odd + text[at:]
     if way == 8:
         old = rng.choice(["null", '"draw"', '"proof"', "[]", "[", "0"])
         new = rng.choice(["NaN", "Infinity", "-Infinity", "true", "nul", "None", "[[" * 80 + "]]" * 80, "-0"])
@@ -503,7 +537,8 @@ def mutant(text, rng):
     if rng.random() < 0.1:
         return change_text(text, rng).encode("utf-8", "surrogatepass"), ["change_text"]
     document, done = json.loads(text), []
-    for _ in range(rng.choice([1, 1, 1, 2, 2, 3])):
+    wanted = rng.choice([1, 1, 1, 2, 2, 3])
+    while len(done) < wanted:
         mutation = rng.choice(MUTATIONS)
         try:
             mutation(document, rng)
@@ -516,7 +551,60 @@ def mutant(text, rng):
     return json.dumps(document).encode(), done
 
 
+# Files that hold a graph ---------------------------------------------------------------------------------------------
+
+LABELS = "a b c d 1 2 3 10 9 0 5 01 18446744073709551615 18446744073709551616 \u00e9 a#b _x x_ 1e3 -1".split()
+ODD = '"a" "a b" "#" "" "a""b" a"b "a"b "1" -> // //x - # #x % %y \x00 \ufeff \x0b 1_0 NaN +3 . Cl Bw {a [0 <x \u00a0'.split(" ")
+GRAPH6 = ["Cl", "Bw", "A_", "@", "?", "D?{", "Bx", "~??Bw", "C~", "E?Bw", "xy"]
+HEADS = [" ".join(pair) for pair in check.HEADS] + ["Source TARGET", '"from" to', "from To", "src target", "a b weight"]
+
+
+def graph_text(rng):
+    """A text that may hold a graph."""
+    kind = rng.randrange(8)
+    if kind == 0:
+        lines = [rng.choice(GRAPH6) for _ in range(rng.randrange(1, 4))]
+        text = rng.choice(["", "", ">>graph6<<", ">>graph6<<\n", " >>graph6<<"])
+        text += rng.choice(["\n", "\r\n", " \n"]).join(lines)
+    elif kind == 1:
+        size = rng.choice([2, 2, 3, 9])
+        text = "\n".join(" ".join(rng.choice("01") for _ in range(size)) for _ in range(size))
+    else:
+        width = rng.choice([2, 2, 2, 2, 3, 3, 9, 14, 1, 4])
+        labels = rng.sample(LABELS[4:11] if rng.random() < 0.5 else LABELS, rng.randrange(3, 7))
+        separator = rng.choice([" ", ",", "\t", ", "])
+        lines = []
+        for _ in range(rng.randrange(1, 6)):
+            pair = rng.sample(labels, 2) if rng.random() < 0.97 else [labels[0]] * 2
+            if kind == 2:
+                pair = [str(k) for k in sorted(rng.sample(range(6), 2))]
+            numbers = [rng.choice(["1", "2", "3", "4", "5", ".5", "-1e3", "1."]) for _ in range(width - 2)]
+            lines.append(separator.join(pair + numbers))
+        if rng.random() < 0.3:
+            lines.insert(0, rng.choice(HEADS).replace(" ", separator))
+        elif rng.random() < 0.2:
+            lines.insert(0, f"{rng.randrange(8)}{separator}{len(lines)}")
+        text = rng.choice(["\n", "\n", "\r\n"]).join(lines) + rng.choice(["", "\n", "\n\n"])
+    for _ in range(rng.choice([0, 0, 1, 1, 2])):
+        at = rng.randrange(len(text) + 1)
+        odd = rng.choice(ODD + LABELS + [" ", ",", ",,", "\n", "\r", "\t", '"', "#", "\ufeff", "\x7f"])
+        way = rng.randrange(4)
+        if way == 0:
+            text = text[:at] + text[at + 1 :]
+        elif way == 1:
+            text = text[:at] + odd + text[at:]
+        else:
+            fields = text.split(" ")
+            fields[rng.randrange(len(fields))] = odd
+            text = " ".join(fields)
+    return text.encode()
+
+
 # The comparison ------------------------------------------------------------------------------------------------------
+
+
+# Lower and upper bounds are verified before they are compared: where they cross, one of them was not valid.
+CONTRADICTIONS = ("is above an upper bound", "above the rank of draws", "more than the required rank")
 
 
 class Comparison:
@@ -528,20 +616,21 @@ class Comparison:
         self.accepted_by = collections.Counter()
         self.scratch = os.path.join(tempfile.mkdtemp(), "certificate.json")
 
-    def first(self, data):
+    def first(self, data, *arguments):
         """The answer of the first checker: its exit code and reason."""
         with open(self.scratch, "wb") as file:
             file.write(data)
-        done = subprocess.run(
-            [self.binary, self.scratch], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, close_fds=False
-        )
+        command = [self.binary, *arguments[:-1], self.scratch, *arguments[-1:]]
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, close_fds=False)
         return done.returncode, done.stderr.decode(errors="replace").strip()
 
     @staticmethod
-    def second(data):
+    def second(data, graph_data=None, edges_format=False):
         try:
-            check.check(data)
+            check.check(data, graph_data, edges_format)
             return 0, ""
+        except check.Unreadable as error:
+            return 2, str(error)
         except check.Reject as error:
             return 1, str(error)
         except check.TooLarge as error:
@@ -552,6 +641,8 @@ class Comparison:
         second, reason = self.second(data)
         if reason.startswith("unexpected"):
             self.report(data, done, f"unforeseen in the second: {reason}")
+        if any(words in reason for words in CONTRADICTIONS):
+            self.report(data, done, f"bounds that were verified contradict each other: {reason}")
         if self.binary:
             first, other_reason = self.first(data)
             self.count[f"first exits {first}, second {second}"] += 1
@@ -565,6 +656,29 @@ class Comparison:
             if wrong:
                 self.count["false"] += 1
                 self.report(data, done, f"accepted, but {wrong}")
+
+    def run_graph(self, text, edges_format):
+        """A graph file, with a certificate of the graph that the second checker reads in it."""
+        self.count["graph files"] += 1
+        try:
+            graph = check.read_graph(text, "", edges_format)
+        except check.Unreadable:
+            graph = None
+        if graph is None or not 1 <= graph.n <= 12:
+            graph = check.Graph(2, [(0, 1)])
+        document = make.Maker(graph).document()
+        document["graph"]["graph6"] = None
+        data = json.dumps(document).encode()
+        second, reason = self.second(data, text, edges_format)
+        graph_file = self.scratch + ".graph"
+        with open(graph_file, "wb") as file:
+            file.write(text)
+        first, other_reason = self.first(data, "--format", "edges" if edges_format else "auto", graph_file)
+        self.count[f"graph files: first exits {first}, second {second}"] += 1
+        if first != second:
+            self.count["disagreements"] += 1
+            how = "edges" if edges_format else "auto"
+            self.report(text, [how], f"{text!r}: first: {first} {other_reason}; second: {second} {reason}")
 
     def report(self, data, done, reason):
         self.count["reported"] += 1
@@ -604,6 +718,7 @@ def main():
     parser.add_argument("certificates", nargs="*", help="certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--checker", help="the first checker, viewcert-check; without it only the truth is tested")
     parser.add_argument("--mutants", type=int, default=1000)
+    parser.add_argument("--graph-files", type=int, default=0, help="how many files with graphs are compared")
     parser.add_argument("--made", type=int, default=0, help="how many certificates of random graphs to make as well")
     parser.add_argument("--sample", type=int, help="at most so many certificates from a file, at random")
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -611,9 +726,11 @@ def main():
     options = parser.parse_args()
     rng = random.Random(options.seed)
     print(f"seed {options.seed}", flush=True)
-    if hasattr(sys, "set_int_max_str_digits"):
-        sys.set_int_max_str_digits(0)
     comparison = Comparison(options.checker, options.keep)
+    for _ in range(options.graph_files if options.checker else 0):
+        comparison.run_graph(graph_text(rng), rng.random() < 0.2)
+    if options.graph_files:
+        print(f"graph files: {dict(comparison.count)}", flush=True)
     texts = []
     for data in bases(options.certificates, options.sample, options.made, rng):
         before = comparison.count["accepted"]

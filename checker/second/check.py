@@ -20,6 +20,8 @@ import sys
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
 DIGITS_LIMIT = 100_000  # of a *big*
+if hasattr(sys, "set_int_max_str_digits"):
+    sys.set_int_max_str_digits(0)  # the limit on digits is the one above
 # Exponents of Mersenne primes: moduli for determinants and ranks over Q.
 MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
 
@@ -63,7 +65,7 @@ def parse(data):
 
     def integer(digits):
         need(re.fullmatch(r"0|-?[1-9][0-9]{0,15}", digits), f"{digits[:40]} is not an int")
-        need(abs(int(digits)) < 2**53, f"{digits} is not below 2^53")
+        need(abs(int(digits)) < 2**53, f"the int {digits} is not below 2^53")
         return int(digits)
 
     def refuse(token):
@@ -160,7 +162,7 @@ class Graph:
 
 
 def read_graph6(line):
-    """The graph of a graph6 line, or None if it is not one: the shortest form of n, no bit behind the last."""
+    """The graph of a graph6 line, or None if it is not one: all bytes, and no bit behind the last pair."""
     if not line or any(not "?" <= c <= "~" for c in line):
         return None
     values = [ord(c) - 63 for c in line]
@@ -170,7 +172,7 @@ def read_graph6(line):
     n = sum(value << 6 * (size - 1 - k) for k, value in enumerate(values[skip : skip + size]))
     body = values[skip + size :]
     bits = n * (n - 1) // 2
-    if n <= {6: 258047, 3: 62, 1: -1}[size] or len(body) != -(-bits // 6):
+    if len(body) != -(-bits // 6):
         return None
     if body and body[-1] & ((1 << (-bits % 6)) - 1):
         return None
@@ -222,6 +224,10 @@ HEADS = {
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 
 
+QUOTED = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)')
+PLAIN = re.compile(r'([^ \t,"]+)(?=[ \t,]|$)')
+
+
 def split_fields(line, where):
     """The fields of a line, as pairs of text and whether it was quoted."""
     fields, comma, at = [], False, 0
@@ -236,7 +242,7 @@ def split_fields(line, where):
             break
         else:
             quoted = line[at] == '"'
-            found = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)' if quoted else r'([^ \t,"]+)(?=[ \t,]|$)').match(line, at)
+            found = (QUOTED if quoted else PLAIN).match(line, at)
             if not found:
                 raise Unreadable(f"{where}: a quotation mark out of place")
             fields.append((found[1].replace('""', '"') if quoted else found[1], quoted))
@@ -302,7 +308,7 @@ def ascii_lower(text):
 
 def refuse_other_kinds(rows, width):
     """Section 2: counts, a matrix, stars."""
-    if all(not quoted and text in "01" for fields in rows for text, quoted in fields) and len(rows) == width:
+    if all(not quoted and text in ("0", "1") for fields in rows for text, quoted in fields) and len(rows) == width:
         raise Unreadable("this may be a matrix (say so with --format edges if it is not)")
     if width > 3 or not all(not quoted and is_integer(text) for fields in rows for text, quoted in fields):
         return
@@ -782,7 +788,7 @@ class Check:
     def read_graph(self, value, graph_data, edges_format):
         """Section 3: the graph."""
         name, nodes, edges, sha256, graph6 = members(value, "name nodes edges sha256 graph6", "section 3: graph")
-        self.name = a_string(name, "section 3: graph name")
+        a_string(name, "section 3: graph name")
         an_int(nodes, "section 3: nodes", least=1)
         an_int(edges, "section 3: edges", least=0)
         a_string(sha256, "section 3: sha256")
@@ -1244,18 +1250,23 @@ class Check:
         for name, part in self.evidence_claim.items():
             for member, value in part.items():
                 claimed = self.claim[name][member]
-                need(same(claimed, value), f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}")
+                reason = f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}"
+                need(same(claimed, value), reason)
 
-    def summary(self):
-        verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
+    def statements(self):
+        """What was verified, for people."""
 
         def strength(part):
-            return part["strength"] if part["error_log2"] is None else f"error bound 2^{part['error_log2']}"
+            return "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
 
-        return (
-            f"{self.name}: {self.model}, {verdict['value']} ({strength(verdict)}), rank {rank['value']} of "
-            f"{rank['required']} ({strength(rank)}), components {components['value']} ({strength(components)})"
-        )
+        verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
+        graph = self.graph
+        return [
+            f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
+            f"{self.model}: {verdict['value']} ({strength(verdict)})",
+            f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
+            f"components: {components['value']} maximal ({strength(components)})",
+        ]
 
 
 def flow_key(value):
@@ -1324,6 +1335,8 @@ def shown(reason):
 
 def read_file(path):
     try:
+        if path == "-":
+            return sys.stdin.buffer.read()
         with open(path, "rb") as file:
             return file.read()
     except OSError as error:
@@ -1349,7 +1362,8 @@ def check_list(paths, core_limit):
     for path in paths:
         for where, data in certificates_in(path):
             try:
-                print(f"VERIFIED {shown(where)}: {shown(check(data, core_limit=core_limit).summary())}")
+                statements = check(data, core_limit=core_limit).statements()
+                print(f"VERIFIED {shown(where)}: {'; '.join(statements[1:])}")
                 count[0] += 1
             except Reject as error:
                 print(f"REJECTED {shown(where)}: {shown(error)}")
@@ -1363,7 +1377,7 @@ def check_list(paths, core_limit):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
-    parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text")
+    parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
     parser.add_argument("--format", choices=["auto", "edges"], default="auto", help="edges: the graph is an edge list")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
@@ -1371,8 +1385,6 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
-    if hasattr(sys, "set_int_max_str_digits"):
-        sys.set_int_max_str_digits(0)
     try:
         if options.list:
             return check_list(options.list, options.max_core_nodes)
@@ -1385,7 +1397,8 @@ def main(arguments=None):
     except (Unreadable, TooLarge) as error:
         print(shown(error), file=sys.stderr)
         return 2 if isinstance(error, Unreadable) else 3
-    print(f"VERIFIED {shown(done.summary())}")
+    for statement in done.statements():
+        print(f"VERIFIED {statement}")
     return 0
 
 

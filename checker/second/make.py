@@ -186,8 +186,11 @@ class Maker:
                 **{"prime": str(PRIME) if with_prime else None, "kernel": vectors},
             }
 
-    def kernel(self, core, p, seed, number, centres):
-        """A random motion at these centres, as evidence, and the motion of each member."""
+    def kernel(self, core, p, seed, number, centres, sparse=False):
+        """A random motion at these centres, as evidence, and the motion of each member.
+
+        A sparse one may be the same on members that do not move as one.
+        """
         if self.projective:
             cameras = [[[1, 0, 0, -x], [0, 1, 0, -y], [0, 0, 1, -z]] for x, y, z in centres]
             rows, width = check.jacobian_rows(core, cameras, range(10 * core.m)), 12 * core.n
@@ -196,7 +199,10 @@ class Maker:
         pivots = check.find_pivots(rows, p)
         chosen, cols = [r for r, _ in pivots], [c for _, c in pivots]
         taken = set(cols)
-        vector = [0 if c in taken else self.rng.randrange(p) for c in range(width)]
+        free = [c for c in range(width) if c not in taken]
+        if sparse:
+            free = self.rng.sample(free, min(len(free), self.rng.randrange(1, 6)))
+        vector = [self.rng.randrange(p) if c in free else 0 for c in range(width)]
         place = {c: k for k, c in enumerate(cols)}
         transposed = [{} for _ in cols]
         right = {}
@@ -237,6 +243,11 @@ class Maker:
         seed, number = int(lower["seed"]), lower["draw"]
         centres = check.draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number)
         kernel, motion = self.kernel(core, self.prime, seed, number, centres)
+        if self.variety and not self.force_draws and self.rng.random() < 0.6:
+            for _ in range(10):
+                coarse = self.kernel(core, self.prime, seed, number, centres, True)
+                if len(set(coarse[1].values())) >= 2:
+                    kernel, motion = coarse
         groups = {}
         for member in group:
             groups.setdefault(motion[member], []).append(member)

@@ -17,6 +17,7 @@ pub mod claims;
 pub mod components;
 pub mod dense;
 pub mod jacobian;
+pub mod published;
 pub mod sparse;
 pub mod study;
 

@@ -1,5 +1,6 @@
 //! The hub bound: parts that meet at a node, and too few plane flows between them.
 
+use super::Search;
 use crate::component;
 use crate::exact::Ring;
 use crate::exact::prime::PrimeField;
@@ -8,6 +9,7 @@ use crate::formulation::plane_flow::PlaneFlows;
 use crate::graph::Graph;
 use crate::piece::{Assembly, Core, Members};
 use crate::union_find::UnionFind;
+use crate::watch::{Stopped, Task};
 
 /// How many sets of parts the search looks at for one node.
 const FLATS: usize = 20_000;
@@ -38,14 +40,13 @@ pub(super) fn search(
     assembly: &Assembly,
     block: &Members,
     parts: &[Members],
-    field: &PrimeField,
-    random: &mut dyn FnMut() -> u64,
-) -> Option<Hub> {
+    by: &mut Search,
+) -> Result<Option<Hub>, Stopped> {
     let core = assembly.core(block);
     let mut connected = UnionFind::new(core.graph.nodes());
     let joins = |&&(i, j): &&(u32, u32)| connected.union(i as usize, j as usize);
     if core.graph.edges().iter().filter(joins).count() + 1 < core.graph.nodes() {
-        return None;
+        return Ok(None);
     }
     let mut part_of_member = vec![0; block.len()];
     for (k, part) in parts.iter().enumerate() {
@@ -58,15 +59,16 @@ pub(super) fn search(
         .iter()
         .map(|&member| part_of_member[member as usize])
         .collect();
-    let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
-        .map(|_| std::array::from_fn(|_| random()))
-        .collect();
-    let flows = PlaneFlows::new(field, &core.graph, &centres).flows();
+    let centres = by.centres(core.graph.nodes());
+    let quiet = by.task.untold();
+    let flows = PlaneFlows::watched(by.field, &core.graph, &centres, &quiet)?;
+    let flows = flows.flows_watched(&quiet)?;
 
+    let work = by.task.begin(core.graph.nodes() as u64);
     let mut best: Option<Hub> = None;
     for v in 0..core.graph.nodes() as u32 {
-        let inflow = Inflow::new(field, &core.graph, &flows, &part_of_edge, v);
-        for (set, _) in inflow.promising(field) {
+        let inflow = Inflow::new(by.field, &core.graph, &flows, &part_of_edge, v);
+        for (set, _) in inflow.promising(by.field, &quiet)? {
             let split: Vec<u32> = set.iter().map(|&k| inflow.parts[k] as u32).collect();
             let candidate = Split {
                 assembly,
@@ -77,15 +79,16 @@ pub(super) fn search(
                 node: v,
                 split: &split,
             };
-            let hub = candidate.evaluate(field, random);
+            let hub = candidate.evaluate(by)?;
             if let Some(hub) = hub
                 && best.as_ref().is_none_or(|b| hub.less > b.less)
             {
                 best = Some(hub);
             }
         }
+        work.done(1)?;
     }
-    best
+    Ok(best)
 }
 
 /// The net plane flow that each part carries into a node, as a linear function of the
@@ -138,13 +141,17 @@ impl Inflow {
 
     /// Sets of parts (by position) closed under dependence with more than three parts
     /// for every dimension of their flows, and the excess; best first.
-    fn promising(&self, field: &PrimeField) -> Vec<(Vec<usize>, usize)> {
+    fn promising(
+        &self,
+        field: &PrimeField,
+        task: &Task,
+    ) -> Result<Vec<(Vec<usize>, usize)>, Stopped> {
         let mut found = Vec::new();
         let mut budget = FLATS;
-        self.extend(field, &Span::default(), 0, &mut budget, &mut found);
+        self.extend(field, &Span::default(), 0, &mut budget, &mut found, task)?;
         found.sort_by(|(a, x), (b, y)| y.cmp(x).then(a.cmp(b)));
         found.dedup();
-        found
+        Ok(found)
     }
 
     fn extend(
@@ -154,11 +161,13 @@ impl Inflow {
         from: usize,
         budget: &mut usize,
         found: &mut Vec<(Vec<usize>, usize)>,
-    ) {
+        task: &Task,
+    ) -> Result<(), Stopped> {
         if *budget == 0 {
-            return;
+            return Ok(());
         }
         *budget -= 1;
+        task.check()?;
         let closed: Vec<usize> = (0..self.parts.len())
             .filter(|&k| self.functions[k].iter().all(|f| span.contains(field, f)))
             .collect();
@@ -175,9 +184,10 @@ impl Inflow {
                 larger.insert(field, function);
             }
             if 3 * larger.dimension() < self.parts.len() {
-                self.extend(field, &larger, k + 1, budget, found);
+                self.extend(field, &larger, k + 1, budget, found, task)?;
             }
         }
+        Ok(())
     }
 }
 
@@ -195,7 +205,7 @@ struct Split<'a> {
 
 impl Split<'_> {
     /// Counts what the split takes off; `None` if nothing.
-    fn evaluate(&self, field: &PrimeField, random: &mut dyn FnMut() -> u64) -> Option<Hub> {
+    fn evaluate(&self, by: &mut Search) -> Result<Option<Hub>, Stopped> {
         let v = self.node;
         // The split core: copies of v come after all nodes, v itself is what remains.
         let n = self.core.graph.nodes() as u32;
@@ -224,11 +234,9 @@ impl Split<'_> {
         // transformation sees them.
         let pairs = edges.iter().map(|&(pair, _)| pair).collect();
         let (graph, _) = Graph::from_pairs(copies, pairs).expect("as in the core");
-        let centres: Vec<[u64; 3]> = (0..copies)
-            .map(|_| std::array::from_fn(|_| random()))
-            .collect();
-        let flows = PlaneFlows::new(field, &graph, &centres);
-        let (_, transforms) = flows.calibrated_motion(random);
+        let centres = by.centres(copies as usize);
+        let flows = PlaneFlows::watched(by.field, &graph, &centres, &by.task.untold())?;
+        let (_, transforms) = flows.calibrated_motion(&mut by.random);
         let mut sets = UnionFind::new(self.parts.len());
         component::unite(
             &mut sets,
@@ -245,20 +253,19 @@ impl Split<'_> {
             .iter()
             .map(|group| 3 * self.group_nodes(group, node, remains) - 4)
             .sum();
-        let s = total.checked_sub(3 * self.assembly.count_nodes(self.block) - 4)?;
-        let less = self
-            .split
-            .len()
-            .checked_sub(components - 1 + 3 * s)
-            .filter(|&less| less > 0)?;
-        Some(Hub {
+        let whole = 3 * self.assembly.count_nodes(self.block) - 4;
+        let less = total
+            .checked_sub(whole)
+            .and_then(|s| self.split.len().checked_sub(components - 1 + 3 * s))
+            .filter(|&less| less > 0);
+        Ok(less.map(|less| Hub {
             node,
             parts: self.parts.to_vec(),
             split: self.split.to_vec(),
             groups,
             components,
             less,
-        })
+        }))
     }
 
     /// Nodes of a group in the split graph: different copies are different nodes.

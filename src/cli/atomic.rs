@@ -1,37 +1,318 @@
-//! Files that are written whole or not at all.
+//! Where outputs go: files that are written whole or not at all; pipes and devices, which are
+//! written through; standard output, which is called `-`.
 //!
 //! A file takes its name only when it is complete. It is not forced to the disk: that takes
 //! longer than many verdicts, and what a power failure may tear, the checker rejects.
+//!
+//! Nothing but a file is ever replaced. A symbolic link stays and what it points at is
+//! written; an input is never an output.
 
-use anyhow::{Context, Result};
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use anyhow::{Context, Result, ensure};
+use std::collections::BTreeSet;
+use std::fs::{self, File, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard};
 
-/// Writes a file through a temporary one beside it, which takes its name when everything
-/// has been written.
+/// The temporary files that there are. Files are made, and take their names, while this is locked.
+static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    PENDING.lock().unwrap_or_else(|broken| broken.into_inner())
+}
+
+/// Removes all temporary files: the program is about to end. While the result is kept no file
+/// takes its name any more.
+#[must_use]
+pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    let mut pending = pending();
+    for path in std::mem::take(&mut *pending) {
+        // There is nobody left to tell.
+        let _ = std::fs::remove_file(path);
+    }
+    pending
+}
+
+/// The name of standard output among outputs, and of standard input among inputs.
+const STANDARD: &str = "-";
+
+/// Most symbolic links that are followed, as in the Linux kernel.
+const MOST_LINKS: usize = 40;
+
+/// Size of the buffer in front of every output.
+const BUFFER: usize = 1 << 16;
+
+/// What an output is.
+enum Place {
+    /// Standard output.
+    Standard,
+    /// A device or a pipe.
+    Through(PathBuf),
+    /// A file that is there, with its permissions, or that is not there yet.
+    File(PathBuf, Option<Permissions>),
+}
+
+/// Writes an output: a file through a temporary one beside it, which takes its name when
+/// everything has been written; anything else as it comes.
 ///
 /// # Errors
-/// If the folder is not writable, the disk is full, or `write` fails; the file is then as it was
+/// If the folder is not writable, the disk is full, or `write` fails; a file is then as it was
 /// before.
-pub fn write(path: &Path, write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+pub(super) fn write(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
     let attempt = || -> Result<()> {
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // As for any new file: the process's mask takes off what it will.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        match locate(path)? {
+            Place::Standard => through(io::stdout().lock(), write)?,
+            Place::Through(path) => through(File::options().write(true).open(path)?, write)?,
+            Place::File(path, permissions) => replace(&path, permissions, write)?,
         }
-        let file = builder.prefix(".viewcert-").tempfile_in(folder)?;
-        let mut out = BufWriter::with_capacity(1 << 16, file);
-        write(&mut out)?;
-        let file = out.into_inner().map_err(|error| error.into_error())?;
-        file.persist(path)?;
         Ok(())
     };
     attempt().with_context(|| format!("{} was not written", path.display()))
+}
+
+fn through(out: impl Write, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    let mut out = BufWriter::with_capacity(BUFFER, out);
+    write(&mut out)?;
+    Ok(out.flush()?)
+}
+
+fn replace(
+    path: &Path,
+    permissions: Option<Permissions>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As for any new file: the process's mask takes off what it will.
+        builder.permissions(Permissions::from_mode(0o666));
+    }
+    let file = {
+        let mut pending = pending();
+        let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
+        pending.insert(file.path().to_owned());
+        file
+    };
+    let temporary = file.path().to_owned();
+    let written = || -> Result<_> {
+        let mut out = BufWriter::with_capacity(BUFFER, file);
+        write(&mut out)?;
+        let file = out.into_inner().map_err(|error| error.into_error())?;
+        if let Some(permissions) = permissions {
+            file.as_file().set_permissions(permissions)?;
+        }
+        Ok(file)
+    };
+    let written = written();
+    let mut pending = pending();
+    pending.remove(&temporary);
+    written?.persist(path)?;
+    Ok(())
+}
+
+/// The folder that a path is in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Follows symbolic links one by one, so that the last one may point at nothing yet.
+fn locate(path: &Path) -> io::Result<Place> {
+    if is_standard(path) {
+        return Ok(Place::Standard);
+    }
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let found = match fs::symlink_metadata(&target) {
+            Ok(found) => found,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(Place::File(target, None));
+            }
+            Err(error) => return Err(error),
+        };
+        if found.is_file() {
+            return Ok(Place::File(target, Some(found.permissions())));
+        }
+        if found.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        if !found.is_symlink() || is_of_a_process(&target) {
+            return Ok(Place::Through(target));
+        }
+        target = folder_of(&target).join(fs::read_link(&target)?);
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// Whether a link stands for an open file of a process (`/dev/fd/3`): what it points at is only
+/// described by its text.
+fn is_of_a_process(link: &Path) -> bool {
+    fs::canonicalize(folder_of(link)).is_ok_and(|folder| folder.starts_with("/proc"))
+}
+
+/// Whether an output is standard output: `-`, one of its names, or the file or pipe that it has
+/// been sent to.
+pub(super) fn is_standard(path: &Path) -> bool {
+    let names = [STANDARD, "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    if names.iter().any(|name| path == Path::new(name)) {
+        return true;
+    }
+    let found = Identity::of(path);
+    found.is_some() && found == Identity::of_standard_output()
+}
+
+/// Where the text of a command goes: to standard output, unless one of its outputs goes there;
+/// then to standard error.
+pub(super) fn text(outputs: &[Option<&Path>]) -> BufWriter<Box<dyn Write>> {
+    let taken = outputs.iter().flatten().any(|path| is_standard(path));
+    BufWriter::new(if taken {
+        Box::new(io::stderr())
+    } else {
+        Box::new(io::stdout().lock())
+    })
+}
+
+/// Refuses an output that is one of the inputs, by whatever names, or one of the outputs before
+/// it. Options of the outputs come with them, for the message.
+///
+/// # Errors
+/// Which output is what.
+pub(super) fn ensure_apart<'a>(
+    outputs: &[(&str, Option<&Path>)],
+    inputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<()> {
+    let inputs: Vec<(&Path, Identity)> = inputs
+        .into_iter()
+        .filter_map(|input| Some((input, Identity::of_input(input)?)))
+        .collect();
+    let given = |&(option, path): &(_, Option<_>)| path.map(|path: &Path| (option, path));
+    let outputs: Vec<(&str, &Path)> = outputs.iter().filter_map(given).collect();
+    for (k, &(option, output)) in outputs.iter().enumerate() {
+        let found = Identity::of_output(output);
+        for (input, identity) in &inputs {
+            ensure!(
+                found.as_ref() != Some(identity),
+                "{option} {}: this is the input {}, which would be overwritten; name another file",
+                output.display(),
+                input.display()
+            );
+        }
+        for (other, before) in &outputs[..k] {
+            let same = output == *before || found.is_some() && found == Identity::of_output(before);
+            ensure!(
+                !same,
+                "{option} {}: {other} goes to the same file; name another one",
+                output.display()
+            );
+        }
+    }
+    Ok(())
+}
+
+/// What tells a file or a pipe from all others, however it is called. Devices have none: to read
+/// and to write one (a terminal, `/dev/null`) does no harm.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Identity(#[cfg(unix)] (u64, u64), #[cfg(not(unix))] PathBuf);
+
+impl Identity {
+    /// Of a path that may be `-` and is read.
+    fn of_input(path: &Path) -> Option<Self> {
+        if path == Path::new(STANDARD) {
+            Self::of_standard_input()
+        } else {
+            Self::of(path)
+        }
+    }
+
+    /// Of a path that may be `-` and is written.
+    fn of_output(path: &Path) -> Option<Self> {
+        if path == Path::new(STANDARD) {
+            Self::of_standard_output()
+        } else {
+            Self::of(path)
+        }
+    }
+}
+
+#[cfg(unix)]
+impl Identity {
+    fn of(path: &Path) -> Option<Self> {
+        Self::from(&fs::metadata(path).ok()?)
+    }
+
+    fn of_standard_input() -> Option<Self> {
+        Self::open(&io::stdin())
+    }
+
+    fn of_standard_output() -> Option<Self> {
+        Self::open(&io::stdout())
+    }
+
+    fn open(file: &impl std::os::fd::AsFd) -> Option<Self> {
+        let copy = file.as_fd().try_clone_to_owned().ok()?;
+        Self::from(&File::from(copy).metadata().ok()?)
+    }
+
+    fn from(found: &fs::Metadata) -> Option<Self> {
+        use std::os::unix::fs::{FileTypeExt, MetadataExt};
+        let kind = found.file_type();
+        (kind.is_file() || kind.is_fifo()).then(|| Self((found.dev(), found.ino())))
+    }
+}
+
+#[cfg(not(unix))]
+impl Identity {
+    fn of(path: &Path) -> Option<Self> {
+        let path = fs::canonicalize(path).ok()?;
+        path.is_file().then_some(Self(path))
+    }
+
+    fn of_standard_input() -> Option<Self> {
+        None
+    }
+
+    fn of_standard_output() -> Option<Self> {
+        None
+    }
+}
+
+/// Whether an error says that nobody reads a pipe any more, as in `verify ... | head`. That is
+/// no reason for a message.
+pub(super) fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        let kind = cause
+            .downcast_ref::<io::Error>()
+            .map(io::Error::kind)
+            .or_else(|| cause.downcast_ref::<serde_json::Error>()?.io_error_kind());
+        kind == Some(io::ErrorKind::BrokenPipe)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_abandoned_file_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        let count = || std::fs::read_dir(folder.path()).unwrap().count();
+        let done = write(&path, |out| {
+            out.write_all(b"half")?;
+            assert_eq!(count(), 1);
+            drop(abandon());
+            assert_eq!(count(), 0);
+            Ok(())
+        });
+        assert!(done.is_err());
+        assert_eq!(count(), 0);
+        write(&path, |out| out.write_all(b"whole")).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"whole");
+    }
 }

@@ -9,28 +9,29 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT};
-use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, study};
+use super::{GOOD, NOT, atomic, running};
+use crate::audit::{self, FloatVerdict, Method, TOLERANCE, components, published, study};
 use crate::graph::NamedGraph;
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
-use std::io::{BufWriter, Write};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// Options of the audit.
 #[derive(Args)]
 pub(super) struct AuditArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required_unless_present = "claims", value_name = "GRAPH")]
     graphs: Vec<String>,
     #[command(flatten)]
     input: InputArguments,
-    /// Decide a table of claims again: CSV with a head, or a JSON list of objects, with a
-    /// graph (columns graph, file, name) and a verdict, components, a rank a row.
+    /// Decide a table of claims again: CSV with a head, a JSON list of objects, or what `verify
+    /// --json` printed, with a graph (columns graph, file, name) and a verdict, components, a rank
+    /// a row.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["graphs", "format", "variable"])]
     claims: Option<PathBuf>,
     /// The folder of the graphs that claims name.
@@ -41,6 +42,14 @@ pub(super) struct AuditArguments {
         requires = "claims"
     )]
     folder: Option<PathBuf>,
+    /// A column of the claims that is not looked at; may be repeated or listed with commas.
+    #[arg(
+        long,
+        value_name = "COLUMN",
+        value_delimiter = ',',
+        requires = "claims"
+    )]
+    ignore: Vec<String>,
     /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
     #[arg(long, value_name = "T", default_value_t = TOLERANCE, conflicts_with = "claims")]
     tolerance: f64,
@@ -57,11 +66,13 @@ pub(super) struct AuditArguments {
     /// Print, as CSV, how often each tolerance misjudges the given graphs.
     #[arg(long, conflicts_with_all = ["claims", "json", "certificate"])]
     sweep_tolerance: bool,
-    /// Draw the two populations and the errors to this file.
+    /// Draw the two populations and the errors to this file (`-`: to standard output, and the
+    /// table to standard error).
     #[arg(long, value_name = "FILE", requires = "sweep_tolerance")]
     svg: Option<PathBuf>,
     /// Write the exact side's certificate to this file, or for every graph to this folder
-    /// (with --claims: of every refuted row).
+    /// (with --claims: of every refuted row); `-`: to standard output, and the report to
+    /// standard error.
     #[arg(long, value_name = "PATH")]
     certificate: Option<PathBuf>,
     /// Print one JSON object a graph or claim.
@@ -98,13 +109,16 @@ impl AuditArguments {
     fn exact(&self) -> verdict::Options {
         verdict::Options {
             seed: self.seed,
+            watch: running::watch(),
             ..verdict::Options::default()
         }
     }
 
-    fn target(&self) -> Option<Target> {
-        let path = self.certificate.as_deref()?;
-        Some(Target::new(path, false))
+    /// The target of the certificates of graphs in these files.
+    fn target(&self, inputs: &[String]) -> Result<Option<Target>> {
+        let path = self.certificate.as_deref();
+        path.map(|path| Target::new(path, false, inputs))
+            .transpose()
     }
 }
 
@@ -120,15 +134,19 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     if arguments.sweep_tolerance {
         return sweep::run(arguments);
     }
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut target = arguments.target();
+    let mut target = arguments.target(&arguments.graphs)?;
+    let single = target
+        .as_ref()
+        .and_then(Target::single)
+        .map(Path::to_path_buf);
+    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &mut out, each)?;
+        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -171,6 +189,13 @@ fn one(
         .iter()
         .map(|&value| FloatVerdict::by_tolerance(value, options.tolerance));
     let misjudged = verdicts.filter(|&verdict| verdict != right).count();
+    // Where only the numbers of components differ, the method may be the reason, not rounding.
+    let counts_differ = parts.is_some_and(|parts| parts != exact.components.len());
+    let method = if misjudged == 0 && counts_differ && !solvable {
+        published::study(&input.graph, exact.components.len(), options.seed).with_context(name)?
+    } else {
+        None
+    };
     let found = Audit {
         input,
         exact: &exact,
@@ -182,6 +207,7 @@ fn one(
         agrees: misjudged == 0 && parts == Some(exact.components.len()),
         draws: draws.len(),
         misjudged,
+        method,
     };
     if arguments.json {
         report::json(out, &found)?;

@@ -6,12 +6,12 @@ mod publish;
 mod source;
 
 use super::progress::Progress;
-use super::{BAD_INPUT, GOOD};
+use super::{BAD_INPUT, GOOD, running};
 use crate::catalog::mine::{self, Entry, Summary};
 use crate::catalog::minimal::decide_minimal;
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
 use crate::graph::Graph;
-use crate::report::table;
+use crate::report::{counted, table};
 use crate::verdict::Options;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
@@ -115,6 +115,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         field: PrimeField::new(arguments.prime)
             .with_context(|| format!("--prime {}", arguments.prime))?,
         seed: arguments.seed,
+        watch: running::watch(),
         ..Options::default()
     };
     let sizes = arguments.nodes.clone().map_or(0..=0, |nodes| nodes.0);
@@ -161,7 +162,18 @@ fn mine_all(
         }
         None => None,
     };
-    let progress = Progress::new(source.total());
+    let Shard { index, count } = arguments.shard;
+    let share = source
+        .total()
+        .map(|total| (arguments.shard.share(total), total));
+    if let Some((own, total)) = share.filter(|_| count > 1) {
+        let candidates = counted(total as usize, "candidate");
+        writeln!(
+            std::io::stderr(),
+            "verify: shard {index}/{count}: {own} of {candidates}"
+        )?;
+    }
+    let progress = Progress::new(share.map(|(own, _)| own));
     let mut summary = Summary::default();
     let mut batch = Vec::with_capacity(BATCH);
     let mut bad = 0;

@@ -1,20 +1,23 @@
 //! `verify check`: the independent checker on certificates.
 
-use super::{GOOD, NOT};
-use crate::graph::{ReadOptions, matlab, read_graphs};
-use anyhow::{Context, Result, bail, ensure};
+mod checker;
+mod folder;
+
+use self::folder::{Listing, name};
+use super::manifest::Contents;
+use super::{GOOD, NOT, TOO_LARGE};
+use crate::report::counted;
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::read::MultiGzDecoder;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert_check::{Certificate, Failure, Graph, Verified};
-
-/// Too large for the limits of the checker.
-const TOO_LARGE: u8 = 3;
+use viewcert_check::Failure;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -23,7 +26,7 @@ const BATCH: usize = 256;
 #[derive(Args)]
 pub(super) struct CheckArguments {
     /// A certificate (`-` is standard input), a file with a certificate a line (`.jsonl`,
-    /// `.jsonl.gz`), or a folder of such files.
+    /// `.jsonl.gz`), or a folder of such files; a folder's `manifest.json` says what belongs to it.
     #[arg(value_name = "CERTIFICATE")]
     certificate: PathBuf,
     /// The graph it is about; not needed if the certificate embeds it.
@@ -40,34 +43,44 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             "a graph goes with one certificate, and {} has many",
             path.display()
         );
-        let mut files = Vec::new();
-        collect(path, &mut files).with_context(|| path.display().to_string())?;
+        let listing = Listing::new(path)?;
+        for (skipped, why) in &listing.skipped {
+            writeln!(
+                std::io::stderr(),
+                "verify: skipped {}: {why}",
+                name(skipped)
+            )?;
+        }
         ensure!(
-            !files.is_empty(),
+            !listing.files.is_empty(),
             "{}: no certificates (.json, .jsonl, .jsonl.gz)",
             path.display()
         );
-        return check_files(&files);
+        return check_files(path, &listing);
     }
     let text = read(path)?;
     let outcome = match &arguments.graph {
-        None => viewcert_check::check(&text, None),
-        Some(graph) => check_for(&text, graph)?,
+        None => checker::check(&text),
+        Some(graph) => checker::check_for(&text, graph)?,
     };
     let mut out = std::io::stdout().lock();
     let code = match outcome {
-        Ok(verified) => {
-            for line in verified.to_string().lines() {
-                writeln!(out, "VERIFIED {line}")?;
+        Ok(proved) => {
+            for line in proved.text.lines() {
+                writeln!(out, "VERIFIED {}", printable(line))?;
             }
             GOOD
         }
         Err(Failure::Rejected(rejection)) => {
-            writeln!(out, "REJECTED: {rejection}")?;
+            writeln!(out, "REJECTED: {}", printable(&rejection.to_string()))?;
             NOT
         }
         Err(Failure::TooLarge(limit)) => {
-            eprintln!("{limit} (of viewcert-check)");
+            writeln!(
+                std::io::stderr(),
+                "verify: {}",
+                printable(&limit.to_string())
+            )?;
             TOO_LARGE
         }
     };
@@ -75,28 +88,26 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     Ok(ExitCode::from(code))
 }
 
-/// Checks a certificate for the graph in a file. The checker reads edge lists and graph6 by
-/// itself; it does not read MATLAB files, which come through this program's reader.
-fn check_for(text: &[u8], path: &Path) -> Result<Result<Verified, Failure>> {
-    let certificate = match Certificate::parse(text) {
-        Ok(certificate) => certificate,
-        Err(rejection) => return Ok(Err(rejection)),
-    };
-    let bytes = read(path)?;
-    let graph = if matlab::is_matlab(&bytes) {
-        let name = path
-            .to_str()
-            .context("the name of the graph's file is not UTF-8")?;
-        let Some(input) = read_graphs(name, &ReadOptions::default()).next() else {
-            bail!("{name}: no graph");
-        };
-        let graph = input?.graph;
-        Graph::new(graph.nodes(), graph.edges().iter().copied())
-    } else {
-        Graph::read(&bytes, || Some(certificate.graph_sha256()))
-    };
-    let graph = graph.with_context(|| path.display().to_string())?;
-    Ok(certificate.check(Some(&graph)))
+/// Longest text from a certificate or a file name that is printed, in characters.
+const LONGEST: usize = 1000;
+
+/// Text from elsewhere without what a terminal would obey: control characters and those that turn
+/// the direction of writing are spelt out; what is too long is cut.
+fn printable(text: &str) -> String {
+    let mut safe = String::new();
+    for c in text.chars().take(LONGEST) {
+        let turns = matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
+            || matches!(c, '\u{2060}'..='\u{2069}' | '\u{feff}');
+        if c.is_control() || turns {
+            safe.extend(c.escape_unicode());
+        } else {
+            safe.push(c);
+        }
+    }
+    if text.chars().nth(LONGEST).is_some() {
+        safe.push_str("...");
+    }
+    safe
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
@@ -121,82 +132,89 @@ fn is_list(path: &Path) -> bool {
     name.ends_with(".jsonl") || name.ends_with(".jsonl.gz")
 }
 
-/// All certificate files at or below a path, in a fixed order. Other JSON in the folder (a
-/// schema, say) is not named `.json` alone but `.schema.json`.
-fn collect(path: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    if path.is_dir() {
-        let mut entries: Vec<PathBuf> = fs::read_dir(path)?
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<std::io::Result<_>>()?;
-        entries.sort();
-        return entries.iter().try_for_each(|entry| collect(entry, files));
-    }
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or("");
-    if is_list(path) || (name.ends_with(".json") && !name.ends_with(".schema.json")) {
-        files.push(path.to_owned());
-    }
-    Ok(())
-}
-
-/// Checks every certificate of every file; each must hold its graph.
-fn check_files(files: &[PathBuf]) -> Result<ExitCode> {
+/// Checks every certificate of every file; each must hold its graph. Then, by its manifest, whether
+/// the folder is complete.
+fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
-    let (mut verified, mut rejected, mut undecided) = (0u64, 0u64, 0u64);
+    let (mut verified, mut rejected, mut undecided) = (0, 0, 0);
+    let mut graphs = BTreeSet::new();
+    let mut found: BTreeMap<&Path, Contents> = BTreeMap::new();
     let mut out = std::io::stdout().lock();
-    for file in files {
-        let name = file.display().to_string();
-        bar.set_message(name.clone());
-        let mut lines = certificates(file).with_context(|| name.clone())?;
+    for (file, _) in &listing.files {
+        let named = || file.display().to_string();
+        bar.set_message(name(file));
+        let mut lines = certificates(file).with_context(named)?;
+        let mut of_file = BTreeSet::new();
+        let contents = found.entry(file).or_default();
         let mut first = 1;
         loop {
             let batch: Vec<Vec<u8>> = lines
                 .by_ref()
                 .take(BATCH)
                 .collect::<std::io::Result<_>>()
-                .with_context(|| name.clone())?;
+                .with_context(named)?;
             if batch.is_empty() {
                 break;
             }
-            let outcomes: Vec<Option<Failure>> = batch
-                .par_iter()
-                .map(|text| viewcert_check::check(text, None).err())
-                .collect();
-            for (line, outcome) in (first..).zip(&outcomes) {
+            let outcomes: Vec<_> = batch.par_iter().map(|text| checker::check(text)).collect();
+            first += batch.len() as u64;
+            for (line, outcome) in (first - batch.len() as u64..).zip(outcomes) {
                 match outcome {
-                    None => verified += 1,
-                    Some(Failure::Rejected(rejection)) => {
-                        rejected += 1;
-                        writeln!(out, "REJECTED {name}:{line}: {rejection}")?;
+                    Ok(proved) => {
+                        verified += 1;
+                        *contents.verdicts.entry(proved.verdict).or_default() += 1;
+                        of_file.insert(proved.sha256);
                     }
-                    Some(Failure::TooLarge(limit)) => {
+                    Err(Failure::Rejected(rejection)) => {
+                        rejected += 1;
+                        let rejection = printable(&rejection.to_string());
+                        writeln!(out, "REJECTED {}:{line}: {rejection}", name(file))?;
+                    }
+                    Err(Failure::TooLarge(limit)) => {
                         undecided += 1;
-                        eprintln!("{name}:{line}: {limit} (of viewcert-check)");
+                        let limit = printable(&limit.to_string());
+                        writeln!(out, "UNDECIDED {}:{line}: {limit}", name(file))?;
                     }
                 }
             }
-            first += batch.len() as u64;
             bar.inc(batch.len() as u64);
         }
+        contents.graphs = of_file.len() as u64;
+        graphs.append(&mut of_file);
     }
     bar.finish_and_clear();
     ensure!(
         verified + rejected + undecided > 0,
         "the files hold no certificates"
     );
-    write!(out, "{verified} certificates verified, {rejected} rejected")?;
+    let certificates = counted(verified, "certificate");
+    write!(out, "{certificates} verified, {rejected} rejected")?;
     if undecided > 0 {
         write!(out, ", {undecided} too large for the limits")?;
     }
     writeln!(out)?;
+    writeln!(out, "{}", counted(graphs.len(), "distinct graph"))?;
+    let mut good = rejected == 0;
+    match listing.completeness(&found)? {
+        Some(completeness) => {
+            good &= completeness.complete;
+            for line in completeness.lines {
+                writeln!(out, "{line}")?;
+            }
+        }
+        None if path.is_dir() => writeln!(
+            out,
+            "{}: no manifest.json, so that nothing is known of files that are not there",
+            name(path)
+        )?,
+        None => {}
+    }
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(match (rejected, undecided) {
-        (0, 0) => GOOD,
-        (0, _) => TOO_LARGE,
-        _ => NOT,
+    Ok(ExitCode::from(match (good, undecided) {
+        (true, 0) => GOOD,
+        (true, _) => TOO_LARGE,
+        (false, _) => NOT,
     }))
 }
 
@@ -215,4 +233,17 @@ fn certificates(
     Ok(Box::new(
         BufReader::with_capacity(1 << 16, input).split(b'\n'),
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_printable_moves_the_cursor() {
+        let text = "a\u{1b}[2J\nVERIFIED \u{202e}\u{e4}";
+        let expected = "a\\u{1b}[2J\\u{a}VERIFIED \\u{202e}\u{e4}";
+        assert_eq!(printable(text), expected);
+        assert_eq!(printable(&"x".repeat(2000)).len(), LONGEST + 3);
+    }
 }

@@ -2,22 +2,24 @@
 
 use super::bounds::BoundArguments;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic};
+use super::{GOOD, NOT, TOO_LARGE, atomic};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
-use crate::formulation::compare::{self, Comparison};
+use crate::formulation::compare::{
+    self, CompareError, Comparison, Limits, MAX_RATIONALS, MAX_RESIDUES, Outcome,
+};
 use crate::graph::NamedGraph;
 use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::Args;
-use std::io::BufWriter;
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Options of the comparison.
 #[derive(Args)]
 pub(super) struct CompareArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
     #[command(flatten)]
@@ -33,10 +35,15 @@ pub(super) struct CompareArguments {
     /// Seed of the random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Leave out matrices with more entries, rows times columns; Lambda, which is dense, counts
+    /// eightfold [default: 134217728, with --rational 262144].
+    #[arg(long, value_name = "ENTRIES")]
+    limit: Option<usize>,
     /// Print one JSON object a graph.
     #[arg(long)]
     json: bool,
-    /// Draw the sizes of the first graph's matrices to this file.
+    /// Draw the sizes of the first graph's matrices to this file (`-`: to standard output, and the
+    /// table to standard error).
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
 }
@@ -45,10 +52,19 @@ pub(super) struct CompareArguments {
 pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let inputs = arguments.graphs.iter().map(Path::new);
+    atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
+    let mut out = atomic::text(&[arguments.svg.as_deref()]);
     let mut svg = arguments.svg.as_deref();
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let found = compare(arguments, &field, input)?;
+        let found = match compare(arguments, &field, input) {
+            Ok(found) => found,
+            Err(error @ CompareError::TooLarge { .. }) => {
+                writeln!(std::io::stderr(), "verify: {}: {error}", input.name)?;
+                return Ok(TOO_LARGE);
+            }
+            Err(error) => return Err(error).with_context(|| input.name.clone()),
+        };
         if arguments.json {
             comparison::json(out, input, &found)?;
         } else {
@@ -58,25 +74,49 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
             let picture = bars::draw(&comparison::sizes(input, &found));
             atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
         }
-        let agree = found.agrees(&input.graph);
-        Ok(if agree { GOOD } else { NOT })
+        Ok(match found.outcome(&input.graph) {
+            Outcome::Agree(_) => GOOD,
+            Outcome::Disagree => NOT,
+            Outcome::NotCompared => TOO_LARGE,
+        })
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &mut out, each)?;
+        .for_each(&arguments.graphs, None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
+
+/// Largest matrix whose elimination is not announced: a few seconds, modulo a prime and over Q.
+const SILENT: [usize; 2] = [1 << 25, 1 << 18];
 
 fn compare(
     arguments: &CompareArguments,
     field: &PrimeField,
     input: &NamedGraph,
-) -> Result<Comparison> {
-    let found = if arguments.rational {
-        let bounds = (arguments.bounds.numerator, arguments.bounds.denominator);
-        compare::rational(&input.graph, bounds, arguments.seed)
-    } else {
-        compare::modular(field, &input.graph, arguments.seed)
+) -> Result<Comparison, CompareError> {
+    let announce = |name: &str, (rows, columns): (usize, usize)| {
+        // A notice is not worth failing for.
+        let _ = writeln!(
+            std::io::stderr(),
+            "verify: {}: {name}: about {rows} x {columns} entries, which may take minutes; --limit leaves \
+             out what is too large",
+            input.name
+        );
     };
-    found.with_context(|| input.name.clone())
+    let [residues, rationals] = SILENT;
+    if arguments.rational {
+        let bounds = (arguments.bounds.numerator, arguments.bounds.denominator);
+        let limits = Limits {
+            entries: arguments.limit.unwrap_or(MAX_RATIONALS),
+            silent: rationals,
+            announce: &announce,
+        };
+        return compare::rational(&input.graph, bounds, arguments.seed, &limits);
+    }
+    let limits = Limits {
+        entries: arguments.limit.unwrap_or(MAX_RESIDUES),
+        silent: residues,
+        announce: &announce,
+    };
+    compare::modular(field, &input.graph, arguments.seed, &limits)
 }

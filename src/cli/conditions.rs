@@ -13,8 +13,8 @@ use std::process::ExitCode;
 /// Options of the conditions.
 #[derive(Args)]
 pub(super) struct ConditionArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
     #[command(flatten)]
@@ -39,6 +39,6 @@ pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &mut out, each)?;
+        .for_each(&arguments.graphs, None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

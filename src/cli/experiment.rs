@@ -1,7 +1,7 @@
 //! `verify experiment`: the experiments of the paper.
 
 use super::progress::Progress;
-use super::{GOOD, atomic};
+use super::{GOOD, atomic, running};
 use crate::catalog::mine;
 use crate::catalog::random::{self, Density, Sampler, fisher};
 use crate::evidence::Strength;
@@ -10,7 +10,7 @@ use crate::report::plot::{Point, plot};
 use crate::verdict::{Options, Value};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, Subcommand};
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -43,10 +43,11 @@ struct Random {
     /// Seed of the graphs and of the cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Write a line for each graph to this file, as comma-separated values.
+    /// Write a line for each graph to this file, as comma-separated values (`-`: to standard
+    /// output, and the table to standard error).
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write a plot to this file.
+    /// Write a plot to this file (`-`: as with --csv).
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Compare with a table: density_percent,graphs,finite_solvable,components_min,components_max.
@@ -77,6 +78,9 @@ const BATCH: u64 = 1024;
 
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let Command::Random(arguments) = &arguments.command;
+    let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
+    let inputs = arguments.compare.as_deref();
+    atomic::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
     let published = match &arguments.compare {
         Some(path) => read_table(path)?,
         None => Vec::new(),
@@ -84,6 +88,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let options = Options {
         field: PrimeField::new(DEFAULT_PRIME)?,
         seed: arguments.seed,
+        watch: running::watch(),
         ..Options::default()
     };
     let mut columns = Vec::new();
@@ -140,7 +145,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let points: Vec<Point> = columns.iter().map(Column::point).collect();
         atomic::write(path, |out| out.write_all(plot(&points).as_bytes()))?;
     }
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = atomic::text(&[csv, svg]);
     write_table(&mut out, &columns, &published).context("standard output")?;
     Ok(ExitCode::from(GOOD))
 }

@@ -3,24 +3,24 @@
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT};
+use super::{GOOD, NOT, atomic, running};
 use crate::exact::prime::{DEFAULT_PRIME, PrimeField};
 use crate::graph::NamedGraph;
 use crate::model::Model;
 use crate::report::{self, Report};
 use crate::verdict::{self, Arithmetic, Options, Value};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
-use std::io::{BufWriter, Write};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// Options of the verifier.
 #[derive(Args)]
 pub(super) struct VerifyArguments {
-    /// Graphs: edge lists, graph6 files (a graph a line), MATLAB 5 matrices; `-` is
-    /// standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and
@@ -50,7 +50,8 @@ pub(super) struct VerifyArguments {
     seed: u64,
     #[command(flatten)]
     input: InputArguments,
-    /// Write a certificate to this file, or for every graph to this folder.
+    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard
+    /// output, and the report to standard error).
     #[arg(long, value_name = "PATH")]
     certificate: Option<PathBuf>,
     /// Embed graphs of any size in their certificates.
@@ -75,6 +76,11 @@ enum ModelName {
 impl VerifyArguments {
     fn options(&self) -> Result<Options> {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
+        ensure!(
+            !self.rational || matches!(self.model, ModelName::Projective),
+            "--rational: the calibrated model is decided modulo primes only; leave out --rational, or \
+             --model calibrated"
+        );
         let arithmetic = if self.rational {
             Arithmetic::Rational {
                 numerator: self.bounds.numerator,
@@ -98,6 +104,7 @@ impl VerifyArguments {
             contraction: !self.no_contraction,
             counting: !self.no_counting,
             seed: self.seed,
+            watch: running::shown_watch(),
         })
     }
 }
@@ -108,8 +115,13 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let mut target = arguments
         .certificate
         .as_deref()
-        .map(|path| Target::new(path, arguments.embed_graph));
-    let mut out = BufWriter::new(std::io::stdout().lock());
+        .map(|path| Target::new(path, arguments.embed_graph, &arguments.graphs))
+        .transpose()?;
+    let single = target
+        .as_ref()
+        .and_then(Target::single)
+        .map(Path::to_path_buf);
+    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
@@ -119,7 +131,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &mut out, each)?;
+        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -132,7 +144,9 @@ fn decide(
     start: Instant,
     out: &mut impl Write,
 ) -> Result<Value> {
-    let verdict = verdict::decide(&input.graph, options).with_context(|| input.name.clone())?;
+    let decided = verdict::decide(&input.graph, options);
+    running::hide();
+    let verdict = decided.with_context(|| input.name.clone())?;
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;

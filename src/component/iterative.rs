@@ -5,7 +5,7 @@
 //! against the edge for rigid, so that on rare graphs it merges components
 //! (docs/theory.md, Example 6.2); it is here as an independent check of the others.
 
-use crate::camera::{self, DrawError, DrawKey};
+use crate::camera::{self, Camera, DrawError, DrawKey};
 use crate::exact::modular::eliminate_mod;
 use crate::exact::prime::PrimeField;
 use crate::formulation::skew;
@@ -24,6 +24,23 @@ pub fn components(
     graph: &Graph,
     key: &DrawKey,
 ) -> Result<Vec<Vec<(u32, u32)>>, DrawError> {
+    components_from(field, graph, key, 0)
+}
+
+/// The same, with the edge of this number as the first at which the gauge is fixed. How many
+/// components there are may depend on it.
+///
+/// # Errors
+/// If no cameras can be drawn modulo so small a prime.
+///
+/// # Panics
+/// If there is no such edge.
+pub fn components_from(
+    field: &PrimeField,
+    graph: &Graph,
+    key: &DrawKey,
+    mut start: usize,
+) -> Result<Vec<Vec<(u32, u32)>>, DrawError> {
     let mut left = graph.edges().to_vec();
     let mut components = Vec::new();
     while !left.is_empty() {
@@ -34,16 +51,27 @@ pub fn components(
         let pairs = left.iter().map(|&(i, j)| (number(i), number(j))).collect();
         let (rest, _) = Graph::from_pairs(nodes.len() as u32, pairs).expect("edges of a graph");
         let cameras = camera::cameras_mod(field, rest.nodes(), key)?.values;
-        let rows = skew::augmented(field, &rest, &cameras, 0);
-        let kernel =
-            eliminate_mod(field, skew::dense(field, &rows, 12 * rest.nodes())).right_kernel();
-        let fixed = |v: u32| {
-            let at = 12 * number(v) as usize;
-            (0..kernel.rows()).all(|k| kernel.row(k)[at..at + 12].iter().all(|&x| x == 0))
-        };
-        let (inside, outside) = left.iter().partition(|&&(i, j)| fixed(i) && fixed(j));
+        let fixed = fixed_nodes(field, &rest, &cameras, start);
+        let inside = |v: u32| fixed[number(v) as usize];
+        let (inside, outside) = left.iter().partition(|&&(i, j)| inside(i) && inside(j));
         components.push(inside);
         left = outside;
+        start = 0;
     }
     Ok(components)
+}
+
+/// Which nodes do not move if the gauge is fixed at the edge `frame`.
+pub fn fixed_nodes(
+    field: &PrimeField,
+    graph: &Graph,
+    cameras: &[Camera<u64>],
+    frame: usize,
+) -> Vec<bool> {
+    let rows = skew::augmented(field, graph, cameras, frame);
+    let kernel = eliminate_mod(field, skew::dense(field, &rows, 12 * graph.nodes())).right_kernel();
+    let fixed = |at: usize| {
+        (0..kernel.rows()).all(|k| kernel.row(k)[12 * at..12 * at + 12].iter().all(|&x| x == 0))
+    };
+    (0..graph.nodes()).map(fixed).collect()
 }

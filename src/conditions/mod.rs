@@ -104,17 +104,15 @@ fn unless(witness: Option<Witness>) -> Decided {
     }
 }
 
-/// Decides all conditions, the necessary ones first.
-///
-/// # Panics
-/// If the graph has no edges.
+/// Decides all conditions, the necessary ones first. Of a single camera they say nothing.
 pub fn decide(graph: &Graph) -> Vec<Condition> {
     let (nodes, edges) = (graph.nodes(), graph.edges().len());
     let adjacency = Adjacency::new(graph);
+    let required = Model::Projective.required(nodes);
     let partition = if nodes * edges <= MAX_PEBBLES {
         let blocks = pebbles::blocks(graph);
         let bound: usize = blocks.iter().map(|block| 11 * block.len() - 15).sum();
-        unless((bound < 11 * nodes - 15).then_some(Witness::Partition(blocks, bound)))
+        unless((bound < required).then_some(Witness::Partition(blocks, bound)))
     } else {
         Err(format!(
             "{nodes} cameras and {edges} pairs are too many for the count"
@@ -122,6 +120,11 @@ pub fn decide(graph: &Graph) -> Vec<Condition> {
     };
     let holds_by_edges = matches!(&partition, Ok((Answer::Yes, _)));
     let condition = |necessary, name, source, decided: Decided| {
+        let decided = if nodes < 2 {
+            Err("a single camera is solvable".into())
+        } else {
+            decided
+        };
         let (answer, witness) = decided.unwrap_or_else(|why| (Answer::NotApplicable(why), None));
         Condition {
             name,
@@ -159,7 +162,7 @@ pub fn decide(graph: &Graph) -> Vec<Condition> {
             unless(degrees::cut(&adjacency)),
         ),
         condition(true, "7m >= 11n - 15", trager, {
-            let (left, right) = (7 * edges, 11 * nodes - 15);
+            let (left, right) = (7 * edges, required);
             let count = Witness::Count(format!("{left} and {right}"));
             let answer = if left < right {
                 Answer::No

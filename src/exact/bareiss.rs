@@ -6,6 +6,8 @@
 use super::dense::Matrix;
 use super::gauss::Pivots;
 use super::integer::Integer;
+use super::modular::unstopped;
+use crate::watch::{Stopped, Task};
 use std::cmp::Ordering;
 
 /// An integer matrix, eliminated.
@@ -25,13 +27,23 @@ pub struct FractionFree {
 ///
 /// O(rows * cols * rank) multiplications and exact divisions of integers of up to
 /// `rank` times the length of an entry.
-pub fn eliminate(mut m: Matrix<Integer>) -> FractionFree {
+pub fn eliminate(m: Matrix<Integer>) -> FractionFree {
+    unstopped(eliminate_watched(m, &Task::unwatched()))
+}
+
+/// The same as a task that can be stopped.
+///
+/// # Errors
+/// If it was.
+pub fn eliminate_watched(mut m: Matrix<Integer>, task: &Task) -> Result<FractionFree, Stopped> {
     let cols = m.cols();
+    let work = task.begin(cols as u64);
     let mut rest: Vec<usize> = (0..m.rows()).collect();
     let mut pivots = Pivots::default();
     let mut upper = Vec::new();
     let mut previous = Integer::one();
     for col in 0..cols {
+        work.done(1)?;
         let candidates = rest
             .iter()
             .enumerate()
@@ -45,6 +57,7 @@ pub fn eliminate(mut m: Matrix<Integer>) -> FractionFree {
         let top = m.row(pivot_row).to_vec();
         let pivot = &top[col];
         for &row in &rest {
+            task.check()?;
             let row = m.row_mut(row);
             let factor = row[col].clone();
             row[col] = Integer::zero();
@@ -64,12 +77,12 @@ pub fn eliminate(mut m: Matrix<Integer>) -> FractionFree {
         previous = pivot.clone();
         upper.push(top);
     }
-    FractionFree {
+    Ok(FractionFree {
         pivots,
         determinant: previous,
         cols,
         upper,
-    }
+    })
 }
 
 impl FractionFree {

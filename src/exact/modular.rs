@@ -10,6 +10,7 @@ use super::dense::Matrix;
 use super::gauss::Pivots;
 use super::prime::PrimeField;
 use super::product::Product;
+use crate::watch::{Stopped, Task, Work};
 
 /// Columns of a panel: enough products to hide the reduction of their sum, few enough for a
 /// tile of the product to stay in the first-level cache.
@@ -33,8 +34,39 @@ pub struct Echelon {
 /// O(rows * cols * rank) multiply-accumulates; the products with large panels are
 /// shared among the threads of the current rayon pool. The result does not depend on
 /// the number of threads.
-pub fn eliminate_mod(field: &PrimeField, mut m: Matrix<u64>) -> Echelon {
+pub fn eliminate_mod(field: &PrimeField, m: Matrix<u64>) -> Echelon {
+    unstopped(eliminate_watched(field, m, &Task::unwatched()))
+}
+
+/// What nobody watches is not stopped.
+pub(crate) fn unstopped<T>(done: Result<T, Stopped>) -> T {
+    done.unwrap_or_else(|stopped| unreachable!("{stopped}"))
+}
+
+/// The multiply-accumulates for the panel from column `start` on, if every column before it has a
+/// pivot.
+fn panel_products(rows: usize, cols: usize, start: usize) -> u64 {
+    let (height, width) = (rows.saturating_sub(start), cols - start);
+    height as u64 * width as u64 * PANEL as u64
+}
+
+/// The multiply-accumulates of an elimination, if every column has a pivot.
+pub(crate) fn elimination_products(rows: usize, cols: usize) -> u64 {
+    let panels = (0..cols).step_by(PANEL);
+    panels.map(|start| panel_products(rows, cols, start)).sum()
+}
+
+/// [`eliminate_mod`] as a task that can be stopped.
+///
+/// # Errors
+/// If it was.
+pub fn eliminate_watched(
+    field: &PrimeField,
+    mut m: Matrix<u64>,
+    task: &Task,
+) -> Result<Echelon, Stopped> {
     let (rows, cols) = (m.rows(), m.cols());
+    let work = task.begin(elimination_products(rows, cols));
     let mut order: Vec<usize> = (0..rows).collect();
     let mut pivot_cols = Vec::with_capacity(rows.min(cols));
     let mut panel = Panel {
@@ -49,6 +81,7 @@ pub fn eliminate_mod(field: &PrimeField, mut m: Matrix<u64>) -> Echelon {
         let end = cols.min(start + PANEL);
         panel.eliminate(field, &mut m, &mut order, &mut pivot_cols, start..end);
         let found = pivot_cols.len() - base;
+        let units = panel_products(rows, cols, start);
         if found > 0 && end < cols {
             let (head, tail) = m.data_mut().split_at_mut((base + found) * cols);
             packed.clear();
@@ -67,16 +100,19 @@ pub fn eliminate_mod(field: &PrimeField, mut m: Matrix<u64>) -> Echelon {
                 factors: lower,
                 stride: panel.width,
             };
-            product.add_to(field, tail, cols, end, &packed);
+            product.add_to(field, tail, cols, end, &packed, (&work, units));
+            work.done(0)?;
+        } else {
+            work.done(units)?;
         }
         start = end;
     }
-    Echelon {
+    Ok(Echelon {
         field: *field,
         order,
         pivot_cols,
         factors: m,
-    }
+    })
 }
 
 /// Working space of one panel, reused by the next.
@@ -234,7 +270,8 @@ impl Echelon {
         });
         // Unknown k meets column k of -L below the diagonal: w_k = r_k + sum w_l (-L)_lk.
         let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        self.solve_backwards(&mut weights, entry, |_, value| value);
+        let unwatched = Task::unwatched().begin(0);
+        unstopped(self.solve_backwards(&mut weights, entry, |_, value| value, &unwatched));
         weights
     }
 
@@ -263,8 +300,13 @@ impl Echelon {
 
     /// As [`left_weights`](Self::left_weights) for linear combinations of the free rows:
     /// `coefficients` has a row for each combination and a column for each free row, in
-    /// factorised order.
-    pub(crate) fn combined_left_weights(&self, coefficients: &Matrix<u64>) -> Matrix<u64> {
+    /// factorised order. So many units of `work` are done as
+    /// [`combination_products`](Self::combination_products) says.
+    pub(crate) fn combined_left_weights(
+        &self,
+        coefficients: &Matrix<u64>,
+        work: &Work,
+    ) -> Result<Matrix<u64>, Stopped> {
         let rank = self.rank();
         let columns: Vec<Vec<u64>> = self
             .pivot_cols
@@ -275,12 +317,26 @@ impl Echelon {
                     .collect()
             })
             .collect();
-        let mut weights = Matrix::from_fn(coefficients.rows(), rank, |i, k| {
-            self.field.dot(0, coefficients.row(i), &columns[k])
-        });
+        let count = coefficients.rows();
+        let mut weights = Matrix::new(count, rank, vec![0; count * rank]);
+        for i in 0..count {
+            for (weight, column) in weights.row_mut(i).iter_mut().zip(&columns) {
+                *weight = self.field.dot(0, coefficients.row(i), column);
+            }
+            work.done((rank * coefficients.cols()) as u64)?;
+        }
         let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        self.solve_backwards(&mut weights, entry, |_, value| value);
-        weights
+        self.solve_backwards(&mut weights, entry, |_, value| value, work)?;
+        Ok(weights)
+    }
+
+    /// The multiply-accumulates for so many combinations of the free rows, about.
+    pub(crate) fn combination_products(&self, count: usize) -> u64 {
+        let rank = self.rank();
+        let free = self.order.len() - rank;
+        let blocks = (0..rank).step_by(PANEL);
+        let backwards: u64 = blocks.map(|start| (start * PANEL) as u64).sum();
+        count as u64 * ((rank * free) as u64 + backwards)
     }
 
     /// For each of the given columns, none a pivot: the weights of the pivot columns, in
@@ -343,7 +399,8 @@ impl Echelon {
             .collect();
         self.field.invert_all(&mut inverses);
         let entry = |k: usize, l: usize| self.field.negate(self.factors[(l, self.pivot_cols[k])]);
-        self.solve_backwards(rows, entry, |k, value| self.field.times(value, inverses[k]));
+        let finish = |k: usize, value| self.field.times(value, inverses[k]);
+        unstopped(self.solve_backwards(rows, entry, finish, &Task::unwatched().begin(0)));
     }
 
     /// From the last unknown down: x_l = finish(l, r_l + sum_(k > l) x_k entry(k, l)),
@@ -353,10 +410,11 @@ impl Echelon {
         rows: &mut Matrix<u64>,
         entry: impl Fn(usize, usize) -> u64,
         finish: impl Fn(usize, u64) -> u64,
-    ) {
+        work: &Work,
+    ) -> Result<(), Stopped> {
         let rank = self.rank();
         if rows.rows() == 0 || rank == 0 {
-            return;
+            return Ok(());
         }
         let mut packed = Vec::new();
         let mut block = Vec::new();
@@ -397,8 +455,18 @@ impl Echelon {
                 depth,
             };
             // The padding of the last group adds zeros to columns that are solved.
-            product.add_to(&self.field, rows.data_mut(), cols, 0, &packed);
+            let units = (rows.rows() * start * PANEL) as u64;
+            product.add_to(
+                &self.field,
+                rows.data_mut(),
+                cols,
+                0,
+                &packed,
+                (work, units),
+            );
+            work.done(0)?;
         }
+        Ok(())
     }
 }
 

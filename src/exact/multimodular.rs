@@ -10,8 +10,9 @@ use super::bareiss::primitive;
 use super::dense::Matrix;
 use super::gauss::Pivots;
 use super::integer::Integer;
-use super::modular::{Echelon, eliminate_mod};
+use super::modular::{Echelon, eliminate_watched, unstopped};
 use super::prime::{DEFAULT_PRIME, PrimeField, is_prime};
+use crate::watch::{Stopped, Task};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
@@ -75,16 +76,25 @@ impl RankExact {
 /// # Panics
 /// If an entry lies beyond the last column.
 pub fn rank_at_least(field: &PrimeField, rows: &[IntegerRow], cols: usize) -> RankAtLeast {
+    unstopped(rank_at_least_watched(field, rows, cols, &Task::unwatched()))
+}
+
+fn rank_at_least_watched(
+    field: &PrimeField,
+    rows: &[IntegerRow],
+    cols: usize,
+    task: &Task,
+) -> Result<RankAtLeast, Stopped> {
     let mut m = Matrix::new(rows.len(), cols, vec![0; rows.len() * cols]);
     for (i, row) in rows.iter().enumerate() {
         for (col, value) in row {
             m[(i, *col)] = field.from_u64(value.rem_u64(field.modulus()));
         }
     }
-    RankAtLeast {
+    Ok(RankAtLeast {
         prime: field.modulus(),
-        pivots: eliminate_mod(field, m).pivots(),
-    }
+        pivots: eliminate_watched(field, m, task)?.pivots(),
+    })
 }
 
 /// The exact rank over Q of the matrix with the given rows and `cols` columns.
@@ -97,14 +107,28 @@ pub fn rank_at_least(field: &PrimeField, rows: &[IntegerRow], cols: usize) -> Ra
 /// # Panics
 /// If an entry lies beyond the last column.
 pub fn rank_exact(rows: &[IntegerRow], cols: usize) -> RankExact {
+    unstopped(rank_exact_watched(rows, cols, &Task::unwatched()))
+}
+
+/// The same as a task that can be stopped.
+///
+/// # Errors
+/// If it was.
+///
+/// # Panics
+/// As [`rank_exact`].
+pub fn rank_exact_watched(
+    rows: &[IntegerRow],
+    cols: usize,
+    task: &Task,
+) -> Result<RankExact, Stopped> {
     let primes = (5..=DEFAULT_PRIME).rev().filter(|&p| is_prime(p));
     for prime in primes {
         let field = PrimeField::new(prime)
             .unwrap_or_else(|_| unreachable!("a prime from 5 to 2^61 - 1 is a modulus"));
-        let lower = rank_at_least(&field, rows, cols);
-        let pivots = lower.pivots();
-        if let Some(kernel) = kernel(&field, rows, cols, &pivots.rows, &pivots.cols) {
-            return RankExact { lower, kernel };
+        let lower = rank_at_least_watched(&field, rows, cols, task)?;
+        if let Some(kernel) = kernel(&field, rows, cols, lower.pivots(), task)? {
+            return Ok(RankExact { lower, kernel });
         }
     }
     unreachable!("a non-zero minor has fewer divisors than there are primes below 2^61")
@@ -116,9 +140,10 @@ fn kernel(
     field: &PrimeField,
     rows: &[IntegerRow],
     cols: usize,
-    pivot_rows: &[usize],
-    pivot_cols: &[usize],
-) -> Option<Vec<Vec<Integer>>> {
+    pivots: &Pivots,
+    task: &Task,
+) -> Result<Option<Vec<Vec<Integer>>>, Stopped> {
+    let (pivot_rows, pivot_cols) = (&pivots.rows, &pivots.cols);
     let rank = pivot_rows.len();
     let mut place = vec![None; cols];
     for (k, &col) in pivot_cols.iter().enumerate() {
@@ -141,10 +166,11 @@ fn kernel(
     }
     let system = System {
         field,
-        factors: eliminate_mod(field, residues),
+        factors: eliminate_watched(field, residues, task)?,
         rows: minor,
     };
     let free: Vec<usize> = (0..cols).filter(|&col| place[col].is_none()).collect();
+    let work = task.begin(free.len() as u64);
     free.into_par_iter()
         .map(|free| {
             let entry = |&row: &usize| {
@@ -152,8 +178,7 @@ fn kernel(
                 found.map_or(Integer::zero(), |at| rows[row][at].1.neg())
             };
             let right: Vec<Integer> = pivot_rows.iter().map(entry).collect();
-            system.solve(right, |solution| {
-                let (numerators, denominator) = solution;
+            let accept = |(numerators, denominator): (&[Integer], &Integer)| {
                 let mut vector = vec![Integer::zero(); cols];
                 for (&col, x) in pivot_cols.iter().zip(numerators) {
                     vector[col] = x.clone();
@@ -163,7 +188,10 @@ fn kernel(
                     primitive(&mut vector, free);
                     vector
                 })
-            })
+            };
+            let vector = system.solve(right, accept, task)?;
+            work.done(1)?;
+            Ok(vector)
         })
         .collect()
 }
@@ -194,7 +222,8 @@ impl System<'_> {
         &self,
         right: Vec<Integer>,
         accept: impl Fn((&[Integer], &Integer)) -> Option<T>,
-    ) -> Option<T> {
+        task: &Task,
+    ) -> Result<Option<T>, Stopped> {
         let p = Integer::from(self.field.modulus());
         // Cramer's rule: numerators and denominator are minors, bounded by Hadamard with
         // row norms at most the sum of the entries. Reconstruction is certain once the
@@ -217,6 +246,7 @@ impl System<'_> {
         let mut modulus = Integer::one();
         let mut next_try = 1;
         for digits in 1u64.. {
+            task.check()?;
             let right: Vec<u64> = residual
                 .iter()
                 .map(|r| self.field.from_u64(r.rem_u64(self.field.modulus())))
@@ -246,11 +276,11 @@ impl System<'_> {
                 if let Some((numerators, denominator)) = &candidate
                     && let Some(accepted) = accept((numerators, denominator))
                 {
-                    return Some(accepted);
+                    return Ok(Some(accepted));
                 }
             }
             if last {
-                return None;
+                return Ok(None);
             }
         }
         unreachable!("the modulus grows beyond every bound")

@@ -1,6 +1,7 @@
 //! The matrix product modulo a prime that all dense elimination comes down to.
 
 use super::prime::{PrimeField, SMALL_PRODUCTS, low};
+use crate::watch::Work;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -13,6 +14,9 @@ const WIDE: usize = 128;
 /// Below this many products a matrix product is not worth sharing among threads.
 const PARALLEL_PRODUCTS: usize = 1 << 19;
 
+/// So many products are done without asking whether they are still wanted: some 50 ms at most.
+const UNASKED_PRODUCTS: usize = 1 << 26;
+
 /// The left factor of a matrix product: rows of `depth` entries, `stride` apart.
 pub(super) struct Product<'a> {
     pub factors: &'a [u64],
@@ -24,6 +28,9 @@ impl Product<'_> {
     /// Adds the product with the packed right factor to the columns from `start` on of
     /// the rows in `target`, which have `cols` columns. `packed` holds `depth` entries
     /// for each group of four columns; columns beyond its last group stay as they are.
+    ///
+    /// About so many units of the work are done. If it is stopped the target is left half done, and
+    /// the next call of [`Work::done`] says so.
     pub fn add_to(
         &self,
         field: &PrimeField,
@@ -31,12 +38,18 @@ impl Product<'_> {
         cols: usize,
         start: usize,
         packed: &[[u64; 4]],
+        (work, units): (&Work, u64),
     ) {
         if target.is_empty() || packed.is_empty() {
             return;
         }
         let rows = target.len() / cols;
+        let a_row = units / rows as u64;
         let chunk = |(target, factors): (&mut [u64], &[u64])| {
+            if work.is_stopped() {
+                return;
+            }
+            let share = a_row * (target.len() / cols) as u64;
             let left = Product { factors, ..*self };
             Arch::new().dispatch(Chunk {
                 field,
@@ -46,17 +59,24 @@ impl Product<'_> {
                 start,
                 packed,
             });
+            // If this fails, so does the caller's next one.
+            let _ = work.done(share);
         };
         let threads = rayon::current_num_threads();
-        if threads > 1 && rows * packed.len() * 4 >= PARALLEL_PRODUCTS {
+        let products = packed.len() * 4;
+        let most = (UNASKED_PRODUCTS / products).max(1);
+        if threads > 1 && rows * products >= PARALLEL_PRODUCTS {
             // A few chunks a thread even out what else the machine is doing.
-            let height = rows.div_ceil(4 * threads).max(1);
+            let height = rows.div_ceil(4 * threads).clamp(1, most);
             target
                 .par_chunks_mut(height * cols)
                 .zip(self.factors.par_chunks(height * self.stride))
                 .for_each(chunk);
         } else {
-            chunk((target, self.factors));
+            target
+                .chunks_mut(most * cols)
+                .zip(self.factors.chunks(most * self.stride))
+                .for_each(chunk);
         }
     }
 }

@@ -8,8 +8,9 @@
 use super::Ring;
 use super::dense::Matrix;
 use super::gauss::Pivots;
-use super::modular::{Echelon, eliminate_mod};
+use super::modular::{Echelon, eliminate_watched, unstopped};
 use super::prime::PrimeField;
+use crate::watch::{Reservation, Stopped, Task, matrix_bytes};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -25,6 +26,20 @@ const SPARSE_COST: usize = 24;
 
 /// Right-hand sides that share one pass over the sparse factors.
 const LANES: usize = 8;
+
+/// What one entry of the sparse factors costs for one vector, in multiply-accumulates of dense
+/// ones.
+const SPARSE_WEIGHT: u64 = 4;
+
+/// Progress is told after so many sparse pivots.
+const ASKED_PIVOTS: usize = 64;
+
+/// So many entries of sparse rows are added up without asking whether they are still wanted, and
+/// how much memory they take.
+const UNASKED_ENTRIES: usize = 1 << 16;
+
+/// Bytes for an entry of a sparse row: itself, and its place in the list of its column.
+const ENTRY_BYTES: usize = size_of::<(usize, u64)>() + size_of::<usize>();
 
 /// An eliminated sparse matrix modulo p.
 ///
@@ -57,6 +72,24 @@ pub struct Factorisation {
     dense: Echelon,
     free_rows: Vec<usize>,
     free_cols: Vec<usize>,
+    /// For the sparse factors, and for the dense ones.
+    _memory: [Reservation; 2],
+}
+
+/// Why a matrix was not factorised.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unfinished {
+    /// The part that has to be eliminated as a dense matrix has these many rows and columns: too
+    /// many.
+    TooLarge(usize, usize),
+    /// The work was stopped.
+    Stopped(Stopped),
+}
+
+impl From<Stopped> for Unfinished {
+    fn from(stopped: Stopped) -> Self {
+        Self::Stopped(stopped)
+    }
 }
 
 /// The part of the matrix that has not been eliminated, with its columns' rows.
@@ -70,6 +103,11 @@ struct Active {
     nonempty: usize,
     /// The memory of the row that was replaced last, for the next one.
     spare: SparseRow,
+    /// The entries of all rows, pivot rows and multipliers included.
+    entries: usize,
+    /// The entries that have been added up since somebody asked.
+    unasked: usize,
+    memory: Reservation,
 }
 
 impl Active {
@@ -94,14 +132,35 @@ impl Active {
             .filter(|(_, rows)| !rows.is_empty());
         let by_count = columns.map(|(col, rows)| (rows.len(), col)).collect();
         let nonempty = rows.iter().filter(|row| !row.is_empty()).count();
+        let rows_entries = rows.iter().map(Vec::len).sum();
         Self {
             field: *field,
             rows,
             members,
             by_count,
             nonempty,
+            entries: rows_entries,
+            unasked: 0,
+            memory: Reservation::default(),
             spare: Vec::new(),
         }
+    }
+
+    /// Asks whether to go on, and for the memory of what has filled in, if it is time to.
+    fn ask(&mut self, task: &Task) -> Result<(), Stopped> {
+        if self.unasked < UNASKED_ENTRIES {
+            return Ok(());
+        }
+        self.unasked = 0;
+        self.account(task)?;
+        task.check()
+    }
+
+    fn account(&mut self, task: &Task) -> Result<(), Stopped> {
+        let bytes = (self.entries * ENTRY_BYTES) as u64;
+        let entries = self.entries;
+        let what = format_args!("a sparse matrix that has filled in to {entries} entries");
+        self.memory.resize(bytes, task, what)
     }
 
     /// The pivot with the least fill, `(fill, row, column)`; `None` when nothing is left.
@@ -142,7 +201,8 @@ impl Active {
         col: usize,
         step: usize,
         lower: &mut [SparseRow],
-    ) -> (SparseRow, u64) {
+        task: &Task,
+    ) -> Result<(SparseRow, u64), Stopped> {
         let mut pivot_row = std::mem::take(&mut self.rows[row]);
         self.nonempty -= 1;
         // Only columns of the pivot row change: they are counted again at the end.
@@ -161,6 +221,7 @@ impl Active {
         for target in std::mem::take(&mut self.members[col]) {
             let factor = self.add_multiple(target, col, &pivot_row, inverse);
             lower[target].push((step, factor));
+            self.ask(task)?;
         }
         for &(c, _) in &pivot_row {
             let count = self.members[c].len();
@@ -168,7 +229,7 @@ impl Active {
                 self.by_count.insert((count, c));
             }
         }
-        (pivot_row, inverse)
+        Ok((pivot_row, inverse))
     }
 
     /// Clears column `col` of a row with the multiple of the pivot row that does it.
@@ -213,6 +274,9 @@ impl Active {
         if sum.is_empty() {
             self.nonempty -= 1;
         }
+        self.unasked += old.len() + pivot_row.len();
+        // One more for the multiplier.
+        self.entries = self.entries + sum.len() + 1 - old.len();
         self.rows[target] = sum;
         self.spare = old;
         factor
@@ -244,6 +308,28 @@ impl Factorisation {
         cols: usize,
         limit: usize,
     ) -> Result<Self, (usize, usize)> {
+        match Self::watched(field, rows, cols, limit, &Task::unwatched()) {
+            Ok(done) => Ok(done),
+            Err(Unfinished::TooLarge(rows, cols)) => Err((rows, cols)),
+            Err(Unfinished::Stopped(stopped)) => unreachable!("{stopped}"),
+        }
+    }
+
+    /// [`Factorisation::within`] as a task that can be stopped: columns first, then the products
+    /// of the dense elimination.
+    ///
+    /// # Errors
+    /// If it was, or the dense part has more than `limit` entries.
+    ///
+    /// # Panics
+    /// As [`Factorisation::new`].
+    pub fn watched(
+        field: &PrimeField,
+        rows: Vec<SparseRow>,
+        cols: usize,
+        limit: usize,
+        task: &Task,
+    ) -> Result<Self, Unfinished> {
         for row in &rows {
             assert!(
                 row.is_sorted_by(|a, b| a.0 < b.0),
@@ -255,7 +341,11 @@ impl Factorisation {
             );
         }
         let count = rows.len();
+        // Columns are no measure of the time that is left.
+        let work = task.followed_by(None).begin(cols as u64);
         let mut active = Active::new(field, rows, cols);
+        active.memory = task.reserve(0, format_args!("nothing"))?;
+        active.account(task)?;
         let mut sparse = Pivots::default();
         let (mut upper, mut inverses) = (Vec::new(), Vec::new());
         let mut lower = vec![Vec::new(); count];
@@ -263,7 +353,11 @@ impl Factorisation {
             if active.is_dense(fill) {
                 break;
             }
-            let (pivot_row, inverse) = active.eliminate(row, col, sparse.rank(), &mut lower);
+            let step = sparse.rank();
+            let (pivot_row, inverse) = active.eliminate(row, col, step, &mut lower, task)?;
+            if step.is_multiple_of(ASKED_PIVOTS) {
+                work.done(if step == 0 { 0 } else { ASKED_PIVOTS as u64 })?;
+            }
             upper.push(pivot_row);
             inverses.push(inverse);
             sparse.rows.push(row);
@@ -280,15 +374,28 @@ impl Factorisation {
         }
         let width = dense_cols.len();
         if dense_rows.len().saturating_mul(width) > limit {
-            return Err((dense_rows.len(), width));
+            return Err(Unfinished::TooLarge(dense_rows.len(), width));
         }
+        drop(work);
+        active.account(task)?;
+        let height = dense_rows.len();
+        let dense_memory = task.reserve(
+            matrix_bytes(height, width),
+            format_args!("the dense rest of a sparse matrix, {height} x {width},"),
+        )?;
         let mut rest = Matrix::new(dense_rows.len(), width, vec![0; dense_rows.len() * width]);
         for (k, &row) in dense_rows.iter().enumerate() {
             for &(col, value) in &active.rows[row] {
                 rest[(k, place[col])] = value;
             }
         }
-        let dense = eliminate_mod(field, rest);
+        // What is left of the sparse matrix is in the dense one now.
+        active.rows = Vec::new();
+        active.members = Vec::new();
+        let kept = upper.iter().chain(&lower).map(Vec::len).sum();
+        active.entries = kept;
+        active.account(task)?;
+        let dense = eliminate_watched(field, rest, task)?;
         let mut done = Self {
             field: *field,
             rows: count,
@@ -302,6 +409,7 @@ impl Factorisation {
             dense,
             free_rows: Vec::new(),
             free_cols: Vec::new(),
+            _memory: [active.memory, dense_memory],
         };
         let pivots = done.pivots();
         done.free_rows = pivots.free_rows(count);
@@ -358,6 +466,21 @@ impl Factorisation {
     /// # Panics
     /// If `coefficients` does not have a column for each free row.
     pub fn left_combinations(&self, coefficients: &Matrix<u64>) -> Matrix<u64> {
+        unstopped(self.left_combinations_watched(coefficients, &Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    ///
+    /// # Panics
+    /// As [`left_combinations`](Self::left_combinations).
+    pub fn left_combinations_watched(
+        &self,
+        coefficients: &Matrix<u64>,
+        task: &Task,
+    ) -> Result<Matrix<u64>, Stopped> {
         assert_eq!(
             coefficients.cols(),
             self.free_rows.len(),
@@ -371,19 +494,27 @@ impl Factorisation {
             .iter()
             .map(|&row| place(self.dense_rows[row]))
             .collect();
-        let in_dense = Matrix::from_fn(coefficients.rows(), dense_free.len(), |i, k| {
-            coefficients[(i, dense_free[k])]
-        });
-        let weights = self.dense.combined_left_weights(&in_dense);
-
         let count = coefficients.rows();
+        let (rank, free) = (self.dense.rank(), dense_free.len());
+        // The vectors, their part in the dense rows, and that part of the dense factors.
+        let bytes = matrix_bytes(count, self.rows)
+            + matrix_bytes(count, free + rank)
+            + matrix_bytes(free, rank);
+        let _memory = task.reserve(bytes, format_args!("{count} vectors of a left kernel"))?;
+        let additions = self.lower.iter().map(|row| row.len() as u64).sum::<u64>();
+        let work = task.begin(
+            self.dense.combination_products(count) + additions * count as u64 * SPARSE_WEIGHT,
+        );
+        let in_dense = Matrix::from_fn(count, free, |i, k| coefficients[(i, dense_free[k])]);
+        let weights = self.dense.combined_left_weights(&in_dense, &work)?;
+
         let mut kernel = Matrix::new(count, self.rows, vec![0; count * self.rows]);
         let chunk = LANES * self.rows.max(1);
         kernel
             .data_mut()
             .par_chunks_mut(chunk)
             .enumerate()
-            .for_each(|(block, out)| {
+            .try_for_each(|(block, out)| {
                 let lanes = |value: &dyn Fn(usize) -> u64| {
                     let mut weight = [0; LANES];
                     for (weight, i) in weight.iter_mut().zip(block * LANES..count) {
@@ -412,8 +543,10 @@ impl Factorisation {
                     spread(&mut sums, row, &weight);
                     self.store(out, self.rows, row, &weight);
                 }
-            });
-        kernel
+                let vectors = LANES.min(count - block * LANES) as u64;
+                work.done(additions * vectors * SPARSE_WEIGHT)
+            })?;
+        Ok(kernel)
     }
 
     /// Vectors x with A x = 0, one row of the result for each of the given free columns:
@@ -537,6 +670,7 @@ mod tests {
     use super::super::samples::{known_rank, multiply};
     use super::super::{gauss, prime::DEFAULT_PRIME};
     use super::*;
+    use crate::watch::{Limits, Reason, Step, Watch};
     use proptest::prelude::*;
     use rand::{Rng, SeedableRng};
 
@@ -658,6 +792,65 @@ mod tests {
         for (rows, cols) in [(0, 0), (0, 3), (3, 0), (2, 3)] {
             verify(&field, &Matrix::new(rows, cols, vec![0; rows * cols]));
         }
+    }
+
+    /// Some memory is enough for the sparse part and not for the dense one, less is not even
+    /// enough for that; and an interrupt is noticed.
+    #[test]
+    fn memory_is_asked_for_and_interrupts_are_noticed() {
+        let field = PrimeField::mersenne61();
+        let mut random = rand_chacha::ChaCha20Rng::seed_from_u64(1);
+        let rows: Vec<SparseRow> = (0..400)
+            .map(|_| {
+                let mut cols: Vec<usize> =
+                    (0..6).map(|_| random.next_u64() as usize % 400).collect();
+                cols.sort_unstable();
+                cols.dedup();
+                cols.into_iter()
+                    .map(|col| (col, 1 + random.next_u64() % 1000))
+                    .collect()
+            })
+            .collect();
+        let within = |memory| {
+            let watch = Watch::new(Limits {
+                deadline: None,
+                memory: Some(memory),
+            });
+            let task = watch.task(Step::Flows, 0);
+            let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+            let account = |_| task.reserve(memory, format_args!("all")).is_ok();
+            match done {
+                Ok(done) => {
+                    assert!(!account(()), "the factors are on the account");
+                    drop(done);
+                    assert!(account(()), "and then no more");
+                    None
+                }
+                Err(Unfinished::Stopped(stopped)) => {
+                    assert!(account(()), "nothing is left on the account");
+                    match stopped.reason {
+                        Reason::TooLarge { what, .. } => Some(what),
+                        other => panic!("{other:?}"),
+                    }
+                }
+                Err(other) => panic!("{other:?}"),
+            }
+        };
+        assert_eq!(within(1 << 30), None);
+        assert!(within(60_000).is_some_and(|what| what.contains("sparse matrix")));
+        let (height, width) = Factorisation::new(&field, rows.clone(), 400).dense_size();
+        assert!(height > 100 && width > 100, "{height} x {width}");
+        let dense = matrix_bytes(height, width);
+        assert!(within(dense).is_some_and(|what| what.contains("the dense rest")));
+
+        let watch = Watch::new(Limits::default());
+        watch.interrupt();
+        let task = watch.task(Step::Flows, 0);
+        let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+        assert!(matches!(done, Err(Unfinished::Stopped(_))));
+        let done = Factorisation::new(&field, rows, 400);
+        let one = Matrix::from_fn(1, done.free_rows().len(), |_, _| field.one());
+        assert!(done.left_combinations_watched(&one, &task).is_err());
     }
 
     proptest! {

@@ -9,12 +9,47 @@ use crate::exact::rational::{Rational, Rationals};
 use crate::graph::{Graph, sha256};
 use std::time::{Duration, Instant};
 
-/// Largest matrix that is eliminated modulo p, rows times columns: the dense part that
-/// sparse elimination may end in then fits into 4 GiB.
-pub const MAX_RESIDUES: usize = 1 << 29;
+/// Largest matrix that is eliminated modulo p unless asked otherwise, rows times columns: a minute or
+/// two for all together, and 1 GiB for the dense part that sparse elimination may end in.
+pub const MAX_RESIDUES: usize = 1 << 27;
 
-/// Largest matrix that is eliminated over Q, rows times columns: seconds for all together.
+/// Largest matrix that is eliminated over Q unless asked otherwise, rows times columns: seconds for
+/// all together.
 pub const MAX_RATIONALS: usize = 1 << 18;
+
+/// Which matrices are eliminated, and of which it is said beforehand.
+#[derive(Clone, Copy)]
+pub struct Limits<'a> {
+    /// Largest matrix, rows times columns.
+    pub entries: usize,
+    /// Largest matrix that is eliminated without a word.
+    pub silent: usize,
+    /// Is told the name of a formulation with a larger one, and its rows and columns.
+    pub announce: &'a dyn Fn(&str, (usize, usize)),
+}
+
+impl Limits<'static> {
+    /// Without a word.
+    pub fn new(entries: usize) -> Self {
+        Self {
+            entries,
+            silent: entries,
+            announce: &|_, _| {},
+        }
+    }
+}
+
+impl Limits<'_> {
+    /// Whether a matrix that counts for so many entries is eliminated; if that takes long, it is
+    /// announced.
+    fn admit(&self, entries: usize, name: &str, size: (usize, usize)) -> bool {
+        let admitted = entries <= self.entries;
+        if admitted && entries > self.silent {
+            (self.announce)(name, size);
+        }
+        admitted
+    }
+}
 
 /// Draws tried for cameras that all formulations admit.
 const ATTEMPTS: u64 = 64;
@@ -71,6 +106,17 @@ pub struct Comparison {
     pub draw: u64,
 }
 
+/// What a comparison says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Nothing that was computed contradicts anything else; the kernel beyond the trivial one.
+    Agree(usize),
+    /// Something does.
+    Disagree,
+    /// Fewer than two formulations were computed: there is nothing to compare.
+    NotCompared,
+}
+
 impl Comparison {
     /// The kernel beyond the trivial one that all formulations found; `None` if they
     /// differ, or none of them ran.
@@ -80,10 +126,29 @@ impl Comparison {
         found.all(|rank| rank.excess == first).then_some(first)
     }
 
-    /// Whether nothing that was computed contradicts anything else.
-    pub fn agrees(&self, graph: &Graph) -> bool {
+    /// How many formulations were computed.
+    pub fn computed(&self) -> usize {
+        self.lines.iter().filter(|line| line.rank.is_some()).count()
+    }
+
+    /// Whether what was computed agrees.
+    pub fn outcome(&self, graph: &Graph) -> Outcome {
         let edges = graph.edges().len();
-        self.excess().is_some() && self.kernel_is_f == edges && self.identity == edges
+        let (checked, computed) = (
+            self.kernel_is_f == edges && self.identity == edges,
+            self.computed(),
+        );
+        match self.excess() {
+            None if computed > 0 => Outcome::Disagree,
+            _ if !checked => Outcome::Disagree,
+            Some(excess) if computed > 1 => Outcome::Agree(excess),
+            _ => Outcome::NotCompared,
+        }
+    }
+
+    /// Whether at least two formulations were computed and nothing contradicts anything else.
+    pub fn agrees(&self, graph: &Graph) -> bool {
+        matches!(self.outcome(graph), Outcome::Agree(_))
     }
 }
 
@@ -104,7 +169,8 @@ pub enum CompareError {
     NoPairs,
     /// Every matrix is above the limit.
     #[error(
-        "the graph is too large: the smallest matrix has {rows} rows and {columns} columns, and {limit} entries is the limit; decide it with `verify GRAPH`, which contracts first"
+        "the graph is too large: the smallest matrix has {rows} rows and {columns} columns, and {limit} entries is the limit; raise it with --limit, or decide the graph with `verify GRAPH`, which \
+         contracts first"
     )]
     TooLarge {
         /// Rows of the smallest matrix.
@@ -120,8 +186,13 @@ pub enum CompareError {
 ///
 /// # Errors
 /// See [`CompareError`].
-pub fn modular(field: &PrimeField, graph: &Graph, seed: u64) -> Result<Comparison, CompareError> {
-    compare(field, graph, seed, MAX_RESIDUES, |key| {
+pub fn modular(
+    field: &PrimeField,
+    graph: &Graph,
+    seed: u64,
+    limits: &Limits,
+) -> Result<Comparison, CompareError> {
+    compare(field, graph, seed, limits, |key| {
         let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
         Ok((drawn.values, drawn.draw))
     })
@@ -135,8 +206,9 @@ pub fn rational(
     graph: &Graph,
     (numerator, denominator): (u64, u64),
     seed: u64,
+    limits: &Limits,
 ) -> Result<Comparison, CompareError> {
-    compare(&Rationals, graph, seed, MAX_RATIONALS, |key| {
+    compare(&Rationals, graph, seed, limits, |key| {
         let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
         let whole = drawn.values.into_iter();
         let cameras = whole.map(|camera| camera.map(|row| row.map(Rational::from)));
@@ -151,7 +223,7 @@ fn compare<F: RankField>(
     field: &F,
     graph: &Graph,
     seed: u64,
-    limit: usize,
+    limits: &Limits,
     draw: impl Fn(&DrawKey) -> Result<Draw<F::Elem>, DrawError>,
 ) -> Result<Comparison, CompareError> {
     if graph.edges().is_empty() {
@@ -171,13 +243,13 @@ fn compare<F: RankField>(
     let entries = |&(rows, columns): &(usize, usize)| rows.saturating_mul(columns);
     if let Some(smallest) = sizes
         .min_by_key(entries)
-        .filter(|size| entries(size) > limit)
+        .filter(|size| entries(size) > limits.entries)
     {
         let (rows, columns) = smallest;
         return Err(CompareError::TooLarge {
             rows,
             columns,
-            limit,
+            limit: limits.entries,
         });
     }
     for _ in 0..ATTEMPTS {
@@ -190,10 +262,10 @@ fn compare<F: RankField>(
             let (kernel_is_f, identity) = checks(field, graph, &cameras);
             let in_one = formulations
                 .iter()
-                .map(|formulation| line(*formulation, field, graph, &cameras, limit));
+                .map(|formulation| line(*formulation, field, graph, &cameras, limits));
             return Ok(Comparison {
                 lines: in_one
-                    .chain([plane_flow(field, graph, &cameras, &key, limit)])
+                    .chain([plane_flow(field, graph, &cameras, &key, limits)])
                     .collect(),
                 kernel_is_f,
                 identity,
@@ -209,10 +281,11 @@ fn line<F: RankField>(
     field: &F,
     graph: &Graph,
     cameras: &[Camera<F::Elem>],
-    limit: usize,
+    limits: &Limits,
 ) -> Line {
     let size = formulation.size(graph);
-    let rank = (size.0.saturating_mul(size.1) <= limit).then(|| {
+    let admitted = limits.admit(size.0.saturating_mul(size.1), formulation.name(), size);
+    let rank = admitted.then(|| {
         let start = Instant::now();
         let rows = formulation.matrix(field, graph, cameras);
         let nonzeros: usize = rows.iter().map(Vec::len).sum();
@@ -243,6 +316,8 @@ fn line<F: RankField>(
     }
 }
 
+const PLANE_FLOW: &str = "plane flow";
+
 /// Rows and columns of N.
 fn rigidity_size(graph: &Graph) -> (usize, usize) {
     (2 * graph.edges().len(), 3 * graph.nodes())
@@ -254,14 +329,16 @@ fn plane_flow<F: RankField>(
     graph: &Graph,
     cameras: &[Camera<F::Elem>],
     key: &DrawKey,
-    limit: usize,
+    limits: &Limits,
 ) -> Line {
     let edges = graph.edges().len();
     let (rows, columns) = rigidity_size(graph);
     let entries = field
         .lambda_entries(edges)
         .max(rows.saturating_mul(columns));
-    let timed = (entries <= limit).then(|| {
+    // Lambda has about as many rows as columns where it is large.
+    let admitted = limits.admit(entries, PLANE_FLOW, (edges, edges));
+    let timed = admitted.then(|| {
         let start = Instant::now();
         let found = field.plane_ranks(graph, cameras, key);
         (found, start.elapsed())
@@ -275,7 +352,7 @@ fn plane_flow<F: RankField>(
     let rigidity = timed.map(|(found, _)| found.rigidity);
     let lambda = timed.map(|(found, _)| found.lambda);
     Line {
-        name: "plane flow",
+        name: PLANE_FLOW,
         source: "docs/theory.md, section 3",
         matrices: vec![
             MatrixLine {
@@ -324,6 +401,14 @@ mod tests {
     use super::*;
     use crate::exact::prime::DEFAULT_PRIME;
     use proptest::prelude::*;
+
+    fn residues() -> Limits<'static> {
+        Limits::new(MAX_RESIDUES)
+    }
+
+    fn rationals() -> Limits<'static> {
+        Limits::new(MAX_RATIONALS)
+    }
 
     fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
         Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0
@@ -392,7 +477,11 @@ mod tests {
         for prime in [10_007, 2_305_843_009_213_693_951, 4_611_686_018_427_387_847] {
             let field = PrimeField::new(prime).unwrap();
             for (graph, excess) in known() {
-                check(&graph, &modular(&field, &graph, 1).unwrap(), excess);
+                check(
+                    &graph,
+                    &modular(&field, &graph, 1, &residues()).unwrap(),
+                    excess,
+                );
             }
         }
     }
@@ -400,13 +489,43 @@ mod tests {
     #[test]
     fn known_deficits_over_the_rationals() {
         for (graph, excess) in known() {
-            check(&graph, &rational(&graph, (9, 4), 1).unwrap(), excess);
+            check(
+                &graph,
+                &rational(&graph, (9, 4), 1, &rationals()).unwrap(),
+                excess,
+            );
         }
+    }
+
+    /// What is left out is no disagreement, and one formulation alone no agreement.
+    #[test]
+    fn what_was_not_computed_says_nothing() {
+        let (field, graph) = (
+            PrimeField::mersenne61(),
+            graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]),
+        );
+        let mut found = modular(&field, &graph, 1, &residues()).unwrap();
+        assert_eq!(found.outcome(&graph), Outcome::Agree(1));
+        found.lines[0].rank = None;
+        assert_eq!(found.outcome(&graph), Outcome::Agree(1));
+        let Some(rank) = &mut found.lines[1].rank else {
+            panic!("computed")
+        };
+        rank.excess = 2;
+        assert_eq!(found.outcome(&graph), Outcome::Disagree);
+        for line in &mut found.lines[2..] {
+            line.rank = None;
+        }
+        assert_eq!(found.outcome(&graph), Outcome::NotCompared);
+        found.lines[1].rank = None;
+        assert_eq!(found.outcome(&graph), Outcome::NotCompared);
+        found.identity = 3;
+        assert_eq!(found.outcome(&graph), Outcome::Disagree);
     }
 
     #[test]
     fn no_pairs() {
-        let found = rational(&graph(3, &[]), (9, 4), 1);
+        let found = rational(&graph(3, &[]), (9, 4), 1, &rationals());
         assert_eq!(found.unwrap_err(), CompareError::NoPairs);
     }
 
@@ -446,15 +565,15 @@ mod tests {
         fn random_graphs_agree_in_both_fields(graph in any_graph(8), seed: u64) {
             for prime in [1_000_003, DEFAULT_PRIME] {
                 let field = PrimeField::new(prime).unwrap();
-                check_random(&graph, &modular(&field, &graph, seed).unwrap(), MAX_RESIDUES);
+                check_random(&graph, &modular(&field, &graph, seed, &residues()).unwrap(), MAX_RESIDUES);
             }
-            check_random(&graph, &rational(&graph, (3, 1), seed).unwrap(), MAX_RATIONALS);
+            check_random(&graph, &rational(&graph, (3, 1), seed, &rationals()).unwrap(), MAX_RATIONALS);
         }
 
         /// Cameras with fractions, which make the integers longer.
         #[test]
         fn random_graphs_agree_at_fractions(graph in any_graph(5), seed: u64) {
-            check_random(&graph, &rational(&graph, (9, 4), seed).unwrap(), MAX_RATIONALS);
+            check_random(&graph, &rational(&graph, (9, 4), seed, &rationals()).unwrap(), MAX_RATIONALS);
         }
     }
 }

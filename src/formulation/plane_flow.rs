@@ -12,12 +12,15 @@
 
 use crate::exact::dense::Matrix;
 use crate::exact::gauss::Pivots;
-use crate::exact::modular::{Echelon, eliminate_mod};
+use crate::exact::modular::{
+    Echelon, eliminate_mod, eliminate_watched, elimination_products, unstopped,
+};
 use crate::exact::prime::PrimeField;
-use crate::exact::sparse::Factorisation;
+use crate::exact::sparse::{Factorisation, Unfinished};
 use crate::exact::{Field, Ring};
 use crate::graph::Graph;
 use crate::union_find::UnionFind;
+use crate::watch::{Reservation, Step, Stopped, Task, matrix_bytes};
 
 /// The two directions orthogonal to d = c_i - c_j on an edge: with q the first index
 /// at which d is not zero and r < s the others, d_q e_r - d_r e_q and d_q e_s - d_s e_q.
@@ -94,6 +97,48 @@ pub fn cotree(graph: &Graph) -> Vec<usize> {
 /// Flows that are computed beyond those needed at full rank.
 const SPARE_FLOWS: usize = 2;
 
+/// The flows that Lambda is computed from at first, of so many independent ones and for so many
+/// columns.
+fn first_flows(dimension: usize, columns: usize) -> usize {
+    dimension.min(columns.div_ceil(4) + SPARE_FLOWS)
+}
+
+/// The bytes for Lambda with the rows of so many flows, and for its elimination.
+fn lambda_bytes(flows: usize, columns: usize) -> u64 {
+    matrix_bytes(4 * flows, columns).saturating_mul(2)
+}
+
+/// Asks for the memory that Lambda of a graph takes at least, whatever the centres: before N is
+/// eliminated, which may take long as well. Returns the task with the elimination of Lambda
+/// expected after it.
+///
+/// # Errors
+/// If there is not as much left.
+pub fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'w>, Stopped> {
+    let (edges, columns) = (graph.edges().len(), cotree(graph).len());
+    // N has a kernel of dimension 4 at least: translations and the scale.
+    let rank = (3 * graph.nodes()).saturating_sub(4);
+    let flows = first_flows((2 * edges).saturating_sub(rank), columns);
+    reserve_lambda(&mut empty(task)?, flows, columns, &task.at(Step::Lambda))?;
+    Ok(task.followed_by(Some(elimination_products(4 * flows, columns))))
+}
+
+/// Nothing, on the account of the task's watch.
+fn empty(task: &Task) -> Result<Reservation, Stopped> {
+    task.reserve(0, format_args!("nothing"))
+}
+
+fn reserve_lambda(
+    memory: &mut Reservation,
+    flows: usize,
+    columns: usize,
+    task: &Task,
+) -> Result<(), Stopped> {
+    let rows = 4 * flows;
+    let what = format_args!("Lambda ({rows} x {columns}) with its elimination");
+    memory.resize(lambda_bytes(flows, columns), task, what)
+}
+
 /// N and Lambda of a graph at given centres modulo p, eliminated.
 #[derive(Clone, Debug)]
 pub struct PlaneFlows<'a> {
@@ -152,14 +197,36 @@ impl<'a> PlaneFlows<'a> {
     /// # Panics
     /// If there is not one centre a node, or the centres of an edge coincide.
     pub fn new(field: &'a PrimeField, graph: &'a Graph, centres: &'a [[u64; 3]]) -> Self {
+        unstopped(Self::watched(field, graph, centres, &Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    ///
+    /// # Panics
+    /// As [`PlaneFlows::new`].
+    pub fn watched(
+        field: &'a PrimeField,
+        graph: &'a Graph,
+        centres: &'a [[u64; 3]],
+        task: &Task,
+    ) -> Result<Self, Stopped> {
         assert_eq!(centres.len(), graph.nodes(), "one centre a node");
         let rows = rigidity_rows(field, graph, centres);
-        Self {
+        let columns = 3 * graph.nodes();
+        let rigidity = Factorisation::watched(field, rows, columns, usize::MAX, task);
+        let rigidity = rigidity.map_err(|unfinished| match unfinished {
+            Unfinished::Stopped(stopped) => stopped,
+            Unfinished::TooLarge(..) => unreachable!("no part of a matrix has more entries"),
+        })?;
+        Ok(Self {
             field,
             graph,
             centres,
-            rigidity: Factorisation::new(field, rows, 3 * graph.nodes()),
-        }
+            rigidity,
+        })
     }
 
     /// The rank of N.
@@ -185,11 +252,27 @@ impl<'a> PlaneFlows<'a> {
     /// A basis of the plane flows: for each the omega_e of every edge (the normal of its
     /// plane), omega flowing from j to i on the edge (i, j).
     pub fn flows(&self) -> Vec<Vec<[u64; 3]>> {
-        let kernel = self.rigidity.left_kernel();
+        unstopped(self.flows_watched(&Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    pub fn flows_watched(&self, task: &Task) -> Result<Vec<Vec<[u64; 3]>>, Stopped> {
+        let dimension = self.rigidity.free_rows().len();
+        let edges = self.graph.edges().len();
+        let _memory = task.reserve(
+            matrix_bytes(dimension, 3 * edges),
+            format_args!("{dimension} flows on {edges} pairs"),
+        )?;
+        let one = self.field.one();
+        let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
+        let kernel = self.rigidity.left_combinations_watched(&unit, task)?;
         let both: Vec<_> = (0..self.graph.edges().len())
             .map(|e| self.edge_directions(e))
             .collect();
-        (0..kernel.rows())
+        Ok((0..kernel.rows())
             .map(|f| {
                 let weights = kernel.row(f).chunks_exact(2);
                 let combine = |(w, [a, b]): (&[u64], &[[u64; 3]; 2])| {
@@ -197,7 +280,7 @@ impl<'a> PlaneFlows<'a> {
                 };
                 weights.zip(&both).map(combine).collect()
             })
-            .collect()
+            .collect())
     }
 
     /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
@@ -207,29 +290,53 @@ impl<'a> PlaneFlows<'a> {
     /// of `weights`, one flow after another (docs/certificate.md, section 7). Each gives four
     /// rows, so that about a quarter as many flows as columns are enough at full rank; more
     /// are taken until they no longer raise the rank.
-    pub fn lambda(&self, mut weights: impl FnMut() -> u64) -> Lambda {
+    pub fn lambda(&self, weights: impl FnMut() -> u64) -> Lambda {
+        unstopped(self.lambda_watched(weights, &Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    pub fn lambda_watched(
+        &self,
+        mut weights: impl FnMut() -> u64,
+        task: &Task,
+    ) -> Result<Lambda, Stopped> {
         let cotree = cotree(self.graph);
         let dimension = self.rigidity.free_rows().len();
         let mut flows = 0;
         let mut rows = Vec::new();
+        let mut memory = empty(task)?;
+        let elimination = task.at(Step::Elimination).followed_by(Some(0));
+        let task = task.at(Step::Lambda);
         let mut rank = None;
         loop {
             let more = match rank {
-                None => dimension.min(cotree.len().div_ceil(4) + SPARE_FLOWS),
+                None => first_flows(dimension, cotree.len()),
                 Some(_) => (dimension - flows).min(flows / 4 + SPARE_FLOWS),
             };
+            reserve_lambda(&mut memory, flows + more, cotree.len(), &task)?;
+            let products = elimination_products(4 * (flows + more), cotree.len());
+            let task = task.followed_by(Some(products));
             let weights = Matrix::from_fn(more, dimension, |_, _| weights());
-            rows.extend(self.lambda_rows(&weights, &cotree));
+            let new = self.lambda_rows(&weights, &cotree, &task)?;
+            if rows.is_empty() {
+                rows = new;
+            } else {
+                rows.extend(new);
+            }
             flows += more;
             let matrix = Matrix::new(4 * flows, cotree.len(), rows.clone());
-            let echelon = eliminate_mod(self.field, matrix);
+            let echelon = eliminate_watched(self.field, matrix, &elimination)?;
             let found = echelon.rank();
             if found == cotree.len() || flows == dimension || rank == Some(found) {
-                return Lambda {
+                return Ok(Lambda {
                     rows: Matrix::new(4 * flows, cotree.len(), rows),
                     cotree,
                     echelon,
-                };
+                    _memory: memory,
+                });
             }
             rank = Some(found);
         }
@@ -242,22 +349,29 @@ impl<'a> PlaneFlows<'a> {
         let dimension = self.rigidity.free_rows().len();
         let one = self.field.one();
         let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
-        let rows = self.lambda_rows(&unit, &cotree);
+        let rows = unstopped(self.lambda_rows(&unit, &cotree, &Task::unwatched()));
         let rows = Matrix::new(4 * dimension, cotree.len(), rows);
         Lambda {
             echelon: eliminate_mod(self.field, rows.clone()),
             rows,
             cotree,
+            _memory: Reservation::default(),
         }
     }
 
     /// The rows of Lambda that the flows with the given entries at the free rows of N give,
     /// one after another: four rows a flow, restricted to the given edges.
-    fn lambda_rows(&self, weights: &Matrix<u64>, edges: &[usize]) -> Vec<u64> {
-        let kernel = self.rigidity.left_combinations(weights);
+    fn lambda_rows(
+        &self,
+        weights: &Matrix<u64>,
+        edges: &[usize],
+        task: &Task,
+    ) -> Result<Vec<u64>, Stopped> {
+        let kernel = self.rigidity.left_combinations_watched(weights, task)?;
         let width = edges.len();
         let mut rows = vec![0; 4 * kernel.rows() * width];
         for (at, &e) in edges.iter().enumerate() {
+            task.check()?;
             let cj = &self.centres[self.graph.edges()[e].1 as usize];
             let [a, b] = self
                 .edge_directions(e)
@@ -273,7 +387,7 @@ impl<'a> PlaneFlows<'a> {
                 }
             }
         }
-        rows
+        Ok(rows)
     }
 
     /// The lower bound on rank J_P, with its pivots.
@@ -406,6 +520,7 @@ pub struct Lambda {
     cotree: Vec<usize>,
     rows: Matrix<u64>,
     echelon: Echelon,
+    _memory: Reservation,
 }
 
 impl Lambda {

@@ -30,6 +30,12 @@ pub enum Graph6Error {
     /// The line ends within the number of nodes.
     #[error("graph6: the line ends before the number of nodes is complete")]
     NoSize,
+    /// The number of nodes takes more characters than it needs.
+    #[error("graph6: {nodes} nodes are written with more characters than that takes")]
+    LongSize {
+        /// Number of nodes.
+        nodes: u64,
+    },
     /// Fewer or more characters than the number of nodes asks for.
     #[error("graph6: {nodes} nodes need {expected} characters of adjacency, the line has {found}")]
     Length {
@@ -45,6 +51,34 @@ pub enum Graph6Error {
     Padding,
 }
 
+/// The number of nodes at the start of characters of the alphabet, and what follows it.
+pub(super) fn size(line: &[u8]) -> Result<(u64, &[u8]), Graph6Error> {
+    let (skip, digits) = match line {
+        [LONG, LONG, ..] => (2, 6),
+        [LONG, ..] => (1, 3),
+        _ => (0, 1),
+    };
+    let size = line.get(skip..skip + digits).ok_or(Graph6Error::NoSize)?;
+    let nodes = size
+        .iter()
+        .fold(0, |n, &b| n << 6 | u64::from(b.wrapping_sub(OFFSET) & 63));
+    Ok((nodes, &line[skip + digits..]))
+}
+
+/// How many characters of adjacency so many nodes need.
+fn body_length(nodes: u64) -> u128 {
+    (u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2).div_ceil(6)
+}
+
+/// How long a line is that begins like this; `None` if it says too little, or is not graph6.
+pub(super) fn line_length(start: &[u8]) -> Option<u128> {
+    if start.iter().any(|b| !(OFFSET..=LONG).contains(b)) {
+        return None;
+    }
+    let (nodes, body) = size(start).ok()?;
+    Some((start.len() - body.len()) as u128 + body_length(nodes))
+}
+
 /// The number of nodes and the adjacency characters of a line, which has been
 /// checked to hold exactly as many as the number of nodes asks for.
 fn split(line: &[u8]) -> Result<(u32, &[u8]), Graph6Error> {
@@ -54,24 +88,21 @@ fn split(line: &[u8]) -> Result<(u32, &[u8]), Graph6Error> {
             byte: line[at],
         });
     }
-    let (skip, digits) = match line {
-        [LONG, LONG, ..] => (2, 6),
-        [LONG, ..] => (1, 3),
-        _ => (0, 1),
-    };
-    let size = line.get(skip..skip + digits).ok_or(Graph6Error::NoSize)?;
-    let nodes = size.iter().fold(0, |n, &b| n << 6 | u64::from(b - OFFSET));
-    let body = &line[skip + digits..];
+    let (nodes, body) = size(line)?;
+    let digits = line.len() - body.len();
+    if digits > 1 && nodes <= SHORT_LIMIT || digits > 4 && nodes <= MEDIUM_LIMIT {
+        return Err(Graph6Error::LongSize { nodes });
+    }
     let wrong_length = |expected| Graph6Error::Length {
         nodes,
         expected,
         found: body.len(),
     };
-    let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
-    let expected = pairs.div_ceil(6);
+    let expected = body_length(nodes);
     if expected != body.len() as u128 {
         return Err(wrong_length(expected));
     }
+    let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
     let padding = (6 * expected - pairs) as u32;
     if body
         .last()
@@ -238,7 +269,7 @@ mod tests {
             found,
         };
         let character = |column, byte| Graph6Error::Character { column, byte };
-        let bad: [(&[u8], Graph6Error); 12] = [
+        let bad: [(&[u8], Graph6Error); 14] = [
             (b"", Graph6Error::NoSize),
             (b">>graph6<<", Graph6Error::NoSize),
             (b"~", Graph6Error::NoSize),
@@ -250,6 +281,8 @@ mod tests {
             (b":DQc", character(1, b':')),
             (b"D\xffc", character(2, 0xff)),
             (b"DQd", Graph6Error::Padding),
+            (b"~??BW", Graph6Error::LongSize { nodes: 3 }),
+            (b"~~????~~", Graph6Error::LongSize { nodes: 4095 }),
             // The largest number of nodes: 2^36 - 1.
             (
                 b"~~~~~~~~",
@@ -272,7 +305,7 @@ mod tests {
             prop_assert_eq!(decode(encode(&graph).as_bytes()), Ok(graph));
         }
 
-        /// A line is the only one of its graph, unless it spells its size at length.
+        /// A line is the only one of its graph.
         #[test]
         fn what_is_read_is_written_back(line in "[?-}]{1,12}") {
             if let Ok(graph) = decode(line.as_bytes()) {

@@ -101,14 +101,26 @@ struct Variable<'a> {
 ///
 /// # Errors
 /// No such variable, or no way to choose one; a matrix that is not numeric,
-/// real, square and symmetric with a zero diagonal, or has no entries; NaN; a
+/// real, square and symmetric with a zero diagonal, or has no rows; NaN; a
 /// file of another version, truncated, or corrupt.
 pub fn read(bytes: &[u8], variable: Option<&str>) -> Result<Graph, Fault> {
+    read_noting(bytes, variable).map(|(graph, _)| graph)
+}
+
+/// As [`read`]; with a note if the variable was neither named nor is it `A`.
+pub(super) fn read_noting(
+    bytes: &[u8],
+    variable: Option<&str>,
+) -> Result<(Graph, Option<String>), Fault> {
     let (order, variables) = variables(bytes)?;
-    let variable = choose(&variables, variable)?;
-    let place = Place::Variable(variable.header.name.clone());
-    pattern(variable, order)
+    let chosen = choose(&variables, variable)?;
+    let name = &chosen.header.name;
+    let note = (variable.is_none() && name != "A")
+        .then(|| format!("the graph is the variable {name}, the only square matrix"));
+    let place = Place::Variable(name.clone());
+    pattern(chosen, order)
         .and_then(|pattern| pattern.graph())
+        .map(|graph| (graph, note))
         .map_err(|problem| place.fault(problem))
 }
 
@@ -252,9 +264,6 @@ impl Pattern {
         let nodes = starts.len() - 1;
         if nodes == 0 {
             return Err(Problem::NoNodes);
-        }
-        if rows.is_empty() {
-            return Err(Problem::NoPairs { nodes });
         }
         // next[c] is the first entry of column c whose mirror image has not come
         // by yet. Columns come in increasing order, so the mirror images of a

@@ -5,9 +5,14 @@ pub mod canonical;
 pub mod edge_list;
 pub mod error;
 pub mod graph6;
+mod inflate;
 pub mod labels;
+mod lines;
 pub mod matlab;
+pub mod matrix_market;
 pub mod read;
+mod recognise;
+pub mod sparse6;
 
 pub use adjacency::Adjacency;
 pub use canonical::{core_sha256, sha256};
@@ -89,6 +94,27 @@ impl Graph {
     /// The number of the edge between two nodes, in either order. O(log m).
     pub fn edge_number(&self, a: u32, b: u32) -> Option<usize> {
         self.edges.binary_search(&(a.min(b), a.max(b))).ok()
+    }
+}
+
+/// A note about pairs that were merged, if any were.
+fn merged(count: usize) -> Option<String> {
+    let (pairs, are) = match count {
+        0 => return None,
+        1 => ("pair", "is"),
+        _ => ("pairs", "are"),
+    };
+    Some(format!(
+        "{count} {pairs} {are} given again, the same or reversed, and merged"
+    ))
+}
+
+/// A number of things, with the plural of their name if it is not one.
+fn counted(count: u64, name: &str) -> String {
+    match (count, name.strip_suffix('y')) {
+        (1, _) => format!("1 {name}"),
+        (_, Some(stem)) => format!("{count} {stem}ies"),
+        (_, None) => format!("{count} {name}s"),
     }
 }
 

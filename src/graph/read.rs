@@ -1,35 +1,44 @@
 //! Any input to graphs: which format it is, and its graphs one by one.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Read};
+use std::io::{Cursor, Read};
 use std::str::FromStr;
 
+use super::edge_list::Reading;
 use super::error::{Fault, Place, Problem, ReadError};
-use super::{Graph, Labels, edge_list, graph6, matlab};
+use super::inflate::Inflater;
+use super::lines::{Encoding, LINE_LIMIT, Lines};
+use super::recognise::{self, Kind};
+use super::{Graph, Labels, edge_list, matlab, matrix_market};
 
 /// A graph as it was read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedGraph {
-    /// The path as given, `-` for standard input; for line k of a graph6 file
+    /// The path as given, `-` for standard input; for line k of a graph6 or sparse6 file
     /// followed by `:k`.
     pub name: String,
     /// The graph.
     pub graph: Graph,
     /// What the user calls its nodes.
     pub labels: Labels,
-    /// What was merged or ignored in reading it.
+    /// What was merged, ignored or guessed in reading it.
     pub notes: Vec<String>,
 }
 
 /// The formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// One pair a line; see [`edge_list`].
-    EdgeList,
-    /// One graph a line; see [`graph6`].
+    /// One pair a line, read leniently; see [`edge_list`]. (Without a format the same files are
+    /// read strictly.)
+    Edges,
+    /// One graph a line; see [`graph6`](super::graph6).
     Graph6,
+    /// One graph a line; see [`sparse6`](super::sparse6).
+    Sparse6,
     /// An adjacency matrix in a MATLAB 5 file; see [`matlab`].
     Matlab,
+    /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
+    MatrixMarket,
 }
 
 impl FromStr for Format {
@@ -37,9 +46,11 @@ impl FromStr for Format {
 
     fn from_str(name: &str) -> Result<Self, UnknownFormat> {
         match name {
-            "edge-list" => Ok(Self::EdgeList),
+            "edges" | "edge-list" => Ok(Self::Edges),
             "graph6" => Ok(Self::Graph6),
+            "sparse6" => Ok(Self::Sparse6),
             "matlab" => Ok(Self::Matlab),
+            "matrix-market" => Ok(Self::MatrixMarket),
             _ => Err(UnknownFormat),
         }
     }
@@ -47,13 +58,13 @@ impl FromStr for Format {
 
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the formats are edge-list, graph6 and matlab")]
+#[error("the formats are edges, graph6, sparse6, matlab and matrix-market")]
 pub struct UnknownFormat;
 
 /// How to read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The format; by default what the content looks like.
+    /// The format; by default what the content is, if it can be only one.
     pub format: Option<Format>,
     /// The variable of a MATLAB file; by default `A` or the only square matrix.
     pub variable: Option<String>,
@@ -62,15 +73,14 @@ pub struct ReadOptions {
 /// The graphs of an input, or why there is none.
 pub type Graphs = Box<dyn Iterator<Item = Result<NamedGraph, ReadError>>>;
 
-/// How much of an input decides about its format.
-const SAMPLE: usize = 4096;
+type Input = Box<dyn Read>;
 
-/// Streams the graphs of one input (`-` is standard input): one for an edge
-/// list or a MATLAB file, one a line for graph6. Nothing is read before the
-/// first item is asked for.
+/// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
+/// sparse6, else one. Nothing is read before the first item is asked for. What gzip has
+/// compressed is inflated.
 ///
-/// A bad line of graph6 is an `Err` item, and the next line follows it; every
-/// other error ends the stream.
+/// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or the options
+/// say that it is such a file; every other error ends the stream.
 pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.to_owned(), options.clone());
     let open = move || match path.as_str() {
@@ -84,38 +94,141 @@ pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
 }
 
 /// Streams the graphs of `input`, which its graphs and errors call `name`.
-pub fn graphs(name: String, mut input: impl Read + 'static, options: ReadOptions) -> Graphs {
-    let mut head = Vec::new();
-    let format = match options.format {
-        Some(format) => Ok(format),
-        None => input
-            .by_ref()
-            .take(SAMPLE as u64)
-            .read_to_end(&mut head)
-            .map_err(Problem::Unreadable)
-            .and_then(|_| guess(&head)),
-    };
-    let input = Cursor::new(head).chain(input);
-    let one = match format {
-        Ok(Format::Graph6) => {
-            return Box::new(Lines {
-                name,
-                input: BufReader::with_capacity(1 << 16, input),
-                line: 0,
-                failed: false,
-            });
+pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) -> Graphs {
+    match sampled(Box::new(input)) {
+        Ok(sampled) if sampled.is_gzip() => {
+            let inner = sampled_again(sampled);
+            let graphs = inner.map(|inner| of_sampled(name.clone(), inner, options));
+            let graphs =
+                graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
+            Box::new(graphs.map(|graph| {
+                graph.map(|mut graph| {
+                    graph.notes.insert(0, "read as gzip".to_owned());
+                    graph
+                })
+            }))
         }
-        Ok(Format::EdgeList) => edge_list::read(input),
-        Ok(Format::Matlab) => read_matlab(input, options.variable.as_deref()),
+        Ok(sampled) => of_sampled(name, sampled, options),
+        Err(problem) => failed(&name, Place::Input.fault(problem)),
+    }
+}
+
+/// An input whose first bytes are known.
+struct Sampled {
+    /// The first bytes, which are all if `whole`.
+    head: Vec<u8>,
+    whole: bool,
+    /// What follows them.
+    rest: Input,
+}
+
+impl Sampled {
+    fn is_gzip(&self) -> bool {
+        recognise::kind(&self.head, self.whole).is_ok_and(|kind| kind == Kind::Gzip)
+    }
+
+    fn into_input(self) -> Input {
+        Box::new(Cursor::new(self.head).chain(self.rest))
+    }
+}
+
+/// Reads as much of an input as it takes to tell what it is.
+fn sampled(mut input: Input) -> Result<Sampled, Problem> {
+    let mut head = Vec::new();
+    let mut whole = more(&mut input, &mut head, recognise::SAMPLE as u64)?;
+    if !whole && let Some(missing) = recognise::missing(&head) {
+        // In steps: what the first characters promise need not be there.
+        let mut left = missing.min(LINE_LIMIT);
+        while left > 0
+            && !whole
+            && recognise::in_alphabet(&head[head.len() - STEP.min(head.len())..])
+        {
+            let step = left.min(STEP as u64);
+            whole = more(&mut input, &mut head, step)?;
+            left -= step;
+        }
+    }
+    Ok(Sampled {
+        head,
+        whole,
+        rest: input,
+    })
+}
+
+/// How many bytes of a long first line are read at once.
+const STEP: usize = 1 << 16;
+
+/// Reads so many bytes more; whether they are the last ones.
+fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Problem> {
+    let got = input.by_ref().take(count).read_to_end(head)?;
+    Ok((got as u64) < count)
+}
+
+/// What is in a gzip file, which has to be something else.
+fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
+    let inner = sampled(Box::new(Inflater::new(outer.into_input())))?;
+    if inner.is_gzip() {
+        return Err(Problem::Foreign {
+            what: "gzip within gzip",
+            advice: "inflate it with `gunzip` once",
+        });
+    }
+    Ok(inner)
+}
+
+fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+    let kind = match options.format {
+        Some(Format::Edges) => Ok(None),
+        Some(Format::Graph6) => Ok(Some(Kind::Lines {
+            encoding: Encoding::Graph6,
+            guessed: false,
+        })),
+        Some(Format::Sparse6) => Ok(Some(Kind::Lines {
+            encoding: Encoding::Sparse6,
+            guessed: false,
+        })),
+        Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
+        Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
+        None => recognise::kind(&sampled.head, sampled.whole).map(Some),
+    };
+    let unused = (options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))))
+        .then(|| "--variable is ignored: this is no MATLAB file".to_owned());
+    let one = match kind {
+        Ok(Some(Kind::Lines { encoding, guessed })) => {
+            let lines = Lines::new(name, encoding, guessed, sampled.into_input());
+            return Box::new(lines.map(move |graph| {
+                graph.map(|mut graph| {
+                    graph.notes.extend(unused.clone());
+                    graph
+                })
+            }));
+        }
+        Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
+        Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
+            .map(|(graph, notes)| (graph, Labels::Numbers { first: 1 }, notes)),
+        Ok(Some(Kind::Text | Kind::Gzip)) => {
+            let (head, whole) = (sampled.head.clone(), sampled.whole);
+            edge_list::read(sampled.into_input(), Reading::Strict).map_err(|fault| {
+                // What is refused by the grammar may have a name.
+                match recognise::likely(&head, whole) {
+                    Some(problem) if fault.problem.is_grammar() => Place::Input.fault(problem),
+                    _ => fault,
+                }
+            })
+        }
+        Ok(None) => edge_list::read(sampled.into_input(), Reading::Lenient),
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {
-        Ok((graph, labels, notes)) => Box::new(std::iter::once(Ok(NamedGraph {
-            name,
-            graph,
-            labels,
-            notes,
-        }))),
+        Ok((graph, labels, mut notes)) => {
+            notes.extend(unused);
+            Box::new(std::iter::once(Ok(NamedGraph {
+                name,
+                graph,
+                labels,
+                notes,
+            })))
+        }
         Err(fault) => failed(&name, fault),
     }
 }
@@ -131,116 +244,9 @@ fn read_matlab(
     let mut bytes = Vec::new();
     input
         .read_to_end(&mut bytes)
-        .map_err(|error| Place::Input.fault(Problem::Unreadable(error)))?;
-    let graph = matlab::read(&bytes, variable)?;
-    Ok((graph, Labels::Numbers { first: 1 }, Vec::new()))
-}
-
-/// The format that the first bytes of an input speak for. Depends on the first
-/// [`SAMPLE`] bytes only, never on how they arrive.
-fn guess(head: &[u8]) -> Result<Format, Problem> {
-    if matlab::is_matlab(head) {
-        return Ok(Format::Matlab);
-    }
-    if head.starts_with(graph6::HEADER.as_bytes()) {
-        return Ok(Format::Graph6);
-    }
-    for (header, name) in [
-        (">>sparse6<<", "sparse6"),
-        (">>digraph6<<", "digraph6"),
-        (">>planar_code", "planar code"),
-    ] {
-        if head.starts_with(header.as_bytes()) {
-            return Err(Problem::OtherEncoding(name));
-        }
-    }
-    if head.contains(&0) {
-        return Err(Problem::UnknownFormat);
-    }
-    let (mut graphs, mut sparse, mut pairs) = (0, 0, 0);
-    let mut lines = head.split(|&b| b == b'\n').peekable();
-    while let Some(line) = lines.next() {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let cut = lines.peek().is_none() && head.len() == SAMPLE;
-        let text = String::from_utf8_lossy(line);
-        let several = edge_list::tokens(&text).nth(1).is_some();
-        if cut {
-            // Of a longer line, only one that fills the sample says anything.
-            let alone = graphs + sparse + pairs == 0;
-            graphs += usize::from(alone && line.iter().all(|b| (63..=126).contains(b)));
-        } else if several {
-            pairs += 1;
-        } else if graph6::is_graph6(line) {
-            graphs += 1;
-        } else if let [b':' | b';', _, ..] = line {
-            sparse += 1;
-        }
-    }
-    if sparse > graphs.max(pairs) {
-        Err(Problem::OtherEncoding("sparse6"))
-    } else if graphs > pairs {
-        Ok(Format::Graph6)
-    } else if graphs == pairs && graphs > 0 {
-        Err(Problem::AmbiguousFormat)
-    } else {
-        Ok(Format::EdgeList)
-    }
-}
-
-/// The graphs of a graph6 file.
-struct Lines<R> {
-    name: String,
-    input: BufReader<R>,
-    line: u64,
-    failed: bool,
-}
-
-impl<R: Read> Iterator for Lines<R> {
-    type Item = Result<NamedGraph, ReadError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let mut line = Vec::new();
-        while !self.failed {
-            line.clear();
-            self.line += 1;
-            let fault = match self.input.read_until(b'\n', &mut line) {
-                Ok(0) => return None,
-                Ok(_) => {
-                    let text = line.strip_suffix(b"\n").unwrap_or(&line);
-                    let text = text.strip_suffix(b"\r").unwrap_or(text);
-                    if text.is_empty() {
-                        continue;
-                    }
-                    match graph_of_line(text) {
-                        Ok(graph) => {
-                            return Some(Ok(NamedGraph {
-                                name: format!("{}:{}", self.name, self.line),
-                                graph,
-                                labels: Labels::Numbers { first: 0 },
-                                notes: Vec::new(),
-                            }));
-                        }
-                        Err(problem) => Place::Line(self.line).fault(problem),
-                    }
-                }
-                Err(error) => {
-                    self.failed = true;
-                    Place::Input.fault(Problem::Unreadable(error))
-                }
-            };
-            return Some(Err(fault.in_file(&self.name)));
-        }
-        None
-    }
-}
-
-fn graph_of_line(line: &[u8]) -> Result<Graph, Problem> {
-    let graph = graph6::decode(line)?;
-    match (graph.nodes(), graph.edges()) {
-        (0, _) => Err(Problem::NoNodes),
-        (nodes, []) => Err(Problem::NoPairs { nodes }),
-        _ => Ok(graph),
-    }
+        .map_err(|error| Place::Input.fault(error.into()))?;
+    let (graph, chosen) = matlab::read_noting(&bytes, variable)?;
+    Ok((graph, Labels::Numbers { first: 1 }, Vec::from_iter(chosen)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The formulations side by side, as a table, as JSON, and as the bars of a chart.
 
 use super::bars::{Chart, Group};
-use crate::formulation::compare::{Comparison, Line, MatrixLine};
+use super::{counted, size};
+use crate::formulation::compare::{Comparison, Line, MatrixLine, Outcome};
 use crate::graph::NamedGraph;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -13,8 +14,10 @@ use std::io::{self, Write};
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
     let edges = input.graph.edges().len();
     writeln!(out, "{}", input.name)?;
-    let nodes = input.graph.nodes();
-    writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    writeln!(out, "  graph       {}", size(&input.graph))?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     let head = "rows x columns";
     writeln!(
         out,
@@ -24,18 +27,30 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
     for line in &found.lines {
         formulation(out, line)?;
     }
+    let pairs = counted(edges, "pair");
     writeln!(
         out,
-        "  checks      dPhi/dF has rank 8 and kernel F on {} of {edges} pairs; dPhi/dF dF/dP = -dPhi/dP on \
+        "  checks      dPhi/dF has rank 8 and kernel F on {} of {pairs}; dPhi/dF dF/dP = -dPhi/dP on \
          {} of {edges}",
         found.kernel_is_f, found.identity
     )?;
-    let verdict = match (found.agrees(&input.graph), found.excess()) {
-        (true, Some(0)) => "all agree: full rank, finite solvable".to_owned(),
-        (true, Some(excess)) => {
-            format!("all agree: at these cameras {excess} dimensions of motions beyond the trivial")
+    let (computed, all) = (found.computed(), found.lines.len());
+    let who = if computed == all {
+        "all agree".to_owned()
+    } else {
+        format!("the {computed} of {all} that were computed agree")
+    };
+    let verdict = match found.outcome(&input.graph) {
+        Outcome::Agree(0) => format!("{who}: full rank, finite solvable"),
+        Outcome::Agree(excess) => {
+            let dimensions = counted(excess, "dimension");
+            format!("{who}: at these cameras {dimensions} of motions beyond the trivial")
         }
-        _ => "DISAGREE".to_owned(),
+        Outcome::Disagree => "DISAGREE".to_owned(),
+        Outcome::NotCompared => format!(
+            "nothing compared: {computed} of {all} computed, the others are too large; raise the limit \
+             with --limit"
+        ),
     };
     writeln!(out, "  result      {verdict}")
 }
@@ -90,8 +105,10 @@ fn rank_cells(line: &Line) -> String {
 #[derive(Serialize)]
 struct Json<'a> {
     graph: JsonGraph<'a>,
+    notes: &'a [String],
     draw: u64,
-    agree: bool,
+    agree: Option<bool>,
+    computed: usize,
     excess: Option<usize>,
     kernel_is_f: usize,
     implicit_identity: usize,
@@ -166,8 +183,14 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
             nodes: input.graph.nodes(),
             edges: input.graph.edges().len(),
         },
+        notes: &input.notes,
         draw: found.draw,
-        agree: found.agrees(&input.graph),
+        agree: match found.outcome(&input.graph) {
+            Outcome::Agree(_) => Some(true),
+            Outcome::Disagree => Some(false),
+            Outcome::NotCompared => None,
+        },
+        computed: found.computed(),
         excess: found.excess(),
         kernel_is_f: found.kernel_is_f,
         implicit_identity: found.identity,

@@ -1,5 +1,6 @@
 //! The conditions of the literature with their witnesses.
 
+use super::{counted, size};
 use crate::conditions::moves::Move;
 use crate::conditions::{Answer, Condition, Witness, refuted, solvable};
 use crate::graph::NamedGraph;
@@ -59,11 +60,13 @@ fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
         }
         Some(Witness::Reached(count)) => {
             let nodes = input.graph.nodes();
-            vec![format!("at most {count} of {nodes} cameras are reached")]
+            let cameras = counted(nodes, "camera");
+            vec![format!("at most {count} of {cameras} are reached")]
         }
         Some(Witness::Moves(moves)) => moves.iter().map(|step| describe(step, &label)).collect(),
         Some(Witness::Missing(count)) => {
-            vec![format!("{count} edges of the complete graph missing")]
+            let edges = counted(*count, "edge");
+            vec![format!("{edges} of the complete graph missing")]
         }
     }
 }
@@ -114,8 +117,10 @@ const SHOWN: usize = 12;
 /// Those of the writer.
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
-    let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
-    writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    writeln!(out, "  graph       {}", size(&input.graph))?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     for condition in found {
         let kind = if condition.necessary {
             "necessary"
@@ -146,6 +151,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     result: &'static str,
     conditions: Vec<JsonCondition>,
 }
@@ -182,6 +188,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         graph: &input.name,
         nodes: input.graph.nodes(),
         edges: input.graph.edges().len(),
+        notes: &input.notes,
         result: conclusion(found),
         conditions,
     };

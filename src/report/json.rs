@@ -8,6 +8,7 @@ use std::io::{self, Write};
 #[derive(Serialize)]
 struct Line<'a> {
     graph: GraphLine<'a>,
+    notes: &'a [String],
     model: &'static str,
     verdict: &'static str,
     strength: &'static str,
@@ -57,6 +58,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             edges: input.graph.edges().len(),
             sha256: hex(&verdict.sha256),
         },
+        notes: &input.notes,
         model: verdict.model.name(),
         verdict: verdict.value.name(),
         strength: verdict.strength.name(),

@@ -1,6 +1,6 @@
 //! A few lines a graph, for people.
 
-use super::Report;
+use super::{Report, counted, size};
 use crate::evidence::{Evidence, Strength, Witness};
 use crate::model::Model;
 use crate::verdict::{Value, Verdict};
@@ -16,12 +16,7 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
-    let nodes = input.graph.nodes();
-    writeln!(
-        out,
-        "  graph       {nodes} cameras, {} pairs",
-        input.graph.edges().len()
-    )?;
+    writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
@@ -36,7 +31,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "  components  {} ({}): {}",
+        "  components  {} ({}){}",
         verdict.components.len(),
         strength(verdict.components_strength),
         sizes(verdict)
@@ -78,6 +73,9 @@ fn strength(strength: Strength) -> String {
 fn reason(report: &Report) -> String {
     let verdict = report.verdict;
     let nodes = report.input.graph.nodes();
+    if nodes == 1 {
+        return "a single camera has nothing to be relative to".into();
+    }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
         return match verdict.contraction.bodies.len() {
             0 => "a single pair determines its two cameras".into(),
@@ -95,7 +93,10 @@ fn reason(report: &Report) -> String {
             Some(Evidence::IntegerMinor(minor)) => {
                 let witness = match &minor.witness {
                     Witness::Determinant(determinant) => {
-                        format!("a determinant of {} bits", determinant.bits())
+                        format!(
+                            "a determinant of {}",
+                            counted(determinant.bits() as usize, "bit")
+                        )
                     }
                     Witness::Prime(prime) => format!("not even modulo {prime}"),
                 };
@@ -114,6 +115,7 @@ fn reason(report: &Report) -> String {
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
     match verdict.strength {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
+        Strength::Proof if parts == 0 => "there are no pairs".into(),
         Strength::Proof if parts > 1 => {
             format!("{parts} parts hang together in single cameras, or not at all")
         }
@@ -124,23 +126,24 @@ fn reason(report: &Report) -> String {
     }
 }
 
+/// The sizes of the components, behind a colon if there are any.
 fn sizes(verdict: &Verdict) -> String {
     let mut text: Vec<String> = verdict
         .components
         .iter()
         .take(SHOWN)
         .map(|component| {
-            let plural = if component.edges == 1 { "" } else { "s" };
-            format!(
-                "{} cameras / {} pair{plural}",
-                component.nodes, component.edges
-            )
+            let (nodes, edges) = (component.nodes, component.edges);
+            format!("{} / {}", counted(nodes, "camera"), counted(edges, "pair"))
         })
         .collect();
     if verdict.components.len() > SHOWN {
         text.push(format!("and {} more", verdict.components.len() - SHOWN));
     }
-    text.join(", ")
+    if text.is_empty() {
+        return String::new();
+    }
+    format!(": {}", text.join(", "))
 }
 
 fn seconds(micros: u128) -> String {

@@ -6,10 +6,11 @@ use crate::camera::{self, DrawKey};
 use crate::component;
 use crate::evidence::{Class, ClassKind, Draws, Evidence, ModularDraw, PieceVerdict, Strength};
 use crate::exact::prime::PrimeField;
-use crate::formulation::plane_flow::{Lambda, PlaneFlowRank, PlaneFlows};
+use crate::formulation::plane_flow::{self, Lambda, PlaneFlowRank, PlaneFlows};
 use crate::graph::core_sha256;
 use crate::model::Model;
 use crate::piece::{Assembly, Core, Members};
+use crate::watch::{Step, Stopped, Task};
 use rayon::prelude::*;
 
 /// How many draws are tried modulo the given prime before the question is left open.
@@ -48,6 +49,7 @@ fn decide(
     let mut rank = 0;
     if options.model == Model::Projective {
         let key = piece.key(0);
+        let task = piece.task(Step::WholeMatrix);
         let found = match options.arithmetic {
             Arithmetic::Rational {
                 numerator,
@@ -57,10 +59,14 @@ fn decide(
                 numerator,
                 denominator,
                 &key,
+                &task,
             )?),
-            Arithmetic::Prime if !options.contraction => {
-                Some(whole_matrix::modular(&core.graph, &options.field, &key)?)
-            }
+            Arithmetic::Prime if !options.contraction => Some(whole_matrix::modular(
+                &core.graph,
+                &options.field,
+                &key,
+                &task,
+            )?),
             Arithmetic::Prime => None,
         };
         if let Some((found, its_rank)) = found {
@@ -119,6 +125,10 @@ impl Piece<'_> {
         }
     }
 
+    fn task(&self, step: Step) -> Task<'_> {
+        self.options.watch.task(step, self.core.graph.nodes())
+    }
+
     /// The rank of the core of a finite solvable piece.
     fn required(&self) -> usize {
         self.options.model.required(self.core.graph.nodes())
@@ -148,8 +158,8 @@ impl Piece<'_> {
         }
     }
 
-    fn ranks<'c>(&'c self, at: &'c Centres) -> Ranks<'c> {
-        ranks(self.options.model, at, self.core)
+    fn ranks<'c>(&'c self, at: &'c Centres) -> Result<Ranks<'c>, Stopped> {
+        ranks(self.options, at, self.core)
     }
 
     /// The motion classes at some centres, and the kernel vector that shows them.
@@ -181,37 +191,47 @@ impl Piece<'_> {
         at: &Centres,
         before: &[Evidence],
     ) -> Result<Option<PieceVerdict>, VerdictError> {
-        let ranks = self.ranks(at);
+        let ranks = self.ranks(at)?;
         let mut evidence = before.to_vec();
         evidence.push(ranks.evidence(at.draw));
         if ranks.rank == self.required() {
             return Ok(Some(self.full(evidence)));
         }
         let lower = self.rank_of_piece(ranks.rank);
+        let work = self.task(Step::Components).begin(0);
         let Some((found, kernel)) = self.classes(at, &ranks) else {
             return Ok(None);
         };
+        drop(work);
         if found.len() < 2 {
             return Ok(None);
         }
         let mut classes = Vec::with_capacity(found.len());
+        let work = self.task(Step::Components).begin(found.len() as u64);
         for members in &found {
             classes.push(self.class(members, at.draw.draw)?);
+            work.done(1)?;
         }
+        drop(work);
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let mut upper = self.rank_of_piece(self.required());
         if self.options.counting {
             // Where to look is not a claim: a large prime looks best.
             let field = PrimeField::mersenne61();
+            let work = self.task(Step::Counting).begin(0);
+            work.done(0)?;
             let counting = bound::count(
                 self.options.model,
                 self.assembly,
                 self.members,
                 &components,
                 lower,
-                &field,
-                &mut at.key.residues(&field),
-            );
+                &mut bound::Search {
+                    field: &field,
+                    random: &mut at.key.residues(&field),
+                    task: work.task(),
+                },
+            )?;
             if counting.bound < upper {
                 upper = counting.bound;
                 evidence.push(Evidence::Counting(counting));
@@ -289,7 +309,7 @@ impl Piece<'_> {
         };
         for _ in 0..attempts {
             let at = draw(&field, nodes, next)?;
-            let ranks = ranks(self.options.model, &at, &core);
+            let ranks = ranks(self.options, &at, &core)?;
             if ranks.rank == required {
                 return Ok(Some(ranks.evidence(at.draw)));
             }
@@ -316,11 +336,13 @@ impl Piece<'_> {
         let mut kernels = Vec::new();
         let mut largest = 0;
         let mut next = 0;
+        let work = self.task(Step::Draws).begin(count as u64);
         for _ in 0..count {
+            work.done(1)?;
             let (field, values, used) = camera::centres_mod_drawn_prime(nodes, &self.key(next))?;
             let at = Centres::new(field, values, self.key(used));
             next = used + 1;
-            let ranks = self.ranks(&at);
+            let ranks = self.ranks(&at)?;
             largest = largest.max(ranks.rank);
             let Some((found, kernel)) = self.classes(&at, &ranks) else {
                 return Ok(None);
@@ -379,22 +401,26 @@ fn draw(field: &PrimeField, nodes: usize, key: DrawKey) -> Result<Centres, Verdi
     Ok(Centres::new(*field, drawn.values, key))
 }
 
-fn ranks<'a>(model: Model, at: &'a Centres, core: &'a Core) -> Ranks<'a> {
-    let flows = PlaneFlows::new(&at.field, &core.graph, &at.values);
+fn ranks<'a>(options: &Options, at: &'a Centres, core: &'a Core) -> Result<Ranks<'a>, Stopped> {
+    let mut task = options.watch.task(Step::Flows, core.graph.nodes());
+    if options.model == Model::Projective {
+        task = plane_flow::expect_lambda(&core.graph, &task)?;
+    }
+    let flows = PlaneFlows::watched(&at.field, &core.graph, &at.values, &task)?;
     let rigidity = flows.rigidity_rank();
-    match model {
+    Ok(match options.model {
         Model::Calibrated => Ranks {
             flows,
             lambda: None,
             rank: rigidity,
         },
         Model::Projective => {
-            let lambda = flows.lambda(at.key.flow_weights(&at.field));
+            let lambda = flows.lambda_watched(at.key.flow_weights(&at.field), &task)?;
             Ranks {
                 rank: 4 * rigidity + lambda.rank() - core.graph.edges().len(),
                 flows,
                 lambda: Some(lambda),
             }
         }
-    }
+    })
 }

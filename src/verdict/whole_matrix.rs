@@ -10,10 +10,11 @@ use crate::exact::integer::{Integer, Integers};
 use crate::exact::multimodular;
 use crate::exact::prime::PrimeField;
 use crate::exact::span::Span;
-use crate::exact::sparse::Factorisation;
+use crate::exact::sparse::{Factorisation, Unfinished};
 use crate::formulation::skew::{self, SparseRows};
 use crate::graph::Graph;
 use crate::model::Model;
+use crate::watch::{Stopped, Task};
 
 /// Largest matrix, in entries, that is eliminated sparsely: J_P of 4,200 cameras with four pairs
 /// each, some minutes.
@@ -38,11 +39,12 @@ pub(super) fn modular(
     graph: &Graph,
     field: &PrimeField,
     key: &DrawKey,
+    task: &Task,
 ) -> Result<(Evidence, usize), VerdictError> {
     let (_, cols) = size(graph)?;
     let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
     let jacobian = skew::jacobian(field, graph, &drawn.values);
-    let pivots = pivots(graph, field, jacobian, cols)?;
+    let pivots = pivots(graph, field, jacobian, cols, task)?;
     let rank = pivots.rank();
     let draw = ModularDraw {
         prime: field.modulus(),
@@ -59,17 +61,18 @@ pub(super) fn rational(
     numerator: u64,
     denominator: u64,
     key: &DrawKey,
+    task: &Task,
 ) -> Result<(Evidence, usize), VerdictError> {
     let (rows, cols) = size(graph)?;
     let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
     let (pivots, witness, kernel) = if rows * cols <= MAX_FRACTION_FREE {
-        let done = bareiss::eliminate(skew::dense(&Integers, &jacobian, cols));
+        let done = bareiss::eliminate_watched(skew::dense(&Integers, &jacobian, cols), task)?;
         let witness = Witness::Determinant(done.determinant().clone());
         (done.pivots().clone(), witness, done.kernel())
     } else {
-        let pivots = sparse_pivots(graph, &jacobian, cols)?;
+        let pivots = sparse_pivots(graph, &jacobian, cols, task)?;
         // The trivial motions alone account for the rest of a full rank.
         let kernel = if pivots.rank() == Model::Projective.required(graph.nodes()) {
             Vec::new()
@@ -78,9 +81,11 @@ pub(super) fn rational(
                 let what = "an exact kernel of the whole Jacobian";
                 return Err(too_large(graph, what, (rows, cols)));
             }
-            multimodular::rank_exact(&jacobian, cols).kernel().to_vec()
+            multimodular::rank_exact_watched(&jacobian, cols, task)?
+                .kernel()
+                .to_vec()
         };
-        let (pivots, witness) = witness(&jacobian, cols, pivots);
+        let (pivots, witness) = witness(&jacobian, cols, pivots, task)?;
         (pivots, witness, kernel)
     };
     let rank = pivots.rank();
@@ -101,6 +106,7 @@ fn sparse_pivots(
     graph: &Graph,
     rows: &SparseRows<Integer>,
     cols: usize,
+    task: &Task,
 ) -> Result<Pivots, VerdictError> {
     let field = PrimeField::mersenne61();
     let residue = |x: &Integer| field.from_u64(x.rem_u64(field.modulus()));
@@ -111,7 +117,7 @@ fn sparse_pivots(
             entries.filter(|&(_, x)| x != 0).collect()
         })
         .collect();
-    pivots(graph, &field, residues, cols)
+    pivots(graph, &field, residues, cols, task)
 }
 
 /// Pivots of J_P, unless it fills in too much.
@@ -120,27 +126,36 @@ fn pivots(
     field: &PrimeField,
     jacobian: SparseRows<u64>,
     cols: usize,
+    task: &Task,
 ) -> Result<Pivots, VerdictError> {
-    let done = Factorisation::within(field, jacobian, cols, MAX_RESIDUES);
     let what = "the whole Jacobian, as far as it fills in,";
-    done.map(|done| done.pivots())
-        .map_err(|size| too_large(graph, what, size))
+    match Factorisation::watched(field, jacobian, cols, MAX_RESIDUES, task) {
+        Ok(done) => Ok(done.pivots()),
+        Err(Unfinished::TooLarge(rows, cols)) => Err(too_large(graph, what, (rows, cols))),
+        Err(Unfinished::Stopped(stopped)) => Err(stopped.into()),
+    }
 }
 
 /// Why the minor with pivots modulo 2^61 - 1 is not zero: its determinant, by fraction-free
 /// elimination of the minor alone, if that is not too long; with the pivots in its order.
-fn witness(rows: &SparseRows<Integer>, cols: usize, pivots: Pivots) -> (Pivots, Witness) {
+fn witness(
+    rows: &SparseRows<Integer>,
+    cols: usize,
+    pivots: Pivots,
+    task: &Task,
+) -> Result<(Pivots, Witness), Stopped> {
     if pivots.rank() > MAX_DETERMINANT {
-        return (pivots, Witness::Prime(PrimeField::mersenne61().modulus()));
+        let prime = PrimeField::mersenne61().modulus();
+        return Ok((pivots, Witness::Prime(prime)));
     }
     let minor = skew::dense(&Integers, rows, cols).submatrix(&pivots.rows, &pivots.cols);
-    let done = bareiss::eliminate(minor);
+    let done = bareiss::eliminate_watched(minor, task)?;
     let order = done.pivots();
     let pivots = Pivots {
         rows: order.rows.iter().map(|&k| pivots.rows[k]).collect(),
         cols: order.cols.iter().map(|&k| pivots.cols[k]).collect(),
     };
-    (pivots, Witness::Determinant(done.determinant().clone()))
+    Ok((pivots, Witness::Determinant(done.determinant().clone())))
 }
 
 /// Rows and columns of J_P, unless nobody would wait for the end of its elimination.

@@ -1,28 +1,42 @@
 //! `--claims`: every row of a table, decided again.
 
-use super::super::{BAD_INPUT, GOOD, NOT};
+use super::super::certificates::{Target, too_many};
+use super::super::{GOOD, NOT, atomic, ends_run, exit_code};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use crate::audit::claims::{self, Claim, Named, Row, Ruling};
 use crate::graph::read::graphs;
 use crate::graph::{NamedGraph, ReadOptions, graph6, read_graphs};
+use crate::report::counted;
 use crate::verdict;
 use anyhow::{Context, Result, anyhow, bail};
-use std::io::{BufWriter, Cursor, Write};
+use std::io::{Cursor, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
-    let rows = claims::read_table(&text).with_context(|| path.display().to_string())?;
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut target = arguments.target();
+    let at = |line: usize| format!("{}:{line}", path.display());
+    let rows = claims::read_table(&text, &arguments.ignore)
+        .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
+    let mut target = arguments.target(&[path.to_string_lossy().into_owned()])?;
+    if let Some(file) = target.as_ref().and_then(Target::single)
+        && rows.len() > 1
+    {
+        bail!(too_many(file, &counted(rows.len(), "claim")));
+    }
+    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let mut counts = [0; 4];
+    let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
         let ruled = claim(arguments, row).and_then(|(claim, input)| {
-            let exact = verdict::decide(&input.graph, &arguments.exact())
-                .with_context(|| input.name.clone())?;
+            let options = verdict::Options {
+                model: claim.model,
+                ..arguments.exact()
+            };
+            let exact =
+                verdict::decide(&input.graph, &options).with_context(|| input.name.clone())?;
             let edges = input.graph.edges().len();
             let ruling = claims::rule(&claim, input.graph.nodes(), edges, &exact);
             let certificate = match (&ruling, target.as_mut()) {
@@ -33,9 +47,11 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         });
         let (ruling, decided, certificate) = match ruled {
             Ok(ruled) => ruled,
+            Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
-                writeln!(std::io::stderr(), "verify: row {number}: {error:#}")?;
+                writeln!(std::io::stderr(), "verify: {}: {error:#}", at(row.line))?;
                 counts[3] += 1;
+                worst = worst.max(exit_code(&error));
                 continue;
             }
         };
@@ -46,6 +62,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         }] += 1;
         let line = Ruled {
             number,
+            line: row.line,
             ruling: &ruling,
             decided: (&decided.0, &decided.1),
             certificate: certificate.as_deref(),
@@ -61,20 +78,25 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     if !arguments.json {
         writeln!(
             out,
-            "{confirmed} confirmed, {refuted} refuted, {open} not decidable, {bad} bad rows"
+            "{confirmed} confirmed, {refuted} refuted, {open} not decidable, {}",
+            counted(bad, "bad row")
         )?;
         out.flush().context("standard output")?;
     }
-    Ok(ExitCode::from(match (bad, refuted) {
-        (1.., _) => BAD_INPUT,
-        (0, 1..) => NOT,
-        _ => GOOD,
-    }))
+    if refuted > 0 {
+        worst = worst.max(NOT);
+    }
+    Ok(ExitCode::from(worst))
 }
 
 /// The claim of a row and the graph that it names.
 fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
     let claim = claims::claim(row)?;
+    let read = |path: &str| {
+        let output = ("--certificate", arguments.certificate.as_deref());
+        atomic::ensure_apart(&[output], [Path::new(path)])?;
+        Ok::<_, anyhow::Error>(read_graphs(path, &ReadOptions::default()))
+    };
     let folder = || {
         let advice = || anyhow!("the graph is named by file or name: say where with --graphs DIR");
         arguments.folder.as_deref().ok_or_else(advice)
@@ -84,18 +106,36 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
             let line = Cursor::new(format!("{text}\n").into_bytes());
             only(text, graphs(text.clone(), line, ReadOptions::default()))?
         }
-        Named::Graph(text) => only(text, read_graphs(text, &ReadOptions::default()))?,
+        Named::Graph(text) if text == "-" || text.starts_with("-:") => bail!(
+            "{text}: the graph was read from standard input, and is not there any more; name its file"
+        ),
+        Named::Graph(text) => match line_of(text) {
+            Some(path) => {
+                let mut graphs = read(path)?;
+                // Of what stands on other lines, nothing matters here.
+                let named = graphs.find(|graph| graph.as_ref().is_ok_and(|g| g.name == *text));
+                named.with_context(|| format!("unknown graph {text}: no graph on that line"))??
+            }
+            None => only(text, read(text)?)?,
+        },
         Named::File(file) => {
             let path = folder()?.join(file);
             let path = path.to_string_lossy();
-            only(file, read_graphs(&path, &ReadOptions::default()))?
+            only(file, read(&path)?)?
         }
         Named::Name(name) => {
             let path = find(folder()?, name)?;
-            only(name, read_graphs(&path, &ReadOptions::default()))?
+            only(name, read(&path)?)?
         }
     };
     Ok((claim, input))
+}
+
+/// The file in the name of a graph on a line of it, as in `file.g6:3`.
+fn line_of(name: &str) -> Option<&str> {
+    let (path, line) = name.rsplit_once(':')?;
+    let is_line = !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit());
+    (is_line && !Path::new(name).exists() && Path::new(path).is_file()).then_some(path)
 }
 
 /// The only graph of an input.

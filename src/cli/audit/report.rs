@@ -1,7 +1,9 @@
 //! Exact and float side by side.
 
+use crate::audit::published::Study;
 use crate::audit::{FloatVerdict, Outcome};
 use crate::graph::NamedGraph;
+use crate::report::{counted, size};
 use crate::verdict::Verdict;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -31,6 +33,9 @@ pub(super) struct Audit<'a> {
     pub(super) draws: usize,
     /// At how many of them the float verdict was not the exact one.
     pub(super) misjudged: usize,
+    /// The published method of components without rounding, where it may be what makes the
+    /// difference and does not take too long.
+    pub(super) method: Option<Study>,
 }
 
 impl Audit<'_> {
@@ -38,6 +43,48 @@ impl Audit<'_> {
     fn margin(&self) -> Option<f64> {
         let margin = self.outcome.margin(self.tolerance);
         (!margin.is_nan()).then_some(margin)
+    }
+
+    /// Why the sides do not agree, as far as it is known; `None` if they do.
+    fn reason(&self) -> Option<String> {
+        let exact = self.exact.components.len();
+        let float = match self.components {
+            _ if self.agrees => return None,
+            Some(float) => float,
+            None => return Some("floating point gave no number".into()),
+        };
+        if self.misjudged > 0 {
+            return Some(format!(
+                "the smallest eigenvalue is on the wrong side of the tolerance at {} of {}",
+                self.misjudged,
+                counted(self.draws, "draw")
+            ));
+        }
+        let Some(method) = &self.method else {
+            return Some(
+                "the components differ; the graph is too large to repeat the published method of components \
+                 in exact arithmetic"
+                    .into(),
+            );
+        };
+        if method.components != float {
+            let found = method.components;
+            return Some(format!(
+                "rounding: in exact arithmetic the published method of components finds {found}"
+            ));
+        }
+        let (least, most) = (method.by_start.start(), method.by_start.end());
+        let starts = counted(method.starts, "pair");
+        let spread = if least == most {
+            format!("begun at any of {starts}, {least}")
+        } else {
+            format!("begun at one or another of {starts}, {least} to {most}")
+        };
+        Some(format!(
+            "the published method of components, not rounding: pairs that always move as one need not be \
+             a component (docs/theory.md, Example 6.2); in exact arithmetic, too, it finds {float} instead of \
+             {exact}; without the pairs of earlier components, {spread}"
+        ))
     }
 }
 
@@ -49,8 +96,10 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let graph = &audit.input.graph;
     let exact = audit.exact;
     writeln!(out, "{}", audit.input.name)?;
-    let (nodes, edges) = (graph.nodes(), graph.edges().len());
-    writeln!(out, "  graph       {nodes} cameras, {edges} pairs")?;
+    writeln!(out, "  graph       {}", size(graph))?;
+    for note in &audit.input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
     writeln!(
         out,
         "  exact       {} ({}), components {}, {:.3} s",
@@ -99,10 +148,14 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     }
     let result = match (audit.agrees, audit.outcome.verdict) {
         (true, _) => "agree",
-        (false, FloatVerdict::Undecided) => "undecided: floating point gave no number",
+        (false, FloatVerdict::Undecided) => "undecided",
         (false, _) => "DISAGREE",
     };
-    writeln!(out, "  result      {result}")
+    writeln!(out, "  result      {result}")?;
+    match audit.reason() {
+        Some(reason) => writeln!(out, "  because     {reason}"),
+        None => Ok(()),
+    }
 }
 
 #[derive(Serialize)]
@@ -110,11 +163,22 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    notes: &'a [String],
     exact: Side,
     float: Float,
     agree: bool,
     draws: usize,
     misjudged: usize,
+    reason: Option<String>,
+    published_method: Option<PublishedMethod>,
+}
+
+#[derive(Serialize)]
+struct PublishedMethod {
+    components: usize,
+    components_least_by_start: usize,
+    components_most_by_start: usize,
+    starts: usize,
 }
 
 #[derive(Serialize)]
@@ -150,6 +214,7 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         graph: &audit.input.name,
         nodes: audit.input.graph.nodes(),
         edges: audit.input.graph.edges().len(),
+        notes: &audit.input.notes,
         exact: Side {
             verdict: audit.exact.value.name(),
             strength: audit.exact.strength.name(),
@@ -172,6 +237,13 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         agree: audit.agrees,
         draws: audit.draws,
         misjudged: audit.misjudged,
+        reason: audit.reason(),
+        published_method: audit.method.as_ref().map(|method| PublishedMethod {
+            components: method.components,
+            components_least_by_start: *method.by_start.start(),
+            components_most_by_start: *method.by_start.end(),
+            starts: method.starts,
+        }),
     };
     serde_json::to_writer(&mut *out, &line)?;
     out.write_all(b"\n")

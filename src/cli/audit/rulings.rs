@@ -12,6 +12,8 @@ use std::path::Path;
 pub(super) struct Ruled<'a> {
     /// The row, from 1.
     pub(super) number: usize,
+    /// Its line in the table, from 1.
+    pub(super) line: usize,
     /// What was found.
     pub(super) ruling: &'a Ruling,
     /// The graph and its exact verdict.
@@ -65,6 +67,7 @@ pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
 #[derive(Serialize)]
 struct Json<'a> {
     row: usize,
+    line: usize,
     ruling: &'static str,
     reason: String,
     graph: &'a str,
@@ -83,6 +86,7 @@ pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
     let (input, exact) = ruled.decided;
     let line = Json {
         row: ruled.number,
+        line: ruled.line,
         ruling: match ruled.ruling {
             Ruling::Refuted(_) => "refuted",
             other => word(other),

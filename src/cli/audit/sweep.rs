@@ -4,14 +4,18 @@ use super::super::{GOOD, atomic};
 use super::AuditArguments;
 use crate::audit::study::{self, Populations};
 use crate::graph::NamedGraph;
+use crate::report::counted;
 use crate::report::curves::{self, Picture};
 use crate::verdict::{self, Value};
 use anyhow::{Context, Result};
-use std::io::{BufWriter, Write};
+use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Sweeps over all graphs together.
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+    let inputs = arguments.graphs.iter().map(Path::new);
+    atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut populations = Populations::default();
     let each = |_: &mut _, input: &NamedGraph, _| {
         add(arguments, input, &mut populations)?;
@@ -19,10 +23,10 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &mut std::io::sink(), each)?;
+        .for_each(&arguments.graphs, None, &mut std::io::sink(), each)?;
     let sweep = populations.sweep();
     let share = |count: usize, of: &[f64]| count as f64 / of.len().max(1) as f64;
-    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut out = atomic::text(&[arguments.svg.as_deref()]);
     writeln!(
         out,
         "tolerance,not_solvable_draws,false_solvable,false_solvable_rate,solvable_draws,\
@@ -45,8 +49,8 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     if populations.undecided > 0 {
         writeln!(
             std::io::stderr(),
-            "verify: {} draws were undecided: not numbers, or infinite",
-            populations.undecided
+            "verify: {} without a verdict: not a number, or infinite",
+            counted(populations.undecided, "draw")
         )?;
     }
     if let Some(path) = &arguments.svg {

@@ -55,6 +55,14 @@ impl Shard {
         candidate / BLOCK % self.count == self.index - 1
     }
 
+    /// How many of so many candidates the shard decides.
+    pub(super) fn share(self, candidates: u64) -> u64 {
+        let round = BLOCK.saturating_mul(self.count);
+        let before = BLOCK.saturating_mul(self.index - 1);
+        let last = (candidates % round).saturating_sub(before).min(BLOCK);
+        candidates / round * BLOCK + last
+    }
+
     /// The name of its folder.
     pub(super) fn folder(self) -> String {
         format!("shard-{}-of-{}", self.index, self.count)
@@ -243,4 +251,27 @@ pub(super) fn read_part(path: &Path, run: &Run) -> Result<(Summary, String)> {
         path.display()
     );
     Ok((end.summary, end.candidates_sha256))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_a_shard_is_what_it_owns() {
+        for count in [1, 2, 3, 7, 64] {
+            for candidates in [0, 1, 63, 64, 65, 433, 5898] {
+                for index in 1..=count {
+                    let shard = Shard { index, count };
+                    let owned = (0..candidates).filter(|&candidate| shard.owns(candidate));
+                    let owned = owned.count() as u64;
+                    assert_eq!(shard.share(candidates), owned, "{shard:?} of {candidates}");
+                }
+            }
+        }
+        let count = u64::MAX;
+        let shard = |index| Shard { index, count };
+        assert_eq!((shard(1).share(100), shard(2).share(100)), (64, 36));
+        assert_eq!(shard(count).share(100), 0);
+    }
 }

@@ -1,7 +1,8 @@
 //! `verify catalog publish`: the published catalog, byte for byte the same every time.
 
+use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::super::progress::Progress;
-use super::super::{GOOD, atomic};
+use super::super::{GOOD, atomic, running};
 use crate::catalog::candidates::to_graph;
 use crate::catalog::canonical::canonical;
 use crate::catalog::invariants::Invariants;
@@ -13,7 +14,7 @@ use crate::exact::prime::PrimeField;
 use crate::graph::{Graph, graph6};
 use crate::report::catalog_page::{self, Drawing};
 use crate::verdict::{Options, Value, Verdict, VerdictError, decide};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
 use rayon::prelude::*;
@@ -50,12 +51,23 @@ const BATCH: usize = 1024;
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let folder = &arguments.folder;
     std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    // The only name among those of the catalog that anybody's folder may have.
+    let counts = std::fs::read_to_string(folder.join("counts.tsv")).unwrap_or_default();
+    ensure!(
+        !folder.join("README.md").exists() || counts.starts_with(COUNTED),
+        "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
+        folder.display()
+    );
     let progress = Progress::new(None);
     let mut drawings = Vec::new();
     let mut counts = Vec::new();
+    let mut files = Files {
+        folder,
+        written: Vec::new(),
+    };
     let certified = 3..=usize::from(arguments.certified);
     for nodes in certified.clone() {
-        let (summary, mut found) = certify(folder, nodes, &progress)?;
+        let (summary, mut found) = certify(&mut files, nodes, &progress)?;
         counts.push((nodes, summary));
         if nodes <= DRAWN {
             drawings.append(&mut found);
@@ -63,36 +75,75 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     let listed = certified.end() + 1..=usize::from(arguments.listed);
     for nodes in listed.clone() {
-        counts.push((nodes, list(folder, nodes, &progress)?));
+        counts.push((nodes, list(&mut files, nodes, &progress)?));
     }
     progress.finish();
-    write(folder, "finite-solvable.svg", |out| {
+    files.write("finite-solvable.svg", None, |out| {
         out.write_all(catalog_page::page(&drawings).as_bytes())
     })?;
-    write(folder, "counts.tsv", |out| write_counts(out, &counts))?;
-    write(folder, "README.md", |out| {
+    files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
+    files.write("README.md", None, |out| {
         out.write_all(readme(&certified, &listed).as_bytes())
     })?;
+    files.close()?;
     Ok(ExitCode::from(GOOD))
 }
 
-fn write(
-    folder: &Path,
-    name: &str,
-    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<()> {
-    atomic::write(&folder.join(name), write)
+/// The files that have been written to the folder.
+struct Files<'a> {
+    folder: &'a Path,
+    written: Vec<FileEntry>,
+}
+
+impl Files<'_> {
+    /// Writes a file; `certificates` says what it proves if it holds certificates.
+    fn write(
+        &mut self,
+        name: &str,
+        certificates: Option<Contents>,
+        write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Result<()> {
+        let mut sha256 = String::new();
+        atomic::write(&self.folder.join(name), |out| {
+            let mut out = Hashing::new(out);
+            write(&mut out)?;
+            sha256 = out.finish();
+            Ok(())
+        })?;
+        self.written.push(FileEntry {
+            file: name.into(),
+            sha256,
+            certificates,
+        });
+        Ok(())
+    }
+
+    /// Writes the manifest.
+    fn close(self) -> Result<()> {
+        let manifest = Manifest::new(self.written);
+        atomic::write(&self.folder.join(manifest::NAME), |out| {
+            serde_json::to_writer_pretty(&mut *out, &manifest)?;
+            out.write_all(b"\n")
+        })
+    }
+}
+
+fn options() -> Options {
+    Options {
+        watch: running::watch(),
+        ..Options::default()
+    }
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
 fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = Options::default();
+    let options = options();
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| Options {
             field,
-            ..Options::default()
+            ..options.clone()
         },
     );
     match decide(graph, &small) {
@@ -120,10 +171,11 @@ fn relabelled(graph: &Graph) -> Graph {
 
 /// Writes the certificates of one size: a file of finite-solvable graphs, and one of refuted
 /// ones.
-fn certify(folder: &Path, nodes: usize, progress: &Progress) -> Result<(Summary, Vec<Drawing>)> {
+fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summary, Vec<Drawing>)> {
     let mut summary = Summary::default();
     let mut drawings = Vec::new();
     let mut files: [Vec<u8>; 2] = Default::default();
+    let mut contents: [Contents; 2] = Default::default();
     for graphs in candidates(nodes)?.chunks(BATCH) {
         let verdicts: Vec<Verdict> = graphs
             .par_iter()
@@ -134,6 +186,12 @@ fn certify(folder: &Path, nodes: usize, progress: &Progress) -> Result<(Summary,
             summary.count(&entry);
             let solvable = verdict.value != Value::NotFiniteSolvable;
             let file = &mut files[usize::from(!solvable)];
+            let found = &mut contents[usize::from(!solvable)];
+            found.graphs += 1;
+            *found
+                .verdicts
+                .entry(verdict.value.name().into())
+                .or_default() += 1;
             certificate::write(file, &entry.graph6, graph, verdict, true, Layout::Compact)?;
             if solvable && nodes <= DRAWN {
                 drawings.push(Drawing {
@@ -144,11 +202,13 @@ fn certify(folder: &Path, nodes: usize, progress: &Progress) -> Result<(Summary,
         }
         progress.done(graphs.len() as u64);
     }
-    for (name, lines) in ["finite-solvable", "refuted"].into_iter().zip(&files) {
+    let files = files.iter().zip(contents);
+    for (name, (lines, contents)) in ["finite-solvable", "refuted"].into_iter().zip(files) {
         if lines.is_empty() {
             continue;
         }
-        write(folder, &format!("n{nodes:02}-{name}.jsonl.gz"), |out| {
+        let name = format!("n{nodes:02}-{name}.jsonl.gz");
+        out.write(&name, Some(contents), |out| {
             // No time and no name in the header: nothing but the contents.
             let mut gz = GzBuilder::new().write(out, Compression::best());
             gz.write_all(lines)?;
@@ -159,8 +219,8 @@ fn certify(folder: &Path, nodes: usize, progress: &Progress) -> Result<(Summary,
 }
 
 /// Writes the finite-solvable graphs of one size, and their invariants in the same order.
-fn list(folder: &Path, nodes: usize, progress: &Progress) -> Result<Summary> {
-    let options = Options::default();
+fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
+    let options = options();
     let mut summary = Summary::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
@@ -190,12 +250,12 @@ fn list(folder: &Path, nodes: usize, progress: &Progress) -> Result<Summary> {
     }
     flush(&mut batch)?;
     let name = |ending: &str| format!("n{nodes:02}-finite-solvable.{ending}");
-    write(folder, &name("g6"), |out| {
+    out.write(&name("g6"), None, |out| {
         found
             .iter()
             .try_for_each(|(graph, _)| writeln!(out, "{}", graph6::encode(graph)))
     })?;
-    write(folder, &name("tsv"), |out| {
+    out.write(&name("tsv"), None, |out| {
         writeln!(
             out,
             "graph6\tdegrees\tgirth\tautomorphisms\ttriangles\tunique_by_contraction"
@@ -224,10 +284,13 @@ fn list(folder: &Path, nodes: usize, progress: &Progress) -> Result<Summary> {
     Ok(summary)
 }
 
+/// The first columns of `counts.tsv`.
+const COUNTED: &str = "nodes\tedges\tcandidates\t";
+
 fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
     writeln!(
         out,
-        "nodes\tedges\tcandidates\tfinite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
+        "{COUNTED}finite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
          unproved\trank_proved\tcomponents_proved"
     )?;
     for (nodes, summary) in counts {
@@ -260,7 +323,8 @@ fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> 
          verify catalog publish certificates/\n\
          ```\n\
          \n\
-         and verified by the independent checker with `verify check certificates/`.\n\
+         and verified by the independent checker with `verify check certificates/`, which also says whether\n\
+         a file is missing, extra or changed.\n\
          \n\
          | file | contents |\n\
          |---|---|\n\
@@ -270,6 +334,7 @@ fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> 
          | `nNN-finite-solvable.tsv` | their invariants, in the same order |\n\
          | `counts.tsv` | counts by number of nodes |\n\
          | `finite-solvable.svg` | all finite-solvable graphs with up to {DRAWN} nodes, drawn |\n\
+         | `manifest.json` | all files but itself: SHA-256, and of certificates how many graphs and which verdicts |\n\
          \n\
          Certificates are JSON lines, one a graph, in the format of\n\
          [docs/certificate.md](../docs/certificate.md), compressed with gzip (a sixth of the size).\n\

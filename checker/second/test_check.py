@@ -1,0 +1,1023 @@
+"""Tests of the second checker: every condition of docs/certificate.md is broken once, and the reason has to name it."""
+
+import contextlib
+import copy
+import gzip
+import io
+import json
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+import agree  # noqa: E402
+import check  # noqa: E402
+import make  # noqa: E402
+
+GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
+PSI = [edge for edge in GAMMA if edge != (0, 2)] + [(0, 9), (2, 9), (0, 10), (2, 10)]
+PRISM_WITH_TAIL = [(0, 1), (0, 2), (1, 2), (2, 3), (3, 4), (0, 4)]
+SQUARE = [(0, 1), (0, 3), (1, 2), (2, 3)]
+FINITE = [(0, 1), (0, 2), (0, 3), (1, 4), (1, 5), (2, 4), (2, 6), (3, 5), (3, 6), (4, 6), (4, 5)]
+
+
+def page():
+    with open(os.path.join(HERE, "..", "..", "docs", "certificate.md"), encoding="utf-8") as file:
+        return file.read()
+
+
+def by_hand():
+    return json.loads(re.search(r"```json\n(.*?)```", page(), re.S)[1])
+
+
+def evidence(document, kind, piece=0):
+    return next(e for e in document["pieces"][piece]["evidence"] if e["kind"] == kind)
+
+
+class Case(unittest.TestCase):
+    def verifies(self, document, **options):
+        return check.check(json.dumps(document).encode(), **options)
+
+    def rejects(self, document, *words, **options):
+        with self.assertRaises(check.Reject) as caught:
+            self.verifies(document, **options)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def broken(self, document, change, *words, **options):
+        """A copy is changed by `change`, and must be rejected with these words."""
+        other = copy.deepcopy(document)
+        change(other)
+        self.assertNotEqual(json.dumps(other), json.dumps(document))
+        with self.subTest(words=words):
+            self.rejects(other, *words, **options)
+
+
+class Page(Case):
+    def test_the_certificate_checked_by_hand(self):
+        document = by_hand()
+        done = self.verifies(document)
+        self.assertEqual(
+            done.statements()[1:],
+            [
+                "projective: not-finite-solvable (proof)",
+                "rank: 28 of 29 required (proof)",
+                "components: 4 maximal (proof)",
+            ],
+        )
+
+    def test_numbers_that_the_page_prints(self):
+        text, document = page(), by_hand()
+        graph = check.read_graph6("Cl")
+        core = check.Core(make.Maker(graph), graph.edges, "")
+        self.assertIn(core.hash.hex(), text)
+        centres = check.draw_centres(graph.hash, core.hash, 4, 11, int(evidence(document, "kernel")["seed"]), 0)
+        for node, centre in enumerate(centres):
+            self.assertIn(f"c_{node} = {centre}", text)
+        rows, _ = check.bearing_rows(core, centres, 11)
+        for k, row in enumerate(rows):
+            cells = " | ".join(str(row.get(c, "")) for c in range(12))
+            line = re.sub(" +", " ", "| %d | %d-%d | %s |" % (k, *core.edges[k // 2], cells))
+            self.assertIn(line, text)
+
+
+class Notation(Case):
+    """Section 1."""
+
+    def text_rejected(self, old, new, *words):
+        text = json.dumps(by_hand())
+        self.assertIn(old, text)
+        with self.subTest(new=new), self.assertRaises(check.Reject) as caught:
+            check.check(text.replace(old, new, 1).encode("utf-8", "surrogatepass"))
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_numbers(self):
+        for number in ("4.0", "4e0", "04", "+4", "-0", "9007199254740992", "1" * 5000, "NaN", "Infinity", "-Infinity"):
+            self.text_rejected('"nodes": 4', f'"nodes": {number}', "JSON" if number in ("04", "+4") else "int")
+        self.text_rejected('"nodes": 4', '"nodes": true', "nodes is not an int")
+        self.text_rejected('"nodes": 4', '"nodes": "4"', "nodes is not an int")
+        self.text_rejected('"draw": 0', '"draw": false', "draw is not an int")
+        self.text_rejected('"version": 2', '"version": true', "version")
+
+    def test_bigs(self):
+        for big in ('"011"', '"+11"', '"-0"', '" 11"', '"11.0"', '""', '"1_1"', '"\u0661\u0661"', "11"):
+            self.text_rejected('"prime": "11"', f'"prime": {big}', "prime is not a big")
+        self.text_rejected('"seed": "1"', '"seed": "18446744073709551616"', "seed is out of range")
+        self.text_rejected('"seed": "1"', '"seed": "-1"', "seed: -1 is below 0")
+        self.text_rejected('"draw": 0', '"draw": -1', "draw: -1 is below 0")
+
+    def test_objects(self):
+        self.text_rejected('"nodes": 4', '"nodes": 4, "nodes": 4', "a member is repeated")
+        self.text_rejected('"nodes": 4', '"nodes": 4, "n\\u006fdes": 4', "a member is repeated")
+        self.text_rejected('"nodes": 4', '"nodes": 4, "more": 4', "the member more is unknown")
+        self.text_rejected('"nodes": 4, ', "", "the member nodes is missing")
+        self.text_rejected('"hubs": []', '"hubs": {}', "hubs is not a list")
+        self.text_rejected('"rigid": {"bodies": [], "edges": []}', '"rigid": []', "rigid is not an object")
+
+    def test_text(self):
+        text = json.dumps(by_hand())
+        for before, after, word in (
+            ("\ufeff", "", "byte order mark"),
+            ("", "x", "not JSON"),
+            ("", "\x00", "not JSON"),
+            ("\x0c", "", "not JSON"),
+            ("[", "]", "the document is not an object"),
+        ):
+            with self.assertRaisesRegex(check.Reject, word):
+                check.check((before + text + after).encode())
+        check.check((" \t\r\n" + text + "\n ").encode())
+        with self.assertRaisesRegex(check.Reject, "UTF-8"):
+            check.check(text.encode().replace(b"by hand", b"by \xff hand"))
+        self.text_rejected("by hand", "by \\ud83d hand", "surrogate")
+        self.text_rejected("by hand", "by \x01 hand", "not JSON")
+        check.check(text.replace("by hand", "\\ud83d\\ude00").replace('"nodes"', '"\\u006eodes"').encode())
+
+    def test_depth(self):
+        text = json.dumps(by_hand())
+        for depth, word in ((126, "program is not a string"), (127, "127 deep"), (100000, "127 deep")):
+            deep = text.replace('"by hand"', "[" * depth + "]" * depth)
+            with self.assertRaisesRegex(check.Reject, word):
+                check.check(deep.encode())
+        check.check(text.replace("by hand", "[" * 1000).encode())
+
+
+class Graphs(Case):
+    """Section 2."""
+
+    def edges_of(self, text, edges_format=False):
+        data = text if isinstance(text, bytes) else text.encode()
+        graph = check.read_graph(data, "", edges_format)
+        return graph.n, graph.edges
+
+    def test_readable(self):
+        square = (4, SQUARE)
+        path = (3, [(0, 1), (1, 2)])
+        for text, expected in (
+            ("Cl", square),
+            (" \tCl \r\n\n", square),
+            (">>graph6<<Cl", square),
+            (">>graph6<<\nCl\n", square),
+            ("\ufeffCl", square),
+            ("a b\nb c", path),
+            ("c a\nb a\nb a\na b\n", (3, [(0, 1), (0, 2)])),
+            ("10 9\n9 2\n", path),
+            ("010 9\n9 2\n", (3, [(0, 2), (1, 2)])),
+            ("18446744073709551616 9\n9 2\n", (3, [(0, 2), (1, 2)])),
+            ("# head\n% more\n\na b # tail\nb , c\n", path),
+            ("a,b\r\nb,\tc\r\n", path),
+            ('"a 1","b ""x"""\n"b ""x""" c\n', path),
+            ('"#a" b\nb c\n', path),
+            ("source target\na b\nb c\n", path),
+            ('"SOURCE" Target\na b\nb c\n', path),
+            ("source target\nsource b\n", path),
+            ("a b weight\na b 1\nb c 2e3\n", path),
+            ("a b .5\nb c -1.\n", path),
+            ("\u00e9 b\nb c\n", (3, [(0, 1), (0, 2)])),
+            ("a#1 b\nb c\n", path),
+            ("a b " + "1 " * 7 + "\nb c " + "0 " * 7, path),
+            ("5 2\n1 2\n2 3\n3 4\n", (5, [(0, 1), (1, 2), (1, 4), (2, 3)])),
+            ("0 1 2\n1 2 9\n", path),
+            ('"0" 1\n1 0\n', (2, [(0, 1)])),
+            ("01 0\n1 0\n", (3, [(0, 1), (0, 2)])),
+        ):
+            with self.subTest(text=text):
+                if text.startswith("010"):
+                    self.assertEqual(self.edges_of(text), (3, [(0, 2), (1, 2)]))
+                else:
+                    self.assertEqual(self.edges_of(text), expected)
+
+    def test_unreadable(self):
+        for text in (
+            b"a b\xff\n",
+            "a b\x00\n",
+            "a b\x7f\n",
+            "a b\nb\ufeff c\n",
+            "a b\rb c\n",
+            "a b\r\r\n",
+            "a b\r",
+            "",
+            "\n# nothing\n",
+            ">>graph6<<",
+            ">>graph6<<a b\n",
+            ">>graph6<<Cl\na b\n",
+            "Cl\nxx\n",
+            "Cm@\n",
+            "a,,b\n",
+            ",a b\n",
+            "a b,\n",
+            "a b, # c\n",
+            ",\n",
+            '"" b\n',
+            '"a b\n',
+            '"a"b c\n',
+            'a"b c\n',
+            "a -> b\n",
+            "a -\n",
+            "// b\n",
+            "a b c d\n",
+            "a\n",
+            "a b\nb c 1\n",
+            "a b 1\nb c x\n",
+            "a b x\n",
+            "a b 1\nb c 1_0\n",
+            'a b 1\nb c "2"\n',
+            "a a\n",
+            "source target\n",
+            "\n [0, 1]\n[1, 2]\n",
+            "<a b\n",
+            "3 2\n0 1\n1 2\n",
+            "0 1\n1 0\n",
+            "0 1 1\n1 0 1\n1 1 0\n",
+            "1 2 3\n2 3 4\n",
+        ):
+            with self.subTest(text=text), self.assertRaises(check.Unreadable):
+                self.edges_of(text)
+
+    def test_whoever_knows_better(self):
+        for text, expected in (
+            ("3 2\n0 1\n1 2\n", (4, [(0, 1), (1, 2), (2, 3)])),
+            ("0 1\n1 0\n", (2, [(0, 1)])),
+            ("1 2 3\n2 3 4\n", (3, [(0, 1), (1, 2)])),
+            ("source target\nb c x y z\n", (4, [(0, 1), (2, 3)])),
+            ("- // x \"y z\"\n", (2, [(0, 1)])),
+            ("a\n", (1, [])),
+            ("[0, 1]\n[1, 2]\n", (4, [(0, 2), (1, 3)])),
+            ("Cl\n", (1, [])),
+        ):
+            with self.subTest(text=text):
+                self.assertEqual(self.edges_of(text, True), expected)
+        for text in ("", "a a\n", "a,,b\n", 'a"b c\n', "a b,,c\n", "a b,\n", 'a b c"d\n', 'a b ""\n'):
+            with self.subTest(text=text), self.assertRaises(check.Unreadable):
+                self.edges_of(text, True)
+
+    def test_graph6(self):
+        for n in (1, 2, 5, 40, 62, 63, 100):
+            rng = random.Random(n)
+            graph = make.random_graph(n, min(n * (n - 1) // 2, 2 * n), rng) if n > 1 else check.Graph(1, [])
+            bits = [int((i, j) in graph.edge_set) for j in range(n) for i in range(j)]
+            bits += [0] * (-len(bits) % 6)
+            body = "".join(chr(63 + int("".join(map(str, bits[k : k + 6])), 2)) for k in range(0, len(bits), 6))
+            head = chr(63 + n) if n <= 62 else "~" + "".join(chr(63 + (n >> s & 63)) for s in (12, 6, 0))
+            self.assertEqual(check.read_graph6(head + body).hash, graph.hash)
+            if n <= 62:
+                self.assertEqual(make.graph6_of(graph), head + body)
+                self.assertEqual(check.read_graph6("~??" + chr(63 + n) + body).hash, graph.hash)
+                self.assertEqual(check.read_graph6("~~?????" + chr(63 + n) + body).hash, graph.hash)
+            self.assertIsNone(check.read_graph6(head + body + "?"))
+            self.assertIsNone(check.read_graph6((head + body)[:-1]) if body else None)
+        self.assertIsNone(check.read_graph6("Bx"))  # a bit behind the last pair
+        self.assertIsNotNone(check.read_graph6("Bw"))
+
+    def test_the_given_graph(self):
+        document = by_hand()
+        self.verifies(document, graph_data=b"0 1\n0 3\n1 2\n2 3\n")
+        self.verifies(document, graph_data=b"Bw\nCl\n")
+        self.rejects(document, "hash of the given graph", graph_data=b"Bw\n")
+        document["graph"]["graph6"] = None
+        self.rejects(document, "no graph is given")
+        self.verifies(document, graph_data=b"Cl")
+        document["graph"]["graph6"] = "Bw"
+        self.rejects(document, "hash of the embedded graph", graph_data=b"Cl")
+
+
+class Document(Case):
+    """Section 3."""
+
+    def test_conditions(self):
+        document = by_hand()
+
+        def put(path, value):
+            def change(other):
+                for key in path[:-1]:
+                    other = other[key]
+                other[path[-1]] = value
+
+            return change
+
+        for path, value, words in (
+            (["version"], 1, "version 1"),
+            (["version"], 3, "version"),
+            (["format"], "other", "format"),
+            (["program"], None, "program is not a string"),
+            (["model"], "affine", "model"),
+            (["graph", "name"], 4, "name is not a string"),
+            (["graph", "nodes"], 0, "nodes: 0 is below 1"),
+            (["graph", "nodes"], 5, "number of nodes"),
+            (["graph", "edges"], 5, "number of edges"),
+            (["graph", "sha256"], document["graph"]["sha256"].upper(), "hexadecimal"),
+            (["graph", "sha256"], "0" * 64, "hash of the embedded"),
+            (["graph", "graph6"], ">>graph6<<Cl", "graph6"),
+            (["graph", "graph6"], "Cl ", "graph6"),
+            (["claim", "verdict", "value"], "unknown", "verdict: no such value"),
+            (["claim", "rank", "value"], "28", "rank: value is not an int"),
+            (["claim", "rank", "strength"], "error-bound", "error_log2 is not an int"),
+            (["claim", "rank", "strength"], "guess", "no such strength"),
+            (["claim", "rank", "error_log2"], -120, "a proof has no error bound"),
+            (["claim", "rank"], {"value": 28, "strength": "proof", "error_log2": None}, "required is missing"),
+        ):
+            self.broken(document, put(path, value), "section 3", words)
+
+        def weak(other):
+            other["claim"]["rank"].update(strength="error-bound", error_log2=-99)
+
+        self.broken(document, weak, "above 2^-100")
+
+
+class Draws(unittest.TestCase):
+    """Section 4."""
+
+    def test_chacha20(self):
+        stream = check.Stream(b"", b"", b"", 0, 0)
+        stream.start[4:12] = [0] * 8
+        data = b"".join(stream.word().to_bytes(8, "little") for _ in range(16))
+        expected = "76b8e0ada0f13d90405d6ae55386bd28bdd219b8a08ded1aa836efcc8b770dc7da41597c5157488d7724e03fb8d84a37"
+        expected += "6a43b8f41518a11cc387b669b2ee65869f07e7be5551387a98ba977c732d080dcb0f29a048e3656912c6533e32ee7aed"
+        expected += "29b721769ce64e43d57133b074d839d531ed1f28510afb45ace10a1f4b794d6f"
+        self.assertEqual(data.hex(), expected)
+
+    def test_primes(self):
+        small = [p for p in range(2000) if all(p % d for d in range(2, p)) and p > 1]
+        self.assertEqual([p for p in range(2000) if check.is_prime(p)], small)
+        for p, expected in ((2**61 - 1, True), (2**61 + 1, False), (3215031751, False), (3825123056546413051, False)):
+            self.assertEqual(check.is_prime(p), expected)
+
+    def test_uniform_below_one_takes_a_word(self):
+        stream = check.Stream(b"", b"", b"", 0, 0)
+        self.assertEqual((stream.below(1), len(stream.words)), (0, 7))
+
+    def test_void_cameras(self):
+        unit = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]
+        double = [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, -3, 0]]
+        flat = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]]
+        other = [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0]]
+        for p in (None, 7):
+            check.refuse_void([unit, other], p, "")
+            with self.assertRaisesRegex(check.Reject, "two centres agree"):
+                check.refuse_void([unit, double], p, "")
+            with self.assertRaisesRegex(check.Reject, "rank below 3"):
+                check.refuse_void([unit, flat], p, "")
+
+
+class Bodies(Case):
+    """Section 5."""
+
+    def test_conditions(self):
+        graph = check.Graph(6, [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (3, 4), (3, 5), (4, 5), (0, 4)])
+        maker = make.Maker(graph, use_bodies=False)
+        maker.body_list = [
+            {"seed": [0, 1], "add": [[2, 0, 1], [3, 1, 2]], "merge": []},
+            {"seed": [3, 4], "add": [], "merge": [{"with": [[3, 5], [4, 5]], "at": [3, 4, 5]}]},
+            {"seed": 0, "add": [], "merge": [{"with": [1, [0, 4]], "at": [3, 0, 4]}]},
+        ]
+        maker.bodies = [{0, 1, 2, 3}, {3, 4, 5}, {0, 1, 2, 3, 4, 5}]
+        maker.members = [(2, maker.bodies[2])]
+        document = maker.document()
+        self.assertEqual(document["claim"]["verdict"]["value"], "solvable")
+        self.verifies(document)
+
+        def step(k, name, value):
+            return lambda other: other["bodies"][k].__setitem__(name, value)
+
+        def merge(others, at):
+            return [{"with": others, "at": at}]
+
+        for change, words in (
+            (step(0, "seed", [0, 3]), "(0, 3) is not an edge"),
+            (step(0, "seed", [1, 0]), "smaller node first"),
+            (step(0, "seed", 0), "0 is not an earlier body"),
+            (step(1, "seed", 2), "2 is not an earlier body"),
+            (step(2, "seed", -1), "not an earlier body"),
+            (step(0, "add", [[2, 0, 1], [2, 0, 1]]), "node 2 is in the body already"),
+            (step(0, "add", [[2, 0, 0]]), "not two nodes of the body"),
+            (step(0, "add", [[2, 0, 3]]), "not two nodes of the body"),
+            (step(0, "add", [[3, 0, 1]]), "3-0 is not an edge"),
+            (step(0, "add", [[2, 0]]), "not [v, a, b]"),
+            (step(1, "merge", merge([[3, 5], [4, 5]], [3, 3, 5])), "not different"),
+            (step(1, "merge", merge([[3, 5], [4, 5]], [4, 3, 5])), "not shared"),
+            (step(1, "merge", merge([[3, 5], [4, 5]], [3, 4])), "length of at"),
+            (step(1, "merge", merge([], [3])), "one or two"),
+            (step(1, "merge", merge([[3, 5], [3, 5]], [3, 5, 4])), "with the same twice"),
+            (step(1, "merge", merge([0], [3, 4])), "not shared"),
+            (step(2, "merge", merge([0, [0, 4]], [3, 0, 4])), "body 0 is consumed already"),
+            (step(2, "merge", merge([1, 1], [3, 0, 4])), "twice"),
+            (step(2, "merge", merge([1, [0, 4]], [3, 0, 4]) + merge([1], [3, 4])), "body 1 is consumed already"),
+            (step(2, "merge", merge([True, [0, 4]], [3, 0, 4])), "is not a pair"),
+        ):
+            self.broken(document, change, "section 5", words)
+
+    def test_two_bodies_that_share_two_nodes(self):
+        graph = check.Graph(4, [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3)])
+        document = make.Maker(graph, use_bodies=False).document()
+        document["bodies"] = [{"seed": [0, 1], "add": [[node, 0, 1]], "merge": []} for node in (2, 3)]
+        self.rejects(document, "section 6", "covered twice")
+        document["bodies"].append({"seed": 0, "add": [], "merge": [{"with": [1], "at": [0, 1]}]})
+        document["rigid"], document["pieces"] = {"bodies": [2], "edges": []}, []
+        document["claim"]["verdict"]["value"] = "solvable"
+        self.verifies(document)
+
+
+class Pieces(Case):
+    """Section 6."""
+
+    def test_conditions(self):
+        # Two squares that share a node, and an edge hanging from it.
+        document = make.make(SQUARE + [(3, 4), (4, 5), (5, 6), (3, 6), (3, 7)])
+        self.assertEqual(len(document["pieces"]), 2)
+        self.verifies(document)
+        self.broken(document, lambda d: d["rigid"]["edges"].clear(), "in no group")
+        self.broken(document, lambda d: d["rigid"]["edges"].append([4, 5]), "(4, 5) is in two groups")
+        self.broken(document, lambda d: d["rigid"]["edges"].insert(0, [0, 2]), "(0, 2) is not a member")
+        self.broken(document, lambda d: d["rigid"]["edges"].append([3, 7]), "not increasing")
+        self.broken(document, lambda d: d["rigid"]["bodies"].append(0), "0 is not a member")
+        self.broken(document, lambda d: d["pieces"][0]["edges"].reverse(), "not increasing")
+        self.broken(document, lambda d: d["pieces"][0]["edges"].pop(), "in no group")
+        self.broken(document, lambda d: d["pieces"].append({"bodies": [], "edges": [], "evidence": []}), "empty")
+
+        def single(other):
+            other["pieces"].append({"bodies": [], "edges": other["rigid"]["edges"], "evidence": []})
+            other["rigid"]["edges"] = []
+
+        def cycle(other):
+            other["rigid"]["edges"] = other["pieces"].pop(0)["edges"] + other["rigid"]["edges"]
+
+        self.broken(document, single, "less than two members")
+        self.broken(document, cycle, "a cycle of pieces")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].clear(), "no lower bound")
+
+    def test_bodies_in_a_core(self):
+        triangles = [(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)]
+        document = make.make(triangles)
+        one = {"bodies": document["rigid"]["bodies"], "edges": [], "evidence": []}
+        document["rigid"], document["pieces"] = {"bodies": [], "edges": []}, [one]
+        self.rejects(document, "less than two nodes of the core")
+        # Two bodies share the nodes 0 and 3, which are not adjacent.
+        graph = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (0, 4), (0, 5), (4, 5), (3, 4), (3, 5)]
+        document = make.Maker(check.Graph(6, graph), use_bodies=False).document()
+        document["bodies"] = [
+            {"seed": [0, 1], "add": [[2, 0, 1], [3, 1, 2]], "merge": []},
+            {"seed": [0, 4], "add": [[5, 0, 4], [3, 4, 5]], "merge": []},
+        ]
+        document["pieces"][0].update(bodies=[0, 1], edges=[])
+        self.rejects(document, "a core edge arises twice")
+
+    def test_limit(self):
+        with self.assertRaises(check.TooLarge):
+            self.verifies(by_hand(), core_limit=3)
+
+
+class LowerBounds(Case):
+    """Section 7."""
+
+    @classmethod
+    def setUpClass(cls):
+        rng = random.Random(3)
+        maker = make.Maker(check.Graph(5, SQUARE + [(2, 4), (3, 4)]), rng, use_bodies=False)
+        cls.base = maker.document()
+        core = check.Core(maker, maker.graph.edges, "")
+        cls.minor = maker.minor(core)[0]
+        while True:
+            cls.integer = maker.integer_minor(core)
+            if cls.integer["determinant"]:
+                break
+        while True:
+            cls.with_prime = maker.integer_minor(core)
+            if cls.with_prime["prime"]:
+                break
+
+    def with_evidence(self, *more):
+        document = copy.deepcopy(self.base)
+        document["pieces"][0]["evidence"] += copy.deepcopy(more)
+        return document
+
+    def test_plane_flow(self):
+        document = make.make(FINITE, use_bodies=False)
+        self.verifies(document)
+        flow = evidence(document, "plane-flow")
+        self.assertGreater(flow["flows"], 0)
+
+        def put(name, value):
+            return lambda d: evidence(d, "plane-flow").__setitem__(name, value)
+
+        for name, value, words in (
+            ("prime", "3", "prime: 3 is below 5"),
+            ("prime", "15", "15 is not a prime"),
+            ("prime", str(2**62 + 135), "prime is out of range"),
+            ("rows", flow["rows"][:-1], "differ in length"),
+            ("rows", flow["rows"][:-1] + flow["rows"][:1], "listed twice"),
+            ("cols", flow["cols"][:-1] + [21], "out of range"),
+            ("rows", flow["rows"][1:] + flow["rows"][:1], "N: pivot"),
+            ("flows", -1, "flows: -1 is below 0"),
+            ("flows", 2 * len(FINITE) - len(flow["rows"]) + 1, "out of range"),
+            ("flows", 0, "out of range"),
+            ("lambda_rows", flow["lambda_rows"][:-1], "differ in length"),
+        ):
+            self.broken(document, put(name, value), "plane-flow", words)
+
+        def more(other):
+            # One pivot more than the rank.
+            flow = evidence(other, "plane-flow")
+            flow["lambda_rows"].append(next(k for k in range(99) if k not in flow["lambda_rows"]))
+            flow["lambda_cols"].append(next(k for k in range(99) if k not in flow["lambda_cols"]))
+
+        def fewer(other):
+            for name in ("lambda_rows", "lambda_cols"):
+                evidence(other, "plane-flow")[name].pop()
+
+        def dependent(other):
+            # Columns less than the rank of N: the flows need not vanish elsewhere.
+            for name in ("rows", "cols"):
+                evidence(other, "plane-flow")[name].pop()
+
+        self.broken(document, more, "Lambda: pivot")
+        self.broken(document, fewer, "neither rigid nor divided")
+        self.broken(document, dependent, "does not vanish")
+        self.broken(document, lambda d: evidence(d, "plane-flow").update(kind="flow"), "no such kind")
+
+    def test_void_draw(self):
+        document = by_hand()
+        flow = evidence(document, "plane-flow")
+        graph = check.read_graph6("Cl")
+        core = check.Core(make.Maker(graph), graph.edges, "")
+        void = next(d for d in range(999) if not check.draw_centres(graph.hash, core.hash, 4, 5, 1, d))
+        flow.update(prime="5", draw=void)
+        self.rejects(document, "plane-flow", "the draw is void")
+
+    def test_minor(self):
+        document = self.with_evidence(self.minor)
+        self.verifies(document)
+
+        def change(**values):
+            return lambda d: evidence(d, "minor").update(values)
+
+        rows, cols = self.minor["rows"], self.minor["cols"]
+        self.broken(document, change(rows=rows[1:] + rows[:1]), "minor: pivot")
+        self.broken(document, change(rows=rows[:-1], cols=cols[:-1], draw=self.minor["draw"] + 1, seed="-1"), "seed")
+        self.broken(document, change(cols=cols[:-1] + [60]), "cols", "out of range")
+        self.broken(document, change(prime="9"), "9 is not a prime")
+        # A weaker bound is valid evidence as well.
+        evidence(document, "minor").update(rows=rows[:-1], cols=cols[:-1])
+        self.verifies(document)
+
+    def test_integer_minor(self):
+        for integer in (self.integer, self.with_prime):
+            self.assertTrue(integer["kernel"])
+            document = self.with_evidence(integer)
+            self.verifies(document)
+
+            def change(**values):
+                return lambda d: evidence(d, "integer-minor").update(values)
+
+            kernel = integer["kernel"]
+            off = [str(int(kernel[0][0]) + 1)] + kernel[0][1:]
+            self.broken(document, change(numerator=0), "numerator: 0 is below 1")
+            self.broken(document, change(numerator=101), "numerator", "out of range")
+            self.broken(document, change(denominator=13), "denominator", "out of range")
+            self.broken(document, change(denominator=integer["denominator"] + 1), "integer-minor")
+            self.broken(document, change(kernel=[kernel[0][:-1]]), "has another length")
+            self.broken(document, change(kernel=[off]), "not in the kernel")
+            self.broken(document, change(kernel=kernel + kernel[:1]), "not independent")
+            self.broken(document, change(kernel=[["0"] * 60]), "not independent")
+            self.broken(document, change(rows=integer["rows"][1:] + integer["rows"][:1]), "integer-minor")
+        document = self.with_evidence(self.integer)
+        determinant = int(self.integer["determinant"])
+        for value, words in (
+            (str(determinant + 1), "another determinant"),
+            (str(-determinant), "another determinant"),
+            ("0", "the determinant is zero"),
+            ("1" * 5000, "another determinant"),
+            (None, "one of determinant and prime"),
+        ):
+            self.broken(document, lambda d: evidence(d, "integer-minor").update(determinant=value), words)
+        self.broken(document, lambda d: evidence(d, "integer-minor").update(prime="7"), "one of determinant and prime")
+
+    def test_bounds_must_not_cross(self):
+        """No certificate can show this, unless a condition is not sound: a bound is replaced by a false one."""
+        for name, false, words in (
+            ("check_counting", lambda *_: 27, "above an upper bound"),
+            ("check_lower", lambda *_: 29, "above an upper bound"),
+        ):
+            old = getattr(check.Check, name)
+            try:
+                setattr(check.Check, name, false)
+                self.rejects(by_hand(), words)
+            finally:
+                setattr(check.Check, name, old)
+
+    def test_a_bound_that_is_not_met_does_not_separate(self):
+        document = by_hand()
+        block = {"bodies": [], "edges": [list(edge) for edge in SQUARE], "hubs": []}
+        evidence(document, "counting").update(blocks=[block], bound=29)
+        self.rejects(document, "not separated")
+
+    def test_ranks_agree_with_elimination(self):
+        """Theorem 3.2, and the matrix J_P against one written otherwise."""
+        rng = random.Random(8)
+        for n, m in ((5, 7), (6, 8), (7, 10), (8, 12)):
+            graph = make.random_graph(n, m, rng)
+            core = check.Core(make.Maker(graph, use_bodies=False), graph.edges, "")
+            p = 2**61 - 1
+            centres = check.draw_centres(graph.hash, core.hash, core.n, p, 1, 0)
+            cameras = [[[1, 0, 0, -x], [0, 1, 0, -y], [0, 0, 1, -z]] for x, y, z in centres]
+            rows = check.jacobian_rows(core, cameras, range(10 * core.m))
+            rank = check.jacobian_rank(core, centres, p)
+            self.assertEqual(len(check.find_pivots(rows, p)), rank)
+            self.assertEqual(agree.generic_rank(range(n), graph.edges, "projective", rng), rank)
+
+
+class UpperBounds(Case):
+    """Section 7, counting and hubs."""
+
+    def test_counting(self):
+        document = by_hand()
+        counting = evidence(document, "counting")
+
+        def change(edit):
+            return lambda d: edit(evidence(d, "counting"))
+
+        self.broken(document, change(lambda c: c.update(bound=27)), "the bound is 28, not 27")
+        self.broken(document, change(lambda c: c.update(bound=29)), "the bound is 28, not 29")
+        self.broken(document, change(lambda c: c["blocks"].pop()), "in no group")
+        self.broken(document, change(lambda c: c["blocks"].append(c["blocks"][0])), "in two groups")
+        self.broken(document, change(lambda c: c["blocks"].append({"bodies": [], "edges": [], "hubs": []})), "empty")
+        self.broken(document, change(lambda c: c["blocks"][0]["edges"].append([0, 2])), "not one of the piece")
+        self.assertEqual(counting["bound"], 28)
+
+        def gone(other):
+            other["pieces"][0]["evidence"].remove(evidence(other, "counting"))
+
+        self.broken(document, gone, "not separated")
+
+    def test_hub(self):
+        document = make.make(GAMMA)
+        self.verifies(document)
+        self.assertEqual(document["claim"]["rank"]["value"], 83)
+
+        def find(other):
+            return next(
+                b["hubs"][0]
+                for e in other["pieces"][0]["evidence"]
+                if e["kind"] == "counting"
+                for b in e["blocks"]
+                if b["hubs"]
+            )
+
+        hub = find(document)
+        self.assertEqual((hub["node"], hub["components"], hub["less"]), (1, 1, 1))
+
+        def change(**values):
+            return lambda d: find(d).update(values)
+
+        two = sorted(hub["groups"][0] + hub["groups"][1])
+        for edit, words in (
+            (change(node=9), "not in the block"),
+            (change(node=0), "does not contain the node"),
+            (change(parts=hub["parts"][1:]), "in no group"),
+            (change(parts=hub["parts"] + hub["parts"][:1]), "in two groups"),
+            (change(split=hub["split"][::-1]), "not increasing"),
+            (change(split=hub["split"] + [99]), "out of range"),
+            (change(split=hub["split"][:-1]), "it takes off 0"),
+            (change(groups=hub["groups"][1:]), "do not partition"),
+            (change(groups=hub["groups"][1:] + [[]]), "a group is empty"),
+            (change(groups=hub["groups"][2:] + [two]), "it takes off"),
+            (change(groups=hub["groups"][2:] + [two[::-1]]), "not increasing"),
+            (change(components=2), "there are 1 components"),
+            (change(less=2), "it takes off 1"),
+            (change(less=0), "it takes off 1"),
+        ):
+            self.broken(document, edit, "hub", words)
+
+        def twice(other):
+            for e in other["pieces"][0]["evidence"]:
+                if e["kind"] == "counting":
+                    e["blocks"][0]["hubs"] *= 2
+
+        self.broken(document, twice, "more than one hub")
+
+    def test_hub_in_a_block_that_is_not_connected(self):
+        document = by_hand()
+        counting = evidence(document, "counting")
+        parts = [{"bodies": [], "edges": [[0, 1]]}, {"bodies": [], "edges": [[2, 3]]}]
+        hub = {"node": 0, "parts": parts, "split": [0], "groups": [[0], [1]], "components": 3, "less": 1}
+        block = {"bodies": [], "edges": [[0, 1], [2, 3]], "hubs": [hub]}
+        counting["blocks"] = [block, counting["blocks"][1], counting["blocks"][2]]
+        self.rejects(document, "the block is not connected")
+
+
+class ErrorBounds(Case):
+    """Section 9."""
+
+    @classmethod
+    def setUpClass(cls):
+        rng = random.Random(2)
+        cls.document = make.make(GAMMA, draws=True, rng=rng)
+        while any(e["kind"] == "counting" for e in cls.document["pieces"][0]["evidence"]):
+            cls.document = make.make(GAMMA, draws=True, rng=rng)
+
+    def test_conditions(self):
+        document = self.document
+        self.verifies(document)
+        claim = document["claim"]
+        self.assertEqual([claim[k]["error_log2"] for k in ("verdict", "rank", "components")], [-147] * 3)
+
+        def change(**values):
+            return lambda d: evidence(d, "draws").update(values)
+
+        self.broken(document, change(count=2), "another number of draws")
+        self.broken(document, change(count=4), "another number of draws")
+        self.broken(document, change(rank=84), "the largest rank is 83")
+        self.broken(document, change(rank=82), "the largest rank is 83")
+        self.broken(document, change(seed="1"), "kernel")
+        draws = evidence(document, "draws")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].append(draws), "more than one draws")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].remove(evidence(d, "kernel")), "not separated")
+        self.broken(document, lambda d: d["claim"]["rank"].update(error_log2=-148), "rank: error_log2")
+        self.broken(document, lambda d: d["claim"]["rank"].update(error_log2=-146), "rank: error_log2")
+        self.broken(document, lambda d: d["claim"]["rank"].update(strength="proof", error_log2=None), "rank: strength")
+
+    def test_a_kernel_of_a_draw_is_no_proof(self):
+        """A lower bound with the prime, seed and number of a draw is at other centres than the draw."""
+        rng = random.Random(4)
+        maker = make.Maker(check.Graph(4, SQUARE), rng, draws=True)
+        document = maker.document()
+        core = check.Core(maker, maker.graph.edges, "")
+        draws = evidence(document, "draws")
+        number, prime, _ = check.draws_of(maker.graph.hash, core.hash, 4, int(draws["seed"]), draws["count"])[0]
+        maker.prime = prime
+        maker.draw = lambda core: (
+            int(draws["seed"]),
+            number,
+            check.draw_centres(maker.graph.hash, core.hash, 4, prime, int(draws["seed"]), number),
+        )
+        found = document["pieces"][0]["evidence"]
+        found.append(maker.plane_flow(core)[0])
+        if not any(e["kind"] == "counting" for e in found):
+            found.append(evidence(by_hand(), "counting"))
+        document["claim"] = check.Check(document).evidence_claim
+        self.assertEqual(document["claim"]["rank"]["strength"], "proof")
+        self.assertEqual(document["claim"]["components"]["strength"], "error-bound")
+
+    def test_sums(self):
+        for errors, total in (([-150], -150), ([-150, -160], -149), ([-150] * 3, -148), ([-120] * 5, -117)):
+            self.assertEqual(check.bound_sum(errors), total)
+        with self.assertRaisesRegex(check.Reject, "above 2"):
+            check.bound_sum([-102] * 6)
+        document = make.make(SQUARE + [(3, 4), (4, 5), (5, 6), (3, 6)], draws=True, rng=random.Random(11))
+        error = document["claim"]["components"]["error_log2"]
+        single = -evidence(document, "draws")["count"] * (56 - 5)
+        self.assertEqual(error, single + 1)
+
+
+class Classes(Case):
+    """Section 7, classes and kernel."""
+
+    def test_conditions(self):
+        document = by_hand()
+
+        def classes(edit):
+            return lambda d: edit(evidence(d, "classes")["classes"])
+
+        def kernel(**values):
+            return lambda d: evidence(d, "kernel").update(values)
+
+        vector = evidence(document, "kernel")["vector"]
+        self.broken(document, classes(lambda c: c.__delitem__(slice(1, 4))), "less than two classes")
+        self.broken(document, classes(lambda c: c.pop()), "in no group")
+        self.broken(document, classes(lambda c: c[0]["edges"].append([0, 3])), "in two groups")
+        self.broken(document, classes(lambda c: c[0].update(evidence=[{"kind": "minor"}])), "needs no evidence")
+        whole = {"rigid": {"bodies": [], "edges": [[0, 1]]}, "pieces": []}
+        self.broken(document, classes(lambda c: c[0].update(split=whole)), "a single member is not split")
+
+        def merged(found):
+            found[0]["edges"] += found.pop(1)["edges"]
+
+        self.broken(document, classes(merged), "neither evidence nor split")
+
+        def merged_and_split(found):
+            merged(found)
+            found[0]["split"] = {"rigid": {"bodies": [], "edges": [[0, 1], [0, 3]]}, "pieces": []}
+
+        self.broken(document, classes(merged_and_split), "class 0 does not move as one")
+        self.broken(document, kernel(vector=["0"] * 48), "two classes move as one")
+        self.broken(document, kernel(vector=vector[:-1]), "another length")
+        self.broken(document, kernel(vector=vector[:-1] + ["11"]), "out of range")
+        self.broken(document, kernel(vector=vector[:-1] + ["-1"]), "below 0")
+        self.broken(document, kernel(vector=vector[:-1] + ["1"]), "no motion on the core edge")
+        self.broken(document, kernel(seed="5"), "no motion on the core edge")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].pop(2), "kernel without classes")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].pop(3), "not separated")
+        twice = evidence(document, "classes")
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].append(twice), "more than one classes")
+
+        def neither(other):
+            del other["pieces"][0]["evidence"][2:]
+
+        self.broken(document, neither, "neither rigid nor divided into classes")
+
+    def test_a_lower_bound_elsewhere_does_not_separate(self):
+        rng = random.Random(1)
+        maker = make.Maker(check.Graph(4, SQUARE), rng)
+        document = maker.document()
+        core = check.Core(maker, maker.graph.edges, "")
+        maker.rng, maker.variety = random.Random(5), True
+        other = maker.plane_flow(core)[0]
+        document["pieces"][0]["evidence"][0] = other
+        self.rejects(document, "not separated")
+
+    def test_rigid_class(self):
+        document = make.make(PRISM_WITH_TAIL, use_bodies=False)
+        self.verifies(document)
+        rigid = next(c for c in evidence(document, "classes")["classes"] if c["evidence"])
+        self.assertEqual(len(rigid["edges"]), 3)
+
+        def change(edit):
+            def apply(other):
+                edit(next(c for c in evidence(other, "classes")["classes"] if c["evidence"]))
+
+            return apply
+
+        def weaker(one):
+            for name in ("rows", "cols"):
+                one["evidence"][0][name].pop()
+            one["evidence"][0].update(flows=0, lambda_rows=[], lambda_cols=[])
+
+        self.broken(document, change(weaker), "not shown to be rigid")
+        self.broken(document, change(lambda one: one["evidence"].append({"kind": "counting"})), "no lower bound")
+        split = {"rigid": {"bodies": [], "edges": []}, "pieces": []}
+        self.broken(document, change(lambda one: one.update(split=split)), "evidence and split")
+
+    def test_split_class(self):
+        document = make.make(PSI)
+        self.verifies(document)
+        self.assertEqual(document["claim"]["components"]["value"], 15)
+        found = evidence(document, "classes")["classes"]
+        self.assertEqual([len(c["edges"]) for c in found if c["split"]], [4])
+
+        def change(edit):
+            def apply(other):
+                edit(next(c for c in evidence(other, "classes")["classes"] if c["split"]))
+
+            return apply
+
+        def outside(one):
+            one["split"]["rigid"]["edges"].append([0, 3])
+
+        def as_pieces(one):
+            one["split"] = {"rigid": {"bodies": [], "edges": one["edges"]}, "pieces": []}
+
+        self.broken(document, change(outside), "not a member here")
+        self.broken(document, change(as_pieces), "a cycle of pieces")
+        self.broken(document, change(lambda one: one["split"]["pieces"].pop()), "in no group")
+        self.broken(document, change(lambda one: one["split"]["pieces"][0]["evidence"].pop()), "not separated")
+
+
+class Calibrated(Case):
+    def test_conditions(self):
+        document = make.make([(0, 1), (1, 2), (2, 3), (3, 4), (0, 4)], model="calibrated")
+        self.verifies(document)
+        self.assertEqual(document["claim"]["verdict"]["value"], "not-finite-solvable")
+        flow = evidence(document, "plane-flow")
+        self.broken(document, lambda d: evidence(d, "plane-flow").update(flows=0, lambda_rows=[0]), "lambda")
+        rows, cols = flow["rows"][:-1], flow["cols"][:-1]
+        self.broken(document, lambda d: evidence(d, "plane-flow").update(rows=rows, cols=cols, flows=1), "calibrated")
+        draws = {"kind": "draws", "seed": "1", "count": 3, "rank": 8}
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].append(draws), "projective model only")
+        minor = {"kind": "minor", "prime": "11", "seed": "1", "draw": 0, "rows": [], "cols": []}
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].append(minor), "projective model only")
+        vector = ["1"] + evidence(document, "kernel")["vector"][1:]
+        self.broken(document, lambda d: evidence(d, "kernel").update(vector=vector), "no motion")
+        self.broken(document, lambda d: d.update(model="projective"), "counting: the bound is")
+        hub = {"node": 0, "parts": [], "split": [], "groups": [], "components": 1, "less": 1}
+        self.broken(document, lambda d: evidence(d, "counting")["blocks"][0]["hubs"].append(hub), "projective")
+
+    def test_solvable(self):
+        edges = [(i, j) for i in range(4) for j in range(4, 7)]
+        document = make.make(edges, model="calibrated", use_bodies=False)
+        self.verifies(document)
+        self.assertEqual(document["claim"]["verdict"]["value"], "solvable")
+        self.broken(document, lambda d: d["claim"]["verdict"].update(value="finite-solvable"), "verdict")
+
+
+class Claims(Case):
+    """Section 8."""
+
+    def test_exactly_what_the_evidence_gives(self):
+        for document in (by_hand(), make.make(FINITE, use_bodies=False), make.make(PRISM_WITH_TAIL)):
+            self.verifies(document)
+            for name, other in (
+                ("verdict", "solvable"),
+                ("rank", document["claim"]["rank"]["value"] - 1),
+                ("rank", document["claim"]["rank"]["value"] + 1),
+                ("components", document["claim"]["components"]["value"] + 1),
+            ):
+                self.broken(document, lambda d: d["claim"][name].update(value=other), f"{name}: value")
+                weak = {"strength": "error-bound", "error_log2": -120}
+                self.broken(document, lambda d: d["claim"][name].update(weak), f"{name}: strength")
+            self.broken(document, lambda d: d["claim"]["rank"].update(required=1), "rank: required")
+
+    def test_verdicts(self):
+        self.assertEqual(make.make(FINITE, use_bodies=False)["claim"]["verdict"]["value"], "finite-solvable")
+        triangle = make.make([(0, 1), (0, 2), (1, 2)])
+        self.assertEqual(triangle["claim"]["verdict"]["value"], "solvable")
+        self.broken(triangle, lambda d: d["claim"]["verdict"].update(value="finite-solvable"), "verdict")
+
+    def test_no_edges(self):
+        for n, verdict, required in ((1, "solvable", 0), (2, "not-finite-solvable", 7)):
+            document = make.make([], n=n)
+            self.assertEqual(document["claim"]["verdict"]["value"], verdict)
+            self.assertEqual(document["claim"]["rank"], {**check.stated(0), "required": required})
+            self.verifies(document)
+
+    def test_an_unforeseen_exception_is_a_rejection(self):
+        old = check.Check.claim_of
+        try:
+            check.Check.claim_of = lambda *_: 1 // 0
+            self.rejects(by_hand(), "unexpected ZeroDivisionError")
+        finally:
+            check.Check.claim_of = old
+
+
+class Program(unittest.TestCase):
+    def run_program(self, *arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            text = json.dumps(by_hand())
+            files = {
+                "good.json": text.encode(),
+                "bad.json": text.replace('"bound": 28', '"bound": 27').encode(),
+                "square.g6": b"Cl\n",
+                "odd.txt": b"a b c d\n",
+                "many.jsonl.gz": gzip.compress((text + "\n" + text + "\n").encode()),
+                "broken.jsonl.gz": b"no gzip",
+                "mixed.jsonl": (text + "\n{\n").encode(),
+            }
+            for name, data in files.items():
+                with open(os.path.join(folder, name), "wb") as file:
+                    file.write(data)
+            done = subprocess.run(
+                [sys.executable, os.path.join(HERE, "check.py"), *arguments], cwd=folder, capture_output=True, text=True
+            )
+            return done.returncode, done.stdout, done.stderr
+
+    def test_exit_codes(self):
+        for arguments, code, out, err in (
+            (["good.json"], 0, "VERIFIED components: 4 maximal (proof)\n", ""),
+            (["good.json", "square.g6"], 0, "VERIFIED", ""),
+            (["bad.json"], 1, "REJECTED\n", "the bound is 28, not 27"),
+            (["good.json", "odd.txt"], 2, "", "2, 3, 9 or 14"),
+            (["good.json", "none.g6"], 2, "", "none.g6"),
+            (["none.json"], 2, "", "none.json"),
+            ([], 2, "", "usage"),
+            (["good.json", "--max-core-nodes", "3"], 3, "", "the limit is 3"),
+            (["--list", "good.json", "many.jsonl.gz"], 0, "3 verified, 0 rejected", ""),
+            (["--list", "good.json", "mixed.jsonl"], 1, "2 verified, 1 rejected", ""),
+            (["--list", "broken.jsonl.gz"], 2, "", "broken"),
+            (["--list", "good.json", "--max-core-nodes", "3"], 3, "1 too large", ""),
+        ):
+            with self.subTest(arguments=arguments):
+                got = self.run_program(*arguments)
+                self.assertEqual(got[0], code)
+                self.assertIn(out, got[1])
+                self.assertIn(err, got[2])
+
+    def test_reasons_are_printable_and_short(self):
+        shown = check.shown("\x1b[2J\u2028\U0001f600\ud800" + "x" * 500)
+        self.assertTrue(shown.isascii() and shown.isprintable())
+        self.assertEqual(len(shown), 200)
+
+
+class Comparison(unittest.TestCase):
+    def test_mutants_that_are_accepted_are_true(self):
+        rng = random.Random(12)
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
+            comparison = agree.Comparison(None, folder)
+            texts = [data.decode() for data in agree.bases([], None, 15, rng)]
+            for _ in range(150):
+                data, done = agree.mutant(rng.choice(texts), rng)
+                comparison.run(data, done)
+        self.assertEqual(out.getvalue(), "")
+        self.assertGreater(comparison.count["accepted"], 10)
+        self.assertGreater(comparison.count["texts"] - comparison.count["accepted"], 50)
+
+    def test_a_false_claim_and_a_disagreement_are_reported(self):
+        document = by_hand()
+        data = json.dumps(document).encode()
+        document["claim"]["rank"]["value"] = 27
+        truth = agree.Truth(4, SQUARE, "projective")
+        self.assertIsNone(truth.contradicts(json.loads(data)["claim"], 4, "projective"))
+        self.assertIn("the rank is 28", truth.contradicts(document["claim"], 4, "projective"))
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
+            comparison = agree.Comparison("false", folder)
+            comparison.run(data)
+            self.assertEqual(comparison.count["disagreements"], 1)
+            self.assertEqual(len(os.listdir(folder)), 1)
+        self.assertIn("first: 1", out.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,175 @@
+//! What the program makes of files that others wrote: read as what they mean, or refused by name.
+
+mod common;
+
+use common::{Run, verify, verify_with};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/foreign")
+}
+
+/// A row of the table: a file, the options it is read with, and what must come of it.
+struct Row {
+    file: String,
+    options: Vec<String>,
+    code: i32,
+    /// `n nodes, m edges` of a graph, or a phrase of the refusal.
+    gives: String,
+    /// A note on the graph; none for a graph that is read without any.
+    note: String,
+}
+
+fn table() -> Vec<Row> {
+    let text = std::fs::read_to_string(folder().join("table.tsv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("file\toptions\tcode\tgives\tnote"));
+    lines
+        .map(|line| {
+            let [file, options, code, gives, note] = line
+                .split('\t')
+                .map(String::from)
+                .collect::<Vec<_>>()
+                .try_into()
+                .unwrap_or_else(|_| panic!("{line}"));
+            Row {
+                file,
+                options: options.split_whitespace().map(String::from).collect(),
+                code: code.parse().unwrap(),
+                gives,
+                note,
+            }
+        })
+        .collect()
+}
+
+fn holds(row: &Row, how: &str, run: &Run) {
+    let context = format!("{} {how}: {}{}", row.file, run.out, run.err);
+    assert_eq!(run.code, row.code, "{context}");
+    if row.code > 1 {
+        assert_eq!(run.out, "", "{context}");
+        assert_eq!(run.err.lines().count(), 1, "{context}");
+        assert!(run.err.contains(&row.gives), "{context}");
+        // What is wrong, and after it what to do about it.
+        let after = run.err.split_once(&row.gives).unwrap().1;
+        assert!(after.contains("; "), "{context}");
+        return;
+    }
+    assert_eq!(run.err, "", "{context}");
+    let [line] = &run.json()[..] else {
+        panic!("{context}");
+    };
+    let graph = &line["graph"];
+    let size = format!("{} nodes, {} edges", graph["nodes"], graph["edges"]);
+    assert_eq!(size, row.gives, "{context}");
+    let notes: Vec<&str> = line["notes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|note| note.as_str().unwrap())
+        .collect();
+    if row.note.is_empty() {
+        assert!(notes.is_empty(), "{context}");
+    } else {
+        assert!(notes.contains(&&*row.note), "{context}");
+    }
+}
+
+/// By its name and through standard input, every file gives what the table says.
+#[test]
+fn nothing_is_misread() {
+    let rows = table();
+    assert!(rows.len() >= 40);
+    for row in &rows {
+        let path = folder().join(&row.file);
+        let mut arguments = vec!["--json"];
+        arguments.extend(row.options.iter().map(String::as_str));
+        let file = [&arguments[..], &[path.to_str().unwrap()]].concat();
+        holds(row, "as a file", &verify(&file));
+        let input = [&arguments[..], &["-"]].concat();
+        let bytes = std::fs::read(&path).unwrap();
+        holds(row, "through standard input", &verify_with(&bytes, &input));
+    }
+}
+
+#[test]
+fn every_file_is_in_the_table() {
+    let files: BTreeSet<String> = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name != "table.tsv")
+        .collect();
+    let rows: BTreeSet<String> = table().into_iter().map(|row| row.file).collect();
+    assert_eq!(files, rows);
+}
+
+/// Notes are printed for people as well, by every command.
+#[test]
+fn notes_are_printed() {
+    let path = folder().join("head.csv");
+    let path = path.to_str().unwrap();
+    let note = "the first line is a head: source,target";
+    for command in [&[][..], &["compare"], &["conditions"], &["audit"]] {
+        let run = verify(&[command, &[path]].concat());
+        assert!(
+            run.out.contains(&format!("  note        {note}\n")),
+            "{}",
+            run.out
+        );
+        let run = verify(&[command, &[path, "--json"]].concat());
+        assert_eq!(run.json()[0]["notes"][0], note, "{command:?}");
+    }
+}
+
+/// Every command ends well on graphs without pairs, in the whole or in parts.
+#[test]
+fn graphs_without_pairs() {
+    let directory = tempfile::tempdir().unwrap();
+    for (graph, nodes, code, verdict) in [
+        ("@", 1, 0, "solvable"),
+        ("A?", 2, 1, "not-finite-solvable"),
+        ("D??", 5, 1, "not-finite-solvable"),
+    ] {
+        for extra in [
+            &[][..],
+            &["--no-contraction"],
+            &["--rational"],
+            &["--no-counting"],
+            &["--model", "calibrated"],
+        ] {
+            let certificate = directory.path().join("certificate.json");
+            let certificate = certificate.to_str().unwrap();
+            let arguments = ["-", "--json", "--components", "--certificate", certificate];
+            let run = verify_with(graph.as_bytes(), &[&arguments, extra].concat());
+            assert_eq!((run.code, &*run.err), (code, ""), "{graph} {extra:?}");
+            let line = &run.json()[0];
+            assert_eq!(line["verdict"], verdict);
+            assert_eq!(
+                (&line["rank"], &line["strength"]),
+                (&0.into(), &"proof".into())
+            );
+            let required = match (nodes, extra) {
+                (1, _) => 0,
+                (_, ["--model", _]) => 3 * nodes - 4,
+                _ => 11 * nodes - 15,
+            };
+            assert_eq!(line["rank_required"], required);
+            assert_eq!(line["components"].as_array().unwrap().len(), 0);
+            let text = std::fs::read_to_string(certificate).unwrap();
+            let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+            assert_eq!(document["claim"]["verdict"]["value"], verdict);
+            assert_eq!(document["claim"]["rank"]["required"], required);
+            assert_eq!(document["pieces"].as_array().unwrap().len(), 0);
+            let run = verify_with(graph.as_bytes(), &[&["-"], extra].concat());
+            assert!(run.out.contains("components  0 (proved)\n"), "{}", run.out);
+        }
+        let run = verify_with(graph.as_bytes(), &["conditions", "-", "--json"]);
+        assert_eq!((run.code, &*run.err), (code, ""), "{graph}");
+        for command in ["compare", "audit"] {
+            let run = verify_with(graph.as_bytes(), &[command, "-"]);
+            assert_eq!(run.code, 2, "{graph} {command}");
+            assert!(run.err.contains("the graph has no pairs"), "{}", run.err);
+        }
+    }
+}

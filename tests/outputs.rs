@@ -1,0 +1,387 @@
+//! Where outputs go, through the binary: nothing is lost that was there, and nothing looks
+//! complete that is not.
+#![cfg(unix)]
+
+mod common;
+
+use common::{Run, cycle, verify, verify_with};
+use serde_json::Value;
+use std::fs::{self, File};
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const PAIR: &str = "0 1\n";
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn file(folder: &Path, name: &str, contents: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, contents).unwrap();
+    path
+}
+
+/// The names in a folder, sorted.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn is_certificate(contents: &str) -> bool {
+    let value: Result<Value, _> = serde_json::from_str(contents);
+    value.is_ok_and(|value| value["format"] == "viewcert certificate")
+}
+
+fn refused(run: &Run, why: &str) {
+    assert_eq!(run.code, 2, "{}{}", run.out, run.err);
+    assert!(run.err.contains(why), "{}", run.err);
+    assert_eq!(run.out, "");
+}
+
+#[test]
+fn a_dash_is_standard_output_and_the_report_goes_to_standard_error() {
+    let run = verify_with(PAIR.as_bytes(), &["-", "--certificate", "-"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(is_certificate(&run.out), "{}", run.out);
+    assert!(run.err.contains("2 cameras, 1 pair"), "{}", run.err);
+
+    let folder = tempfile::tempdir().unwrap();
+    let graph = file(folder.path(), "square.txt", &cycle(4));
+    let graph = text(&graph);
+    let is_picture = |run: &Run| {
+        assert!(run.out.starts_with("<svg"), "{}", run.out);
+        assert!(run.out.ends_with("</svg>\n"), "{}", run.out);
+    };
+    let run = verify(&["compare", graph, "--svg", "-"]);
+    is_picture(&run);
+    assert!(run.err.contains("all agree"), "{}", run.err);
+    let run = verify(&["audit", "--sweep-tolerance", graph, "--svg", "-"]);
+    is_picture(&run);
+    assert!(run.err.starts_with("tolerance,"), "{}", run.err);
+    let run = verify(&["audit", graph, "--certificate", "-"]);
+    assert!(is_certificate(&run.out), "{}", run.out);
+    assert!(run.err.contains("result      agree"), "{}", run.err);
+    let random = ["experiment", "random", "--density", "0.5", "--samples", "3"];
+    let run = verify(&[&random[..], &["--csv", "-"]].concat());
+    assert_eq!(run.out.lines().count(), 4, "{}", run.out);
+    assert!(run.err.starts_with("density %"), "{}", run.err);
+    refused(
+        &verify(&[&random[..], &["--csv", "-", "--svg", "-"]].concat()),
+        "--csv goes to the same file",
+    );
+    // No file of that name has come to be.
+    assert!(!Path::new("-").exists());
+}
+
+/// `verify GRAPH --certificate /dev/stdout > FILE`, and the file itself by its name.
+#[test]
+fn what_standard_output_is_sent_to_is_standard_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = file(folder.path(), "pair.txt", PAIR);
+    let out = folder.path().join("out.json");
+    for name in ["/dev/stdout", text(&out)] {
+        let output = Command::new(env!("CARGO_BIN_EXE_verify"))
+            .args([text(&graph), "--certificate", name])
+            .stdout(File::create(&out).unwrap())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        assert!(is_certificate(&fs::read_to_string(&out).unwrap()), "{name}");
+        let report = String::from_utf8(output.stderr).unwrap();
+        assert!(report.contains("2 cameras, 1 pair"), "{report}");
+        assert_eq!(names(folder.path()), ["out.json", "pair.txt"]);
+    }
+}
+
+#[test]
+fn a_pipe_is_written_through_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe");
+    let made = Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let reader = Command::new("cat")
+        .arg(&pipe)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let run = verify_with(PAIR.as_bytes(), &["-", "--certificate", text(&pipe)]);
+    let read = reader.wait_with_output().unwrap().stdout;
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("2 cameras, 1 pair"), "{}", run.out);
+    assert!(is_certificate(&String::from_utf8(read).unwrap()));
+    assert_eq!(names(folder.path()), ["pipe"]);
+    assert!(!pipe.is_file());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_is_written_through_and_its_errors_are_said() {
+    use std::os::unix::fs::FileTypeExt;
+    let run = verify_with(PAIR.as_bytes(), &["-", "--certificate", "/dev/full"]);
+    assert_eq!(run.code, 2, "{}", run.out);
+    assert!(
+        run.err.contains("/dev/full was not written: No space left"),
+        "{}",
+        run.err
+    );
+    let device = fs::symlink_metadata("/dev/full").unwrap();
+    assert!(device.file_type().is_char_device());
+}
+
+#[test]
+fn a_link_is_followed_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("sub")).unwrap();
+    let real = file(&at("sub"), "real.json", "before");
+    symlink("sub/real.json", at("link.json")).unwrap();
+    symlink("link.json", at("second.json")).unwrap();
+    // A link to a file that is yet to come.
+    symlink(at("sub/new.json"), at("new.json")).unwrap();
+    for (name, target) in [
+        ("second.json", real.clone()),
+        ("new.json", at("sub/new.json")),
+    ] {
+        let run = verify_with(PAIR.as_bytes(), &["-", "--certificate", text(&at(name))]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(fs::symlink_metadata(at(name)).unwrap().is_symlink());
+        assert!(fs::symlink_metadata(&target).unwrap().is_file());
+        assert!(is_certificate(&fs::read_to_string(target).unwrap()));
+    }
+    symlink("loop.json", at("loop.json")).unwrap();
+    let arguments = ["-", "--certificate", text(&at("loop.json"))].map(str::to_owned);
+    let run = verify_with(PAIR.as_bytes(), &arguments.each_ref().map(String::as_str));
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("symbolic links"), "{}", run.err);
+}
+
+#[test]
+fn permissions_are_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = file(folder.path(), "c.json", "before");
+    for mode in [0o600, 0o640, 0o666] {
+        fs::set_permissions(&out, fs::Permissions::from_mode(mode)).unwrap();
+        let run = verify_with(PAIR.as_bytes(), &["-", "--certificate", text(&out)]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(is_certificate(&fs::read_to_string(&out).unwrap()));
+        let found = fs::metadata(&out).unwrap().permissions().mode();
+        assert_eq!(found & 0o777, mode);
+    }
+}
+
+#[test]
+fn an_input_is_never_an_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| text(&folder.path().join(name)).to_owned();
+    let graph = at("g.txt");
+    fs::write(&graph, PAIR).unwrap();
+    symlink("g.txt", at("link.txt")).unwrap();
+    fs::hard_link(&graph, at("hard.txt")).unwrap();
+    let other = at("other.txt");
+    fs::write(&other, PAIR).unwrap();
+    let table = at("claims.csv");
+    fs::write(&table, "file,rank\ng.txt,8\n").unwrap();
+    let published = at("table.csv");
+    let head = "density_percent,graphs,finite_solvable,components_min,components_max\n";
+    fs::write(&published, head).unwrap();
+    let before = names(folder.path());
+    let spelt = format!("{}/./g.txt", text(folder.path()));
+    for name in [&graph, &spelt, &at("link.txt"), &at("hard.txt")] {
+        refused(
+            &verify(&[&graph, "--certificate", name]),
+            "this is the input",
+        );
+        refused(
+            &verify(&["audit", &graph, "--certificate", name]),
+            "this is the input",
+        );
+        for command in [&["compare"][..], &["audit", "--sweep-tolerance"]] {
+            let arguments = [command, &[&other, &graph, "--svg", name]].concat();
+            refused(&verify(&arguments), "this is the input");
+        }
+        // Of claims the graph is known when its row is read.
+        let run = verify(&[
+            "audit",
+            "--claims",
+            &table,
+            "--graphs",
+            text(folder.path()),
+            "--certificate",
+            name,
+        ]);
+        assert_eq!(run.code, 2, "{}", run.out);
+        assert!(run.err.contains("this is the input"), "{}", run.err);
+    }
+    refused(
+        &verify(&["audit", "--claims", &table, "--certificate", &table]),
+        "this is the input",
+    );
+    let random = ["experiment", "random", "--density", "0.5", "--samples", "3"];
+    let arguments = ["--compare", &published, "--csv", &published];
+    refused(
+        &verify(&[&random[..], &arguments].concat()),
+        "this is the input",
+    );
+    // Standard input that comes from the file.
+    let output = Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(["-", "--certificate", &graph])
+        .stdin(File::open(&graph).unwrap())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(fs::read_to_string(&graph).unwrap(), PAIR);
+    assert_eq!(fs::read_to_string(&published).unwrap(), head);
+    assert_eq!(names(folder.path()), before);
+}
+
+#[test]
+fn one_file_is_for_the_certificate_of_one_graph() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = file(folder.path(), "g.txt", PAIR);
+    let graph = text(&graph);
+    let inside = tempfile::tempdir().unwrap();
+    let out = inside.path().join("c.json");
+    for command in [&[][..], &["audit"]] {
+        let certificate = ["--certificate", text(&out)];
+        refused(
+            &verify(&[command, &[graph, graph], &certificate].concat()),
+            "2 graphs",
+        );
+        // A second graph, and a line that is none: nothing is decided before.
+        for lines in ["Bw\nC~\n", "Bw\nnot graph6\n", "Bw\n\n\nC~"] {
+            let format = ["-", "--format", "graph6"];
+            let arguments = [command, &format, &certificate].concat();
+            refused(
+                &verify_with(lines.as_bytes(), &arguments),
+                "name an existing folder",
+            );
+        }
+        assert_eq!(names(inside.path()), [""; 0]);
+        let arguments = [command, &["-"], &certificate].concat();
+        let run = verify_with(b"Bw\n\n", &arguments);
+        assert_eq!(run.code, 0, "{}", run.err);
+        assert!(is_certificate(&fs::read_to_string(&out).unwrap()));
+        fs::remove_file(&out).unwrap();
+    }
+    let table = file(folder.path(), "claims.csv", "graph,rank\nC~,1\nCl,1\n");
+    let arguments = ["audit", "--claims", text(&table), "--certificate"];
+    refused(
+        &verify(&[&arguments[..], &[text(&out)]].concat()),
+        "2 claims",
+    );
+    assert_eq!(names(inside.path()), [""; 0]);
+}
+
+#[test]
+fn names_that_collide_in_a_folder_are_numbered_and_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for name in ["out", "a"] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+    }
+    file(folder.path(), "a/x.txt", PAIR);
+    file(folder.path(), "a_x.txt", PAIR);
+    file(folder.path(), "y.txt", PAIR);
+    file(folder.path(), "manifest", PAIR);
+    file(&out, "y.txt.json", "{\"mine\": true}\n");
+    let run = || {
+        Command::new(env!("CARGO_BIN_EXE_verify"))
+            .args(["a/x.txt", "a_x.txt", "y.txt", "manifest"])
+            .args(["--certificate", "out"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap()
+    };
+    let expected = [
+        "a_x.txt-2.json",
+        "a_x.txt.json",
+        "manifest-2.json",
+        "y.txt-2.json",
+        "y.txt.json",
+    ];
+    // The second time earlier certificates are replaced; what is none is not.
+    for _ in 0..2 {
+        let output = run();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert_eq!(names(&out), expected);
+        let lines: Vec<&str> = said.lines().collect();
+        assert_eq!(
+            lines,
+            [
+                "verify: out/a_x.txt.json is a certificate of this run already; the certificate of a_x.txt is \
+                 out/a_x.txt-2.json",
+                "verify: out/y.txt.json is not a certificate and stays as it is; the certificate of y.txt is \
+                 out/y.txt-2.json",
+                "verify: out/manifest.json is not a name that `verify check` takes for a certificate; the \
+                 certificate of manifest is out/manifest-2.json",
+            ]
+        );
+        for name in &expected[..4] {
+            assert!(is_certificate(&fs::read_to_string(out.join(name)).unwrap()));
+        }
+        let mine = fs::read_to_string(out.join("y.txt.json")).unwrap();
+        assert_eq!(mine, "{\"mine\": true}\n");
+    }
+}
+
+/// Every command whose output nobody reads ends without a word and not as if all were good.
+#[test]
+fn a_broken_pipe_is_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| text(&folder.path().join(name)).to_owned();
+    let graph = at("square.txt");
+    fs::write(&graph, cycle(4)).unwrap();
+    let table = at("claims.csv");
+    fs::write(&table, "graph,rank\nC~,29\n").unwrap();
+    let certificates = at("certificates");
+    fs::create_dir(&certificates).unwrap();
+    let certificate = format!("{certificates}/c.json");
+    assert_eq!(verify(&[&graph, "--certificate", &certificate]).code, 1);
+    let shards = at("shards");
+    let shard = ["catalog", "--nodes", "6", "--out", &shards];
+    assert_eq!(verify(&shard).code, 0);
+    let copy = at("copy.json");
+    for arguments in [
+        &[&graph[..]][..],
+        &[&graph, &graph],
+        &[&graph, "--json"],
+        &[&graph, "--certificate", "-"],
+        &["check", &certificate],
+        &["check", &certificates],
+        &["catalog", "--nodes", "5"],
+        &["catalog", "--nodes", "7", "--list"],
+        &["catalog", "merge", &shards],
+        &["experiment", "random", "--density", "0.5", "--samples", "3"],
+        &["audit", &graph],
+        &["audit", &graph, "--json", "--certificate", &copy],
+        &["audit", "--sweep-tolerance", &graph],
+        &["audit", "--claims", &table],
+        &["compare", &graph],
+        &["compare", &graph, "--json"],
+        &["conditions", &graph],
+        &["conditions", &graph, "--json"],
+    ] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = Command::new(env!("CARGO_BIN_EXE_verify"))
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(writer)
+            .output()
+            .unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        // The report of `--certificate -` goes to standard error anyway.
+        if !arguments.ends_with(&["-"]) {
+            assert_eq!(said, "", "{arguments:?}");
+        }
+        assert!(!said.contains("pipe"), "{said}");
+        assert_eq!(output.status.code(), Some(141), "{arguments:?}");
+    }
+}
