@@ -21,10 +21,10 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Limits {
         Limits {
-            core: 10_000,
+            core: 20_000,
             flows: 20_000,
             bits: 1 << 20,
-            operations: 1_000_000_000_000,
+            operations: 2_000_000_000_000,
         }
     }
 }

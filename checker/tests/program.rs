@@ -98,7 +98,8 @@ fn help_and_version() {
         "--expect",
         "--proofs-only",
         "--max-operations",
-        "[10",
+        "[20000]",
+        "[2000000000000]",
         "--format",
     ] {
         assert!(help.contains(option), "{option}");

@@ -27,6 +27,9 @@ const HEADS: [[&[u8]; 2]; 11] = [
 
 const SAY_SO: &str = "if it is an edge list all the same, say so by --format edges";
 
+/// An integer as it is written, with its value before it.
+type Digits<'t> = (u64, &'t [u8]);
+
 /// A label as it is written, with its value if that is an integer.
 type Label<'t> = (Option<u64>, Cow<'t, [u8]>);
 
@@ -156,7 +159,7 @@ fn integer(text: &[u8]) -> Option<u64> {
 /// The most common line: two integers of at most 19 digits between blanks, tabs and one comma.
 /// Returns what is behind the line too; `None` if the line has to be looked at more closely.
 #[inline(always)]
-fn two_integers(text: &[u8]) -> Option<([(u64, &[u8]); 2], &[u8])> {
+fn two_integers(text: &[u8]) -> Option<([Digits<'_>; 2], &[u8])> {
     let (first, rest) = digits(text)?;
     let blanks = blanks(rest);
     let (comma, blanks) = match rest.get(blanks) {
@@ -183,7 +186,7 @@ fn blanks(text: &[u8]) -> usize {
 
 /// From 1 to 19 digits (which are below 2^64), no zero before others.
 #[inline(always)]
-fn digits(text: &[u8]) -> Option<((u64, &[u8]), &[u8])> {
+fn digits(text: &[u8]) -> Option<(Digits<'_>, &[u8])> {
     let (mut value, mut length) = (0u64, 0);
     while let Some(byte @ b'0'..=b'9') = text.get(length) {
         value = value.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
