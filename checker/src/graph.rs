@@ -132,6 +132,15 @@ impl<'t> Graph6<'t> {
         let nodes = size
             .iter()
             .fold(0, |n, &byte| n << 6 | u64::from(byte - 63));
+        let longer_than_needed = match size.len() {
+            6 => nodes <= 258_047,
+            3 => nodes <= 62,
+            _ => false,
+        };
+        ensure!(
+            !longer_than_needed,
+            "graph6: the number of nodes is not in its shortest form"
+        );
         let pairs = u128::from(nodes) * u128::from(nodes.saturating_sub(1)) / 2;
         ensure!(
             bits.len() as u128 == pairs.div_ceil(6),
