@@ -4,6 +4,7 @@ mod checker;
 mod folder;
 
 use self::folder::{Listing, name};
+use super::input::InputArguments;
 use super::manifest::Contents;
 use super::{GOOD, NOT, TOO_LARGE};
 use crate::report::counted;
@@ -32,6 +33,8 @@ pub(super) struct CheckArguments {
     /// The graph it is about; not needed if the certificate embeds it.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
+    #[command(flatten)]
+    input: InputArguments,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -61,7 +64,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     let text = read(path)?;
     let outcome = match &arguments.graph {
         None => checker::check(&text),
-        Some(graph) => checker::check_for(&text, graph)?,
+        Some(graph) => checker::check_for(&text, graph, arguments.input.read_options())?,
     };
     let mut out = std::io::stdout().lock();
     let code = match outcome {

@@ -92,7 +92,7 @@ impl InputArguments {
     }
 
     /// The options of the readers.
-    fn read_options(&self) -> ReadOptions {
+    pub(super) fn read_options(&self) -> ReadOptions {
         ReadOptions {
             format: self.format.map(|format| match format {
                 FormatName::Edges => Format::Edges,

@@ -1,7 +1,10 @@
 //! All calls of the independent checker.
 
-use crate::graph::{ReadOptions, matlab, read_graphs};
-use anyhow::{Context, Result, bail};
+use crate::certificate::hex;
+use crate::graph::read::graphs;
+use crate::graph::{ReadOptions, sha256};
+use anyhow::{Context, Result};
+use std::io::Cursor;
 use std::path::Path;
 use viewcert_check::{Certificate, Failure, Graph, Verified};
 
@@ -31,30 +34,57 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
 }
 
 /// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
-/// itself; it does not read MATLAB files, which come through this program's reader.
+/// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
+/// format, comes through this program's reader, of several graphs the one that is named.
 ///
 /// # Errors
 /// If there is no such graph.
-pub(super) fn check_for(text: &[u8], path: &Path) -> Result<Result<Proved, Failure>> {
+pub(super) fn check_for(
+    text: &[u8],
+    path: &Path,
+    options: ReadOptions,
+) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
     let bytes = super::read(path)?;
-    let graph = if matlab::is_matlab(&bytes) {
-        let name = path
-            .to_str()
-            .context("the name of the graph's file is not UTF-8")?;
-        let Some(input) = read_graphs(name, &ReadOptions::default()).next() else {
-            bail!("{name}: no graph");
-        };
-        let graph = input?.graph;
-        Graph::new(graph.nodes(), graph.edges().iter().copied())
-    } else {
-        Graph::read(&bytes, || Some(certificate.graph_sha256()))
+    let own = match options {
+        ReadOptions {
+            format: None,
+            variable: None,
+        } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
+        _ => None,
     };
-    let graph = graph.with_context(|| path.display().to_string())?;
+    let graph = match own {
+        Some(graph) => graph,
+        None => converted(&certificate, bytes, path, options)?,
+    };
     Ok(certificate
         .check(Some(&graph))
         .map(|verified| Proved::new(&verified)))
+}
+
+/// The graph that a certificate is about, or else the first one, by this program's reader.
+fn converted(
+    certificate: &Certificate,
+    bytes: Vec<u8>,
+    path: &Path,
+    options: ReadOptions,
+) -> Result<Graph> {
+    let name = path.display().to_string();
+    let mut first = None;
+    for input in graphs(name.clone(), Cursor::new(bytes), options) {
+        let graph = input?.graph;
+        let wanted = hex(&sha256(&graph)) == certificate.graph_sha256();
+        if wanted || first.is_none() {
+            first = Some(graph);
+        }
+        if wanted {
+            break;
+        }
+    }
+    let graph = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    let pairs = graph.edges().iter().copied();
+    Graph::new(graph.nodes(), pairs).with_context(|| name)
 }
