@@ -8,10 +8,10 @@
 mod input;
 
 use anyhow::{Result, bail};
-use viewcert::camera::cameras_mod;
-use viewcert::exact::modular::eliminate_mod;
-use viewcert::exact::prime::PrimeField;
-use viewcert::formulation::skew;
+use viewcert::geometry::camera::cameras_mod;
+use viewcert::geometry::jacobian;
+use viewcert::linalg::dense_lu::eliminate_mod;
+use viewcert::linalg::prime::PrimeField;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -21,8 +21,8 @@ fn main() -> Result<()> {
     let (graph, key) = &input::graph_and_key(path)?;
     let field = PrimeField::mersenne61();
     let cameras = cameras_mod(&field, graph.nodes(), key)?.values;
-    let jacobian = skew::jacobian(&field, graph, &cameras);
-    let matrix = skew::dense(&field, &jacobian, 12 * graph.nodes());
+    let jacobian = jacobian::jacobian(&field, graph, &cameras);
+    let matrix = jacobian::dense(&field, &jacobian, 12 * graph.nodes());
     println!("{{\"rank\":{}}}", eliminate_mod(&field, matrix).rank());
     Ok(())
 }

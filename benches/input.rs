@@ -1,8 +1,9 @@
 //! The graph that a benchmark is run on, with the draw that `verify` takes by default.
 
 use anyhow::{Context, Result};
-use viewcert::camera::DrawKey;
-use viewcert::graph::{Graph, ReadOptions, core_sha256, read_graphs, sha256};
+use viewcert::geometry::camera::DrawKey;
+use viewcert::graph::{Graph, core_sha256, sha256};
+use viewcert_formats::{ReadOptions, read_graphs};
 
 /// The first graph of a file, and the key of its first draw.
 pub fn graph_and_key(path: &str) -> Result<(Graph, DrawKey)> {

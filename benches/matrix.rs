@@ -18,10 +18,10 @@ mod input;
 use anyhow::{Result, bail};
 use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
-use viewcert::camera::{cameras_mod, cameras_rational, centres_mod};
-use viewcert::exact::integer::{Integer, Integers};
-use viewcert::exact::prime::PrimeField;
-use viewcert::formulation::{plane_flow, skew};
+use viewcert::geometry::camera::{cameras_mod, cameras_rational, centres_mod};
+use viewcert::geometry::{jacobian, plane_flow};
+use viewcert::linalg::integer::{Integer, Integers};
+use viewcert::linalg::prime::PrimeField;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -35,12 +35,12 @@ fn main() -> Result<()> {
     match kind.as_str() {
         "residues" => {
             let cameras = cameras_mod(&field, graph.nodes(), key)?.values;
-            let rows = skew::jacobian(&field, graph, &cameras);
+            let rows = jacobian::jacobian(&field, graph, &cameras);
             write(out, &rows, cols, field.modulus(), |&x| field.to_u64(x))?;
         }
         "integers" => {
             let cameras = cameras_rational(graph.nodes(), 9, 4, key)?.values;
-            let mut rows = skew::jacobian(&Integers, graph, &cameras);
+            let mut rows = jacobian::jacobian(&Integers, graph, &cameras);
             for row in &mut rows {
                 let content = Integer::content(row.iter().map(|(_, x)| x));
                 for (_, x) in row {

@@ -12,10 +12,10 @@
 mod input;
 
 use anyhow::{Context, Result};
-use viewcert::camera::centres_mod;
-use viewcert::exact::prime::PrimeField;
-use viewcert::exact::sparse::Factorisation;
-use viewcert::formulation::plane_flow::{PlaneFlows, rigidity_rows};
+use viewcert::geometry::camera::centres_mod;
+use viewcert::geometry::plane_flow::{PlaneFlows, rigidity_rows};
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::sparse_lu::Factorisation;
 
 fn main() -> Result<()> {
     let path = std::env::args().nth(1).context("usage: operations GRAPH")?;

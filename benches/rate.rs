@@ -17,9 +17,9 @@ use rand_chacha::ChaCha20Rng;
 use rayon::ThreadPoolBuilder;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
-use viewcert::exact::dense::Matrix;
-use viewcert::exact::modular::eliminate_mod;
-use viewcert::exact::prime::PrimeField;
+use viewcert::linalg::dense_lu::eliminate_mod;
+use viewcert::linalg::matrix::Matrix;
+use viewcert::linalg::prime::PrimeField;
 
 /// As in the elimination: products a sum, and groups of four columns of a tile.
 const DEPTH: usize = 64;
@@ -32,7 +32,7 @@ const SIZES: [usize; 3] = [500, 1000, 2000];
 
 fn main() {
     let field = PrimeField::mersenne61();
-    let small = PrimeField::new(viewcert::exact::prime::SMALL_PRIME).expect("a prime");
+    let small = PrimeField::new(viewcert::linalg::prime::SMALL_PRIME).expect("a prime");
     println!("| computation | threads | million multiply-adds a second | seconds |");
     println!("|---|---:|---:|---:|");
     for threads in [1, 2] {

@@ -6,7 +6,7 @@
 //! ```
 
 use std::process::ExitCode;
-use viewcert::graph::{ReadOptions, read_graphs};
+use viewcert_formats::{ReadOptions, read_graphs};
 
 fn main() -> ExitCode {
     for path in std::env::args().skip(1) {

@@ -1,5 +1,141 @@
-//! `verify`: arguments in, reports out.
+//! `verify`: arguments in, reports out; no mathematics. One file a command.
 
-fn main() -> std::process::ExitCode {
-    viewcert::cli::main()
+mod atomic;
+mod audit;
+mod bounds;
+mod catalog;
+mod certificates;
+mod check;
+mod compare;
+mod conditions;
+mod experiment;
+mod input;
+mod manifest;
+mod progress;
+mod report;
+mod running;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use viewcert::decide::VerdictError;
+use viewcert::watch::{Reason, Stopped};
+use viewcert_formats::ReadError;
+use viewcert_studies::audit::AuditError;
+use viewcert_studies::formulation::compare::CompareError;
+
+/// Exact, certified solvability of viewing graphs.
+///
+/// For every graph: is the set of cameras that its fundamental matrices determine unique,
+/// finite, or infinite, and which maximal parts of it are determined?
+///
+/// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
+/// compare: all agree; conditions: no necessary one fails), 1 some are not (check:
+/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input, 3 too
+/// large for the method or for the limits of time and memory (compare: nothing could be
+/// compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143 terminated. Of several
+/// graphs the largest code counts.
+#[derive(Parser)]
+#[command(name = "verify", version, args_conflicts_with_subcommands = true)]
+#[command(subcommand_negates_reqs = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    verify: verify::VerifyArguments,
+    #[command(flatten)]
+    limits: running::LimitArguments,
 }
+
+#[derive(Subcommand)]
+enum Command {
+    /// Verify a certificate with the independent checker.
+    Check(check::CheckArguments),
+    /// Enumerate candidates and decide them all.
+    Catalog(Box<catalog::Arguments>),
+    /// Repeat an experiment of the paper.
+    Experiment(experiment::Arguments),
+    /// Hold floating point, or claims of others, against the exact verdict.
+    Audit(audit::AuditArguments),
+    /// Compare the formulations of the literature: sizes, ranks, time.
+    Compare(compare::CompareArguments),
+    /// Check the necessary and sufficient conditions of the literature.
+    Conditions(conditions::ConditionArguments),
+}
+
+/// Runs the program on the process's arguments.
+fn main() -> ExitCode {
+    let arguments = CommandLine::parse();
+    let done = running::begin(&arguments.limits).and_then(|()| match arguments.command {
+        Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Catalog(arguments)) => catalog::run(&arguments),
+        Some(Command::Experiment(arguments)) => experiment::run(&arguments),
+        Some(Command::Audit(arguments)) => audit::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Conditions(arguments)) => conditions::run(&arguments),
+        None => verify::run(&arguments.verify),
+    });
+    running::hide();
+    match done {
+        Ok(code) => code,
+        Err(error) if atomic::is_broken_pipe(&error) => ExitCode::from(BROKEN_PIPE),
+        Err(error) => {
+            if running::first_to_say() {
+                // Nothing is left to tell if standard error is gone as well.
+                let _ = std::io::Write::write_fmt(
+                    &mut std::io::stderr(),
+                    format_args!("verify: {error:#}\n"),
+                );
+            }
+            ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+/// Why work was stopped, if that is what an error says.
+fn stopped(error: &anyhow::Error) -> Option<&Stopped> {
+    error
+        .chain()
+        .find_map(|cause| match cause.downcast_ref::<VerdictError>() {
+            Some(VerdictError::Stopped(stopped)) => Some(stopped),
+            _ => cause.downcast_ref(),
+        })
+}
+
+/// Whether an error ends the whole run: not that of a graph, but of the time, by a signal, or since
+/// nobody reads on.
+fn ends_run(error: &anyhow::Error) -> bool {
+    atomic::is_broken_pipe(error)
+        || stopped(error).is_some_and(|stopped| !matches!(stopped.reason, Reason::TooLarge { .. }))
+}
+
+/// The exit code for an error.
+fn exit_code(error: &anyhow::Error) -> u8 {
+    if let Some(stopped) = stopped(error) {
+        return running::stopped(&stopped.reason);
+    }
+    let too_large = error.chain().any(|cause| {
+        matches!(cause.downcast_ref(), Some(VerdictError::TooLarge { .. }))
+            || matches!(cause.downcast_ref(), Some(CompareError::TooLarge { .. }))
+            || matches!(cause.downcast_ref(), Some(AuditError::TooLarge { .. }))
+            || matches!(cause.downcast_ref::<ReadError>(), Some(error) if error.problem.is_size())
+    });
+    if too_large { TOO_LARGE } else { BAD_INPUT }
+}
+
+// The table of exit codes; the help above and the README say the same.
+
+/// All good.
+const GOOD: u8 = 0;
+/// Not solvable, or refuted.
+const NOT: u8 = 1;
+/// Bad usage or input.
+const BAD_INPUT: u8 = 2;
+/// Too large for the method, or for the limits of time and memory.
+const TOO_LARGE: u8 = 3;
+/// Stopped by SIGINT: 128 and its number, as shells have it.
+const INTERRUPTED: u8 = 130;
+/// Nobody reads on: what shells show for programs that a pipe has ended, 128 + SIGPIPE.
+const BROKEN_PIPE: u8 = 141;
+/// Stopped by SIGTERM.
+const TERMINATED: u8 = 143;

@@ -107,7 +107,7 @@ fn as_many_candidates_as_geng() {
         let line = report.lines().find(|line| line.starts_with(">Z")).unwrap();
         let expected: u64 = line.split(' ').nth(1).unwrap().parse().unwrap();
         let mut found = 0u64;
-        viewcert::catalog::Candidates::new(nodes, edges, false)
+        viewcert_studies::catalog::Candidates::new(nodes, edges, false)
             .unwrap()
             .for_each(&mut |_| {
                 found += 1;

@@ -535,7 +535,7 @@ fn certificates_of_published_graphs_verify() {
 /// The checker's crate does not know the prover's.
 #[test]
 fn the_checker_does_not_depend_on_the_prover() {
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("checker/Cargo.toml");
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/Cargo.toml");
     let tree = std::process::Command::new(env!("CARGO"))
         .args(["tree", "--edges", "normal,build,dev", "--manifest-path"])
         .arg(manifest)
@@ -551,7 +551,7 @@ fn the_checker_does_not_depend_on_the_prover() {
     assert!(!tree.contains("viewcert v"), "{tree}");
     // Nor does it share its source by other ways.
     for entry in
-        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("checker/src")).unwrap()
+        std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/src")).unwrap()
     {
         let path = entry.unwrap().path();
         if path.is_file() {

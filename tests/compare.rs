@@ -5,15 +5,17 @@ mod common;
 
 use common::{TABLE_1, data, geng, verify, verify_with};
 use std::path::Path;
-use viewcert::camera::{Camera, DrawKey, cameras_rational};
-use viewcert::exact::bareiss;
-use viewcert::exact::dense::Matrix;
-use viewcert::exact::integer::Integer;
-use viewcert::exact::prime::PrimeField;
-use viewcert::exact::rational::{Rational, Rationals};
-use viewcert::formulation::compare::{self, Limits, MAX_RATIONALS, MAX_RESIDUES};
-use viewcert::formulation::{all, rank::RankField};
+use viewcert::geometry::camera::{Camera, DrawKey, cameras_rational};
 use viewcert::graph::{Graph, graph6};
+use viewcert::linalg::bareiss;
+use viewcert::linalg::integer::Integer;
+use viewcert::linalg::matrix::Matrix;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert_studies::formulation::all;
+use viewcert_studies::formulation::compare;
+use viewcert_studies::formulation::compare::{Limits, MAX_RATIONALS, MAX_RESIDUES};
+use viewcert_studies::formulation::rank::RankField;
 
 fn graph_file(folder: &Path, name: &str, pairs: &str) -> String {
     let path = folder.join(name);

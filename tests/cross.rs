@@ -6,17 +6,18 @@ mod common;
 use common::{TABLE_1, geng};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use viewcert::camera::{self, DrawKey};
-use viewcert::component::iterative;
-use viewcert::evidence::Strength;
-use viewcert::exact::dense::Matrix;
-use viewcert::exact::gauss;
-use viewcert::exact::prime::PrimeField;
-use viewcert::formulation::plane_flow::PlaneFlows;
-use viewcert::formulation::skew;
+use viewcert::decide::evidence::Strength;
+use viewcert::decide::{Arithmetic, Options, Verdict, decide};
+use viewcert::geometry::camera;
+use viewcert::geometry::camera::DrawKey;
+use viewcert::geometry::jacobian;
+use viewcert::geometry::model::Model;
+use viewcert::geometry::plane_flow::PlaneFlows;
 use viewcert::graph::{Graph, graph6, sha256};
-use viewcert::model::Model;
-use viewcert::verdict::{Arithmetic, Options, Verdict, decide};
+use viewcert::linalg::matrix::Matrix;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::textbook;
+use viewcert_studies::paper_components;
 
 fn cases(default: u64) -> u64 {
     match std::env::var("VIEWCERT_CASES") {
@@ -62,8 +63,8 @@ fn key(graph: &Graph, draw: u64) -> DrawKey {
 /// The rank of the paper's J_P at general cameras, by textbook elimination.
 fn textbook_rank(field: &PrimeField, graph: &Graph) -> usize {
     let cameras = camera::cameras_mod(field, graph.nodes(), &key(graph, 0)).unwrap();
-    let rows = skew::jacobian(field, graph, &cameras.values);
-    gauss::eliminate(field, &skew::dense(field, &rows, 12 * graph.nodes())).rank()
+    let rows = jacobian::jacobian(field, graph, &cameras.values);
+    textbook::eliminate(field, &jacobian::dense(field, &rows, 12 * graph.nodes())).rank()
 }
 
 /// The edges of every component, sorted.
@@ -114,7 +115,7 @@ fn pipeline_against_the_paper() {
         assert_eq!(components(&graph, &other), found, "{name}");
 
         // The paper's method may merge components, never split them.
-        let mut papers = iterative::components(&field, &graph, &key(&graph, 1)).unwrap();
+        let mut papers = paper_components::components(&field, &graph, &key(&graph, 1)).unwrap();
         papers.sort();
         if papers != found {
             for part in &papers {
@@ -153,7 +154,7 @@ fn the_papers_method_merges_components_of_psi() {
     });
     let (graph, _) = Graph::from_pairs(11, pairs.collect()).unwrap();
     let field = PrimeField::mersenne61();
-    let papers = iterative::components(&field, &graph, &key(&graph, 0)).unwrap();
+    let papers = paper_components::components(&field, &graph, &key(&graph, 0)).unwrap();
     assert_eq!(papers[0], [(0, 1), (0, 2), (1, 3), (2, 3)]);
     assert!(is_flexible_alone(&field, &papers[0]));
     let verdict = decide(&graph, &Options::default()).unwrap();
@@ -193,8 +194,9 @@ fn identity_holds(field: &PrimeField, graph: &Graph) {
         .iter()
         .map(|c| camera::normal_form(field, c))
         .collect();
-    let rows = skew::jacobian(field, graph, &cameras);
-    let rank = gauss::eliminate(field, &skew::dense(field, &rows, 12 * graph.nodes())).rank();
+    let rows = jacobian::jacobian(field, graph, &cameras);
+    let rank =
+        textbook::eliminate(field, &jacobian::dense(field, &rows, 12 * graph.nodes())).rank();
 
     // Lambda from a whole basis of plane flows, by the textbook.
     let flows = PlaneFlows::new(field, graph, &centres);
@@ -209,7 +211,7 @@ fn identity_holds(field: &PrimeField, graph: &Graph) {
         }
     });
     let rigidity = flows.rigidity_rank();
-    let by_flows = 4 * rigidity + gauss::eliminate(field, &lambda).rank() - m;
+    let by_flows = 4 * rigidity + textbook::eliminate(field, &lambda).rank() - m;
     assert_eq!(by_flows, rank, "{}", graph6::encode(graph));
     // And from random flows, as the pipeline does.
     let lambda = flows.lambda(key.flow_weights(field));

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use viewcert::graph::{Graph, Labels, ReadOptions, matlab, read_graphs};
+use viewcert::graph::{Graph, Labels};
+use viewcert_formats::{ReadOptions, matlab, read_graphs};
 
 /// The folder with the published graphs, which is not part of the repository.
 fn data() -> Option<PathBuf> {
@@ -395,8 +396,8 @@ mod edge_lists {
     use proptest::prelude::*;
     use proptest::test_runner::{Config, TestRunner};
     use std::cell::Cell;
-    use viewcert::graph::read::graphs;
-    use viewcert::graph::{Format, ReadError};
+    use viewcert_formats::read::graphs;
+    use viewcert_formats::{Format, ReadError};
 
     fn choice(words: &'static str) -> impl Strategy<Value = String> + Clone {
         let words: Vec<&str> = words.split(' ').collect();

@@ -10,9 +10,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use viewcert::graph::{Graph, ReadOptions, read_graphs};
-use viewcert::verdict::{self, Arithmetic, Options, VerdictError};
+use viewcert::decide;
+use viewcert::decide::{Arithmetic, Options, VerdictError};
+use viewcert::graph::Graph;
 use viewcert::watch::{Limits, Observer, Reason, Stage, Step, Watch};
+use viewcert_formats::{ReadOptions, read_graphs};
 
 /// Half a second for what does not ask whether it may go on, and patience with busy machines.
 const LATE: Duration = Duration::from_secs(4);
@@ -419,8 +421,8 @@ fn an_observer_sees_every_stage_and_changes_nothing() {
             watch,
             ..options.clone()
         };
-        let verdict = verdict::decide(&graph, &observed).unwrap();
-        let alone = verdict::decide(&graph, &options).unwrap();
+        let verdict = decide::decide(&graph, &observed).unwrap();
+        let alone = decide::decide(&graph, &options).unwrap();
         assert_eq!(
             (verdict.value, verdict.rank, verdict.components),
             (alone.value, alone.rank, alone.components)
@@ -482,7 +484,7 @@ fn every_step_can_be_stopped() {
                 watch: watch.observed(interrupter),
                 ..options.clone()
             };
-            match verdict::decide(graph, &options) {
+            match decide::decide(graph, &options) {
                 Err(VerdictError::Stopped(found)) => {
                     assert_eq!(found.reason, Reason::Interrupted);
                     stopped += 1;

@@ -261,9 +261,9 @@ fn synthetic_graphs_have_their_true_components() {
     for name in ["house", "triangles2", "triangles3"] {
         let path = data.join("synthetic").join(name).with_extension("mat");
         let bytes = std::fs::read(&path).unwrap();
-        let truth = viewcert::graph::matlab::entries(&bytes, "gt_comp").unwrap();
-        let graph = viewcert::graph::matlab::read(&bytes, None).unwrap();
-        let verdict = viewcert::verdict::decide(&graph, &Default::default()).unwrap();
+        let truth = viewcert_formats::matlab::entries(&bytes, "gt_comp").unwrap();
+        let graph = viewcert_formats::matlab::read(&bytes, None).unwrap();
+        let verdict = viewcert::decide::decide(&graph, &Default::default()).unwrap();
         // Edges of one true component are in one found component, and the other way.
         let mut found = BTreeMap::new();
         for (k, component) in verdict.components.iter().enumerate() {

@@ -10,16 +10,16 @@ use viewcert_check::{Certificate, Graph, check};
 /// Valid certificates, parsed, each with its graph.
 static VALID: LazyLock<Vec<(Value, Graph)>> = LazyLock::new(|| {
     let texts = [
-        include_str!("../../checker/tests/certificates/bipartite.json"),
-        include_str!("../../checker/tests/certificates/draws.json"),
-        include_str!("../../checker/tests/certificates/hub.json"),
-        include_str!("../../checker/tests/certificates/integer.json"),
-        include_str!("../../checker/tests/certificates/merges.json"),
-        include_str!("../../checker/tests/certificates/pentagon-calibrated.json"),
-        include_str!("../../checker/tests/certificates/pentagon-split.json"),
-        include_str!("../../checker/tests/certificates/prism.json"),
-        include_str!("../../checker/tests/certificates/rigid-class.json"),
-        include_str!("../../checker/tests/certificates/theta.json"),
+        include_str!("../../crates/check/tests/certificates/bipartite.json"),
+        include_str!("../../crates/check/tests/certificates/draws.json"),
+        include_str!("../../crates/check/tests/certificates/hub.json"),
+        include_str!("../../crates/check/tests/certificates/integer.json"),
+        include_str!("../../crates/check/tests/certificates/merges.json"),
+        include_str!("../../crates/check/tests/certificates/pentagon-calibrated.json"),
+        include_str!("../../crates/check/tests/certificates/pentagon-split.json"),
+        include_str!("../../crates/check/tests/certificates/prism.json"),
+        include_str!("../../crates/check/tests/certificates/rigid-class.json"),
+        include_str!("../../crates/check/tests/certificates/theta.json"),
     ];
     let parse = |text: &str| {
         let value: Value = serde_json::from_str(text).unwrap();

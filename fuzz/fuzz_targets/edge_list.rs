@@ -5,7 +5,7 @@
 use std::io::Write;
 
 use libfuzzer_sys::fuzz_target;
-use viewcert::graph::edge_list::{Reading, read};
+use viewcert_formats::edge_list::{Reading, read};
 
 fuzz_target!(|data: &[u8]| {
     let lenient = read(data, Reading::Lenient);

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use viewcert::graph::matlab;
+use viewcert_formats::matlab;
 
 fuzz_target!(|data: &[u8]| {
     let Ok(graph) = matlab::read(data, None) else {

@@ -4,7 +4,7 @@
 use std::io::Write;
 
 use libfuzzer_sys::fuzz_target;
-use viewcert::graph::matrix_market;
+use viewcert_formats::matrix_market;
 
 fuzz_target!(|data: &[u8]| {
     let Ok((graph, _)) = matrix_market::read(data) else {

@@ -5,8 +5,8 @@
 use std::io::{Cursor, Read};
 
 use libfuzzer_sys::fuzz_target;
-use viewcert::graph::read::graphs;
-use viewcert::graph::ReadOptions;
+use viewcert_formats::read::graphs;
+use viewcert_formats::ReadOptions;
 
 /// Gives its bytes three at a time.
 struct Slowly(Cursor<Vec<u8>>);

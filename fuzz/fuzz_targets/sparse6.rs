@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use viewcert::graph::sparse6;
+use viewcert_formats::sparse6;
 
 fuzz_target!(|data: &[u8]| {
     let Ok((previous, _)) = sparse6::decode(b":Fa@x^", None) else {

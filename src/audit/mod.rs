@@ -1,320 +1,223 @@
-//! The verdict in floating point, as the paper computes it, to be held against the exact
-//! one.
-//!
-//! Cameras have entries uniform in [0, 1) and Frobenius norm 10, fundamental matrices
-//! Frobenius norm 10, as in the authors' published code; the matrix is the augmented
-//! Jacobian J of the paper's section 4.1, 10m + n + 15 rows and 12n columns, the frame on
-//! a camera of highest degree and its neighbour of highest degree. (The published code
-//! adds n - 1 auxiliary unknowns for the rank of the cameras, and halves the rows of the
-//! diagonal of S + S^T; the paper's J has neither.) G is called finite solvable if the
-//! smallest eigenvalue of J^T J is above a tolerance.
-//!
-//! Nothing outside of this module and the command line uses it: no float is in any verdict
-//! or certificate.
+//! `verify audit GRAPH...`: exact and float side by side; `--claims`: other people's
+//! results.
 
-pub mod cameras;
-pub mod claims;
-pub mod components;
-pub mod dense;
-pub mod jacobian;
-pub mod published;
-pub mod sparse;
-pub mod study;
+mod claims;
+mod report;
+mod rulings;
+mod sweep;
 
-use crate::formulation::augmented::reference;
-use crate::graph::Graph;
-use jacobian::{Blocks, Jacobian};
+use self::report::Audit;
+use super::certificates::Target;
+use super::input::InputArguments;
+use super::{GOOD, NOT, atomic, running};
+use anyhow::{Context, Result, ensure};
+use clap::{Args, ValueEnum};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+use viewcert::decide;
+use viewcert::decide::Value;
+use viewcert_formats::NamedGraph;
+use viewcert_studies::audit;
+use viewcert_studies::audit::{FloatVerdict, Method, TOLERANCE, components, published, study};
 
-/// The tolerance of the published code, on the smallest eigenvalue of J^T J.
-pub const TOLERANCE: f64 = 1e-10;
+/// Options of the audit.
+#[derive(Args)]
+pub(super) struct AuditArguments {
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
+    #[arg(required_unless_present = "claims", value_name = "GRAPH")]
+    graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Decide a table of claims again: CSV with a head, a JSON list of objects, or what `verify
+    /// --json` printed, with a graph (columns graph, file, name) and a verdict, components, a rank
+    /// a row.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["graphs", "format", "variable"])]
+    claims: Option<PathBuf>,
+    /// The folder of the graphs that claims name.
+    #[arg(
+        long = "graphs",
+        id = "folder",
+        value_name = "DIR",
+        requires = "claims"
+    )]
+    folder: Option<PathBuf>,
+    /// A column of the claims that is not looked at; may be repeated or listed with commas.
+    #[arg(
+        long,
+        value_name = "COLUMN",
+        value_delimiter = ',',
+        requires = "claims"
+    )]
+    ignore: Vec<String>,
+    /// Smallest eigenvalue of J^T J above which floating point says finite solvable.
+    #[arg(long, value_name = "T", default_value_t = TOLERANCE, conflicts_with = "claims")]
+    tolerance: f64,
+    /// How floating point gets at the smallest eigenvalue of J^T J.
+    #[arg(long, value_enum, default_value_t = MethodName::Auto, conflicts_with = "claims")]
+    method: MethodName,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Repeat the float side over this many draws of cameras.
+    #[arg(long, value_name = "K", default_value_t = 1, conflicts_with = "claims")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    draws: u64,
+    /// Print, as CSV, how often each tolerance misjudges the given graphs.
+    #[arg(long, conflicts_with_all = ["claims", "json", "certificate"])]
+    sweep_tolerance: bool,
+    /// Draw the two populations and the errors to this file (`-`: to standard output, and the
+    /// table to standard error).
+    #[arg(long, value_name = "FILE", requires = "sweep_tolerance")]
+    svg: Option<PathBuf>,
+    /// Write the exact side's certificate to this file, or for every graph to this folder
+    /// (with --claims: of every refuted row); `-`: to standard output, and the report to
+    /// standard error.
+    #[arg(long, value_name = "PATH")]
+    certificate: Option<PathBuf>,
+    /// Print one JSON object a graph or claim.
+    #[arg(long)]
+    json: bool,
+}
 
-/// How singular values are computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Dense up to [`DENSE_BY_DEFAULT`] entries, sparse above.
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodName {
+    /// Dense for small graphs, sparse for others.
     Auto,
-    /// All singular values of J as a dense matrix.
+    /// All singular values of J.
     Dense,
-    /// All eigenvalues of J^T J, formed as a dense matrix: what the published code hands to
-    /// its eigenvalue solver. Rounding in J^T J hides eigenvalues below eps |J|^2.
+    /// All eigenvalues of J^T J.
     Gram,
-    /// The smallest ones, by inverse iteration with a sparse Cholesky factor of J^T J.
+    /// Inverse iteration with a sparse Cholesky factor of J^T J.
     Sparse,
 }
 
-/// Entries of J up to which the dense method is the default: a second.
-pub const DENSE_BY_DEFAULT: usize = 1 << 20;
-
-/// Largest J of the dense method, in entries of 8 bytes: 1 GiB.
-pub const MAX_DENSE: usize = 1 << 27;
-
-/// What to compute.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
-    /// Bound on the smallest eigenvalue of J^T J above which G counts as finite solvable.
-    pub tolerance: f64,
-    /// How.
-    pub method: Method,
-    /// The seed of the cameras.
-    pub seed: u64,
-}
-
-/// What floating point says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FloatVerdict {
-    /// Finite solvable.
-    Solvable,
-    /// Not finite solvable.
-    NotSolvable,
-    /// A value is not a number, or infinite.
-    Undecided,
-}
-
-impl FloatVerdict {
-    /// The verdict by the smallest eigenvalue.
-    pub fn by_tolerance(eigenvalue: f64, tolerance: f64) -> Self {
-        if !eigenvalue.is_finite() {
-            Self::Undecided
-        } else if eigenvalue > tolerance {
-            Self::Solvable
-        } else {
-            Self::NotSolvable
+impl AuditArguments {
+    fn options(&self) -> audit::Options {
+        audit::Options {
+            tolerance: self.tolerance,
+            method: match self.method {
+                MethodName::Auto => Method::Auto,
+                MethodName::Dense => Method::Dense,
+                MethodName::Gram => Method::Gram,
+                MethodName::Sparse => Method::Sparse,
+            },
+            seed: self.seed,
         }
     }
 
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Solvable => "finite-solvable",
-            Self::NotSolvable => "not-finite-solvable",
-            Self::Undecided => "undecided",
+    fn exact(&self) -> decide::Options {
+        decide::Options {
+            seed: self.seed,
+            watch: running::watch(),
+            ..decide::Options::default()
         }
+    }
+
+    /// The target of the certificates of graphs in these files.
+    fn target(&self, inputs: &[String]) -> Result<Option<Target>> {
+        let path = self.certificate.as_deref();
+        path.map(|path| Target::new(path, false, inputs))
+            .transpose()
     }
 }
 
-/// The outcome at one draw of cameras.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// By the tolerance on the smallest eigenvalue.
-    pub verdict: FloatVerdict,
-    /// The smallest eigenvalue of J^T J: the square of a singular value of J, or computed
-    /// from J^T J itself, and then possibly negative by rounding.
-    pub eigenvalue: f64,
-    /// The rank as MATLAB's `rank` takes it: singular values above
-    /// max(rows, columns) eps(sigma_1). Dense method only.
-    pub matlab_rank: Option<usize>,
-    /// 12n.
-    pub columns: usize,
-    /// The method that was used, which is not `Auto`.
-    pub method: Method,
-}
-
-impl Outcome {
-    /// The smallest singular value of J, zero for a negative eigenvalue.
-    pub fn smallest(&self) -> f64 {
-        if self.eigenvalue < 0.0 {
-            0.0
-        } else {
-            self.eigenvalue.sqrt()
-        }
+/// Audits every graph in turn, or every claim.
+pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+    ensure!(
+        arguments.tolerance.is_finite() && arguments.tolerance > 0.0,
+        "--tolerance: take a positive number"
+    );
+    if let Some(path) = &arguments.claims {
+        return claims::run(arguments, path);
     }
-
-    /// By how many decades the eigenvalue lies above (below: negative) the tolerance; minus
-    /// infinity for zero and below.
-    pub fn margin(&self, tolerance: f64) -> f64 {
-        if self.eigenvalue <= 0.0 {
-            f64::NEG_INFINITY
-        } else {
-            (self.eigenvalue / tolerance).log10()
-        }
+    if arguments.sweep_tolerance {
+        return sweep::run(arguments);
     }
-
-    /// The verdict by MATLAB's rank; `None` where it was not computed.
-    pub fn by_rank(&self) -> Option<FloatVerdict> {
-        let rank = self.matlab_rank?;
-        Some(if !self.eigenvalue.is_finite() {
-            FloatVerdict::Undecided
-        } else if rank == self.columns {
-            FloatVerdict::Solvable
-        } else {
-            FloatVerdict::NotSolvable
-        })
-    }
-}
-
-/// Why floating point has no answer.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum AuditError {
-    /// The graph has no pairs, and so no frame.
-    #[error("the graph has no pairs, and J no frame to fix")]
-    NoPairs,
-    /// J is too large for the dense method.
-    #[error(
-        "the dense method would need {rows} x {columns} doubles for J alone, {gib} GiB; use --method sparse"
-    )]
-    TooLarge {
-        /// Rows of J.
-        rows: usize,
-        /// Columns of J.
-        columns: usize,
-        /// Memory.
-        gib: usize,
-    },
-    /// The dense singular values did not converge.
-    #[error("the singular values did not converge, or are not numbers")]
-    NoConvergence,
-    /// No shift made J^T J positive definite.
-    #[error("the sparse Cholesky factor of J^T J failed at every shift: {0}")]
-    NoFactor(String),
-}
-
-impl Method {
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Dense => "dense",
-            Self::Gram => "gram",
-            Self::Sparse => "sparse",
-        }
-    }
-
-    /// The method to use for a matrix of this size, which is not `Auto`.
-    ///
-    /// # Errors
-    /// The matrix is too large for a dense method, which was asked for.
-    fn choose(self, (rows, columns): (usize, usize)) -> Result<Self, AuditError> {
-        let entries = rows.saturating_mul(columns);
-        match self {
-            Self::Auto if entries <= DENSE_BY_DEFAULT => Ok(Self::Dense),
-            Self::Auto | Self::Sparse => Ok(Self::Sparse),
-            Self::Dense | Self::Gram if entries <= MAX_DENSE => Ok(self),
-            Self::Dense | Self::Gram => Err(AuditError::TooLarge {
-                rows,
-                columns,
-                gib: entries.div_ceil(1 << 27),
-            }),
-        }
-    }
-}
-
-/// The verdict at one draw.
-///
-/// # Errors
-/// See [`AuditError`].
-pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, AuditError> {
-    if graph.edges().is_empty() {
-        return Err(AuditError::NoPairs);
-    }
-    let method = options.method.choose(jacobian::size(graph))?;
-    let cameras = cameras::draw(graph, options.seed, draw);
-    let blocks = Blocks::new(graph, &cameras);
-    let j = Jacobian::new(&blocks, reference(graph));
-    let columns = 12 * graph.nodes();
-    let (eigenvalue, matlab_rank) = match method {
-        Method::Gram => (dense::gram_eigenvalue(&j)?, None),
-        Method::Sparse => (sparse::smallest(&j, 1)?.values[0].powi(2), None),
-        Method::Auto | Method::Dense => {
-            let values = dense::singular_values(&j)?;
-            let rank = dense::matlab_rank(&values, j.size());
-            let smallest = values.last().copied().unwrap_or(f64::NAN);
-            (smallest * smallest, Some(rank))
-        }
+    let mut target = arguments.target(&arguments.graphs)?;
+    let single = target
+        .as_ref()
+        .and_then(Target::single)
+        .map(Path::to_path_buf);
+    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        let agree = one(arguments, input, target.as_mut(), out)?;
+        Ok(if agree { GOOD } else { NOT })
     };
-    Ok(Outcome {
-        verdict: FloatVerdict::by_tolerance(eigenvalue, options.tolerance),
-        eigenvalue,
-        matlab_rank,
-        columns,
-        method,
-    })
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
+    Ok(ExitCode::from(code))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Audits one graph; whether both sides agree.
+fn one(
+    arguments: &AuditArguments,
+    input: &NamedGraph,
+    target: Option<&mut Target>,
+    out: &mut impl Write,
+) -> Result<bool> {
+    let name = || input.name.clone();
+    let options = arguments.options();
+    let start = Instant::now();
+    let exact = decide::decide(&input.graph, &arguments.exact()).with_context(name)?;
+    let exact_time = start.elapsed();
+    let certificate = target
+        .map(|target| target.write(input, &exact))
+        .transpose()?;
 
-    #[test]
-    fn what_is_not_a_number_is_no_verdict() {
-        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let verdict = FloatVerdict::by_tolerance(value, TOLERANCE);
-            assert_eq!(verdict, FloatVerdict::Undecided);
-            let outcome = Outcome {
-                verdict,
-                eigenvalue: value,
-                matlab_rank: Some(12),
-                columns: 12,
-                method: Method::Dense,
-            };
-            assert_eq!(outcome.by_rank(), Some(FloatVerdict::Undecided));
+    let start = Instant::now();
+    let outcome = audit::decide(&input.graph, &options, 0).with_context(name)?;
+    let parts = match outcome.verdict {
+        FloatVerdict::Solvable => Some(1),
+        FloatVerdict::NotSolvable => {
+            let found = components::components(&input.graph, &options, 0).with_context(name)?;
+            Some(components::count(&found))
         }
-        let verdict = |x| FloatVerdict::by_tolerance(x, 1e-10);
-        assert_eq!(verdict(2e-10), FloatVerdict::Solvable);
-        assert_eq!(verdict(1e-10), FloatVerdict::NotSolvable);
-        assert_eq!(verdict(0.0), FloatVerdict::NotSolvable);
-    }
-
-    fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
-        Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0
-    }
-
-    /// K4 and the 4-cycle, by both methods: the same smallest singular value up to
-    /// rounding, and the right verdicts.
-    #[test]
-    fn dense_and_sparse_agree() {
-        let complete = graph(4, &[(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]);
-        let square = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
-        for seed in 0..5 {
-            let outcome = |graph, method| {
-                let options = Options {
-                    tolerance: TOLERANCE,
-                    method,
-                    seed,
-                };
-                decide(graph, &options, 0).unwrap()
-            };
-            let (dense, sparse) = (
-                outcome(&complete, Method::Dense),
-                outcome(&complete, Method::Sparse),
-            );
-            assert_eq!(dense.verdict, FloatVerdict::Solvable);
-            assert_eq!(dense.by_rank(), Some(FloatVerdict::Solvable));
-            assert!((dense.eigenvalue / sparse.eigenvalue - 1.0).abs() < 1e-6);
-            // J^T J loses what is below eps |J|^2, some 1e-11.
-            let gram = outcome(&complete, Method::Gram);
-            assert_eq!(gram.verdict, FloatVerdict::Solvable);
-            assert!((gram.eigenvalue - dense.eigenvalue).abs() < 1e-9);
-            let (dense, sparse) = (
-                outcome(&square, Method::Dense),
-                outcome(&square, Method::Sparse),
-            );
-            assert_eq!(dense.verdict, FloatVerdict::NotSolvable);
-            assert_eq!(dense.matlab_rank, Some(47));
-            assert_eq!(sparse.verdict, FloatVerdict::NotSolvable);
-            assert!(dense.smallest() < 1e-11 && sparse.smallest() < 1e-11);
-            assert!(outcome(&square, Method::Gram).eigenvalue.abs() < 1e-9);
+        FloatVerdict::Undecided => None,
+    };
+    let float_time = start.elapsed();
+    let further = study::eigenvalues(&input.graph, &options, 1..arguments.draws);
+    let draws = [vec![outcome.eigenvalue], further.with_context(name)?].concat();
+    let solvable = exact.value != Value::NotFiniteSolvable;
+    let right = if solvable {
+        FloatVerdict::Solvable
+    } else {
+        FloatVerdict::NotSolvable
+    };
+    let verdicts = draws
+        .iter()
+        .map(|&value| FloatVerdict::by_tolerance(value, options.tolerance));
+    let misjudged = verdicts.filter(|&verdict| verdict != right).count();
+    // Where only the numbers of components differ, the method may be the reason, not rounding.
+    let counts_differ = parts.is_some_and(|parts| parts != exact.components.len());
+    let method = if misjudged == 0 && counts_differ && !solvable {
+        published::study(&input.graph, exact.components.len(), options.seed).with_context(name)?
+    } else {
+        None
+    };
+    let found = Audit {
+        input,
+        exact: &exact,
+        exact_time,
+        tolerance: options.tolerance,
+        outcome,
+        components: parts,
+        float_time,
+        agrees: misjudged == 0 && parts == Some(exact.components.len()),
+        draws: draws.len(),
+        misjudged,
+        method,
+    };
+    if arguments.json {
+        report::json(out, &found)?;
+    } else {
+        report::text(out, &found)?;
+        if let Some(path) = certificate {
+            writeln!(out, "  certificate {}", path.display())?;
         }
     }
-
-    #[test]
-    fn too_large_says_what_it_would_need() {
-        let path: Vec<(u32, u32)> = (0..2000).map(|k| (k, k + 1)).collect();
-        let options = Options {
-            tolerance: TOLERANCE,
-            method: Method::Dense,
-            seed: 1,
-        };
-        let error = decide(&graph(2001, &path), &options, 0).unwrap_err();
-        // 10 * 2000 + 2001 + 15 rows, 12 * 2001 columns, 8 bytes each: 3.94 GiB.
-        let expected = AuditError::TooLarge {
-            rows: 22_016,
-            columns: 24_012,
-            gib: 4,
-        };
-        assert_eq!(error, expected);
-        assert_eq!(
-            decide(&graph(2, &[]), &options, 0),
-            Err(AuditError::NoPairs)
-        );
-    }
+    Ok(found.agrees)
 }

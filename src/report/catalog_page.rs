@@ -2,7 +2,7 @@
 
 use super::layout::layout;
 use super::svg::Svg;
-use crate::graph::Graph;
+use viewcert::graph::Graph;
 
 /// A graph to be drawn.
 #[derive(Clone, Debug)]

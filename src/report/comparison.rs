@@ -2,10 +2,10 @@
 
 use super::bars::{Chart, Group};
 use super::{counted, size};
-use crate::formulation::compare::{Comparison, Line, MatrixLine, Outcome};
-use crate::graph::NamedGraph;
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert_formats::NamedGraph;
+use viewcert_studies::formulation::compare::{Comparison, Line, MatrixLine, Outcome};
 
 /// Writes a table.
 ///

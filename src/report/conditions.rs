@@ -1,11 +1,11 @@
 //! The conditions of the literature with their witnesses.
 
 use super::{counted, size};
-use crate::conditions::moves::Move;
-use crate::conditions::{Answer, Condition, Witness, refuted, solvable};
-use crate::graph::NamedGraph;
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert_formats::NamedGraph;
+use viewcert_studies::conditions::moves::Move;
+use viewcert_studies::conditions::{Answer, Condition, Witness, refuted, solvable};
 
 fn answer(condition: &Condition) -> &'static str {
     match condition.answer {

@@ -1,9 +1,9 @@
 //! One JSON object a line.
 
 use super::Report;
-use crate::certificate::hex;
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::certificate::hex;
 
 #[derive(Serialize)]
 struct Line<'a> {

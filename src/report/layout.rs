@@ -7,7 +7,7 @@
 //! stress. Nothing but the four operations and square roots is used, so that the same graph has
 //! the same drawing on every machine.
 
-use crate::graph::{Adjacency, Graph};
+use viewcert::graph::{Adjacency, Graph};
 
 const STARTS: u64 = 60;
 const ROUNDS: usize = 150;

@@ -1,7 +1,7 @@
 //! The table of a catalog, in the form of the paper's Table 1 with further columns.
 
-use crate::catalog::mine::Summary;
 use std::io::{self, Write};
+use viewcert_studies::catalog::mine::Summary;
 
 /// One source of candidates.
 #[derive(Clone, Debug)]

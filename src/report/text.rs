@@ -1,10 +1,10 @@
 //! A few lines a graph, for people.
 
 use super::{Report, counted, size};
-use crate::evidence::{Evidence, Strength, Witness};
-use crate::model::Model;
-use crate::verdict::{Value, Verdict};
 use std::io::{self, Write};
+use viewcert::decide::evidence::{Evidence, Strength, Witness};
+use viewcert::decide::{Value, Verdict};
+use viewcert::geometry::model::Model;
 
 /// How many components are shown with their sizes.
 const SHOWN: usize = 8;

@@ -1,0 +1,368 @@
+//! The members of the certificate, borrowed from a verdict.
+
+use crate::contract::piece::Members;
+use crate::contract::{Body, Merge, Part, Seed};
+use crate::decide::Verdict;
+use crate::decide::counting::{Block, Counting, Hub};
+use crate::decide::evidence::{
+    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Strength, Witness,
+};
+use crate::geometry::plane_flow::PlaneFlowRank;
+use crate::graph::Graph;
+use crate::linalg::integer::Integer;
+use crate::linalg::textbook::Pivots;
+use serde::ser::{SerializeMap, SerializeSeq};
+use serde::{Serialize, Serializer};
+use std::fmt::Display;
+
+#[derive(Serialize)]
+pub(super) struct Document<'a> {
+    format: &'static str,
+    version: u32,
+    program: &'static str,
+    graph: GraphView<'a>,
+    model: &'static str,
+    claim: Claim,
+    bodies: Vec<BodyView<'a>>,
+    rigid: MembersView<'a>,
+    pieces: Vec<PieceView<'a>>,
+}
+
+#[derive(Serialize)]
+struct GraphView<'a> {
+    name: &'a str,
+    nodes: usize,
+    edges: usize,
+    sha256: String,
+    graph6: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Claim {
+    verdict: Valued<&'static str>,
+    rank: Rank,
+    components: Valued<usize>,
+}
+
+#[derive(Serialize)]
+struct Valued<T> {
+    value: T,
+    strength: &'static str,
+    error_log2: Option<i64>,
+}
+
+#[derive(Serialize)]
+struct Rank {
+    value: usize,
+    required: usize,
+    strength: &'static str,
+    error_log2: Option<i64>,
+}
+
+impl<'a> Document<'a> {
+    pub(super) fn new(
+        name: &'a str,
+        graph: &Graph,
+        graph6: Option<String>,
+        verdict: &'a Verdict,
+    ) -> Self {
+        let valued = |strength: Strength| (strength.name(), strength.error_log2());
+        let (rank_strength, rank_error) = valued(verdict.rank_strength);
+        Self {
+            format: "viewcert certificate",
+            version: 2,
+            program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
+            graph: GraphView {
+                name,
+                nodes: graph.nodes(),
+                edges: graph.edges().len(),
+                sha256: hex(&verdict.sha256),
+                graph6,
+            },
+            model: verdict.model.name(),
+            claim: Claim {
+                verdict: Valued::new(verdict.value.name(), verdict.strength),
+                rank: Rank {
+                    value: verdict.rank,
+                    required: verdict.required,
+                    strength: rank_strength,
+                    error_log2: rank_error,
+                },
+                components: Valued::new(verdict.components.len(), verdict.components_strength),
+            },
+            bodies: verdict
+                .contraction
+                .bodies
+                .iter()
+                .map(BodyView::new)
+                .collect(),
+            rigid: (&verdict.rigid).into(),
+            pieces: verdict.pieces.iter().map(PieceView::new).collect(),
+        }
+    }
+}
+
+impl<T> Valued<T> {
+    fn new(value: T, strength: Strength) -> Self {
+        Self {
+            value,
+            strength: strength.name(),
+            error_log2: strength.error_log2(),
+        }
+    }
+}
+
+/// Bytes in lower-case hexadecimal digits.
+pub fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A number that other readers might round, as a string.
+struct Big<T>(T);
+
+impl<T: Display> Serialize for Big<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&self.0)
+    }
+}
+
+#[derive(Serialize)]
+struct BodyView<'a> {
+    seed: PartView,
+    add: &'a [[u32; 3]],
+    merge: Vec<MergeView<'a>>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum PartView {
+    Edge([u32; 2]),
+    Body(u32),
+}
+
+#[derive(Serialize)]
+struct MergeView<'a> {
+    with: Vec<PartView>,
+    at: &'a [u32],
+}
+
+impl<'a> BodyView<'a> {
+    fn new(body: &'a Body) -> Self {
+        Self {
+            seed: match body.seed {
+                Seed::Edge(i, j) => PartView::Edge([i, j]),
+                Seed::Body(k) => PartView::Body(k),
+            },
+            add: &body.add,
+            merge: body.merge.iter().map(MergeView::new).collect(),
+        }
+    }
+}
+
+impl From<Part> for PartView {
+    fn from(part: Part) -> Self {
+        match part {
+            Part::Edge(i, j) => Self::Edge([i, j]),
+            Part::Body(k) => Self::Body(k),
+        }
+    }
+}
+
+impl<'a> MergeView<'a> {
+    fn new(merge: &'a Merge) -> Self {
+        match merge {
+            Merge::Shared { part, at } => Self {
+                with: vec![(*part).into()],
+                at,
+            },
+            Merge::Triangle { parts, at } => Self {
+                with: parts.iter().map(|&part| part.into()).collect(),
+                at,
+            },
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct MembersView<'a> {
+    bodies: &'a [u32],
+    edges: &'a [(u32, u32)],
+}
+
+impl<'a> From<&'a Members> for MembersView<'a> {
+    fn from(members: &'a Members) -> Self {
+        Self {
+            bodies: &members.bodies,
+            edges: &members.edges,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct PieceView<'a> {
+    #[serde(flatten)]
+    members: MembersView<'a>,
+    evidence: List<'a, Evidence>,
+}
+
+impl<'a> PieceView<'a> {
+    fn new(piece: &'a PieceVerdict) -> Self {
+        Self {
+            members: (&piece.members).into(),
+            evidence: List(&piece.evidence),
+        }
+    }
+}
+
+/// A slice whose elements have their own way of being written.
+struct List<'a, T>(&'a [T]);
+
+impl<T> Serialize for List<'_, T>
+where
+    for<'b> View<'b, T>: Serialize,
+{
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(Some(self.0.len()))?;
+        for item in self.0 {
+            list.serialize_element(&View(item))?;
+        }
+        list.end()
+    }
+}
+
+struct View<'a, T>(&'a T);
+
+impl Serialize for View<'_, Evidence> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        match self.0 {
+            Evidence::Minor { draw, pivots } => {
+                map.serialize_entry("kind", "minor")?;
+                map.serialize_entry("prime", &Big(draw.prime))?;
+                seed_and_draw(&mut map, draw)?;
+                rows_and_cols(&mut map, pivots)?;
+            }
+            Evidence::IntegerMinor(minor) => integer_minor(&mut map, minor)?,
+            Evidence::PlaneFlow { draw, rank } => plane_flow(&mut map, draw, rank)?,
+            Evidence::Counting(Counting { blocks, bound }) => {
+                map.serialize_entry("kind", "counting")?;
+                map.serialize_entry("blocks", &List(blocks))?;
+                map.serialize_entry("bound", bound)?;
+            }
+            Evidence::Draws(Draws { seed, count, rank }) => {
+                map.serialize_entry("kind", "draws")?;
+                map.serialize_entry("seed", &Big(seed))?;
+                map.serialize_entry("count", count)?;
+                map.serialize_entry("rank", rank)?;
+            }
+            Evidence::Classes(classes) => {
+                map.serialize_entry("kind", "classes")?;
+                map.serialize_entry("classes", &List(classes))?;
+            }
+            Evidence::Kernel { draw, vector } => {
+                map.serialize_entry("kind", "kernel")?;
+                map.serialize_entry("prime", &Big(draw.prime))?;
+                seed_and_draw(&mut map, draw)?;
+                map.serialize_entry("vector", &bigs(vector))?;
+            }
+        }
+        map.end()
+    }
+}
+
+fn bigs<T: Display>(values: &[T]) -> Vec<Big<&T>> {
+    values.iter().map(Big).collect()
+}
+
+fn seed_and_draw<M: SerializeMap>(map: &mut M, draw: &ModularDraw) -> Result<(), M::Error> {
+    map.serialize_entry("seed", &Big(draw.seed))?;
+    map.serialize_entry("draw", &draw.draw)
+}
+
+fn rows_and_cols<M: SerializeMap>(map: &mut M, pivots: &Pivots) -> Result<(), M::Error> {
+    map.serialize_entry("rows", &pivots.rows)?;
+    map.serialize_entry("cols", &pivots.cols)
+}
+
+fn integer_minor<M: SerializeMap>(map: &mut M, minor: &IntegerMinor) -> Result<(), M::Error> {
+    map.serialize_entry("kind", "integer-minor")?;
+    map.serialize_entry("numerator", &minor.numerator)?;
+    map.serialize_entry("denominator", &minor.denominator)?;
+    map.serialize_entry("seed", &Big(minor.seed))?;
+    map.serialize_entry("draw", &minor.draw)?;
+    rows_and_cols(map, &minor.pivots)?;
+    let (determinant, prime) = match &minor.witness {
+        Witness::Determinant(determinant) => (Some(Big(determinant)), None),
+        Witness::Prime(prime) => (None, Some(Big(prime))),
+    };
+    map.serialize_entry("determinant", &determinant)?;
+    map.serialize_entry("prime", &prime)?;
+    let kernel: Vec<Vec<Big<&Integer>>> = minor.kernel.iter().map(|vector| bigs(vector)).collect();
+    map.serialize_entry("kernel", &kernel)
+}
+
+fn plane_flow<M: SerializeMap>(
+    map: &mut M,
+    draw: &ModularDraw,
+    rank: &PlaneFlowRank,
+) -> Result<(), M::Error> {
+    map.serialize_entry("kind", "plane-flow")?;
+    map.serialize_entry("prime", &Big(draw.prime))?;
+    seed_and_draw(map, draw)?;
+    rows_and_cols(map, &rank.rigidity)?;
+    map.serialize_entry("flows", &rank.flows)?;
+    map.serialize_entry("lambda_rows", &rank.lambda.rows)?;
+    map.serialize_entry("lambda_cols", &rank.lambda.cols)
+}
+
+impl Serialize for View<'_, Class> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct SplitView<'a> {
+            rigid: MembersView<'a>,
+            pieces: Vec<PieceView<'a>>,
+        }
+        let evidence: &[Evidence] = match &self.0.kind {
+            ClassKind::Rigid(evidence) => evidence,
+            _ => &[],
+        };
+        let split = match &self.0.kind {
+            ClassKind::Loose { rigid, pieces } => Some(SplitView {
+                rigid: rigid.into(),
+                pieces: pieces.iter().map(PieceView::new).collect(),
+            }),
+            _ => None,
+        };
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("bodies", &self.0.members.bodies)?;
+        map.serialize_entry("edges", &self.0.members.edges)?;
+        map.serialize_entry("evidence", &List(evidence))?;
+        map.serialize_entry("split", &split)?;
+        map.end()
+    }
+}
+
+impl Serialize for View<'_, Block> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let hubs: &[Hub] = self.0.hub.as_slice();
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("bodies", &self.0.members.bodies)?;
+        map.serialize_entry("edges", &self.0.members.edges)?;
+        map.serialize_entry("hubs", &List(hubs))?;
+        map.end()
+    }
+}
+
+impl Serialize for View<'_, Hub> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let parts: Vec<MembersView> = self.0.parts.iter().map(MembersView::from).collect();
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("node", &self.0.node)?;
+        map.serialize_entry("parts", &parts)?;
+        map.serialize_entry("split", &self.0.split)?;
+        map.serialize_entry("groups", &self.0.groups)?;
+        map.serialize_entry("components", &self.0.components)?;
+        map.serialize_entry("less", &self.0.less)?;
+        map.end()
+    }
+}

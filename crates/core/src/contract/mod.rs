@@ -1,0 +1,134 @@
+//! Contraction to rigid bodies (docs/theory.md, section 4).
+//!
+//! A *body* is a set of nodes whose relative cameras are determined. Bodies are
+//! grown from triangles until a node seen twice remains nowhere, then merged by the
+//! two rules that are left: bodies that share two nodes, and three bodies that
+//! pairwise share a node. Every step is recorded, and the record is the proof.
+
+pub mod piece;
+
+mod grow;
+mod merge;
+#[cfg(test)]
+mod tests;
+
+use crate::graph::{Adjacency, Graph};
+
+/// What a body starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seed {
+    /// The two nodes of an edge.
+    Edge(u32, u32),
+    /// An earlier body, which is continued.
+    Body(u32),
+}
+
+/// Something that joins a body: an edge, or an earlier body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// An edge `(i, j)`, `i < j`.
+    Edge(u32, u32),
+    /// An earlier body, by its number.
+    Body(u32),
+}
+
+impl Part {
+    fn edge(a: u32, b: u32) -> Self {
+        Self::Edge(a.min(b), a.max(b))
+    }
+}
+
+/// One application of a merge rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Merge {
+    /// The part shares the two nodes with the body.
+    Shared {
+        /// What joins.
+        part: Part,
+        /// The two common nodes.
+        at: [u32; 2],
+    },
+    /// Body and parts pairwise share a node: `at[0]` is in the body and the first
+    /// part, `at[1]` in the body and the second, `at[2]` in both parts.
+    Triangle {
+        /// What joins.
+        parts: [Part; 2],
+        /// The three common nodes, all different.
+        at: [u32; 3],
+    },
+}
+
+/// A body and how it came to be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Body {
+    /// What it starts from.
+    pub seed: Seed,
+    /// `[v, a, b]`: node v joins, seen from the nodes a and b of the body.
+    pub add: Vec<[u32; 3]>,
+    /// Merges, after all of `add`, in order.
+    pub merge: Vec<Merge>,
+    /// Its nodes in increasing order; empty once the body has been consumed by a
+    /// later one.
+    pub nodes: Vec<u32>,
+    /// How many edges of the graph it covers; 0 once consumed.
+    pub edges: usize,
+}
+
+/// A viewing graph contracted to bodies and loose edges.
+#[derive(Clone, Debug)]
+pub struct Contraction {
+    /// All bodies in the order of their making, the consumed ones included. A body
+    /// refers to earlier ones only, and to each at most once in all.
+    pub bodies: Vec<Body>,
+    /// Numbers of the bodies that are left, in increasing order. No two of them
+    /// share two nodes.
+    pub finals: Vec<u32>,
+    /// The edges that no body covers, in increasing order.
+    pub loose: Vec<(u32, u32)>,
+}
+
+impl Contraction {
+    /// Contracts a graph. Close to O(m) on real graphs; O(m * arboricity) for the
+    /// search of triangles at worst.
+    pub fn new(graph: &Graph) -> Self {
+        // The edges that no body owns yet.
+        let mut remaining = Adjacency::new(graph);
+        let mut bodies = grow::grow(&mut remaining);
+        let owners = merge::close(&mut bodies, &remaining, graph.nodes());
+        for body in &mut bodies {
+            body.nodes.sort_unstable();
+        }
+        let finals = (0..)
+            .zip(&bodies)
+            .filter(|(_, body)| !body.nodes.is_empty())
+            .map(|(k, _)| k)
+            .collect();
+        let mut loose = Vec::new();
+        for v in 0..graph.nodes() as u32 {
+            for &w in remaining.neighbours(v) {
+                if v < w {
+                    match owners.common_body(v, w) {
+                        Some(body) => bodies[body as usize].edges += 1,
+                        None => loose.push((v, w)),
+                    }
+                }
+            }
+        }
+        loose.sort_unstable();
+        Self {
+            bodies,
+            finals,
+            loose,
+        }
+    }
+
+    /// No bodies at all: every edge is loose, and the computation runs on the whole
+    /// graph.
+    pub fn none(graph: &Graph) -> Self {
+        Self {
+            bodies: Vec::new(),
+            finals: Vec::new(),
+            loose: graph.edges().to_vec(),
+        }
+    }
+}

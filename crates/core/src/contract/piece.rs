@@ -1,0 +1,404 @@
+//! Cutting a contracted graph into pieces at its articulation nodes, and the core of
+//! a piece (docs/theory.md, section 4).
+//!
+//! Ranks add up over pieces and no component lies in two of them, so each piece is
+//! decided by itself, on its core: the nodes that its members share.
+
+use crate::contract::Contraction;
+use crate::graph::Graph;
+
+/// Some members of a contracted graph: final bodies and loose edges.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Members {
+    /// Loose edges, increasing.
+    pub edges: Vec<(u32, u32)>,
+    /// Numbers of final bodies, increasing.
+    pub bodies: Vec<u32>,
+}
+
+impl Members {
+    /// How many members there are.
+    pub fn len(&self) -> usize {
+        self.edges.len() + self.bodies.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The members of each class, classes in the order of their first members. Members
+    /// are counted bodies first, then edges, as in [`Core::owner`].
+    ///
+    /// # Panics
+    /// If a class is not named by a number below that of the members.
+    pub fn grouped(&self, mut class: impl FnMut(usize) -> usize) -> Vec<Self> {
+        let mut position = vec![None; self.len()];
+        let mut groups: Vec<Self> = Vec::new();
+        for member in 0..self.len() {
+            let at = *position[class(member)].get_or_insert_with(|| {
+                groups.push(Self::default());
+                groups.len() - 1
+            });
+            match self.bodies.get(member) {
+                Some(&body) => groups[at].bodies.push(body),
+                None => groups[at]
+                    .edges
+                    .push(self.edges[member - self.bodies.len()]),
+            }
+        }
+        groups
+    }
+
+    /// Where the members of a part stand among these: bodies first, then edges.
+    ///
+    /// # Panics
+    /// If a member of the part is not one of these.
+    pub fn positions(&self, part: &Self) -> Vec<usize> {
+        let body = |body| self.bodies.binary_search(body).expect("a member");
+        let edge = |edge| self.edges.binary_search(edge).expect("a member");
+        part.bodies
+            .iter()
+            .map(body)
+            .chain(part.edges.iter().map(|e| self.bodies.len() + edge(e)))
+            .collect()
+    }
+
+    /// Whether all members of a part are among these.
+    pub fn contains(&self, part: &Self) -> bool {
+        let body = |body| self.bodies.binary_search(body).is_ok();
+        let edge = |edge| self.edges.binary_search(edge).is_ok();
+        part.bodies.iter().all(body) && part.edges.iter().all(edge)
+    }
+
+    /// Takes in the members of another part.
+    pub fn extend(&mut self, part: &Self) {
+        self.bodies.extend(&part.bodies);
+        self.edges.extend(&part.edges);
+        self.sort();
+    }
+
+    /// Each member by itself.
+    pub fn singles(&self) -> Vec<Self> {
+        self.grouped(|member| member)
+    }
+
+    fn sort(&mut self) {
+        self.edges.sort_unstable();
+        self.bodies.sort_unstable();
+    }
+}
+
+/// A contracted graph: which member contains which of the nodes that members share.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    all: Members,
+    /// For every body of the contraction those of its nodes, increasing, that lie in
+    /// a second member; empty for consumed bodies.
+    shared: Vec<Vec<u32>>,
+    /// Number of nodes of every body.
+    size: Vec<usize>,
+}
+
+/// Some members, cut at their articulation nodes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Split {
+    /// The members that are pieces by themselves.
+    pub rigid: Members,
+    /// The other pieces, each of two members or more, in a fixed order.
+    pub pieces: Vec<Members>,
+}
+
+impl Assembly {
+    /// The structure of a contracted graph. O(n + loose edges).
+    pub fn new(graph: &Graph, contraction: &Contraction) -> Self {
+        let mut count = vec![0u8; graph.nodes()];
+        let mut see = |v: u32| count[v as usize] = count[v as usize].saturating_add(1);
+        for &body in &contraction.finals {
+            let nodes = &contraction.bodies[body as usize].nodes;
+            nodes.iter().copied().for_each(&mut see);
+        }
+        for &(i, j) in &contraction.loose {
+            see(i);
+            see(j);
+        }
+        let shared = |v: &u32| count[*v as usize] > 1;
+        let bodies = &contraction.bodies;
+        Self {
+            all: Members {
+                edges: contraction.loose.clone(),
+                bodies: contraction.finals.clone(),
+            },
+            shared: bodies
+                .iter()
+                .map(|body| body.nodes.iter().copied().filter(shared).collect())
+                .collect(),
+            size: bodies.iter().map(|body| body.nodes.len()).collect(),
+        }
+    }
+
+    /// All members.
+    pub fn all(&self) -> Members {
+        self.all.clone()
+    }
+
+    /// Cuts some members at the nodes that are articulations of their structure. Linear
+    /// time, up to sorting.
+    pub fn split(&self, part: &Members) -> Split {
+        let piece_of = Incidence::new(part, &self.shared).pieces();
+        let mut split = Split {
+            rigid: Members::default(),
+            pieces: Vec::new(),
+        };
+        for piece in part.grouped(|member| piece_of[member] as usize) {
+            if piece.len() == 1 {
+                split.rigid.bodies.extend(piece.bodies);
+                split.rigid.edges.extend(piece.edges);
+            } else {
+                split.pieces.push(piece);
+            }
+        }
+        split.rigid.sort();
+        split.pieces.sort();
+        split
+    }
+
+    /// Some members as one piece, whatever their articulations (a single member is rigid
+    /// all the same, and none are no piece).
+    pub fn whole(&self, part: &Members) -> Split {
+        let (rigid, pieces) = if part.len() < 2 {
+            (part.clone(), Vec::new())
+        } else {
+            (Members::default(), vec![part.clone()])
+        };
+        Split { rigid, pieces }
+    }
+
+    /// The core of a piece, or of a part of it.
+    ///
+    /// # Panics
+    /// If two members share two nodes, which a contraction excludes.
+    pub fn core(&self, part: &Members) -> Core {
+        let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
+        let mut of_bodies: Vec<u32> = part
+            .bodies
+            .iter()
+            .flat_map(|&b| self.shared[b as usize].iter().copied())
+            .collect();
+        of_bodies.sort_unstable();
+        nodes.extend(
+            of_bodies
+                .windows(2)
+                .filter(|pair| pair[0] == pair[1])
+                .map(|pair| pair[0]),
+        );
+        nodes.sort_unstable();
+        nodes.dedup();
+
+        let number = |v: &u32| nodes.binary_search(v).ok().map(|k| k as u32);
+        let mut edges: Vec<(u32, u32, u32)> = Vec::new();
+        let mut outside = 0;
+        for (member, &body) in (0..).zip(&part.bodies) {
+            let at: Vec<u32> = self.shared[body as usize]
+                .iter()
+                .filter_map(number)
+                .collect();
+            outside += self.size[body as usize] - at.len();
+            for step in [1, 2] {
+                edges.extend(
+                    at.iter()
+                        .zip(at.iter().skip(step))
+                        .map(|(&a, &b)| (a, b, member)),
+                );
+            }
+        }
+        for (member, (i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
+            let ends = number(i).zip(number(j)).expect("ends of edges are nodes");
+            edges.push((ends.0, ends.1, member));
+        }
+        edges.sort_unstable();
+        let owner = edges.iter().map(|&(_, _, member)| member).collect();
+        let pairs = edges.into_iter().map(|(a, b, _)| (a, b)).collect();
+        let (graph, merged) = Graph::from_pairs(nodes.len() as u32, pairs)
+            .expect("core edges join two different core nodes");
+        assert_eq!(merged, 0, "two members share two nodes");
+        Core {
+            total_nodes: nodes.len() + outside,
+            nodes,
+            graph,
+            owner,
+        }
+    }
+
+    /// Number of nodes of all members of a part together.
+    pub fn count_nodes(&self, part: &Members) -> usize {
+        let mut nodes: Vec<u32> = part.edges.iter().flat_map(|&(i, j)| [i, j]).collect();
+        let mut inner = 0;
+        for &body in &part.bodies {
+            let shared = &self.shared[body as usize];
+            inner += self.size[body as usize] - shared.len();
+            nodes.extend(shared);
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        inner + nodes.len()
+    }
+
+    /// Whether a part contains a node that lies in two members or more.
+    pub fn contains_node(&self, part: &Members, node: u32) -> bool {
+        let in_body = |&b: &u32| self.shared[b as usize].binary_search(&node).is_ok();
+        part.edges.iter().any(|&(i, j)| i == node || j == node) || part.bodies.iter().any(in_body)
+    }
+}
+
+/// The core of a piece: its shared nodes, with a chain of triangles in the place of
+/// every body.
+#[derive(Clone, Debug)]
+pub struct Core {
+    /// The core's nodes as nodes of the whole graph, increasing.
+    pub nodes: Vec<u32>,
+    /// The core on the nodes `0 .. nodes.len()`.
+    pub graph: Graph,
+    /// For every core edge the member it stands for: first the bodies, then the
+    /// edges, counted in the order of the part.
+    pub owner: Vec<u32>,
+    /// Number of nodes of the piece itself.
+    pub total_nodes: usize,
+}
+
+/// Lists of `u32`, one after another.
+struct Lists {
+    start: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    fn of(&self, k: usize) -> &[u32] {
+        &self.items[self.start[k] as usize..self.start[k + 1] as usize]
+    }
+
+    /// Groups `(key, item)` by key, the items of a key in the order given.
+    fn group(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut start = vec![0u32; keys + 1];
+        for (key, _) in pairs.clone() {
+            start[key as usize + 1] += 1;
+        }
+        for key in 0..keys {
+            start[key + 1] += start[key];
+        }
+        let mut fill = start.clone();
+        let mut items = vec![0; start[keys] as usize];
+        for (key, item) in pairs {
+            items[fill[key as usize] as usize] = item;
+            fill[key as usize] += 1;
+        }
+        Self { start, items }
+    }
+}
+
+/// Which members (bodies, then edges) contain which shared nodes.
+struct Incidence {
+    /// For every member its shared nodes, numbered among all of them.
+    of_member: Lists,
+    /// For every shared node the members that contain it.
+    of_node: Lists,
+}
+
+impl Incidence {
+    /// `shared` lists the shared nodes of every body.
+    fn new(part: &Members, shared: &[Vec<u32>]) -> Self {
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        for (member, &body) in (0..).zip(&part.bodies) {
+            pairs.extend(shared[body as usize].iter().map(|&v| (member, v)));
+        }
+        for (member, &(i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
+            pairs.extend([(member, i), (member, j)]);
+        }
+        let mut nodes: Vec<u32> = pairs.iter().map(|&(_, v)| v).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        for (_, v) in &mut pairs {
+            *v = nodes.partition_point(|w| w < v) as u32;
+        }
+        Self {
+            of_member: Lists::group(part.len(), pairs.iter().copied()),
+            of_node: Lists::group(nodes.len(), pairs.iter().map(|&(m, v)| (v, m))),
+        }
+    }
+
+    /// For every member a number of its piece. Members are in one piece if they lie on
+    /// a common cycle of the bipartite graph of members and shared nodes, or are linked
+    /// by such cycles: Tarjan's biconnected components, united at common members.
+    fn pieces(&self) -> Vec<u32> {
+        const UNSEEN: u32 = u32::MAX;
+        let members = self.of_member.len();
+        let total = members + self.of_node.len();
+        let neighbour = |v: usize, at: usize| -> Option<usize> {
+            if v < members {
+                let node = self.of_member.of(v).get(at)?;
+                Some(members + *node as usize)
+            } else {
+                Some(*self.of_node.of(v - members).get(at)? as usize)
+            }
+        };
+        let mut piece = crate::graph::union_find::UnionFind::new(members);
+        let mut found = vec![UNSEEN; total];
+        let mut low = vec![UNSEEN; total];
+        let mut clock = 0;
+        // Vertices seen but not yet in a finished component, and the path to the
+        // current vertex with the next neighbour to look at.
+        let mut open: Vec<usize> = Vec::new();
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        for root in 0..members {
+            if found[root] != UNSEEN {
+                continue;
+            }
+            path.push((root, 0));
+            while let Some(&mut (v, ref mut at)) = path.last_mut() {
+                if found[v] == UNSEEN {
+                    found[v] = clock;
+                    low[v] = clock;
+                    clock += 1;
+                    open.push(v);
+                }
+                let next = neighbour(v, *at);
+                *at += 1;
+                if let Some(w) = next {
+                    if found[w] == UNSEEN {
+                        path.push((w, 0));
+                    } else {
+                        low[v] = low[v].min(found[w]);
+                    }
+                    continue;
+                }
+                path.pop();
+                let Some(&(parent, _)) = path.last() else {
+                    open.clear();
+                    break;
+                };
+                low[parent] = low[parent].min(low[v]);
+                if low[v] >= found[parent] {
+                    let cut = open.iter().rposition(|&w| w == v).expect("v is open");
+                    let component = open.split_off(cut);
+                    // A component of v and its parent alone is a bridge, not a cycle.
+                    if component.len() > 1 {
+                        let mut of_component = component
+                            .iter()
+                            .chain(std::iter::once(&parent))
+                            .filter(|&&w| w < members);
+                        if let Some(&first) = of_component.next() {
+                            for &other in of_component {
+                                piece.union(first, other);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        (0..members).map(|m| piece.find(m) as u32).collect()
+    }
+}

@@ -1,0 +1,203 @@
+//! Upper bounds on the rank that hold for all cameras, by counting nodes
+//! (docs/theory.md, section 5).
+//!
+//! *Partition*: the rank is at most the sum of `required(n_B)` over the blocks of any
+//! partition of the edges. *Hub*: a block of projective cameras loses more where the
+//! plane flows into a node are too few for the parts that meet there.
+//!
+//! What the search covers: the partition into the given components; a hub at any node
+//! of a block with the components as parts and, failing that, with the members (bodies
+//! and loose edges) as parts, where the block is the whole piece or one of its
+//! parallel-rigid components. At a node where t parts meet, the sets that can be
+//! split off with gain are those of at most (t - 1) / 3 parts, together with all the parts
+//! whose flow these determine. At most 20,000 such sets are looked at for a node: all of them
+//! where at most 16 parts meet. Rank is then taken off the block by the best single hub. Where that
+//! does not meet the lower bound and there are at most 64 components, all this is tried again with
+//! each one of them left out as a block of its own: what is rigid without it may be a smaller block
+//! that has a hub.
+
+mod hub;
+
+use crate::contract::piece::{Assembly, Members};
+use crate::decide::motion_class;
+use crate::geometry::model::Model;
+use crate::geometry::plane_flow::PlaneFlows;
+use crate::linalg::prime::PrimeField;
+use crate::watch::{Stopped, Task};
+
+pub use hub::Hub;
+
+/// Up to so many components each is left out in turn.
+const MAX_LEFT_OUT: usize = 64;
+
+/// A partition of a piece's members and the bound on its rank that counting gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counting {
+    /// The blocks, in the order of their first members.
+    pub blocks: Vec<Block>,
+    /// The bound: the sum of what the blocks contribute.
+    pub bound: usize,
+}
+
+/// A block of a partition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// What is in the block.
+    pub members: Members,
+    /// A hub at which it loses rank.
+    pub hub: Option<Hub>,
+}
+
+impl Counting {
+    /// The partition bound of the given blocks.
+    fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
+        Self {
+            bound: blocks
+                .iter()
+                .map(|block| model.required(assembly.count_nodes(block)))
+                .sum(),
+            blocks: blocks
+                .iter()
+                .map(|members| Block {
+                    members: members.clone(),
+                    hub: None,
+                })
+                .collect(),
+        }
+    }
+
+    fn join(parts: Vec<Self>) -> Self {
+        let bound = parts.iter().map(|part| part.bound).sum();
+        let mut blocks: Vec<Block> = parts.into_iter().flat_map(|part| part.blocks).collect();
+        blocks.sort_by(|a, b| a.members.cmp(&b.members));
+        Self { blocks, bound }
+    }
+}
+
+/// How a search draws, computes and can be stopped.
+pub struct Search<'a> {
+    /// The field of its matrices. Where to look is not a claim, so that any field does.
+    pub field: &'a PrimeField,
+    /// Gives uniform residues; the choice steers the search but not the validity of what it
+    /// finds.
+    pub random: &'a mut dyn FnMut() -> u64,
+    /// What it counts as.
+    pub task: Task<'a>,
+}
+
+impl Search<'_> {
+    /// Random centres for so many nodes.
+    fn centres(&mut self, nodes: usize) -> Vec<[u64; 3]> {
+        (0..nodes)
+            .map(|_| std::array::from_fn(|_| (self.random)()))
+            .collect()
+    }
+}
+
+/// The best bound the search finds for a piece with the given components; stops as soon
+/// as it meets `target`, a lower bound on the rank.
+///
+/// # Errors
+/// If the search was stopped.
+pub fn count(
+    model: Model,
+    assembly: &Assembly,
+    piece: &Members,
+    components: &[Members],
+    target: usize,
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let partition = Counting::partition(model, assembly, components);
+    if partition.bound <= target || model == Model::Calibrated {
+        return Ok(partition);
+    }
+    let whole = with_hub(assembly, piece, components, by)?;
+    if whole.bound <= target {
+        return Ok(whole);
+    }
+    let mut best = by_rigid_blocks(assembly, piece, components, by)?;
+    for bound in [partition, whole] {
+        if bound.bound < best.bound {
+            best = bound;
+        }
+    }
+    if components.len() > MAX_LEFT_OUT {
+        return Ok(best);
+    }
+    for (k, left_out) in components.iter().enumerate() {
+        if best.bound <= target {
+            break;
+        }
+        let mut rest = Members::default();
+        let others: Vec<Members> = [&components[..k], &components[k + 1..]].concat();
+        others.iter().for_each(|component| rest.extend(component));
+        let joined = Counting::join(vec![
+            by_rigid_blocks(assembly, &rest, &others, by)?,
+            Counting::partition(model, assembly, std::slice::from_ref(left_out)),
+        ]);
+        if joined.bound < best.bound {
+            best = joined;
+        }
+    }
+    Ok(best)
+}
+
+/// The parallel-rigid components of a part as blocks, each with a hub or else divided into
+/// the given components, whichever is better.
+fn by_rigid_blocks(
+    assembly: &Assembly,
+    part: &Members,
+    components: &[Members],
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let rigid = parallel_rigid_components(assembly, part, by)?;
+    let blocks = rigid.iter().map(|block| {
+        by.task.check()?;
+        let inside: Vec<Members> = components
+            .iter()
+            .filter(|component| block.contains(component))
+            .cloned()
+            .collect();
+        let split = Counting::partition(Model::Projective, assembly, &inside);
+        if inside.len() < 2 {
+            return Ok(split);
+        }
+        let one = with_hub(assembly, block, &inside, by)?;
+        Ok(if one.bound < split.bound { one } else { split })
+    });
+    Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
+}
+
+/// One block, with the best hub that the search finds.
+fn with_hub(
+    assembly: &Assembly,
+    block: &Members,
+    components: &[Members],
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let mut best = hub::search(assembly, block, components, by)?;
+    if best.is_none() && components.len() < block.len() {
+        best = hub::search(assembly, block, &block.singles(), by)?;
+    }
+    let required = Model::Projective.required(assembly.count_nodes(block));
+    Ok(Counting {
+        bound: required - best.as_ref().map_or(0, |hub| hub.less),
+        blocks: vec![Block {
+            members: block.clone(),
+            hub: best,
+        }],
+    })
+}
+
+/// The components of the calibrated model: where N alone leaves no freedom.
+fn parallel_rigid_components(
+    assembly: &Assembly,
+    piece: &Members,
+    by: &mut Search,
+) -> Result<Vec<Members>, Stopped> {
+    let core = assembly.core(piece);
+    let centres = by.centres(core.graph.nodes());
+    let flows = PlaneFlows::watched(by.field, &core.graph, &centres, &by.task.untold())?;
+    let (_, transforms) = flows.calibrated_motion(&mut by.random);
+    Ok(motion_class::classes(piece, &core, &transforms))
+}

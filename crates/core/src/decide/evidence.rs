@@ -1,0 +1,213 @@
+//! The kinds of evidence that a verdict rests on: the data of docs/certificate.md,
+//! section 7, as the pipeline finds them.
+
+use crate::contract::piece::Members;
+use crate::decide::counting::Counting;
+use crate::geometry::plane_flow::PlaneFlowRank;
+use crate::linalg::integer::Integer;
+use crate::linalg::textbook::Pivots;
+
+/// Where the cameras of a piece of evidence come from: a prime and a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModularDraw {
+    /// The prime.
+    pub prime: u64,
+    /// The seed.
+    pub seed: u64,
+    /// The draw number.
+    pub draw: u64,
+}
+
+/// One piece of evidence about a piece, or a part of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// A minor of J_P modulo p at general cameras that is not zero.
+    Minor {
+        /// The cameras.
+        draw: ModularDraw,
+        /// Rows and columns.
+        pivots: Pivots,
+    },
+    /// A minor of J_P over the integers, with its determinant.
+    IntegerMinor(IntegerMinor),
+    /// Pivots of N and of Lambda modulo p.
+    PlaneFlow {
+        /// The centres.
+        draw: ModularDraw,
+        /// The pivots.
+        rank: PlaneFlowRank,
+    },
+    /// An upper bound by counting.
+    Counting(Counting),
+    /// The rank at draws that nobody can choose.
+    Draws(Draws),
+    /// The motion classes, which the components refine.
+    Classes(Vec<Class>),
+    /// A kernel vector that tells the classes apart.
+    Kernel {
+        /// The centres.
+        draw: ModularDraw,
+        /// Entry `12 v + 3 c + r` (calibrated: `3 v + r`), residues.
+        vector: Vec<u64>,
+    },
+}
+
+/// A motion class of a piece: members that no motion of the piece tells apart.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// What is in the class.
+    pub members: Members,
+    /// How its components are known.
+    pub kind: ClassKind,
+}
+
+impl Class {
+    /// The components in it.
+    pub fn components(&self) -> Vec<Members> {
+        match &self.kind {
+            ClassKind::Single | ClassKind::Rigid(_) => vec![self.members.clone()],
+            ClassKind::Loose { rigid, pieces } => {
+                let inner = pieces.iter().flat_map(|piece| piece.components.clone());
+                rigid.singles().into_iter().chain(inner).collect()
+            }
+        }
+    }
+
+    /// The pieces it is cut into, if it is not a component itself.
+    pub fn pieces(&self) -> &[PieceVerdict] {
+        match &self.kind {
+            ClassKind::Loose { pieces, .. } => pieces,
+            _ => &[],
+        }
+    }
+}
+
+/// How the components of a motion class are known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ClassKind {
+    /// It is a single member, and a component.
+    Single,
+    /// It reaches full rank by itself, by this evidence, and is a component.
+    Rigid(Vec<Evidence>),
+    /// It is held together by the rest of the piece only: taken by itself it is cut
+    /// into pieces, and these have the components.
+    Loose {
+        /// Members that are pieces, and components, by themselves.
+        rigid: Members,
+        /// The other pieces.
+        pieces: Vec<PieceVerdict>,
+    },
+}
+
+/// A piece and what was found out about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PieceVerdict {
+    /// The piece.
+    pub members: Members,
+    /// Its components, one or more.
+    pub components: Vec<Members>,
+    /// What the claims rest on.
+    pub evidence: Vec<Evidence>,
+    /// Lower bound on the rank of the piece.
+    pub lower: usize,
+    /// Upper bound by counting.
+    pub upper: usize,
+    /// Strength of `lower` being the rank.
+    pub rank_strength: Strength,
+    /// Strength of the components being maximal.
+    pub components_strength: Strength,
+}
+
+/// How strong a claim is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strength {
+    /// It is proved.
+    Proof,
+    /// It is wrong with probability at most 2^e over the draws.
+    ErrorBound(i64),
+}
+
+impl Strength {
+    /// The name in certificates and in JSON output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Proof => "proof",
+            Self::ErrorBound(_) => "error-bound",
+        }
+    }
+
+    /// The exponent of the error bound, for what is not proved.
+    pub fn error_log2(self) -> Option<i64> {
+        match self {
+            Self::Proof => None,
+            Self::ErrorBound(e) => Some(e),
+        }
+    }
+
+    /// The strength of a claim that rests on several: the sum of the error bounds,
+    /// rounded up to a power of two.
+    pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
+        let mut worst = None;
+        let mut count = 0u64;
+        for part in parts {
+            if let Self::ErrorBound(e) = part {
+                count += 1;
+                worst = Some(worst.map_or(e, |w: i64| w.max(e)));
+            }
+        }
+        let bits = |x: u64| i64::from(u64::BITS - x.leading_zeros());
+        worst.map_or(Self::Proof, |e| Self::ErrorBound(e + bits(count - 1)))
+    }
+}
+
+/// A non-zero minor of the integer J_P, whose rows are divided by their content.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct IntegerMinor {
+    /// Numerators of the cameras' entries lie in -numerator..=numerator.
+    pub numerator: u64,
+    /// Denominators lie in 1..=denominator.
+    pub denominator: u64,
+    /// The seed.
+    pub seed: u64,
+    /// The draw number.
+    pub draw: u64,
+    /// Rows and columns.
+    pub pivots: Pivots,
+    /// Why the minor is not zero.
+    pub witness: Witness,
+    /// Kernel vectors that are independent modulo the trivial ones, as many as there are.
+    pub kernel: Vec<Vec<Integer>>,
+}
+
+/// Why an integer minor is not zero.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// Its determinant, rows and columns in the order of the pivots.
+    Determinant(Integer),
+    /// A prime modulo which it is not zero.
+    Prime(u64),
+}
+
+/// The rank at random cameras modulo random primes, with the error bound of
+/// docs/theory.md, section 7.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Draws {
+    /// The seed.
+    pub seed: u64,
+    /// How many draws.
+    pub count: u64,
+    /// The largest rank of the core that occurred.
+    pub rank: usize,
+}
+
+impl Draws {
+    /// How many draws make the error at most 2^-120 for a core with `nodes` nodes, and the
+    /// exponent of the error bound they reach; `None` for a core too large for the bound
+    /// (2^32 nodes and more).
+    pub fn plan(nodes: usize) -> Option<(u64, i64)> {
+        let size = (11 * nodes as u64 - 15).ilog2() + 1;
+        let each = 56u64.checked_sub(size.into()).filter(|&each| each >= 20)?;
+        let count = 120u64.div_ceil(each);
+        Some((count, -((count * each) as i64)))
+    }
+}

@@ -1,0 +1,305 @@
+//! From a graph to its verdict and the evidence for it.
+
+pub mod counting;
+pub mod evidence;
+pub mod motion_class;
+
+mod one_piece;
+mod whole_matrix;
+
+use crate::contract::Contraction;
+use crate::contract::piece::{Assembly, Members};
+use crate::decide::evidence::{PieceVerdict, Strength};
+use crate::geometry::camera::DrawError;
+use crate::geometry::model::Model;
+use crate::graph::{Graph, sha256};
+use crate::linalg::prime::{PrimeField, SMALL_PRIME};
+use crate::watch::{Step, Stopped, Watch};
+
+/// How the question is decided.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Which question.
+    pub model: Model,
+    /// Integers or residues.
+    pub arithmetic: Arithmetic,
+    /// The prime of the residues (in rational mode, of components and their evidence).
+    pub field: PrimeField,
+    /// Cores with so many nodes or more are decided modulo [`SMALL_PRIME`] instead, where
+    /// elimination is several times as fast. What it proves is as strong; a draw falls
+    /// short of the generic rank with probability below 22 nodes / 2^29 (Schwartz and Zippel), and
+    /// costs another one then.
+    pub small_prime_from: usize,
+    /// Whether to contract to bodies first, and to decide piece by piece.
+    pub contraction: bool,
+    /// Whether to look for proofs by counting.
+    pub counting: bool,
+    /// The seed of all draws.
+    pub seed: u64,
+    /// Who is told what is being done, and may stop it.
+    pub watch: Watch,
+}
+
+/// From so many nodes on elimination is most of the work on a core.
+const LARGE_CORE: usize = 256;
+
+impl Options {
+    /// The field in which a core with so many nodes is decided.
+    fn field_for(&self, nodes: usize) -> PrimeField {
+        if nodes < self.small_prime_from {
+            self.field
+        } else {
+            PrimeField::new(SMALL_PRIME).expect("a prime")
+        }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            model: Model::Projective,
+            arithmetic: Arithmetic::Prime,
+            field: PrimeField::mersenne61(),
+            small_prime_from: LARGE_CORE,
+            contraction: true,
+            counting: true,
+            seed: 1,
+            watch: Watch::default(),
+        }
+    }
+}
+
+/// The arithmetic of the rank computation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// Residues modulo a prime.
+    Prime,
+    /// Integers, at cameras with small rational entries.
+    Rational {
+        /// Largest absolute value of a numerator.
+        numerator: u64,
+        /// Largest denominator.
+        denominator: u64,
+    },
+}
+
+/// The answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// The cameras are unique up to a projective map (calibrated: up to scale and
+    /// translation).
+    Solvable,
+    /// Finitely many sets of cameras.
+    FiniteSolvable,
+    /// Infinitely many.
+    NotFiniteSolvable,
+}
+
+impl Value {
+    /// The name in certificates and in JSON output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solvable => "solvable",
+            Self::FiniteSolvable => "finite-solvable",
+            Self::NotFiniteSolvable => "not-finite-solvable",
+        }
+    }
+}
+
+/// A component of the whole graph.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Component {
+    /// The bodies and loose edges it consists of.
+    pub members: Members,
+    /// How many nodes it has.
+    pub nodes: usize,
+    /// How many edges it has.
+    pub edges: usize,
+}
+
+/// The verdict on a graph, with everything it rests on.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// The question that was asked.
+    pub model: Model,
+    /// SHA-256 of the graph's canonical form.
+    pub sha256: [u8; 32],
+    /// The answer.
+    pub value: Value,
+    /// How strong it is.
+    pub strength: Strength,
+    /// The generic rank of J_P (calibrated: of N).
+    pub rank: usize,
+    /// The rank of a finite solvable graph with as many nodes.
+    pub required: usize,
+    /// How strong the claim of the rank is.
+    pub rank_strength: Strength,
+    /// The maximal components, by falling number of edges.
+    pub components: Vec<Component>,
+    /// How strong the claim of the components is.
+    pub components_strength: Strength,
+    /// Bodies and loose edges.
+    pub contraction: Contraction,
+    /// Pieces that are a single member.
+    pub rigid: Members,
+    /// The other pieces.
+    pub pieces: Vec<PieceVerdict>,
+}
+
+impl Verdict {
+    /// The nodes of a component, increasing.
+    pub fn component_nodes(&self, component: &Component) -> Vec<u32> {
+        let members = &component.members;
+        let bodies = members.bodies.iter();
+        let mut nodes: Vec<u32> = bodies
+            .flat_map(|&body| &self.contraction.bodies[body as usize].nodes)
+            .copied()
+            .chain(members.edges.iter().flat_map(|&(i, j)| [i, j]))
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+}
+
+/// Why there is no verdict.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum VerdictError {
+    /// No cameras could be drawn.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The prime is too small to decide.
+    #[error(
+        "undecided modulo {prime}: the rank falls short at {draws} draws, which modulo so small a prime \
+         says nothing; take a larger prime (the default is 2^61 - 1)"
+    )]
+    Undecided {
+        /// The prime.
+        prime: u64,
+        /// How many draws were tried.
+        draws: u64,
+    },
+    /// The matrix is too large for the method that was asked for.
+    #[error("{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}")]
+    TooLarge {
+        /// Which computation.
+        what: &'static str,
+        /// Nodes of the matrix's graph.
+        nodes: usize,
+        /// Its edges.
+        edges: usize,
+        /// Memory or time, for people.
+        needs: String,
+        /// What to do instead.
+        advice: &'static str,
+    },
+    /// The work was stopped before there was an answer.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// Decides a graph.
+///
+/// # Errors
+/// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
+/// too large for the method, or the work is stopped.
+pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
+    let task = options.watch.task(Step::Contraction, graph.nodes());
+    let work = task.begin(0);
+    work.done(0)?;
+    let sha256 = sha256(graph);
+    let contraction = if options.contraction {
+        Contraction::new(graph)
+    } else {
+        Contraction::none(graph)
+    };
+    work.done(0)?;
+    let assembly = Assembly::new(graph, &contraction);
+    let all = assembly.all();
+    let split = if options.contraction {
+        assembly.split(&all)
+    } else {
+        assembly.whole(&all)
+    };
+    drop(work);
+    let pieces = one_piece::decide_all(&assembly, &split.pieces, &sha256, options)?;
+    Ok(conclude(
+        graph,
+        options.model,
+        sha256,
+        contraction,
+        &assembly,
+        split.rigid,
+        pieces,
+    ))
+}
+
+/// Sums up over the pieces.
+fn conclude(
+    graph: &Graph,
+    model: Model,
+    sha256: [u8; 32],
+    contraction: Contraction,
+    assembly: &Assembly,
+    rigid: Members,
+    pieces: Vec<PieceVerdict>,
+) -> Verdict {
+    let singles = rigid.singles();
+    let rigid_rank: usize = singles
+        .iter()
+        .map(|member| model.required(assembly.count_nodes(member)))
+        .sum();
+    let rank = rigid_rank + pieces.iter().map(|piece| piece.lower).sum::<usize>();
+    let required = model.required(graph.nodes());
+    let one_piece = rigid.len() + pieces.len() == 1;
+    let all_nodes = |part: &Members| one_piece && assembly.count_nodes(part) == graph.nodes();
+    let is_body = !rigid.is_empty() && all_nodes(&rigid);
+    let is_full = pieces
+        .first()
+        .is_some_and(|piece| all_nodes(&piece.members) && rank == required);
+    let value = match model {
+        _ if is_body || graph.nodes() == 1 => Value::Solvable,
+        Model::Calibrated if is_full => Value::Solvable,
+        Model::Projective if is_full => Value::FiniteSolvable,
+        _ => Value::NotFiniteSolvable,
+    };
+    let upper = rigid_rank + pieces.iter().map(|piece| piece.upper).sum::<usize>();
+    let strength = if value != Value::NotFiniteSolvable || upper < required {
+        Strength::Proof
+    } else {
+        Strength::all(pieces.iter().map(|piece| piece.rank_strength))
+    };
+    let mut components: Vec<Component> = singles
+        .into_iter()
+        .chain(pieces.iter().flat_map(|piece| piece.components.clone()))
+        .map(|members| Component {
+            nodes: assembly.count_nodes(&members),
+            edges: members.edges.len()
+                + members
+                    .bodies
+                    .iter()
+                    .map(|&body| contraction.bodies[body as usize].edges)
+                    .sum::<usize>(),
+            members,
+        })
+        .collect();
+    components.sort_by(|a, b| {
+        b.edges
+            .cmp(&a.edges)
+            .then_with(|| a.members.cmp(&b.members))
+    });
+    Verdict {
+        model,
+        sha256,
+        value,
+        strength,
+        rank,
+        required,
+        rank_strength: Strength::all(pieces.iter().map(|piece| piece.rank_strength)),
+        components,
+        components_strength: Strength::all(pieces.iter().map(|piece| piece.components_strength)),
+        contraction,
+        rigid,
+        pieces,
+    }
+}

@@ -1,0 +1,567 @@
+//! Plane flows: the rank of the paper's Jacobian from matrices a quarter of its size
+//! (docs/theory.md, section 3).
+//!
+//! At cameras [ I | -c_v ] with c_i != c_j on every edge,
+//!
+//! ```text
+//! rank J_P = 4 rank N + rank Lambda - m
+//! ```
+//!
+//! where N (2m x 3n) is the parallel rigidity matrix of the centres and Lambda the map
+//! from edge scalars to the plane flows, the left kernel of N.
+
+use crate::graph::Graph;
+use crate::graph::union_find::UnionFind;
+use crate::linalg::dense_lu::{
+    Echelon, eliminate_mod, eliminate_watched, elimination_products, unstopped,
+};
+use crate::linalg::matrix::Matrix;
+use crate::linalg::prime::PrimeField;
+use crate::linalg::sparse_lu::{Factorisation, Unfinished};
+use crate::linalg::textbook::Pivots;
+use crate::linalg::{Field, Ring};
+use crate::watch::{Reservation, Step, Stopped, Task, matrix_bytes};
+
+/// The two directions orthogonal to d = c_i - c_j on an edge: with q the first index
+/// at which d is not zero and r < s the others, d_q e_r - d_r e_q and d_q e_s - d_s e_q.
+/// `None` for coincident centres.
+pub fn directions<R: Ring>(
+    ring: &R,
+    ci: &[R::Elem; 3],
+    cj: &[R::Elem; 3],
+) -> Option<[[R::Elem; 3]; 2]> {
+    let d: [R::Elem; 3] = std::array::from_fn(|k| ring.sub(&ci[k], &cj[k]));
+    let q = d.iter().position(|x| !ring.is_zero(x))?;
+    let direction = |r: usize| {
+        std::array::from_fn(|k| {
+            if k == r {
+                d[q].clone()
+            } else if k == q {
+                ring.neg(&d[r])
+            } else {
+                ring.zero()
+            }
+        })
+    };
+    let (r, s) = [(1, 2), (0, 2), (0, 1)][q];
+    Some([direction(r), direction(s)])
+}
+
+/// N as sparse rows `(column, value)`, columns increasing: for edge e = (i, j) and its
+/// directions a, rows 2e and 2e + 1 hold a in the columns 3i, 3i+1, 3i+2 and -a in
+/// 3j, 3j+1, 3j+2. Zero entries are left out.
+///
+/// # Panics
+/// If the centres of an edge coincide.
+pub fn rigidity_rows<R: Ring>(
+    ring: &R,
+    graph: &Graph,
+    centres: &[[R::Elem; 3]],
+) -> Vec<Vec<(usize, R::Elem)>> {
+    let mut rows = Vec::with_capacity(2 * graph.edges().len());
+    for &(i, j) in graph.edges() {
+        let (i, j) = (i as usize, j as usize);
+        let both = directions(ring, &centres[i], &centres[j]).expect("centres are distinct");
+        for a in both {
+            let at_i = (0..3).map(|k| (3 * i + k, a[k].clone()));
+            let at_j = (0..3).map(|k| (3 * j + k, ring.neg(&a[k])));
+            rows.push(at_i.chain(at_j).filter(|(_, x)| !ring.is_zero(x)).collect());
+        }
+    }
+    rows
+}
+
+/// The right-hand sides of the four column systems N y^k = rho_k lambda: entry
+/// `(row, k)` is -a^T P_j e_k for the direction a of the row, that is -a_k for k < 3
+/// and a . c_j for k = 3.
+fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
+    let [x, y, z] = a.map(|value| field.neg(&value));
+    let dot = a
+        .iter()
+        .zip(cj)
+        .fold(0, |sum, (s, t)| field.add(&sum, &field.mul(s, t)));
+    [x, y, z, dot]
+}
+
+/// The edges outside a spanning forest, ascending: an edge is in the forest if it joins
+/// parts that the edges before it do not.
+pub fn cotree(graph: &Graph) -> Vec<usize> {
+    let mut forest = UnionFind::new(graph.nodes());
+    (0..)
+        .zip(graph.edges())
+        .filter(|&(_, &(i, j))| !forest.union(i as usize, j as usize))
+        .map(|(e, _)| e)
+        .collect()
+}
+
+/// Flows that are computed beyond those needed at full rank.
+const SPARE_FLOWS: usize = 2;
+
+/// The flows that Lambda is computed from at first, of so many independent ones and for so many
+/// columns.
+fn first_flows(dimension: usize, columns: usize) -> usize {
+    dimension.min(columns.div_ceil(4) + SPARE_FLOWS)
+}
+
+/// The bytes for Lambda with the rows of so many flows, and for its elimination.
+fn lambda_bytes(flows: usize, columns: usize) -> u64 {
+    matrix_bytes(4 * flows, columns).saturating_mul(2)
+}
+
+/// Asks for the memory that Lambda of a graph takes at least, whatever the centres: before N is
+/// eliminated, which may take long as well. Returns the task with the elimination of Lambda
+/// expected after it.
+///
+/// # Errors
+/// If there is not as much left.
+pub fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'w>, Stopped> {
+    let (edges, columns) = (graph.edges().len(), cotree(graph).len());
+    // N has a kernel of dimension 4 at least: translations and the scale.
+    let rank = (3 * graph.nodes()).saturating_sub(4);
+    let flows = first_flows((2 * edges).saturating_sub(rank), columns);
+    reserve_lambda(&mut empty(task)?, flows, columns, &task.at(Step::Lambda))?;
+    Ok(task.followed_by(Some(elimination_products(4 * flows, columns))))
+}
+
+/// Nothing, on the account of the task's watch.
+fn empty(task: &Task) -> Result<Reservation, Stopped> {
+    task.reserve(0, format_args!("nothing"))
+}
+
+fn reserve_lambda(
+    memory: &mut Reservation,
+    flows: usize,
+    columns: usize,
+    task: &Task,
+) -> Result<(), Stopped> {
+    let rows = 4 * flows;
+    let what = format_args!("Lambda ({rows} x {columns}) with its elimination");
+    memory.resize(lambda_bytes(flows, columns), task, what)
+}
+
+/// N and Lambda of a graph at given centres modulo p, eliminated.
+#[derive(Clone, Debug)]
+pub struct PlaneFlows<'a> {
+    field: &'a PrimeField,
+    graph: &'a Graph,
+    centres: &'a [[u64; 3]],
+    rigidity: Factorisation,
+}
+
+/// A lower bound on rank J_P that elimination found, with its pivots.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PlaneFlowRank {
+    /// Pivots of N.
+    pub rigidity: Pivots,
+    /// How many flows the rows of Lambda come from.
+    pub flows: usize,
+    /// Pivots of Lambda; row 4 f + k belongs to the f-th flow, columns are edges.
+    pub lambda: Pivots,
+}
+
+impl PlaneFlowRank {
+    /// 4 rank N + rank Lambda - m.
+    pub fn rank(&self, edges: usize) -> usize {
+        4 * self.rigidity.rank() + self.lambda.rank() - edges
+    }
+}
+
+/// A motion of the cameras that keeps the fundamental matrices up to scale.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Motion {
+    /// `columns[k][3 v + r]` is entry (r, k) of dP_v.
+    pub columns: [Vec<u64>; 4],
+    /// For every edge the X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j,
+    /// row by row, less the multiple of I that makes its last entry zero.
+    pub transforms: Vec<[u64; 16]>,
+}
+
+impl Motion {
+    /// The entries in the order of J_P's columns: `12 v + 3 c + r` for entry (r, c) of
+    /// dP_v.
+    pub fn by_node(&self) -> Vec<u64> {
+        let nodes = self.columns[0].len() / 3;
+        (0..nodes)
+            .flat_map(|v| {
+                let column = move |y: &Vec<u64>| [y[3 * v], y[3 * v + 1], y[3 * v + 2]];
+                self.columns.iter().flat_map(column)
+            })
+            .collect()
+    }
+}
+
+impl<'a> PlaneFlows<'a> {
+    /// Eliminates N at the given centres: sparse at first, then what fills in as a dense
+    /// matrix, O(n^3) at worst.
+    ///
+    /// # Panics
+    /// If there is not one centre a node, or the centres of an edge coincide.
+    pub fn new(field: &'a PrimeField, graph: &'a Graph, centres: &'a [[u64; 3]]) -> Self {
+        unstopped(Self::watched(field, graph, centres, &Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    ///
+    /// # Panics
+    /// As [`PlaneFlows::new`].
+    pub fn watched(
+        field: &'a PrimeField,
+        graph: &'a Graph,
+        centres: &'a [[u64; 3]],
+        task: &Task,
+    ) -> Result<Self, Stopped> {
+        assert_eq!(centres.len(), graph.nodes(), "one centre a node");
+        let rows = rigidity_rows(field, graph, centres);
+        let columns = 3 * graph.nodes();
+        let rigidity = Factorisation::watched(field, rows, columns, usize::MAX, task);
+        let rigidity = rigidity.map_err(|unfinished| match unfinished {
+            Unfinished::Stopped(stopped) => stopped,
+            Unfinished::TooLarge(..) => unreachable!("no part of a matrix has more entries"),
+        })?;
+        Ok(Self {
+            field,
+            graph,
+            centres,
+            rigidity,
+        })
+    }
+
+    /// The rank of N.
+    pub fn rigidity_rank(&self) -> usize {
+        self.rigidity.rank()
+    }
+
+    /// The pivots of N.
+    pub fn rigidity_pivots(&self) -> Pivots {
+        self.rigidity.pivots()
+    }
+
+    fn edge_directions(&self, edge: usize) -> [[u64; 3]; 2] {
+        let (i, j) = self.graph.edges()[edge];
+        directions(
+            self.field,
+            &self.centres[i as usize],
+            &self.centres[j as usize],
+        )
+        .expect("centres are distinct")
+    }
+
+    /// A basis of the plane flows: for each the omega_e of every edge (the normal of its
+    /// plane), omega flowing from j to i on the edge (i, j).
+    pub fn flows(&self) -> Vec<Vec<[u64; 3]>> {
+        unstopped(self.flows_watched(&Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    pub fn flows_watched(&self, task: &Task) -> Result<Vec<Vec<[u64; 3]>>, Stopped> {
+        let dimension = self.rigidity.free_rows().len();
+        let edges = self.graph.edges().len();
+        let _memory = task.reserve(
+            matrix_bytes(dimension, 3 * edges),
+            format_args!("{dimension} flows on {edges} pairs"),
+        )?;
+        let one = self.field.one();
+        let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
+        let kernel = self.rigidity.left_combinations_watched(&unit, task)?;
+        let both: Vec<_> = (0..self.graph.edges().len())
+            .map(|e| self.edge_directions(e))
+            .collect();
+        Ok((0..kernel.rows())
+            .map(|f| {
+                let weights = kernel.row(f).chunks_exact(2);
+                let combine = |(w, [a, b]): (&[u64], &[[u64; 3]; 2])| {
+                    std::array::from_fn(|k| self.field.dot(0, w, &[a[k], b[k]]))
+                };
+                weights.zip(&both).map(combine).collect()
+            })
+            .collect())
+    }
+
+    /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
+    /// on the others by the potentials.
+    ///
+    /// Flows are random: their entries at the rows of N that are not pivots are the values
+    /// of `weights`, one flow after another (docs/certificate.md, section 7). Each gives four
+    /// rows, so that about a quarter as many flows as columns are enough at full rank; more
+    /// are taken until they no longer raise the rank.
+    pub fn lambda(&self, weights: impl FnMut() -> u64) -> Lambda {
+        unstopped(self.lambda_watched(weights, &Task::unwatched()))
+    }
+
+    /// The same as a task that can be stopped.
+    ///
+    /// # Errors
+    /// If it was.
+    pub fn lambda_watched(
+        &self,
+        mut weights: impl FnMut() -> u64,
+        task: &Task,
+    ) -> Result<Lambda, Stopped> {
+        let cotree = cotree(self.graph);
+        let dimension = self.rigidity.free_rows().len();
+        let mut flows = 0;
+        let mut rows = Vec::new();
+        let mut memory = empty(task)?;
+        let elimination = task.at(Step::Elimination).followed_by(Some(0));
+        let task = task.at(Step::Lambda);
+        let mut rank = None;
+        loop {
+            let more = match rank {
+                None => first_flows(dimension, cotree.len()),
+                Some(_) => (dimension - flows).min(flows / 4 + SPARE_FLOWS),
+            };
+            reserve_lambda(&mut memory, flows + more, cotree.len(), &task)?;
+            let products = elimination_products(4 * (flows + more), cotree.len());
+            let task = task.followed_by(Some(products));
+            let weights = Matrix::from_fn(more, dimension, |_, _| weights());
+            let new = self.lambda_rows(&weights, &cotree, &task)?;
+            if rows.is_empty() {
+                rows = new;
+            } else {
+                rows.extend(new);
+            }
+            flows += more;
+            let matrix = Matrix::new(4 * flows, cotree.len(), rows.clone());
+            let echelon = eliminate_watched(self.field, matrix, &elimination)?;
+            let found = echelon.rank();
+            if found == cotree.len() || flows == dimension || rank == Some(found) {
+                return Ok(Lambda {
+                    rows: Matrix::new(4 * flows, cotree.len(), rows),
+                    cotree,
+                    echelon,
+                    _memory: memory,
+                });
+            }
+            rank = Some(found);
+        }
+    }
+
+    /// Eliminates Lambda with the rows of a basis of all flows: certain at any prime, at up
+    /// to four times the cost of [`lambda`](Self::lambda).
+    pub fn lambda_of_all_flows(&self) -> Lambda {
+        let cotree = cotree(self.graph);
+        let dimension = self.rigidity.free_rows().len();
+        let one = self.field.one();
+        let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
+        let rows = unstopped(self.lambda_rows(&unit, &cotree, &Task::unwatched()));
+        let rows = Matrix::new(4 * dimension, cotree.len(), rows);
+        Lambda {
+            echelon: eliminate_mod(self.field, rows.clone()),
+            rows,
+            cotree,
+            _memory: Reservation::default(),
+        }
+    }
+
+    /// The rows of Lambda that the flows with the given entries at the free rows of N give,
+    /// one after another: four rows a flow, restricted to the given edges.
+    fn lambda_rows(
+        &self,
+        weights: &Matrix<u64>,
+        edges: &[usize],
+        task: &Task,
+    ) -> Result<Vec<u64>, Stopped> {
+        let kernel = self.rigidity.left_combinations_watched(weights, task)?;
+        let width = edges.len();
+        let mut rows = vec![0; 4 * kernel.rows() * width];
+        for (at, &e) in edges.iter().enumerate() {
+            task.check()?;
+            let cj = &self.centres[self.graph.edges()[e].1 as usize];
+            let [a, b] = self
+                .edge_directions(e)
+                .map(|direction| right_side(self.field, &direction, cj));
+            for f in 0..kernel.rows() {
+                let (s, t) = (kernel[(f, 2 * e)], kernel[(f, 2 * e + 1)]);
+                if (s, t) == (0, 0) {
+                    continue;
+                }
+                for k in 0..4 {
+                    let value = self.field.dot(0, &[s, t], &[a[k], b[k]]);
+                    rows[(4 * f + k) * width + at] = self.field.neg(&value);
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// The lower bound on rank J_P, with its pivots.
+    pub fn rank(&self, lambda: &Lambda) -> PlaneFlowRank {
+        let mut pivots = lambda.echelon.pivots();
+        for col in &mut pivots.cols {
+            *col = lambda.cotree[*col];
+        }
+        PlaneFlowRank {
+            rigidity: self.rigidity.pivots(),
+            flows: pivots.rows.iter().map(|row| row / 4 + 1).max().unwrap_or(0),
+            lambda: pivots,
+        }
+    }
+
+    /// A random element of ker J_P, uniform modulo the scales of the cameras; `None` if the
+    /// flows of `lambda` do not span all flows, which is unlikely but modulo a small prime.
+    /// `random` gives uniform elements of the field.
+    pub fn motion(&self, lambda: &Lambda, mut random: impl FnMut() -> u64) -> Option<Motion> {
+        let scales = lambda.random_kernel_vector(self.field, self.graph.edges().len(), &mut random);
+        let mut column = |k: usize| {
+            let mut sides = Vec::with_capacity(2 * self.graph.edges().len());
+            for (e, &(_, j)) in self.graph.edges().iter().enumerate() {
+                for a in self.edge_directions(e) {
+                    let side = right_side(self.field, &a, &self.centres[j as usize])[k];
+                    sides.push(self.field.mul(&side, &scales[e]));
+                }
+            }
+            self.solve(sides, &mut random)
+        };
+        let columns = [column(0)?, column(1)?, column(2)?, column(3)?];
+        let transforms = (0..self.graph.edges().len())
+            .map(|e| self.transform(&columns, e, scales[e]))
+            .collect();
+        Some(Motion {
+            columns,
+            transforms,
+        })
+    }
+
+    /// A uniformly random solution y of N y = sides, if there is one.
+    fn solve(&self, mut sides: Vec<u64>, random: &mut impl FnMut() -> u64) -> Option<Vec<u64>> {
+        let field = self.field;
+        let mut y = vec![0; 3 * self.graph.nodes()];
+        for &col in self.rigidity.free_cols() {
+            y[col] = random();
+        }
+        for (row, side) in rigidity_rows(field, self.graph, self.centres)
+            .iter()
+            .zip(&mut sides)
+        {
+            for &(col, value) in row {
+                *side = field.sub(side, &field.mul(&value, &y[col]));
+            }
+        }
+        let pivot_part = self.rigidity.solve(&sides)?;
+        for (value, part) in y.iter_mut().zip(&pivot_part) {
+            *value = field.add(value, part);
+        }
+        Some(y)
+    }
+
+    /// X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j: column k is
+    /// (u_k, w_k) with (c_j - c_i) w_k = y_i^k - y_j^k + lambda_e P_j e_k and
+    /// u_k = y_i^k + w_k c_i.
+    fn transform(&self, columns: &[Vec<u64>; 4], edge: usize, scale: u64) -> [u64; 16] {
+        let f = self.field;
+        let (i, j) = self.graph.edges()[edge];
+        let (i, j) = (i as usize, j as usize);
+        let (ci, cj) = (&self.centres[i], &self.centres[j]);
+        let q = (0..3)
+            .find(|&q| ci[q] != cj[q])
+            .expect("centres are distinct");
+        let inverse = f.inv(&f.sub(&cj[q], &ci[q])).expect("they differ at q");
+        let mut x = [0; 16];
+        for (k, y) in columns.iter().enumerate() {
+            let camera_entry = match k {
+                3 => f.neg(&cj[q]),
+                _ if k == q => f.one(),
+                _ => 0,
+            };
+            let moved = f.add(
+                &f.sub(&y[3 * i + q], &y[3 * j + q]),
+                &f.mul(&scale, &camera_entry),
+            );
+            let w = f.mul(&moved, &inverse);
+            for r in 0..3 {
+                x[4 * r + k] = f.add(&y[3 * i + r], &f.mul(&w, &ci[r]));
+            }
+            x[12 + k] = w;
+        }
+        let last = x[15];
+        for r in 0..4 {
+            x[5 * r] = f.sub(&x[5 * r], &last);
+        }
+        x
+    }
+
+    /// A random element of ker N (the calibrated model), with the scale and translation
+    /// (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
+    pub fn calibrated_motion(&self, mut random: impl FnMut() -> u64) -> (Vec<u64>, Vec<[u64; 4]>) {
+        let f = self.field;
+        let y = self
+            .solve(vec![0; 2 * self.graph.edges().len()], &mut random)
+            .expect("zero is a solution");
+        let transforms = self
+            .graph
+            .edges()
+            .iter()
+            .map(|&(i, j)| {
+                let (i, j) = (i as usize, j as usize);
+                let (ci, cj) = (&self.centres[i], &self.centres[j]);
+                let q = (0..3)
+                    .find(|&q| ci[q] != cj[q])
+                    .expect("centres are distinct");
+                let inverse = f.inv(&f.sub(&ci[q], &cj[q])).expect("they differ at q");
+                let scale = f.mul(&f.sub(&y[3 * i + q], &y[3 * j + q]), &inverse);
+                let t = |r: usize| f.sub(&y[3 * i + r], &f.mul(&scale, &ci[r]));
+                [scale, t(0), t(1), t(2)]
+            })
+            .collect();
+        (y, transforms)
+    }
+}
+
+/// Lambda restricted to the edges outside a spanning forest, eliminated.
+#[derive(Clone, Debug)]
+pub struct Lambda {
+    /// The edge of every column.
+    cotree: Vec<usize>,
+    rows: Matrix<u64>,
+    echelon: Echelon,
+    _memory: Reservation,
+}
+
+impl Lambda {
+    /// The rank of Lambda.
+    pub fn rank(&self) -> usize {
+        self.echelon.rank()
+    }
+
+    /// Rows and columns of the matrix that was eliminated.
+    pub fn size(&self) -> (usize, usize) {
+        (self.rows.rows(), self.rows.cols())
+    }
+
+    /// Its entries that are not zero.
+    pub fn nonzeros(&self) -> usize {
+        self.rows.data().iter().filter(|&&x| x != 0).count()
+    }
+
+    /// A uniformly random lambda of the kernel that vanishes on the spanning forest, one
+    /// value an edge.
+    fn random_kernel_vector(
+        &self,
+        field: &PrimeField,
+        edges: usize,
+        random: &mut impl FnMut() -> u64,
+    ) -> Vec<u64> {
+        let mut part = vec![0; self.cotree.len()];
+        for col in self.echelon.pivots().free_cols(part.len()) {
+            part[col] = random();
+        }
+        let sides: Vec<u64> = (0..self.rows.rows())
+            .map(|row| field.neg(&field.dot(0, self.rows.row(row), &part)))
+            .collect();
+        let pivot_part = self
+            .echelon
+            .solve(&sides)
+            .expect("free columns depend on pivots");
+        let mut scales = vec![0; edges];
+        for (col, &e) in self.cotree.iter().enumerate() {
+            scales[e] = field.add(&part[col], &pivot_part[col]);
+        }
+        scales
+    }
+}

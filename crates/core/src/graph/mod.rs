@@ -1,0 +1,115 @@
+//! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
+
+pub mod union_find;
+
+mod adjacency;
+pub mod identity;
+
+pub mod graph6;
+
+pub mod labels;
+
+pub use adjacency::Adjacency;
+pub use identity::{core_sha256, sha256};
+pub use labels::Labels;
+
+/// A simple undirected graph on the nodes `0..nodes`.
+///
+/// Edges are pairs `(i, j)` with `i < j`, sorted lexicographically and without
+/// repetition; the index of an edge in that order is its number everywhere in
+/// the program and in certificates.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Graph {
+    nodes: u32,
+    edges: Vec<(u32, u32)>,
+}
+
+/// Why a list of pairs is not a viewing graph.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GraphError {
+    /// A pair joins a camera with itself.
+    #[error("camera {0} is paired with itself")]
+    SelfLoop(u32),
+    /// A pair names a node that the graph does not have.
+    #[error("node {node} is out of range: the graph has {nodes} nodes")]
+    OutOfRange {
+        /// The offending node.
+        node: u32,
+        /// How many nodes there are.
+        nodes: u32,
+    },
+}
+
+impl Graph {
+    /// Builds a graph from pairs in any order and orientation; pairs given more
+    /// than once are merged. Returns the graph and how many pairs were merged
+    /// away. O(m log m), or O(m) when the pairs are already sorted; in place.
+    ///
+    /// # Errors
+    /// A self-loop, or a node that is not below `nodes`.
+    pub fn from_pairs(nodes: u32, mut pairs: Vec<(u32, u32)>) -> Result<(Self, usize), GraphError> {
+        for pair in &mut pairs {
+            let (i, j) = *pair;
+            if i == j {
+                return Err(GraphError::SelfLoop(i));
+            }
+            let node = i.max(j);
+            if node >= nodes {
+                return Err(GraphError::OutOfRange { node, nodes });
+            }
+            *pair = (i.min(j), node);
+        }
+        if !pairs.is_sorted() {
+            pairs.sort_unstable();
+        }
+        let given = pairs.len();
+        pairs.dedup();
+        let merged = given - pairs.len();
+        Ok((
+            Self {
+                nodes,
+                edges: pairs,
+            },
+            merged,
+        ))
+    }
+
+    /// Number of cameras, n.
+    pub fn nodes(&self) -> usize {
+        self.nodes as usize
+    }
+
+    /// The edges `(i, j)`, `i < j`, sorted; its length is m.
+    pub fn edges(&self) -> &[(u32, u32)] {
+        &self.edges
+    }
+
+    /// The number of the edge between two nodes, in either order. O(log m).
+    pub fn edge_number(&self, a: u32, b: u32) -> Option<usize> {
+        self.edges.binary_search(&(a.min(b), a.max(b))).ok()
+    }
+}
+
+/// A note about pairs that were merged, if any were.
+fn merged(count: usize) -> Option<String> {
+    let (pairs, are) = match count {
+        0 => return None,
+        1 => ("pair", "is"),
+        _ => ("pairs", "are"),
+    };
+    Some(format!(
+        "{count} {pairs} {are} given again, the same or reversed, and merged"
+    ))
+}
+
+/// A number of things, with the plural of their name if it is not one.
+fn counted(count: u64, name: &str) -> String {
+    match (count, name.strip_suffix('y')) {
+        (1, _) => format!("1 {name}"),
+        (_, Some(stem)) => format!("{count} {stem}ies"),
+        (_, None) => format!("{count} {name}s"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! Rational numbers, over whichever integers are in use.
+
+use crate::linalg::integer::Integer;
+use crate::linalg::{Field, Ring};
+use std::cmp::Ordering;
+use std::fmt;
+
+/// A rational number in lowest terms with a positive denominator.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Rational {
+    numerator: Integer,
+    denominator: Integer,
+}
+
+impl Rational {
+    /// `numerator / denominator` in lowest terms; `None` if the denominator is zero.
+    pub fn new(numerator: Integer, denominator: Integer) -> Option<Self> {
+        let gcd = match denominator.sign() {
+            Ordering::Equal => return None,
+            Ordering::Greater => numerator.gcd(&denominator),
+            Ordering::Less => numerator.gcd(&denominator).neg(),
+        };
+        let [numerator, denominator] = [numerator, denominator].map(|n| n.div_exact(&gcd));
+        Some(Self {
+            numerator,
+            denominator,
+        })
+    }
+
+    /// The numerator, coprime to the denominator.
+    pub fn numerator(&self) -> &Integer {
+        &self.numerator
+    }
+
+    /// The denominator, always positive.
+    pub fn denominator(&self) -> &Integer {
+        &self.denominator
+    }
+
+    fn reduced(numerator: Integer, denominator: Integer) -> Self {
+        Self::new(numerator, denominator)
+            .unwrap_or_else(|| unreachable!("a product of denominators is not zero"))
+    }
+}
+
+impl From<Integer> for Rational {
+    fn from(numerator: Integer) -> Self {
+        Self {
+            numerator,
+            denominator: Integer::one(),
+        }
+    }
+}
+
+/// `n` or `n/d`.
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.denominator == Integer::one() {
+            write!(f, "{}", self.numerator)
+        } else {
+            write!(f, "{}/{}", self.numerator, self.denominator)
+        }
+    }
+}
+
+impl fmt::Debug for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// The field of rational numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rationals;
+
+impl Ring for Rationals {
+    type Elem = Rational;
+
+    fn zero(&self) -> Rational {
+        Integer::zero().into()
+    }
+    fn one(&self) -> Rational {
+        Integer::one().into()
+    }
+    fn from_i64(&self, value: i64) -> Rational {
+        Integer::from(value).into()
+    }
+    fn add(&self, a: &Rational, b: &Rational) -> Rational {
+        let left = a.numerator.mul(&b.denominator);
+        let right = b.numerator.mul(&a.denominator);
+        Rational::reduced(left.add(&right), a.denominator.mul(&b.denominator))
+    }
+    fn sub(&self, a: &Rational, b: &Rational) -> Rational {
+        self.add(a, &self.neg(b))
+    }
+    fn mul(&self, a: &Rational, b: &Rational) -> Rational {
+        Rational::reduced(
+            a.numerator.mul(&b.numerator),
+            a.denominator.mul(&b.denominator),
+        )
+    }
+    fn neg(&self, a: &Rational) -> Rational {
+        Rational {
+            numerator: a.numerator.neg(),
+            denominator: a.denominator.clone(),
+        }
+    }
+    fn is_zero(&self, a: &Rational) -> bool {
+        a.numerator.is_zero()
+    }
+}
+
+impl Field for Rationals {
+    fn inv(&self, a: &Rational) -> Option<Rational> {
+        Rational::new(a.denominator.clone(), a.numerator.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::laws;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn rational(numerator: i64, denominator: i64) -> Rational {
+        Rational::new(numerator.into(), denominator.into()).unwrap()
+    }
+
+    #[test]
+    fn lowest_terms() {
+        assert_eq!(rational(6, -4).to_string(), "-3/2");
+        assert_eq!(rational(0, -4).to_string(), "0");
+        assert_eq!(rational(-8, -4).to_string(), "2");
+        assert_eq!(Rational::new(Integer::one(), Integer::zero()), None);
+        assert_eq!(
+            Rationals.add(&rational(1, 6), &rational(1, 3)),
+            rational(1, 2)
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn laws(a: i64, b: i64, c: i64, d in 1..i64::MAX, e in 1..i64::MAX, k: i32, l: i32) {
+            let (a, b, c) = (rational(a, d), rational(b, e), rational(c, d / 7 + 1));
+            laws::ring(&Rationals, &a, &b, &c);
+            laws::integers(&Rationals, k.into(), l.into());
+            laws::field(&Rationals, &a);
+        }
+    }
+}

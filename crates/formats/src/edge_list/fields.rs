@@ -1,0 +1,209 @@
+//! From a line to its fields.
+
+use std::borrow::Cow;
+
+use crate::error::Problem;
+
+/// A field of a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Field {
+    /// Where its text begins, behind a quote.
+    start: usize,
+    /// Where its text ends, before a quote.
+    end: usize,
+    /// Whether it stands in quotes.
+    pub(super) quoted: bool,
+    /// Whether quotes within it are doubled.
+    doubled: bool,
+}
+
+impl Field {
+    /// What stands there, without the quotes around it.
+    pub(super) fn raw(self, line: &str) -> &str {
+        &line[self.start..self.end]
+    }
+
+    /// What is meant: quotes within it are single again.
+    pub(super) fn text(self, line: &str) -> Cow<'_, str> {
+        let raw = self.raw(line);
+        if self.doubled {
+            Cow::Owned(raw.replace("\"\"", "\""))
+        } else {
+            Cow::Borrowed(raw)
+        }
+    }
+
+    /// Whether it is a number (which is never quoted).
+    pub(super) fn is_number(self, line: &str) -> bool {
+        !self.quoted && is_number(self.raw(line).as_bytes())
+    }
+
+    /// Its value if it is an integer (which is never quoted).
+    pub(super) fn integer(self, line: &str) -> Option<u64> {
+        if self.quoted {
+            None
+        } else {
+            integer(self.raw(line))
+        }
+    }
+}
+
+/// Splits a line without control characters into its fields.
+///
+/// # Errors
+/// A comma without a field on either side, a quote where none belongs.
+pub(super) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
+    let bytes = line.as_bytes();
+    fields.clear();
+    let mut at = 0;
+    loop {
+        let mut commas = 0;
+        while let Some(b' ' | b'\t' | b',') = bytes.get(at) {
+            commas += usize::from(bytes[at] == b',');
+            at += 1;
+        }
+        let ends = matches!(bytes.get(at), None | Some(b'#' | b'%'));
+        if commas > 1 || commas == 1 && (ends || fields.is_empty()) {
+            return Err(Problem::EmptyField);
+        }
+        if ends {
+            return Ok(());
+        }
+        let field = if bytes[at] == b'"' {
+            quoted(bytes, at)?
+        } else {
+            let length = bytes[at..].iter().position(|b| b" \t,\"".contains(b));
+            let end = length.map_or(bytes.len(), |length| at + length);
+            if bytes.get(end) == Some(&b'"') {
+                return Err(Problem::Quote("stands within a field"));
+            }
+            Field {
+                start: at,
+                end,
+                quoted: false,
+                doubled: false,
+            }
+        };
+        at = field.end + usize::from(field.quoted);
+        fields.push(field);
+    }
+}
+
+/// The quoted field that begins at a quote.
+fn quoted(bytes: &[u8], at: usize) -> Result<Field, Problem> {
+    let mut end = at + 1;
+    let mut doubled = false;
+    loop {
+        match (bytes.get(end), bytes.get(end + 1)) {
+            (None, _) => return Err(Problem::Quote("is not closed on its line")),
+            (Some(b'"'), Some(b'"')) => {
+                doubled = true;
+                end += 2;
+            }
+            (Some(b'"'), None | Some(b' ' | b'\t' | b',')) if end == at + 1 => {
+                return Err(Problem::Quote("encloses nothing"));
+            }
+            (Some(b'"'), None | Some(b' ' | b'\t' | b',')) => {
+                return Ok(Field {
+                    start: at + 1,
+                    end,
+                    quoted: true,
+                    doubled,
+                });
+            }
+            (Some(b'"'), _) => return Err(Problem::Quote("is not followed by a separator")),
+            _ => end += 1,
+        }
+    }
+}
+
+/// Whether this is a decimal number: `[+-]?(d+(.d*)?|.d+)([eE][+-]?d+)?`.
+pub(in viewcert::graph) fn is_number(field: &[u8]) -> bool {
+    let digits = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_digit()).count();
+    let unsigned = |text: &[u8]| usize::from(matches!(text.first(), Some(b'+' | b'-')));
+    let rest = &field[unsigned(field)..];
+    let whole = digits(rest);
+    let mut rest = &rest[whole..];
+    let mut fraction = 0;
+    if let [b'.', behind @ ..] = rest {
+        fraction = digits(behind);
+        rest = &behind[fraction..];
+    }
+    if whole + fraction == 0 {
+        return false;
+    }
+    if let [b'e' | b'E', behind @ ..] = rest {
+        let behind = &behind[unsigned(behind)..];
+        return !behind.is_empty() && digits(behind) == behind.len();
+    }
+    rest.is_empty()
+}
+
+/// The value of a decimal integer without sign and leading zeros, below 2^64.
+pub(super) fn integer(label: &str) -> Option<u64> {
+    let plain = label.bytes().all(|b| b.is_ascii_digit());
+    if plain && (label == "0" || !label.starts_with('0')) {
+        label.parse().ok()
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fields(line: &str) -> Result<Vec<String>, String> {
+        let mut fields = Vec::new();
+        split(line, &mut fields).map_err(|problem| problem.to_string())?;
+        Ok(fields.iter().map(|f| f.text(line).into_owned()).collect())
+    }
+
+    #[test]
+    fn separators_quotes_and_comments() {
+        for (line, expected) in [
+            ("", &[][..]),
+            (" \t", &[]),
+            ("# a, b", &[]),
+            (" %a b", &[]),
+            ("a b", &["a", "b"]),
+            (" a ,\tb  ", &["a", "b"]),
+            ("a,b #c", &["a", "b"]),
+            ("a#1 b%", &["a#1", "b%"]),
+            ("\"a b\",\"c\"\"d, #\"", &["a b", "c\"d, #"]),
+            ("\"\"\"\" x", &["\"", "x"]),
+            ("\"#\" x", &["#", "x"]),
+        ] {
+            assert_eq!(fields(line).unwrap(), expected, "{line}");
+        }
+        for line in [
+            ",",
+            ",a b",
+            "a b,",
+            "a,,b",
+            "a, ,b",
+            "a b, # c",
+            ", # c",
+            "a \"\"",
+            "a\"b\" c",
+            "\"a b",
+            "\"a\"b c",
+            "\"a\"# c",
+            "\"a\"\" b",
+        ] {
+            assert!(fields(line).is_err(), "{line}");
+        }
+    }
+
+    #[test]
+    fn numbers() {
+        for number in ["0", "007", "-1", "+1.", ".5", "1.5e3", "-.5E-07", "1e+0"] {
+            assert!(is_number(number.as_bytes()), "{number}");
+        }
+        for other in [
+            "", ".", "-", "1e", "e5", "1e+", "0x1", "nan", "inf", "1.2.3", "1-", "--1", "1,",
+        ] {
+            assert!(!is_number(other.as_bytes()), "{other}");
+        }
+    }
+}

@@ -1,0 +1,372 @@
+//! Why an input is not a viewing graph: where, what, and what to do about it.
+
+use std::fmt;
+
+use crate::inflate::{Damaged, Inflated};
+use crate::sparse6::Sparse6Error;
+use viewcert::graph::graph6::Graph6Error;
+
+/// An input that was refused, ready to be shown: `file:line: problem; what to do`.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}{place}: {problem}; {}", .problem.remedy())]
+pub struct ReadError {
+    /// The file as it was named, `-` for standard input.
+    pub file: String,
+    /// Where in the file.
+    pub place: Place,
+    /// What is wrong there.
+    pub problem: Problem,
+}
+
+/// A refusal before the name of the file is known to it.
+#[derive(Debug)]
+pub struct Fault {
+    /// Where in the input.
+    pub place: Place,
+    /// What is wrong there.
+    pub problem: Problem,
+}
+
+impl Fault {
+    pub(super) fn in_file(self, file: &str) -> ReadError {
+        ReadError {
+            file: file.to_owned(),
+            place: self.place,
+            problem: self.problem,
+        }
+    }
+}
+
+/// The part of an input that a problem belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The input as a whole.
+    Input,
+    /// A line of text, counted from 1.
+    Line(u64),
+    /// A variable of a MATLAB file.
+    Variable(String),
+}
+
+impl Place {
+    pub(super) fn fault(self, problem: Problem) -> Fault {
+        Fault {
+            place: self,
+            problem,
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input => Ok(()),
+            Self::Line(line) => write!(f, ":{line}"),
+            Self::Variable(name) => write!(f, ": variable {name}"),
+        }
+    }
+}
+
+/// What is wrong with an input. Rows and columns of matrices count from 1.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// The operating system refuses the file.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] std::io::Error),
+    /// Data of another kind, which is known by name.
+    #[error("this is {what}, which is not read here")]
+    Foreign {
+        /// What it is.
+        what: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// Text that has the form of an edge list and may mean something else.
+    #[error("{what}")]
+    Doubtful {
+        /// What it may be.
+        what: &'static str,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// Compressed data that end too early or contradict their checksum.
+    #[error("the compressed data are damaged: {0}")]
+    Compressed(#[source] std::io::Error),
+    /// Compressed data that are much larger than they look.
+    #[error(transparent)]
+    Inflated(#[from] Inflated),
+    /// No nodes at all.
+    #[error("the graph is empty")]
+    NoNodes,
+    /// A head and nothing below it.
+    #[error("the first line is a head, and there are no pairs")]
+    OnlyHead,
+    /// More nodes than a graph can hold.
+    #[error("the graph has more than 4294967295 nodes")]
+    TooManyNodes,
+    /// More pairs than the program numbers.
+    #[error("the graph has more than 2147483647 pairs")]
+    TooManyPairs,
+    /// A number of nodes that few pairs go with.
+    #[error("{nodes} nodes and {pairs} pairs: more than {limit} nodes without pairs")]
+    TooManyIsolated {
+        /// How many nodes.
+        nodes: u64,
+        /// How many pairs.
+        pairs: usize,
+        /// How many nodes without pairs are allowed.
+        limit: u64,
+    },
+    /// A pair of a camera with itself.
+    #[error("camera {0} is paired with itself")]
+    SelfLoop(String),
+    /// Bytes that are no UTF-8.
+    #[error("this is no UTF-8 text")]
+    NotUtf8,
+    /// A zero byte, which no text has.
+    #[error("this is no text: it has a NUL byte")]
+    Nul,
+    /// A carriage return that is not the end of a line.
+    #[error("there is a carriage return within the line")]
+    CarriageReturn,
+    /// Another control character.
+    #[error("this is no plain text: it has the control character {0:#04x}")]
+    Control(u8),
+    /// U+FEFF somewhere else than at the start.
+    #[error("there is a byte order mark (U+FEFF) within the text")]
+    InnerMark,
+    /// A comma with nothing on one side of it.
+    #[error("there is an empty field")]
+    EmptyField,
+    /// A quote where none belongs; what is wrong with it.
+    #[error("a quote (\") {0}")]
+    Quote(&'static str),
+    /// A field without letters and digits, or a comment of another language.
+    #[error("`{}` is neither the name of a camera nor a number", shown(.0))]
+    NoLabel(String),
+    /// A field that looks like a part of something else.
+    #[error("`{}` is punctuated like another format", shown(.0))]
+    Punctuated(String),
+    /// A line with a number of fields that no edge list has.
+    #[error("not an edge list: the line has {found} field{}, and lines of an edge list have 2, 3, 9 or 14", if *.found == 1 {""} else {"s"})]
+    Columns {
+        /// How many fields.
+        found: usize,
+    },
+    /// A line with another number of fields than the first.
+    #[error("not an edge list: the line has {found} field{}, line {line} has {expected}", if *.found == 1 {""} else {"s"})]
+    ColumnsDiffer {
+        /// How many fields.
+        found: usize,
+        /// How many the first line has.
+        expected: usize,
+        /// Where that one stands.
+        line: u64,
+    },
+    /// A field behind the second that is no number.
+    #[error("not an edge list: field {column}, `{}`, is no number", shown(.field))]
+    NoNumber {
+        /// The field.
+        field: String,
+        /// Its place in the line, from 1.
+        column: usize,
+    },
+    /// A head that names other columns than the first two.
+    #[error("the head says that the pairs are not in the first two columns")]
+    HeadBehind,
+    /// A first line with names of columns that are cameras as well.
+    #[error("the line could be a head, but its names occur as cameras")]
+    HeadOrPair,
+    /// A line that contradicts all earlier ones.
+    #[error("the lines before are {format}, and this one is not: {why}")]
+    Unlike {
+        /// What the others are.
+        format: &'static str,
+        /// Why this one is not.
+        why: Box<Problem>,
+    },
+    /// A line that no edge list has.
+    #[error("the line is longer than {limit} bytes")]
+    LineTooLong {
+        /// The longest line that is read.
+        limit: usize,
+    },
+    /// A line that no machine holds.
+    #[error("the line is longer than {limit} bytes")]
+    LineTooLarge {
+        /// The longest line that is read.
+        limit: u64,
+    },
+    /// A line that is not graph6.
+    #[error(transparent)]
+    Graph6(#[from] Graph6Error),
+    /// A line that is not sparse6.
+    #[error(transparent)]
+    Sparse6(#[from] Sparse6Error),
+    /// Something in a MatrixMarket file that is not as it has to be.
+    #[error("MatrixMarket: {0}")]
+    MatrixMarket(String),
+    /// A MATLAB file of level 4.
+    #[error("a MATLAB file of version 4 is not read here")]
+    MatlabFour,
+    /// A MATLAB file of level 7.3, which is HDF5.
+    #[error("a MATLAB file of version 7.3 (HDF5) is not read here")]
+    MatlabHdf5,
+    /// The file ends before what it promises.
+    #[error("the file is truncated: {0}")]
+    Truncated(String),
+    /// The file contradicts itself or its format.
+    #[error("the file is corrupt: {0}")]
+    Corrupt(String),
+    /// The variable asked for is not there.
+    #[error("there is no such variable; the file holds {present}")]
+    NoSuchVariable {
+        /// The variables that are there, described.
+        present: String,
+    },
+    /// No variable, or more than one, that could be the adjacency.
+    #[error("no variable A and {candidates} square matrices; the file holds {present}")]
+    ChooseVariable {
+        /// How many variables could be meant.
+        candidates: usize,
+        /// The variables that are there, described.
+        present: String,
+    },
+    /// Cells, structures, text.
+    #[error("a {0} is not a numeric matrix")]
+    NotNumeric(&'static str),
+    /// Complex numbers.
+    #[error("the matrix is complex")]
+    Complex,
+    /// Not as many rows as columns, or more than two dimensions.
+    #[error("the matrix is {0}, not square")]
+    NotSquare(String),
+    /// An entry that is not a number.
+    #[error("entry ({row}, {column}) is not a number (NaN)")]
+    NotANumber {
+        /// Row, from 1.
+        row: u32,
+        /// Column, from 1.
+        column: u32,
+    },
+    /// An entry without its mirror image.
+    #[error(
+        "the matrix is not symmetric: ({row}, {column}) is non-zero, ({column}, {row}) is zero"
+    )]
+    Asymmetric {
+        /// Row of the non-zero entry, from 1.
+        row: u32,
+        /// Its column, from 1.
+        column: u32,
+    },
+    /// A camera paired with itself, in a matrix.
+    #[error("diagonal entry ({0}, {0}) is non-zero: a camera paired with itself")]
+    Diagonal(u32),
+}
+
+const LENIENTLY: &str = "write one pair a line, separated by a blank, or read the first two fields of every line with \
+     --format edges";
+
+impl Problem {
+    /// What whoever gave the input can do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::Unreadable(_) => "check its path and permissions",
+            Self::Foreign { advice, .. } | Self::Doubtful { advice, .. } => advice,
+            Self::Compressed(_) => "copy the file again, and test it with `gzip -t`",
+            Self::Inflated(_) => "if you trust it, inflate it with `gunzip` first",
+            Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
+            Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
+            Self::TooManyIsolated { .. } => "leave out what has no pairs",
+            Self::SelfLoop(_) => "remove the pair (or the line, if it holds counts)",
+            Self::NotUtf8 | Self::CarriageReturn => "save it as UTF-8 with line feeds",
+            Self::Nul | Self::Control(_) => {
+                "give an edge list, graph6, sparse6, MatrixMarket or a MATLAB file (save -v7)"
+            }
+            Self::InnerMark => "remove it; files with such marks cannot be joined byte by byte",
+            Self::EmptyField => "put a field on either side of every comma",
+            Self::Quote(_) => "quote whole fields only, and double the quotes within them",
+            Self::NoLabel(_) | Self::Columns { .. } | Self::ColumnsDiffer { .. } => LENIENTLY,
+            Self::Punctuated(_) => {
+                "remove the punctuation; if it belongs to the name, quote the name or say --format edges"
+            }
+            Self::NoNumber { .. } => {
+                "further columns hold numbers (quote names with blanks); --format edges ignores them"
+            }
+            Self::HeadBehind => "put the two columns of the pairs first",
+            Self::HeadOrPair => "delete the head; if it is a pair, say --format edges",
+            Self::Unlike { .. } => "name the format with --format, or mend the line",
+            Self::LineTooLong { .. } => "put one pair on a line, or name the format with --format",
+            Self::LineTooLarge { .. } => "write the graph as an edge list or in sparse6",
+            Self::Graph6(_) | Self::Sparse6(_) => {
+                "write the line again (where other formats are read, --format names them)"
+            }
+            Self::MatrixMarket(_) => {
+                "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
+            }
+            Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
+            Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
+            Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
+                "name the adjacency matrix with --variable"
+            }
+            Self::NotNumeric(_) | Self::NotSquare(_) => {
+                "name a square numeric matrix with --variable"
+            }
+            Self::Complex => "save its real part, or the matrix of its non-zero entries",
+            Self::NotANumber { .. } => "put zero where there is no pair",
+            Self::Asymmetric { .. } => "save A | A' if the direction of pairs does not matter",
+            Self::Diagonal(_) => "set the diagonal to zero",
+        }
+    }
+
+    /// Whether a text is refused for its form, which may be that of another format.
+    pub(super) fn is_grammar(&self) -> bool {
+        matches!(
+            self,
+            Self::EmptyField
+                | Self::Quote(_)
+                | Self::NoLabel(_)
+                | Self::Punctuated(_)
+                | Self::Columns { .. }
+                | Self::ColumnsDiffer { .. }
+                | Self::NoNumber { .. }
+                | Self::SelfLoop(_)
+                | Self::LineTooLong { .. }
+        )
+    }
+
+    /// Whether nothing is wrong with the input but its size.
+    pub fn is_size(&self) -> bool {
+        match self {
+            Self::Inflated(_)
+            | Self::TooManyNodes
+            | Self::TooManyPairs
+            | Self::TooManyIsolated { .. }
+            | Self::LineTooLarge { .. }
+            | Self::Sparse6(Sparse6Error::TooLarge { .. }) => true,
+            Self::Unlike { why, .. } => why.is_size(),
+            _ => false,
+        }
+    }
+}
+
+impl From<std::io::Error> for Problem {
+    fn from(error: std::io::Error) -> Self {
+        match error.downcast::<Inflated>() {
+            Ok(inflated) => Self::Inflated(inflated),
+            Err(error) => match error.downcast::<Damaged>() {
+                Ok(Damaged(error)) => Self::Compressed(error),
+                Err(error) => Self::Unreadable(error),
+            },
+        }
+    }
+}
+
+/// A field in a message: its beginning, if it is long.
+fn shown(field: &str) -> String {
+    const MOST: usize = 40;
+    match field.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}...", &field[..end]),
+        None => field.to_owned(),
+    }
+}

@@ -1,0 +1,18 @@
+//! Files to viewing graphs: one module a format, one recogniser.
+//!
+//! In: a path or a stream of bytes. Out: graphs with their labels and with notes about what was
+//! merged, ignored or guessed ([`NamedGraph`]), or an error that says where and what to do
+//! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
+
+pub mod edge_list;
+pub mod error;
+mod inflate;
+mod lines;
+pub mod matlab;
+pub mod matrix_market;
+pub mod read;
+mod recognise;
+pub mod sparse6;
+
+pub use error::ReadError;
+pub use read::{Format, NamedGraph, ReadOptions, read_graphs};

@@ -1,0 +1,255 @@
+//! Any input to graphs: which format it is, and its graphs one by one.
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::str::FromStr;
+
+use crate::edge_list::Reading;
+use crate::error::{Fault, Place, Problem, ReadError};
+use crate::inflate::Inflater;
+use crate::lines::{Encoding, LINE_LIMIT, Lines};
+use crate::recognise;
+use crate::recognise::Kind;
+use crate::{edge_list, matlab, matrix_market};
+use viewcert::graph::{Graph, Labels};
+
+/// A graph as it was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedGraph {
+    /// The path as given, `-` for standard input; for line k of a graph6 or sparse6 file
+    /// followed by `:k`.
+    pub name: String,
+    /// The graph.
+    pub graph: Graph,
+    /// What the user calls its nodes.
+    pub labels: Labels,
+    /// What was merged, ignored or guessed in reading it.
+    pub notes: Vec<String>,
+}
+
+/// The formats that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// One pair a line, read leniently; see [`edge_list`]. (Without a format the same files are
+    /// read strictly.)
+    Edges,
+    /// One graph a line; see [`graph6`](super::graph6).
+    Graph6,
+    /// One graph a line; see [`sparse6`](super::sparse6).
+    Sparse6,
+    /// An adjacency matrix in a MATLAB 5 file; see [`matlab`].
+    Matlab,
+    /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
+    MatrixMarket,
+}
+
+impl FromStr for Format {
+    type Err = UnknownFormat;
+
+    fn from_str(name: &str) -> Result<Self, UnknownFormat> {
+        match name {
+            "edges" | "edge-list" => Ok(Self::Edges),
+            "graph6" => Ok(Self::Graph6),
+            "sparse6" => Ok(Self::Sparse6),
+            "matlab" => Ok(Self::Matlab),
+            "matrix-market" => Ok(Self::MatrixMarket),
+            _ => Err(UnknownFormat),
+        }
+    }
+}
+
+/// A word that is not the name of a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the formats are edges, graph6, sparse6, matlab and matrix-market")]
+pub struct UnknownFormat;
+
+/// How to read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReadOptions {
+    /// The format; by default what the content is, if it can be only one.
+    pub format: Option<Format>,
+    /// The variable of a MATLAB file; by default `A` or the only square matrix.
+    pub variable: Option<String>,
+}
+
+/// The graphs of an input, or why there is none.
+pub type Graphs = Box<dyn Iterator<Item = Result<NamedGraph, ReadError>>>;
+
+type Input = Box<dyn Read>;
+
+/// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
+/// sparse6, else one. Nothing is read before the first item is asked for. What gzip has
+/// compressed is inflated.
+///
+/// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or the options
+/// say that it is such a file; every other error ends the stream.
+pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
+    let (path, options) = (path.to_owned(), options.clone());
+    let open = move || match path.as_str() {
+        "-" => graphs(path, std::io::stdin(), options),
+        _ => match File::open(&path) {
+            Ok(file) => graphs(path, file, options),
+            Err(error) => failed(&path, Place::Input.fault(Problem::Unreadable(error))),
+        },
+    };
+    Box::new(std::iter::once_with(open).flatten())
+}
+
+/// Streams the graphs of `input`, which its graphs and errors call `name`.
+pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) -> Graphs {
+    match sampled(Box::new(input)) {
+        Ok(sampled) if sampled.is_gzip() => {
+            let inner = sampled_again(sampled);
+            let graphs = inner.map(|inner| of_sampled(name.clone(), inner, options));
+            let graphs =
+                graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
+            Box::new(graphs.map(|graph| {
+                graph.map(|mut graph| {
+                    graph.notes.insert(0, "read as gzip".to_owned());
+                    graph
+                })
+            }))
+        }
+        Ok(sampled) => of_sampled(name, sampled, options),
+        Err(problem) => failed(&name, Place::Input.fault(problem)),
+    }
+}
+
+/// An input whose first bytes are known.
+struct Sampled {
+    /// The first bytes, which are all if `whole`.
+    head: Vec<u8>,
+    whole: bool,
+    /// What follows them.
+    rest: Input,
+}
+
+impl Sampled {
+    fn is_gzip(&self) -> bool {
+        recognise::kind(&self.head, self.whole).is_ok_and(|kind| kind == Kind::Gzip)
+    }
+
+    fn into_input(self) -> Input {
+        Box::new(Cursor::new(self.head).chain(self.rest))
+    }
+}
+
+/// Reads as much of an input as it takes to tell what it is.
+fn sampled(mut input: Input) -> Result<Sampled, Problem> {
+    let mut head = Vec::new();
+    let mut whole = more(&mut input, &mut head, recognise::SAMPLE as u64)?;
+    if !whole && let Some(missing) = recognise::missing(&head) {
+        // In steps: what the first characters promise need not be there.
+        let mut left = missing.min(LINE_LIMIT);
+        while left > 0
+            && !whole
+            && recognise::in_alphabet(&head[head.len() - STEP.min(head.len())..])
+        {
+            let step = left.min(STEP as u64);
+            whole = more(&mut input, &mut head, step)?;
+            left -= step;
+        }
+    }
+    Ok(Sampled {
+        head,
+        whole,
+        rest: input,
+    })
+}
+
+/// How many bytes of a long first line are read at once.
+const STEP: usize = 1 << 16;
+
+/// Reads so many bytes more; whether they are the last ones.
+fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Problem> {
+    let got = input.by_ref().take(count).read_to_end(head)?;
+    Ok((got as u64) < count)
+}
+
+/// What is in a gzip file, which has to be something else.
+fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
+    let inner = sampled(Box::new(Inflater::new(outer.into_input())))?;
+    if inner.is_gzip() {
+        return Err(Problem::Foreign {
+            what: "gzip within gzip",
+            advice: "inflate it with `gunzip` once",
+        });
+    }
+    Ok(inner)
+}
+
+fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+    let kind = match options.format {
+        Some(Format::Edges) => Ok(None),
+        Some(Format::Graph6) => Ok(Some(Kind::Lines {
+            encoding: Encoding::Graph6,
+            guessed: false,
+        })),
+        Some(Format::Sparse6) => Ok(Some(Kind::Lines {
+            encoding: Encoding::Sparse6,
+            guessed: false,
+        })),
+        Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
+        Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
+        None => recognise::kind(&sampled.head, sampled.whole).map(Some),
+    };
+    let unused = (options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))))
+        .then(|| "--variable is ignored: this is no MATLAB file".to_owned());
+    let one = match kind {
+        Ok(Some(Kind::Lines { encoding, guessed })) => {
+            let lines = Lines::new(name, encoding, guessed, sampled.into_input());
+            return Box::new(lines.map(move |graph| {
+                graph.map(|mut graph| {
+                    graph.notes.extend(unused.clone());
+                    graph
+                })
+            }));
+        }
+        Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
+        Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
+            .map(|(graph, notes)| (graph, Labels::Numbers { first: 1 }, notes)),
+        Ok(Some(Kind::Text | Kind::Gzip)) => {
+            let (head, whole) = (sampled.head.clone(), sampled.whole);
+            edge_list::read(sampled.into_input(), Reading::Strict).map_err(|fault| {
+                // What is refused by the grammar may have a name.
+                match recognise::likely(&head, whole) {
+                    Some(problem) if fault.problem.is_grammar() => Place::Input.fault(problem),
+                    _ => fault,
+                }
+            })
+        }
+        Ok(None) => edge_list::read(sampled.into_input(), Reading::Lenient),
+        Err(problem) => Err(Place::Input.fault(problem)),
+    };
+    match one {
+        Ok((graph, labels, mut notes)) => {
+            notes.extend(unused);
+            Box::new(std::iter::once(Ok(NamedGraph {
+                name,
+                graph,
+                labels,
+                notes,
+            })))
+        }
+        Err(fault) => failed(&name, fault),
+    }
+}
+
+fn failed(name: &str, fault: Fault) -> Graphs {
+    Box::new(std::iter::once(Err(fault.in_file(name))))
+}
+
+fn read_matlab(
+    mut input: impl Read,
+    variable: Option<&str>,
+) -> Result<(Graph, Labels, Vec<String>), Fault> {
+    let mut bytes = Vec::new();
+    input
+        .read_to_end(&mut bytes)
+        .map_err(|error| Place::Input.fault(error.into()))?;
+    let (graph, chosen) = matlab::read_noting(&bytes, variable)?;
+    Ok((graph, Labels::Numbers { first: 1 }, Vec::from_iter(chosen)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,597 @@
+//! What an input is, by its first bytes; and the names of what is not read.
+//!
+//! Nothing here makes an edge list of a text: that is decided by the grammar of edge lists alone.
+//! What is *certain* is refused at once, as it might pass for an edge list; what is *likely* only
+//! gives a name to a text that the grammar has refused.
+
+use crate::edge_list::BYTE_ORDER_MARK;
+use crate::edge_list::fields::is_number;
+use crate::error::Problem;
+use crate::inflate;
+use crate::lines::{Encoding, trimmed};
+use crate::{matlab, matrix_market, sparse6};
+use viewcert::graph::graph6;
+
+/// How much of an input is looked at.
+pub(super) const SAMPLE: usize = 1 << 16;
+
+/// What an input turns out to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A graph a line; `guessed` if no header says so.
+    Lines {
+        encoding: Encoding,
+        guessed: bool,
+    },
+    Matlab,
+    MatrixMarket,
+    Gzip,
+    /// Text, which is an edge list or nothing that is read.
+    Text,
+}
+
+/// What an input is that begins with `head`, which is all of it if `whole`. Depends on nothing
+/// else, and not on how the bytes arrive.
+///
+/// # Errors
+/// What is recognised as something that is not read.
+pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
+    if head.starts_with(inflate::MAGIC) {
+        return Ok(Kind::Gzip);
+    }
+    if matlab::is_matlab(head) {
+        return Ok(Kind::Matlab);
+    }
+    if let Some(problem) = binary(head) {
+        return Err(problem);
+    }
+    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
+    if matrix_market::is_matrix_market(head) {
+        return Ok(Kind::MatrixMarket);
+    }
+    for (encoding, header) in [
+        (Encoding::Graph6, graph6::HEADER),
+        (Encoding::Sparse6, sparse6::HEADER),
+    ] {
+        if head.starts_with(header.as_bytes()) {
+            let guessed = false;
+            return Ok(Kind::Lines { encoding, guessed });
+        }
+    }
+    if let Some(problem) = certain(head) {
+        return Err(problem);
+    }
+    let guessed = true;
+    // A first line that is promised to be longer than any that is read.
+    if !whole && missing(head).is_some() {
+        let encoding = Encoding::Graph6;
+        return Ok(Kind::Lines { encoding, guessed });
+    }
+    for (encoding, is) in [
+        (Encoding::Graph6, graph6::is_graph6 as fn(&[u8]) -> bool),
+        (Encoding::Sparse6, sparse6::looks_like_sparse6),
+    ] {
+        if every_line(head, whole, is) {
+            return Ok(Kind::Lines { encoding, guessed });
+        }
+    }
+    Ok(Kind::Text)
+}
+
+/// How many more bytes decide whether an input that begins with `head` is graph6: a single line
+/// may be longer than what is looked at.
+pub(super) fn missing(head: &[u8]) -> Option<u64> {
+    let text = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
+    let length = graph6::line_length(trimmed(text))?;
+    // With the line's end: then the line is complete, or longer than it may be.
+    let wanted = u64::try_from(length).ok()?.checked_add(2)?;
+    wanted
+        .checked_sub(text.len() as u64)
+        .filter(|more| *more > 0)
+}
+
+/// Whether all bytes are such that a line of graph6 may hold.
+pub(super) fn in_alphabet(bytes: &[u8]) -> bool {
+    bytes.iter().all(|b| (63..=126).contains(b))
+}
+
+/// The lines of a head that are complete and not blank.
+fn lines(head: &[u8], whole: bool) -> impl Iterator<Item = &[u8]> {
+    let end = match head.iter().rposition(|&b| b == b'\n') {
+        _ if whole => head.len(),
+        Some(end) => end,
+        None => 0,
+    };
+    head[..end]
+        .split(|&b| b == b'\n')
+        .map(trimmed)
+        .filter(|line| !line.is_empty())
+}
+
+fn every_line(head: &[u8], whole: bool, is: impl Fn(&[u8]) -> bool) -> bool {
+    let mut lines = lines(head, whole).peekable();
+    if lines.peek().is_some() {
+        return lines.all(is);
+    }
+    // A single line that goes on.
+    !whole && is(trimmed(head))
+}
+
+/// A refusal by name.
+const fn foreign(what: &'static str, advice: &'static str) -> Problem {
+    Problem::Foreign { what, advice }
+}
+
+const PAIRS: &str = "write one pair a line: the names of two cameras and nothing else";
+
+/// Advice to convert by way of networkx.
+macro_rules! networkx {
+    ($reader:literal) => {
+        concat!(
+            "convert it, for example in Python: networkx.write_edgelist(",
+            $reader,
+            ", 'pairs.txt', data=False)"
+        )
+    };
+}
+
+/// Files that begin with these bytes, whatever follows.
+const MAGIC: [(&[u8], &str, &str); 22] = [
+    (
+        b"SQLite format 3\0",
+        "an SQLite database (COLMAP's, perhaps)",
+        "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'",
+    ),
+    (
+        b"PK\x03\x04",
+        "a ZIP archive (an .npz file, perhaps)",
+        "unpack it, and write the adjacency matrix with scipy.io.mmwrite or scipy.io.savemat",
+    ),
+    (b"PK\x05\x06", "a ZIP archive", "unpack it"),
+    (
+        b"\x93NUMPY",
+        "a NumPy array",
+        "write it with scipy.io.mmwrite(name, scipy.sparse.coo_matrix(array)) or scipy.io.savemat",
+    ),
+    (b"\x89PNG\r\n\x1a\n", "a PNG image", PAIRS),
+    (b"\xff\xd8\xff", "a JPEG image", PAIRS),
+    (b"GIF8", "a GIF image", PAIRS),
+    (b"II*\0", "a TIFF image", PAIRS),
+    (b"MM\0*", "a TIFF image", PAIRS),
+    (b"RIFF", "a RIFF file (an image or sound)", PAIRS),
+    (b"%PDF-", "a PDF document", PAIRS),
+    (
+        b"BZh",
+        "compressed by bzip2",
+        "unpack it with `bunzip2`, or compress it with `gzip`",
+    ),
+    (
+        b"\xfd7zXZ\0",
+        "compressed by xz",
+        "unpack it with `unxz`, or compress it with `gzip`",
+    ),
+    (
+        b"\x28\xb5\x2f\xfd",
+        "compressed by Zstandard",
+        "unpack it with `unzstd`, or compress it with `gzip`",
+    ),
+    (b"7z\xbc\xaf\x27\x1c", "a 7-Zip archive", "unpack it"),
+    (b"\x7fELF", "a program (ELF)", PAIRS),
+    (
+        b"PAR1",
+        "a Parquet table",
+        "write its two columns of names as CSV",
+    ),
+    (
+        b"ARROW1",
+        "an Arrow table",
+        "write its two columns of names as CSV",
+    ),
+    (
+        b">>planar_code",
+        "planar code",
+        "convert it to graph6 with nauty's `planarg` or plantri's option -g",
+    ),
+    (
+        b">>edge_code",
+        "edge code",
+        "convert it to graph6 with plantri's option -g",
+    ),
+    (b">>digraph6<<", DIGRAPH6, DIGRAPH6_ADVICE),
+    (
+        b"version https://git-lfs",
+        "a pointer to a file in Git LFS, not the file itself",
+        "fetch it with `git lfs pull`",
+    ),
+];
+
+const DIGRAPH6: &str = "digraph6, directed graphs";
+const DIGRAPH6_ADVICE: &str =
+    "forget the directions, for example with networkx, and write graph6 or pairs";
+
+/// What is no text, by its first bytes.
+fn binary(head: &[u8]) -> Option<Problem> {
+    for (magic, what, advice) in MAGIC {
+        if head.starts_with(magic) {
+            return Some(foreign(what, advice));
+        }
+    }
+    let utf16 = "save it as UTF-8 (in Windows: `Save as`, encoding UTF-8)";
+    if head.starts_with(b"\xff\xfe") || head.starts_with(b"\xfe\xff") {
+        return Some(foreign("text in UTF-16", utf16));
+    }
+    if let [0x80, 2..=5, rest @ ..] = head
+        && !rest.is_empty()
+    {
+        let advice =
+            "write the pairs in Python with one `print(a, b)` each; a pickle can hold anything";
+        return Some(foreign("a Python pickle", advice));
+    }
+    if !head.contains(&0) {
+        return None;
+    }
+    // Text of two bytes a character without a mark: every other byte of its ASCII is zero.
+    let (even, odd): (Vec<u8>, Vec<u8>) = head.chunks_exact(2).map(|two| (two[0], two[1])).unzip();
+    let zero = |bytes: &[u8]| bytes.iter().all(|&b| b == 0);
+    let ascii = |bytes: &[u8]| bytes.iter().all(|&b| b.is_ascii() && b != 0);
+    if head.len() >= 4 && (zero(&even) && ascii(&odd) || zero(&odd) && ascii(&even)) {
+        return Some(foreign("text in UTF-16", utf16));
+    }
+    None
+}
+
+/// First words of texts that might pass for edge lists; the case of letters does not matter.
+const FIRST_WORDS: [(&str, &str, &str); 12] = [
+    (
+        "*vertices",
+        "a Pajek network",
+        networkx!("networkx.Graph(networkx.read_pajek(FILE))"),
+    ),
+    (
+        "*network",
+        "a Pajek network",
+        networkx!("networkx.Graph(networkx.read_pajek(FILE))"),
+    ),
+    ("*partition", "a Pajek partition", PAIRS),
+    ("vertex_", "a g2o pose graph", G2O),
+    ("edge_", "a g2o pose graph", G2O),
+    ("vertex2", "a TORO pose graph", G2O),
+    ("edge2", "a TORO pose graph", G2O),
+    ("vertex3", "a TORO pose graph", G2O),
+    ("edge3", "a TORO pose graph", G2O),
+    (
+        "nvm_v",
+        "an NVM file of VisualSFM",
+        "it holds cameras and points, not pairs of images; write the pairs that were matched",
+    ),
+    ("leda.graph", "a LEDA graph", PAIRS),
+    ("@nodes", "a LEMON graph", PAIRS),
+];
+
+const G2O: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
+
+/// First comments of texts that might pass for edge lists.
+const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
+    (
+        "# Image list with two lines of data per image",
+        "COLMAP's images.txt",
+        COLMAP,
+    ),
+    (
+        "# 3D point list with one line of data per point",
+        "COLMAP's points3D.txt",
+        COLMAP,
+    ),
+    (
+        "# Camera list with one line of data per camera",
+        "COLMAP's cameras.txt",
+        COLMAP,
+    ),
+    (
+        "# Rig calib list with one line of data per calib",
+        "COLMAP's rigs.txt",
+        COLMAP,
+    ),
+    (
+        "# Bundle file",
+        "a Bundler file",
+        "it holds cameras and points, not pairs of images; write the pairs that were matched",
+    ),
+];
+
+const COLMAP: &str = "the pairs are in COLMAP's database: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'";
+
+/// Camera models of COLMAP, the second field of a line in cameras.txt.
+const CAMERA_MODELS: [&str; 13] = [
+    "SIMPLE_PINHOLE",
+    "PINHOLE",
+    "SIMPLE_RADIAL",
+    "SIMPLE_RADIAL_FISHEYE",
+    "RADIAL",
+    "RADIAL_FISHEYE",
+    "OPENCV",
+    "OPENCV_FISHEYE",
+    "FULL_OPENCV",
+    "FOV",
+    "THIN_PRISM_FISHEYE",
+    "RAD_TAN_THIN_PRISM_FISHEYE",
+    "EQUIRECTANGULAR",
+];
+
+/// Text that is surely no edge list.
+fn certain(head: &[u8]) -> Option<Problem> {
+    let sample = String::from_utf8_lossy(head);
+    let text = sample.trim_start();
+    let starts = |prefix: &str| {
+        text.get(..prefix.len())
+            .is_some_and(|start| start.eq_ignore_ascii_case(prefix))
+    };
+    for (word, what, advice) in FIRST_WORDS {
+        // Names of images begin in any way, but one of these in capitals is a word of its format.
+        let shown = text.chars().next().is_some_and(|c| !c.is_ascii_lowercase());
+        if starts(word) && shown {
+            return Some(foreign(what, advice));
+        }
+    }
+    for (comment, what, advice) in FIRST_COMMENTS {
+        if text.starts_with(comment) {
+            return Some(foreign(what, advice));
+        }
+    }
+    let first = text
+        .lines()
+        .map(str::trim)
+        .find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let words: Vec<&str> = first.split_whitespace().collect();
+    if let [camera, model, width, height, _, ..] = words[..]
+        && CAMERA_MODELS.contains(&model)
+        && [camera, width, height].iter().all(|word| is_integer(word))
+    {
+        return Some(foreign("COLMAP's cameras.txt", COLMAP));
+    }
+    None
+}
+
+fn is_integer(word: &str) -> bool {
+    !word.is_empty() && word.bytes().all(|b| b.is_ascii_digit())
+}
+
+/// A name for a text that is no edge list.
+pub(super) fn likely(head: &[u8], whole: bool) -> Option<Problem> {
+    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
+    let Ok(text) = str_up_to_cut(head) else {
+        return None;
+    };
+    markup(text)
+        .or_else(|| encoded(head, whole))
+        .or_else(|| words(text, whole))
+}
+
+/// A head as text, but for a character that is cut at its end.
+fn str_up_to_cut(head: &[u8]) -> Result<&str, std::str::Utf8Error> {
+    match std::str::from_utf8(head) {
+        Err(error) if error.error_len().is_none() => {
+            std::str::from_utf8(&head[..error.valid_up_to()])
+        }
+        other => other,
+    }
+}
+
+/// Formats with brackets and keywords.
+fn markup(text: &str) -> Option<Problem> {
+    let start = text.trim_start();
+    let lower = start.to_ascii_lowercase();
+    if start.starts_with('<') {
+        let graphml = foreign("GraphML", networkx!("networkx.read_graphml(FILE)"));
+        let gexf = foreign("GEXF", networkx!("networkx.read_gexf(FILE)"));
+        return Some(match () {
+            () if lower.contains("<graphml") => graphml,
+            () if lower.contains("<gexf") => gexf,
+            () if lower.contains("<html") || lower.contains("<!doctype html") => {
+                foreign("a web page (HTML)", "download the file itself")
+            }
+            () => foreign("XML", PAIRS),
+        });
+    }
+    let json = |start: &str| {
+        let rest = start[1..].trim_start();
+        rest.starts_with(['"', '{', '[', '(', ']', '}', '-'])
+            || rest.starts_with(|c: char| c.is_ascii_digit())
+    };
+    if start.starts_with(['{', '[']) && json(start) {
+        return Some(
+            if lower.contains("\"links\"") || lower.contains("\"edges\"") {
+                foreign(
+                    "a node-link graph in JSON",
+                    networkx!("networkx.node_link_graph(json.load(open(FILE)))"),
+                )
+            } else {
+                foreign("JSON", PAIRS)
+            },
+        );
+    }
+    let words: Vec<&str> = lower.split_whitespace().take(3).collect();
+    let word = |k: usize| words.get(k).copied().unwrap_or_default();
+    let dot = ["strict", "graph", "digraph"].contains(&word(0))
+        || ["graph{", "digraph{"]
+            .iter()
+            .any(|start| lower.starts_with(start));
+    if dot && lower.contains('{') {
+        return Some(foreign(
+            "a graph in DOT (Graphviz)",
+            networkx!("networkx.Graph(networkx.nx_pydot.read_dot(FILE))"),
+        ));
+    }
+    let gml = word(0) == "graph" && (word(1) == "[" || word(0).ends_with('['))
+        || word(0) == "graph["
+        || ["creator", "version"].contains(&word(0))
+            && lower.contains("graph")
+            && lower.contains('[');
+    if gml {
+        return Some(foreign("GML", networkx!("networkx.read_gml(FILE)")));
+    }
+    if word(0) == "dl" && (word(1).starts_with("n=") || word(1) == "n") {
+        return Some(foreign("a UCINET DL file", PAIRS));
+    }
+    if word(0) == "ply" {
+        return Some(foreign("a PLY file of points", PAIRS));
+    }
+    None
+}
+
+/// Relatives of graph6, and graph6 with other lines in between.
+fn encoded(head: &[u8], whole: bool) -> Option<Problem> {
+    if every_line(
+        head,
+        whole,
+        |line| matches!(line, [b'&', body @ ..] if in_alphabet(body)),
+    ) {
+        return Some(foreign(DIGRAPH6, DIGRAPH6_ADVICE));
+    }
+    let all: Vec<&[u8]> = lines(head, whole).collect();
+    let first = all.first()?;
+    if graph6::is_graph6(first) && all.len() > 1 {
+        return Some(foreign(
+            "graph6 with lines between that are none",
+            "mend or remove those (--format graph6 names them)",
+        ));
+    }
+    if sparse6::looks_like_sparse6(first) {
+        return Some(foreign(
+            "sparse6 with lines between that are none",
+            "mend or remove those (--format sparse6 names them)",
+        ));
+    }
+    None
+}
+
+/// Formats of words and numbers, by the shape of their first lines.
+fn words(text: &str, whole: bool) -> Option<Problem> {
+    let end = match text.rfind('\n') {
+        _ if whole => text.len(),
+        end => end?,
+    };
+    let lines: Vec<Vec<&str>> = text[..end]
+        .lines()
+        .map(|line| {
+            line.split([' ', '\t', ',', '\r'])
+                .filter(|w| !w.is_empty())
+                .collect()
+        })
+        .filter(|words: &Vec<&str>| words.first().is_some_and(|w| !w.starts_with(['#', '%'])))
+        .collect();
+    let first = lines.first()?;
+    let (integer, number) = (|w: &&str| is_integer(w), |w: &&str| is_number(w.as_bytes()));
+    let dimacs = |line: &Vec<&str>| matches!(line[..], ["p", kind, n, m] if !is_integer(kind) && is_integer(n) && is_integer(m));
+    if lines
+        .iter()
+        .take_while(|line| ["c", "p"].contains(&line[0]))
+        .any(dimacs)
+    {
+        return Some(foreign(
+            "a DIMACS graph",
+            "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE",
+        ));
+    }
+    if let [image, quaternion @ .., camera, _] = &first[..]
+        && first.len() == 10
+        && integer(image)
+        && integer(camera)
+        && quaternion.iter().all(number)
+    {
+        return Some(foreign("COLMAP's images.txt", COLMAP));
+    }
+    if first.len() >= 8
+        && first.len() % 2 == 0
+        && first.iter().all(number)
+        && integer(&first[0])
+        && first[4..7].iter().all(|w| w.parse::<u8>().is_ok())
+        && first[8..].iter().all(integer)
+        && first[1..4].iter().any(|w| w.contains('.'))
+    {
+        return Some(foreign("COLMAP's points3D.txt", COLMAP));
+    }
+    if first.len() == 3
+        && first.iter().all(integer)
+        && let Some([camera, point, x, y]) = lines.get(1).map(|line| &line[..])
+        && integer(camera)
+        && integer(point)
+        && number(x)
+        && number(y)
+    {
+        return Some(foreign(
+            "a bundle adjustment problem (BAL)",
+            "it holds cameras and points, not pairs of images; write the pairs that were matched",
+        ));
+    }
+    let all_integers = lines.iter().flatten().all(integer);
+    if all_integers && let Some(problem) = integers(&lines, whole) {
+        return Some(problem);
+    }
+    let square = whole && lines.len() > 2 && lines.iter().all(|line| line.len() == lines.len());
+    if square && lines.iter().flatten().all(number) {
+        return Some(foreign(
+            "a matrix as text",
+            "write one pair a line, or in Python: scipy.io.mmwrite(name, scipy.sparse.coo_matrix(numpy.loadtxt(FILE)))",
+        ));
+    }
+    if first.len() == 1 && first[0].contains(';') {
+        return Some(foreign(
+            "a table with semicolons",
+            "separate the columns by commas, blanks or tabs",
+        ));
+    }
+    if lines
+        .iter()
+        .all(|line| line.len() > 2 && line[2].starts_with('{'))
+    {
+        return Some(foreign(
+            "an edge list with attributes",
+            "write it without: networkx.write_edgelist(graph, 'pairs.txt', data=False), or say --format edges",
+        ));
+    }
+    None
+}
+
+/// Formats that are nothing but integers.
+fn integers(lines: &[Vec<&str>], whole: bool) -> Option<Problem> {
+    let value = |word: &str| word.parse::<u64>().ok();
+    let first = lines.first()?;
+    if let [_, _] = first[..]
+        && let Some([count]) = lines.get(1).map(|line| &line[..])
+        && let Some(count) = value(count).and_then(|count| usize::try_from(count).ok())
+        && lines.iter().skip(2).take(count).all(|line| line.len() == 2)
+        && lines.len() > 2
+    {
+        return Some(foreign(
+            "a file of feature matches (OpenMVG)",
+            "write the two numbers of every pair of images, without counts and matches",
+        ));
+    }
+    if whole && (2..=4).contains(&first.len()) {
+        let (nodes, edges) = (value(first[0]), value(first[1]));
+        let ends: usize = lines.iter().skip(1).map(Vec::len).sum();
+        if nodes == Some(lines.len() as u64 - 1)
+            && edges.and_then(|m| m.checked_mul(2)) == Some(ends as u64)
+        {
+            return Some(foreign(
+                "a METIS graph",
+                "write one pair a line; line k of the file, without the first, lists the neighbours of node k",
+            ));
+        }
+    }
+    let square = whole && lines.iter().all(|line| line.len() == lines.len());
+    if square && lines.iter().flatten().all(|word| ["0", "1"].contains(word)) {
+        return Some(foreign(
+            "an adjacency matrix as text",
+            "write one pair a line, or in Python: scipy.io.mmwrite(name, scipy.sparse.coo_matrix(numpy.loadtxt(FILE)))",
+        ));
+    }
+    let uneven = lines.iter().any(|line| line.len() != first.len());
+    (uneven && lines.len() > 1 && lines.iter().any(|line| line.len() > 2)).then(|| {
+        foreign(
+            "an adjacency list, or stars of pairs as OpenMVG writes them",
+            "write one pair a line; stars: awk '{ for (i = 2; i <= NF; i++) print $1, $i }' FILE",
+        )
+    })
+}

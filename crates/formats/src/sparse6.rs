@@ -1,0 +1,217 @@
+//! sparse6: a graph with few edges as one line of printable characters, and incremental sparse6.
+//!
+//! Format by B. D. McKay, `formats.txt` of nauty: a colon, the number of nodes n as in graph6, then
+//! a list of pairs (b, x) of one bit and as many bits as n - 1 has, six bits a character, to which
+//! 63 is added. A node v starts at 0; b = 1 adds one to it; then x > v sets v to x, and any other x
+//! is an edge between x and v. An incremental line begins with a semicolon in the place of the colon
+//! and the number of nodes, and lists the edges in which its graph differs from the previous one.
+
+use viewcert::graph::graph6;
+use viewcert::graph::graph6::Graph6Error;
+use viewcert::graph::{Graph, GraphError};
+
+/// The optional header; it stands on the same line as the first graph, or before it.
+pub const HEADER: &str = ">>sparse6<<";
+
+/// Nodes without pairs that a line may promise: a few characters can promise 2^36.
+pub(super) const ISOLATED_LIMIT: u64 = 1 << 24;
+
+/// Why a line is not sparse6.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Sparse6Error {
+    /// Neither a colon nor a semicolon at the start.
+    #[error("sparse6: the line begins with neither `:` nor `;`")]
+    Start,
+    /// A character outside the alphabet `?`..`~`.
+    #[error("sparse6: character {column} is byte {byte}, outside 63..126")]
+    Character {
+        /// Position in the line, from 1.
+        column: usize,
+        /// The byte found there.
+        byte: u8,
+    },
+    /// The line ends within the number of nodes.
+    #[error("sparse6: the line ends before the number of nodes is complete")]
+    NoSize,
+    /// An incremental line without a graph that it could refer to.
+    #[error("sparse6: the line begins with `;`, and there is no graph before it that it changes")]
+    NoPrevious,
+    /// A pair of a node with itself.
+    #[error("sparse6: node {0} is paired with itself")]
+    SelfLoop(u32),
+    /// More nodes than a graph can hold, or than the line has edges for.
+    #[error("sparse6: {nodes} nodes are too many")]
+    TooLarge {
+        /// Number of nodes promised.
+        nodes: u64,
+    },
+}
+
+/// Whether a line has the characters of sparse6 or incremental sparse6 (of which `;` alone changes
+/// nothing).
+pub fn looks_like_sparse6(line: &[u8]) -> bool {
+    let alphabet = |body: &[u8]| body.iter().all(|b| (63..=126).contains(b));
+    match line {
+        [b':', body @ ..] => !body.is_empty() && alphabet(body),
+        [b';', body @ ..] => alphabet(body),
+        _ => false,
+    }
+}
+
+/// The graph of a line, given without its line end and header, and how many repeated edges were
+/// merged. `previous` is the graph of the line before, which an incremental line changes.
+/// O(length log length).
+///
+/// # Errors
+/// The line is not exactly one simple graph.
+pub fn decode(line: &[u8], previous: Option<&Graph>) -> Result<(Graph, usize), Sparse6Error> {
+    if let Some(at) = line.iter().skip(1).position(|b| !(63..=126).contains(b)) {
+        return Err(Sparse6Error::Character {
+            column: at + 2,
+            byte: line[at + 1],
+        });
+    }
+    match line {
+        [b':', body @ ..] => {
+            let (nodes, body) = graph6::size(body).map_err(|error| match error {
+                Graph6Error::Character { column, byte } => Sparse6Error::Character { column, byte },
+                _ => Sparse6Error::NoSize,
+            })?;
+            let too_large = Sparse6Error::TooLarge { nodes };
+            let count = u32::try_from(nodes).map_err(|_| too_large.clone())?;
+            let pairs = pairs(count, body)?;
+            if nodes > ISOLATED_LIMIT + 2 * pairs.len() as u64 {
+                return Err(too_large);
+            }
+            simple(count, pairs)
+        }
+        [b';', body @ ..] => {
+            let previous = previous.ok_or(Sparse6Error::NoPrevious)?;
+            let nodes = previous.nodes() as u32;
+            // What is listed an odd number of times changes.
+            let mut all = pairs(nodes, body)?;
+            for pair in &mut all {
+                *pair = (pair.0.min(pair.1), pair.0.max(pair.1));
+            }
+            all.extend(previous.edges());
+            all.sort_unstable();
+            let runs = all.chunk_by(|a, b| a == b);
+            let odd = runs.filter(|run| run.len() % 2 == 1).map(|run| run[0]);
+            simple(nodes, odd.collect())
+        }
+        _ => Err(Sparse6Error::Start),
+    }
+}
+
+fn simple(nodes: u32, pairs: Vec<(u32, u32)>) -> Result<(Graph, usize), Sparse6Error> {
+    Graph::from_pairs(nodes, pairs).map_err(|error| match error {
+        GraphError::SelfLoop(node) => Sparse6Error::SelfLoop(node),
+        // Nodes of pairs are below the number of nodes.
+        GraphError::OutOfRange { nodes, .. } => Sparse6Error::TooLarge {
+            nodes: nodes.into(),
+        },
+    })
+}
+
+/// The edges that a list of pairs (b, x) stands for, as often as it has them.
+fn pairs(nodes: u32, body: &[u8]) -> Result<Vec<(u32, u32)>, Sparse6Error> {
+    let width = u32::BITS - nodes.saturating_sub(1).leading_zeros();
+    let mut bits = body
+        .iter()
+        .flat_map(|byte| (0..6).rev().map(move |bit| (byte - 63) >> bit & 1));
+    let mut pairs = Vec::new();
+    let mut v = 0u64;
+    // What is left at the end and too short for a pair (b, x) fills up the last character.
+    while let Some(b) = bits.next() {
+        v += u64::from(b);
+        let mut x = 0u64;
+        for _ in 0..width {
+            let Some(bit) = bits.next() else {
+                return Ok(pairs);
+            };
+            x = x << 1 | u64::from(bit);
+        }
+        if v >= nodes.into() {
+            break;
+        }
+        if x > v {
+            v = x;
+        } else {
+            if x == v {
+                return Err(Sparse6Error::SelfLoop(v as u32));
+            }
+            pairs.push((x as u32, v as u32));
+        }
+    }
+    Ok(pairs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn edges(line: &str) -> Vec<(u32, u32)> {
+        decode(line.as_bytes(), None).unwrap().0.edges().to_vec()
+    }
+
+    /// `:Fa@x^` is the example of nauty's `formats.txt`: 0-1, 0-2, 1-2, 5-6 on 7 nodes.
+    #[test]
+    fn known_graphs() {
+        assert_eq!(edges(":Fa@x^"), [(0, 1), (0, 2), (1, 2), (5, 6)]);
+        assert_eq!(decode(b":Fa@x^", None).unwrap().0.nodes(), 7);
+        assert_eq!(edges(":An"), [(0, 1)]);
+        assert_eq!(edges(":B"), []);
+        assert_eq!(decode(b":@", None).unwrap().0.nodes(), 1);
+        assert_eq!(decode(b":?", None).unwrap().0.nodes(), 0);
+    }
+
+    #[test]
+    fn increments_change_the_previous_graph() {
+        let (first, _) = decode(b":Fa@x^", None).unwrap();
+        let (same, _) = decode(b";", Some(&first)).unwrap();
+        assert_eq!(same, first);
+        // The same edges again: none are left.
+        let (none, _) = decode(b";a@x^", Some(&first)).unwrap();
+        assert_eq!((none.nodes(), none.edges()), (7, &[][..]));
+        assert_eq!(decode(b";a@x^", Some(&none)).unwrap().0, first);
+    }
+
+    #[test]
+    fn lines_that_look_like_sparse6() {
+        for line in [":An", ";", ";a@x^", ":?"] {
+            assert!(looks_like_sparse6(line.as_bytes()), "{line}");
+        }
+        for line in ["", ":", "An", ":a b", ";a,b"] {
+            assert!(!looks_like_sparse6(line.as_bytes()), "{line}");
+        }
+    }
+
+    #[test]
+    fn malformed_lines_are_refused() {
+        let bad: [(&[u8], Sparse6Error); 7] = [
+            (b"", Sparse6Error::Start),
+            (b"Fa", Sparse6Error::Start),
+            (b":", Sparse6Error::NoSize),
+            (b":~?", Sparse6Error::NoSize),
+            (
+                b":F a",
+                Sparse6Error::Character {
+                    column: 3,
+                    byte: 32,
+                },
+            ),
+            (b";a", Sparse6Error::NoPrevious),
+            (
+                b":~~~~~~~~",
+                Sparse6Error::TooLarge {
+                    nodes: (1 << 36) - 1,
+                },
+            ),
+        ];
+        for (line, error) in bad {
+            assert_eq!(decode(line, None), Err(error), "{}", line.escape_ascii());
+        }
+        // Two nodes: (1, 1) is not there, (0, 0) is a loop.
+        assert_eq!(decode(b":A?", None), Err(Sparse6Error::SelfLoop(0)));
+    }
+}

@@ -1,0 +1,777 @@
+//! Somebody else's results: a table of claims, each decided again exactly.
+//!
+//! A row names a graph and claims a verdict, a number of components, a rank, or several of
+//! these. Columns are known by their names (letters of either case):
+//!
+//! | column | holds |
+//! |---|---|
+//! | `graph` | a path, `path:line` for a line of a graph6 file, or a graph6 line |
+//! | `file` | a file name in the folder of graphs |
+//! | `name` | a name in the folder of graphs, with or without what follows the dot |
+//! | `verdict` | `solvable`, `finite-solvable`, `not-finite-solvable`, `not-solvable` |
+//! | `components`, `components_...` | a number of maximal finite-solvable components |
+//! | `rank` | the generic rank of J_P (calibrated: of N) |
+//! | `model` | `projective`, which is meant where it is not said, or `calibrated` |
+//! | `nodes`, `edges`, `sha256` | size and hash, to tell whether it is the graph that was meant |
+//! | `seconds`, `seconds_...`, `density_...` | how long it took, how dense it is: no claim |
+//!
+//! Any other column is refused, so that no claim is passed over for a slip of the pen, unless the
+//! caller names it as one to be ignored. Of several columns that name a graph the first in the
+//! order of this table counts.
+//!
+//! A table is comma-separated values with a head, a JSON list of objects, or JSON objects one
+//! after another. Among the latter two the objects that `verify --json` prints are known, whose
+//! members are not flat.
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::Value as Json;
+use std::collections::BTreeMap;
+use std::fmt;
+
+use viewcert::certificate::hex;
+use viewcert::decide::{Value, Verdict};
+use viewcert::geometry::model::Model;
+use viewcert_cli::report::counted;
+
+/// A row of a table.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    /// Its line in the table, from 1.
+    pub line: usize,
+    /// The cells by the names of their columns, in lower case.
+    pub cells: BTreeMap<String, String>,
+    /// Cameras and pairs of every component, where they are listed.
+    pub sizes: Option<Vec<(usize, usize)>>,
+}
+
+/// Why a table cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{problem}")]
+pub struct TableError {
+    /// The line of the table, from 1.
+    pub line: usize,
+    /// What is wrong there.
+    pub problem: TableProblem,
+}
+
+/// What is wrong with a table.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TableProblem {
+    /// Nothing at all.
+    #[error("the table is empty: a head with the names of the columns is needed")]
+    Empty,
+    /// A head, or a list, of nothing.
+    #[error("the table has no rows, and so claims nothing")]
+    NoRows,
+    /// A column, or a member, that says nothing here.
+    #[error(
+        "unknown column {0:?}; known are graph, file, name, verdict, components, rank, model, nodes, edges, \
+         sha256, and seconds and density, which claim nothing; correct it, or leave it out with \
+         --ignore {0}"
+    )]
+    Column(String),
+    /// A column, or a member, more than once.
+    #[error("column {0:?} stands there twice")]
+    Twice(String),
+    /// A row has more or fewer cells than the head.
+    #[error("{}, and the head has {expected}", counted(*.found, "cell"))]
+    Cells {
+        /// Cells of the head.
+        expected: usize,
+        /// Cells of the line.
+        found: usize,
+    },
+    /// A quoted cell does not end.
+    #[error("a quoted cell does not end on its line")]
+    Quote,
+    /// A list or an object in the place of a value.
+    #[error("{0:?} is a list or an object; a row takes strings and numbers")]
+    Nested(String),
+    /// The output of `verify --json`, but not as it is written.
+    #[error("not a line as `verify --json` writes it: {0}")]
+    Report(String),
+    /// Not JSON, or not a list of objects.
+    #[error("not a JSON list of objects, nor one object after another: {0}")]
+    Json(String),
+}
+
+impl TableProblem {
+    fn at(self, line: usize) -> TableError {
+        TableError {
+            line,
+            problem: self,
+        }
+    }
+}
+
+/// Why a row has no claim that can be decided.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RowError {
+    /// No column names a graph.
+    #[error("no graph is named: one of the columns graph, file, name is needed")]
+    NoGraph,
+    /// Nothing is claimed.
+    #[error("nothing is claimed: one of the columns verdict, components, rank is needed")]
+    NoClaim,
+    /// A cell does not hold a number.
+    #[error("{column}: {text:?} is not a number")]
+    Number {
+        /// The column.
+        column: String,
+        /// What it holds.
+        text: String,
+    },
+    /// A cell does not hold a verdict.
+    #[error(
+        "verdict: {0:?} is not one of solvable, finite-solvable, not-finite-solvable, not-solvable"
+    )]
+    Verdict(String),
+    /// A cell does not hold a model.
+    #[error("model: {0:?} is neither projective nor calibrated")]
+    Model(String),
+    /// Two claims exclude each other, whatever the graph.
+    #[error("the claims contradict each other: {0}")]
+    Contradiction(String),
+}
+
+/// A claimed verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClaimedVerdict {
+    /// The cameras are unique.
+    Solvable,
+    /// There are finitely many sets of cameras.
+    FiniteSolvable,
+    /// There are infinitely many.
+    NotFiniteSolvable,
+    /// There is more than one.
+    NotSolvable,
+}
+
+impl ClaimedVerdict {
+    fn parse(text: &str) -> Result<Self, RowError> {
+        match text.trim().to_lowercase().replace([' ', '_'], "-").as_str() {
+            "solvable" => Ok(Self::Solvable),
+            "finite-solvable" => Ok(Self::FiniteSolvable),
+            "not-finite-solvable" => Ok(Self::NotFiniteSolvable),
+            "not-solvable" => Ok(Self::NotSolvable),
+            _ => Err(RowError::Verdict(text.to_owned())),
+        }
+    }
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solvable => "solvable",
+            Self::FiniteSolvable => "finite-solvable",
+            Self::NotFiniteSolvable => "not-finite-solvable",
+            Self::NotSolvable => "not-solvable",
+        }
+    }
+}
+
+/// How a graph is named.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// A path or a graph6 line.
+    Graph(String),
+    /// A file in the folder of graphs.
+    File(String),
+    /// A name in the folder of graphs.
+    Name(String),
+}
+
+/// What a row claims.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Claim {
+    /// Of which graph.
+    pub graph: Named,
+    /// In which model.
+    pub model: Model,
+    /// Its size, if given.
+    pub nodes: Option<usize>,
+    /// Its size, if given.
+    pub edges: Option<usize>,
+    /// Its hash, if given.
+    pub sha256: Option<String>,
+    /// The verdict.
+    pub verdict: Option<ClaimedVerdict>,
+    /// The number of components.
+    pub components: Option<usize>,
+    /// Cameras and pairs of every component, falling.
+    pub sizes: Option<Vec<(usize, usize)>>,
+    /// The rank.
+    pub rank: Option<usize>,
+    /// The rank of a finite solvable graph of that size.
+    pub required: Option<usize>,
+}
+
+/// What the exact decision says about a claim.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ruling {
+    /// All that was claimed is so.
+    Confirmed,
+    /// Something is not; what.
+    Refuted(Vec<String>),
+    /// Something is neither confirmed nor refuted; why.
+    NotDecidable(String),
+}
+
+/// Whether a column is known; the names are in lower case.
+fn is_known(column: &str) -> bool {
+    matches!(
+        column,
+        "graph"
+            | "file"
+            | "name"
+            | "verdict"
+            | "components"
+            | "rank"
+            | "model"
+            | "nodes"
+            | "edges"
+            | "sha256"
+            | "seconds"
+    ) || ["components_", "seconds_", "density_"]
+        .iter()
+        .any(|prefix| column.starts_with(prefix))
+}
+
+/// Reads a table (see the module): JSON if it begins with `[` or `{`, comma-separated values with a head
+/// otherwise (cells may stand in double quotes, which are doubled within). Columns named in
+/// `ignored` are left out.
+///
+/// # Errors
+/// See [`TableError`].
+pub fn read_table(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
+    let text = text.trim_start_matches('\u{feff}');
+    let ignored: Vec<String> = ignored.iter().map(|name| name.to_lowercase()).collect();
+    let rows = if text.trim_start().starts_with(['[', '{']) {
+        read_json(text, &ignored)?
+    } else {
+        read_csv(text, &ignored)?
+    };
+    if rows.is_empty() {
+        return Err(TableProblem::NoRows.at(1));
+    }
+    Ok(rows)
+}
+
+fn read_csv(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
+    let mut lines = (1..)
+        .zip(text.lines())
+        .filter(|(_, line)| !line.trim().is_empty());
+    let (number, head) = lines.next().ok_or(TableProblem::Empty.at(1))?;
+    let head: Vec<String> = cells(head, number)?
+        .iter()
+        .map(|cell| cell.trim().to_lowercase())
+        .collect();
+    for (k, column) in head.iter().enumerate() {
+        if !is_known(column) && !ignored.contains(column) {
+            return Err(TableProblem::Column(column.clone()).at(number));
+        }
+        if head[..k].contains(column) {
+            return Err(TableProblem::Twice(column.clone()).at(number));
+        }
+    }
+    lines
+        .map(|(line, text)| {
+            let cells = cells(text, line)?;
+            if cells.len() != head.len() {
+                let (expected, found) = (head.len(), cells.len());
+                return Err(TableProblem::Cells { expected, found }.at(line));
+            }
+            let cells = head.iter().cloned().zip(cells);
+            Ok(Row {
+                line,
+                cells: cells
+                    .filter(|(column, _)| !ignored.contains(column))
+                    .collect(),
+                sizes: None,
+            })
+        })
+        .collect()
+}
+
+/// The members of a JSON object in their order, repeated ones included.
+struct Members(Vec<(String, Json)>);
+
+impl<'de> Deserialize<'de> for Members {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Object;
+        impl<'de> Visitor<'de> for Object {
+            type Value = Members;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Members, A::Error> {
+                let mut members = Vec::new();
+                while let Some(member) = map.next_entry()? {
+                    members.push(member);
+                }
+                Ok(Members(members))
+            }
+        }
+        deserializer.deserialize_map(Object)
+    }
+}
+
+fn read_json(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
+    let is_list = text.trim_start().starts_with('[');
+    let objects: Result<Vec<Members>, serde_json::Error> = if is_list {
+        serde_json::from_str(text)
+    } else {
+        serde_json::Deserializer::from_str(text)
+            .into_iter()
+            .collect()
+    };
+    let objects =
+        objects.map_err(|error| TableProblem::Json(error.to_string()).at(error.line().max(1)))?;
+    let lines = lines_of_objects(text, usize::from(is_list));
+    objects
+        .into_iter()
+        .zip(lines)
+        .map(|(Members(members), line)| {
+            row(members, ignored, line).map_err(|problem| problem.at(line))
+        })
+        .collect()
+}
+
+/// The lines, from 1, on which the objects at a depth of nesting begin in a JSON text.
+fn lines_of_objects(text: &str, depth: usize) -> Vec<usize> {
+    let (mut line, mut open, mut quoted, mut escaped) = (1, 0usize, false, false);
+    let mut lines = Vec::new();
+    for byte in text.bytes() {
+        line += usize::from(byte == b'\n');
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' if quoted => escaped = true,
+            b'"' => quoted = !quoted,
+            _ if quoted => {}
+            b'{' | b'[' => {
+                if byte == b'{' && open == depth {
+                    lines.push(line);
+                }
+                open += 1;
+            }
+            b'}' | b']' => open = open.saturating_sub(1),
+            _ => {}
+        }
+    }
+    lines
+}
+
+/// The row of an object.
+fn row(members: Vec<(String, Json)>, ignored: &[String], line: usize) -> Result<Row, TableProblem> {
+    if members
+        .iter()
+        .any(|(name, value)| name == "graph" && value.is_object())
+    {
+        return reported(members, line);
+    }
+    let mut cells = BTreeMap::new();
+    for (name, value) in members {
+        let name = name.to_lowercase();
+        if ignored.contains(&name) {
+            continue;
+        }
+        if !is_known(&name) {
+            return Err(TableProblem::Column(name));
+        }
+        let cell = match value {
+            Json::Null => String::new(),
+            Json::String(text) => text,
+            Json::Array(_) | Json::Object(_) => return Err(TableProblem::Nested(name)),
+            other => other.to_string(),
+        };
+        if cells.insert(name.clone(), cell).is_some() {
+            return Err(TableProblem::Twice(name));
+        }
+    }
+    Ok(Row {
+        line,
+        cells,
+        sizes: None,
+    })
+}
+
+/// What `verify --json` writes about a graph, as far as it is a claim; how it was found (strengths,
+/// mode, time) is none.
+#[derive(Deserialize)]
+struct Reported {
+    graph: ReportedGraph,
+    model: String,
+    verdict: String,
+    rank: usize,
+    rank_required: usize,
+    components: Vec<ReportedComponent>,
+}
+
+#[derive(Deserialize)]
+struct ReportedGraph {
+    name: String,
+    nodes: usize,
+    edges: usize,
+    sha256: String,
+}
+
+#[derive(Deserialize)]
+struct ReportedComponent {
+    nodes: usize,
+    edges: usize,
+}
+
+/// The members of a line of `verify --json`; see `report::json`.
+const REPORTED: [&str; 13] = [
+    "graph",
+    "notes",
+    "model",
+    "verdict",
+    "strength",
+    "error_log2",
+    "rank",
+    "rank_required",
+    "rank_strength",
+    "components",
+    "components_strength",
+    "mode",
+    "seconds",
+];
+
+fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProblem> {
+    let mut object = serde_json::Map::new();
+    for (name, value) in members {
+        if !REPORTED.contains(&name.as_str()) {
+            return Err(TableProblem::Report(format!("unknown member {name:?}")));
+        }
+        if object.insert(name.clone(), value).is_some() {
+            return Err(TableProblem::Twice(name));
+        }
+    }
+    let found: Reported = serde_json::from_value(Json::Object(object))
+        .map_err(|error| TableProblem::Report(error.to_string()))?;
+    let cells = [
+        ("graph", found.graph.name),
+        ("model", found.model),
+        ("verdict", found.verdict),
+        ("rank", found.rank.to_string()),
+        ("rank_required", found.rank_required.to_string()),
+        ("components", found.components.len().to_string()),
+        ("nodes", found.graph.nodes.to_string()),
+        ("edges", found.graph.edges.to_string()),
+        ("sha256", found.graph.sha256),
+    ];
+    let sizes = found.components.iter().map(|part| (part.nodes, part.edges));
+    Ok(Row {
+        line,
+        cells: cells.map(|(name, cell)| (name.to_owned(), cell)).into(),
+        sizes: Some(sizes.collect()),
+    })
+}
+
+/// The cells of a line.
+fn cells(line: &str, number: usize) -> Result<Vec<String>, TableError> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    let mut characters = line.trim_end_matches('\r').chars().peekable();
+    while let Some(c) = characters.next() {
+        let Some(cell) = cells.last_mut() else { break };
+        match c {
+            '"' if quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                cell.push('"');
+            }
+            '"' if quoted || cell.is_empty() => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            _ => cell.push(c),
+        }
+    }
+    if quoted {
+        return Err(TableProblem::Quote.at(number));
+    }
+    Ok(cells)
+}
+
+/// The claim of a row.
+///
+/// # Errors
+/// See [`RowError`].
+pub fn claim(row: &Row) -> Result<Claim, RowError> {
+    let cell = |name: &str| {
+        row.cells
+            .get(name)
+            .map(|text| text.trim())
+            .filter(|text| !text.is_empty())
+    };
+    let number = |column: &str, text: &str| {
+        text.trim().parse::<usize>().map_err(|_| RowError::Number {
+            column: column.to_owned(),
+            text: text.to_owned(),
+        })
+    };
+    let size = |name: &str| cell(name).map(|text| number(name, text)).transpose();
+    let graph = cell("graph")
+        .map(|text| Named::Graph(text.to_owned()))
+        .or_else(|| cell("file").map(|text| Named::File(text.to_owned())))
+        .or_else(|| cell("name").map(|text| Named::Name(text.to_owned())))
+        .ok_or(RowError::NoGraph)?;
+    let mut components: Option<(&str, usize)> = None;
+    let columns = row
+        .cells
+        .keys()
+        .filter(|column| *column == "components" || column.starts_with("components_"));
+    for column in columns {
+        let Some(text) = cell(column) else { continue };
+        let value = number(column, text)?;
+        match components {
+            Some((other, before)) if before != value => {
+                return Err(RowError::Contradiction(format!(
+                    "{other} is {before}, {column} is {value}"
+                )));
+            }
+            _ => components = Some((column, value)),
+        }
+    }
+    let model = match cell("model") {
+        None | Some("projective") => Model::Projective,
+        Some("calibrated") => Model::Calibrated,
+        Some(other) => return Err(RowError::Model(other.to_owned())),
+    };
+    let claim = Claim {
+        graph,
+        model,
+        nodes: size("nodes")?,
+        edges: size("edges")?,
+        verdict: cell("verdict").map(ClaimedVerdict::parse).transpose()?,
+        components: components.map(|(_, value)| value),
+        sizes: row.sizes.clone().map(falling),
+        rank: size("rank")?,
+        required: size("rank_required")?,
+        sha256: cell("sha256").map(str::to_lowercase),
+    };
+    if claim.verdict.is_none() && claim.components.is_none() && claim.rank.is_none() {
+        return Err(RowError::NoClaim);
+    }
+    let finite = matches!(
+        claim.verdict,
+        Some(ClaimedVerdict::Solvable | ClaimedVerdict::FiniteSolvable)
+    );
+    let infinite = claim.verdict == Some(ClaimedVerdict::NotFiniteSolvable);
+    if let Some(count) = claim.components
+        && (finite && count > 1)
+    {
+        return Err(RowError::Contradiction(format!(
+            "{} has one component, not {count}",
+            claim.verdict.map_or("", ClaimedVerdict::name)
+        )));
+    }
+    if let (Some(rank), Some(nodes)) = (claim.rank, claim.nodes) {
+        let full = if nodes < 2 { 0 } else { model.required(nodes) };
+        let excluded = rank > full || finite && rank < full || infinite && rank == full;
+        if excluded {
+            return Err(RowError::Contradiction(format!(
+                "rank {rank} of {full} at most{}",
+                claim
+                    .verdict
+                    .map_or(String::new(), |verdict| format!(", and {}", verdict.name()))
+            )));
+        }
+    }
+    Ok(claim)
+}
+
+fn falling(mut sizes: Vec<(usize, usize)>) -> Vec<(usize, usize)> {
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
+
+/// Holds a claim against the exact verdict, which is that of the claim's model.
+pub fn rule(claim: &Claim, nodes: usize, edges: usize, verdict: &Verdict) -> Ruling {
+    let other = |what, claimed: Option<usize>, found| {
+        let claimed = claimed.filter(|&claimed| claimed != found)?;
+        let claimed = counted(claimed, what);
+        Some(format!("the row has {claimed}, the graph {found}"))
+    };
+    let sizes = other("node", claim.nodes, nodes).or_else(|| other("edge", claim.edges, edges));
+    let hash = || {
+        let differs = claim.sha256.as_ref() != Some(&hex(&verdict.sha256));
+        (claim.sha256.is_some() && differs).then(|| "it has another SHA-256".to_owned())
+    };
+    if let Some(why) = sizes.or_else(hash) {
+        return Ruling::NotDecidable(format!("another graph is meant: {why}"));
+    }
+    let mut wrong = Vec::new();
+    let mut open = None;
+    if let Some(claimed) = claim.verdict {
+        use ClaimedVerdict as C;
+        match (claimed, verdict.value) {
+            (C::Solvable, Value::FiniteSolvable) | (C::NotSolvable, Value::FiniteSolvable) => {
+                open = Some(
+                    "finite solvable, and whether one or several sets of cameras is not decided"
+                        .to_owned(),
+                );
+            }
+            (C::Solvable | C::FiniteSolvable, Value::NotFiniteSolvable)
+            | (C::NotFiniteSolvable, Value::Solvable | Value::FiniteSolvable)
+            | (C::NotSolvable, Value::Solvable) => {
+                wrong.push(format!(
+                    "claimed {}, is {}",
+                    claimed.name(),
+                    verdict.value.name()
+                ));
+            }
+            _ => {}
+        }
+    }
+    for (what, claimed, found) in [
+        ("components", claim.components, verdict.components.len()),
+        ("rank", claim.rank, verdict.rank),
+        ("rank_required", claim.required, verdict.required),
+    ] {
+        if let Some(claimed) = claimed.filter(|&claimed| claimed != found) {
+            wrong.push(format!("claimed {what} {claimed}, is {found}"));
+        }
+    }
+    let sizes = verdict
+        .components
+        .iter()
+        .map(|part| (part.nodes, part.edges));
+    if let Some(claimed) = &claim.sizes
+        && claimed.len() == verdict.components.len()
+        && *claimed != falling(sizes.collect())
+    {
+        wrong.push("the components have other sizes".to_owned());
+    }
+    match open {
+        _ if !wrong.is_empty() => Ruling::Refuted(wrong),
+        Some(why) => Ruling::NotDecidable(why),
+        None => Ruling::Confirmed,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use viewcert::decide::{Options, decide};
+    use viewcert::graph::Graph;
+
+    fn row(cells: &[(&str, &str)]) -> Row {
+        let owned = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
+        Row {
+            cells: cells.iter().map(owned).collect(),
+            ..Row::default()
+        }
+    }
+
+    #[test]
+    fn tables() {
+        let csv = "Name,Components,seconds_mine\n\"Tower, \"\"London\"\"\",4,x\r\n\nRome,1,\n";
+        let rows = read_table(csv, &[]).unwrap();
+        assert_eq!(rows.len(), 2);
+        assert_eq!(rows[0].cells["name"], "Tower, \"London\"");
+        assert_eq!((rows[0].line, rows[1].line), (2, 4));
+        assert_eq!(rows[1].cells["components"], "1");
+        let json = "[\n{\"Graph\": \"C~{\\\"\", \"components\": 1,\n \"rank\": null},\n{}]";
+        let rows = read_table(json, &[]).unwrap();
+        assert_eq!(rows[0].cells["graph"], "C~{\"");
+        assert_eq!(rows[0].cells["components"], "1");
+        assert_eq!(rows[0].cells["rank"], "");
+        assert_eq!((rows[0].line, rows[1].line), (2, 4));
+        let lines = "{\"graph\": \"C~\"}\n\n{\"graph\": \"Cl\"} {\"rank\": 3}\n";
+        let rows = read_table(lines, &[]).unwrap();
+        let found: Vec<usize> = rows.iter().map(|row| row.line).collect();
+        assert_eq!(found, [1, 3, 3]);
+        let ignored = ["Note".to_owned()];
+        let rows = read_table("name,note\na,b\n", &ignored).unwrap();
+        assert_eq!(rows[0].cells.len(), 1);
+    }
+
+    #[test]
+    fn tables_that_are_none() {
+        use TableProblem as P;
+        let problem = |text: &str| {
+            let error = read_table(text, &[]).unwrap_err();
+            (error.line, error.problem)
+        };
+        let cells = |expected, found| P::Cells { expected, found };
+        assert_eq!(problem("name,rank\n1,2\n3\n"), (3, cells(2, 1)));
+        assert_eq!(problem("name,rank\n\n1,2,3\n"), (3, cells(2, 3)));
+        assert_eq!(problem("name,rank\n\"1,2\n"), (2, P::Quote));
+        assert_eq!(problem("\n"), (1, P::Empty));
+        for none in ["name,rank\n", "[]", "[ ]\n"] {
+            assert_eq!(problem(none), (1, P::NoRows), "{none}");
+        }
+        let column = |name: &str| P::Column(name.into());
+        assert_eq!(problem("name,component\na,1\n"), (1, column("component")));
+        assert_eq!(problem("[{},\n{\"vedict\": 1}]"), (2, column("vedict")));
+        assert_eq!(problem("name,Name\na,b\n"), (1, P::Twice("name".into())));
+        let twice = "{\"rank\": 1, \"RANK\": 2}";
+        assert_eq!(problem(twice), (1, P::Twice("rank".into())));
+        for nested in ["[1]", "{}"] {
+            let text = format!("{{\"graph\": \"C~\"}}\n{{\"rank\": {nested}}}");
+            assert_eq!(problem(&text), (2, P::Nested("rank".into())));
+        }
+        for bad in ["[1, 2]", "[{}", "{\"rank\": 1} x"] {
+            assert!(matches!(problem(bad), (1, P::Json(_))), "{bad}");
+        }
+        let report = "{\"graph\": {\"name\": \"a\"}}";
+        assert!(matches!(problem(report), (1, P::Report(_))));
+    }
+
+    #[test]
+    fn claims_that_are_none() {
+        let error = |cells| claim(&row(cells)).unwrap_err().to_string();
+        assert!(error(&[("rank", "3")]).contains("no graph"));
+        assert!(error(&[("graph", "C~"), ("components", " ")]).contains("nothing is claimed"));
+        assert!(error(&[("graph", "C~"), ("rank", "-1")]).contains("not a number"));
+        assert!(error(&[("graph", "C~"), ("verdict", "maybe")]).contains("\"maybe\""));
+        let two = [("file", "x"), ("components_a", "1"), ("components_b", "4")];
+        assert!(error(&two).contains("contradict"));
+        let both = [("file", "x"), ("verdict", "solvable"), ("components", "2")];
+        assert!(error(&both).contains("contradict"));
+        let full = [
+            ("file", "x"),
+            ("verdict", "not finite solvable"),
+            ("rank", "29"),
+            ("nodes", "4"),
+        ];
+        assert!(error(&full).contains("contradict"));
+    }
+
+    /// Every claim against every verdict.
+    #[test]
+    fn rulings() {
+        let graph =
+            |nodes, pairs: &[(u32, u32)]| Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0;
+        let triangle = graph(3, &[(0, 1), (0, 2), (1, 2)]);
+        let square = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
+        let ruled = |graph: &Graph, cells: &[(&str, &str)]| {
+            let verdict = decide(graph, &Options::default()).unwrap();
+            let mut cells = cells.to_vec();
+            cells.push(("file", "x"));
+            let claim = claim(&row(&cells)).unwrap();
+            rule(&claim, graph.nodes(), graph.edges().len(), &verdict)
+        };
+        for (verdict, of_triangle, of_square) in [
+            ("solvable", true, false),
+            ("finite-solvable", true, false),
+            ("not-finite-solvable", false, true),
+            ("not-solvable", false, true),
+        ] {
+            let confirmed = |graph| ruled(graph, &[("verdict", verdict)]) == Ruling::Confirmed;
+            assert_eq!(confirmed(&triangle), of_triangle, "{verdict}");
+            assert_eq!(confirmed(&square), of_square, "{verdict}");
+        }
+        assert_eq!(
+            ruled(&square, &[("components", "4"), ("rank", "28")]),
+            Ruling::Confirmed
+        );
+        let wrong = ruled(&square, &[("components", "1"), ("rank", "29")]);
+        let expected = ["claimed components 1, is 4", "claimed rank 29, is 28"];
+        assert_eq!(wrong, Ruling::Refuted(expected.map(String::from).to_vec()));
+        let other = ruled(&square, &[("components", "4"), ("nodes", "5")]);
+        assert!(matches!(other, Ruling::NotDecidable(_)));
+    }
+}

@@ -1,0 +1,212 @@
+//! Decides candidates and sums up.
+
+use rayon::prelude::*;
+use std::io::{self, Write};
+use viewcert::decide::evidence::{Evidence, PieceVerdict, Strength};
+use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
+use viewcert::graph::{Graph, graph6};
+
+/// What the catalog says about one graph.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The graph as graph6.
+    pub graph6: String,
+    /// The answer.
+    pub value: Value,
+    /// How strong it is.
+    pub strength: Strength,
+    /// The generic rank.
+    pub rank: usize,
+    /// How strong the claim of the rank is.
+    pub rank_strength: Strength,
+    /// Number of maximal components.
+    pub components: usize,
+    /// How strong the claim of the components is.
+    pub components_strength: Strength,
+    /// Whether the refutation takes a hub: the partition into components does not refute.
+    pub hub: bool,
+}
+
+/// The first line of a table of entries.
+pub const HEADER: &str =
+    "graph6\tverdict\tstrength\trank\trank_strength\tcomponents\tcomponents_strength\thub";
+
+impl Entry {
+    /// The entry of a graph and its verdict.
+    pub fn new(graph: &Graph, verdict: &Verdict) -> Self {
+        Self {
+            graph6: graph6::encode(graph),
+            value: verdict.value,
+            strength: verdict.strength,
+            rank: verdict.rank,
+            rank_strength: verdict.rank_strength,
+            components: verdict.components.len(),
+            components_strength: verdict.components_strength,
+            hub: verdict.pieces.iter().any(uses_hub)
+                && partition_bound(verdict) >= verdict.required,
+        }
+    }
+
+    /// Whether the graph is finite solvable, or the answer is not proved.
+    pub fn is_notable(&self) -> bool {
+        self.value != Value::NotFiniteSolvable || self.strength != Strength::Proof
+    }
+
+    /// Writes the entry as a line of tab-separated values.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let strength = |strength: Strength| match strength {
+            Strength::Proof => "proof".into(),
+            Strength::ErrorBound(e) => format!("2^{e}"),
+        };
+        writeln!(
+            out,
+            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}",
+            self.graph6,
+            self.value.name(),
+            strength(self.strength),
+            self.rank,
+            strength(self.rank_strength),
+            self.components,
+            strength(self.components_strength),
+            u8::from(self.hub),
+        )
+    }
+}
+
+/// The partition bound of the components.
+fn partition_bound(verdict: &Verdict) -> usize {
+    let components = verdict.components.iter();
+    components
+        .map(|component| verdict.model.required(component.nodes))
+        .sum()
+}
+
+/// Whether the bound of a piece has a block with a hub.
+fn uses_hub(piece: &PieceVerdict) -> bool {
+    piece.evidence.iter().any(|evidence| match evidence {
+        Evidence::Counting(counting) => counting.blocks.iter().any(|block| block.hub.is_some()),
+        _ => false,
+    })
+}
+
+/// Decides graphs, in parallel; the results are in the order of the graphs.
+///
+/// # Errors
+/// The first error of [`decide`].
+pub fn decide_all(graphs: &[Graph], options: &Options) -> Result<Vec<Entry>, VerdictError> {
+    graphs
+        .par_iter()
+        .map(|graph| decide(graph, options).map(|verdict| Entry::new(graph, &verdict)))
+        .collect()
+}
+
+/// Counts of entries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// How many graphs were decided.
+    pub candidates: u64,
+    /// Solvable: proved unique by contraction.
+    pub unique: u64,
+    /// Finite solvable, and not proved unique.
+    pub finite: u64,
+    /// Proved not to be finite solvable.
+    pub refuted: u64,
+    /// Not finite solvable, up to an error bound.
+    pub unproved: u64,
+    /// Refuted graphs whose refutation takes a hub.
+    pub hub: u64,
+    /// Graphs whose exact rank is proved.
+    pub rank_proved: u64,
+    /// Graphs whose components are proved.
+    pub components_proved: u64,
+}
+
+impl Summary {
+    /// Finite-solvable graphs, the uniquely solvable ones included.
+    pub fn finite_solvable(&self) -> u64 {
+        self.unique + self.finite
+    }
+
+    /// Counts an entry.
+    pub fn count(&mut self, entry: &Entry) {
+        self.candidates += 1;
+        match (entry.value, entry.strength) {
+            (Value::Solvable, _) => self.unique += 1,
+            (Value::FiniteSolvable, _) => self.finite += 1,
+            (Value::NotFiniteSolvable, Strength::Proof) => {
+                self.refuted += 1;
+                self.hub += u64::from(entry.hub);
+            }
+            (Value::NotFiniteSolvable, Strength::ErrorBound(_)) => self.unproved += 1,
+        }
+        self.rank_proved += u64::from(entry.rank_strength == Strength::Proof);
+        self.components_proved += u64::from(entry.components_strength == Strength::Proof);
+    }
+
+    /// Adds the counts of other graphs.
+    pub fn add(&mut self, other: &Self) {
+        self.candidates += other.candidates;
+        self.unique += other.unique;
+        self.finite += other.finite;
+        self.refuted += other.refuted;
+        self.unproved += other.unproved;
+        self.hub += other.hub;
+        self.rank_proved += other.rank_proved;
+        self.components_proved += other.components_proved;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::{Candidates, least_edges};
+
+    fn entries(nodes: usize) -> Vec<Entry> {
+        let mut graphs = Vec::new();
+        Candidates::new(nodes, least_edges(nodes), false)
+            .unwrap()
+            .for_each(&mut |graph| {
+                graphs.push(graph);
+                true
+            });
+        decide_all(&graphs, &Options::default()).unwrap()
+    }
+
+    /// The paper's Table 1, up to 8 nodes.
+    #[test]
+    fn table_1() {
+        let expected = [
+            (3, 1, 1),
+            (4, 1, 1),
+            (5, 2, 1),
+            (6, 9, 4),
+            (7, 20, 3),
+            (8, 161, 36),
+        ];
+        for (nodes, candidates, finite_solvable) in expected {
+            let mut summary = Summary::default();
+            entries(nodes).iter().for_each(|entry| summary.count(entry));
+            assert_eq!(summary.candidates, candidates);
+            assert_eq!(summary.finite_solvable(), finite_solvable, "{nodes} nodes");
+            assert_eq!(summary.unproved, 0);
+        }
+    }
+
+    /// Two triangles on a common edge: one body, rank 11 * 4 - 15.
+    #[test]
+    fn an_entry_as_a_line() {
+        let [entry] = &entries(4)[..] else {
+            panic!("one candidate");
+        };
+        let mut line = Vec::new();
+        entry.write(&mut line).unwrap();
+        let line = String::from_utf8(line).unwrap();
+        let (graph, rest) = line.split_once('\t').unwrap();
+        assert_eq!(graph6::decode(graph.as_bytes()).unwrap().edges().len(), 5);
+        assert_eq!(rest, "solvable\tproof\t29\tproof\t1\tproof\t0\n");
+    }
+}

@@ -1,0 +1,154 @@
+//! Degrees and connectivity.
+
+use super::Witness;
+use viewcert::graph::{Adjacency, Graph};
+
+/// The first node with fewer than two neighbours.
+pub(super) fn below_two(adjacency: &Adjacency) -> Option<Witness> {
+    (0..adjacency.nodes() as u32)
+        .map(|v| (v, adjacency.degree(v)))
+        .find(|&(_, degree)| degree < 2)
+        .map(|(v, degree)| Witness::Degree(v, degree))
+}
+
+/// The first edge between two nodes of degree two.
+pub(super) fn adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Option<Witness> {
+    graph
+        .edges()
+        .iter()
+        .find(|&&(i, j)| adjacency.degree(i) == 2 && adjacency.degree(j) == 2)
+        .map(|&(i, j)| Witness::Adjacent(i, j))
+}
+
+/// The nodes reachable from `start` without passing through `without`, increasing.
+fn reach(adjacency: &Adjacency, start: u32, without: Option<u32>) -> Vec<u32> {
+    let mut seen = vec![false; adjacency.nodes()];
+    let mut open = vec![start];
+    seen[start as usize] = true;
+    let mut reached = Vec::new();
+    while let Some(v) = open.pop() {
+        reached.push(v);
+        for &w in adjacency.neighbours(v) {
+            if Some(w) != without && !std::mem::replace(&mut seen[w as usize], true) {
+                open.push(w);
+            }
+        }
+    }
+    reached.sort_unstable();
+    reached
+}
+
+/// The first node without which the nodes that are connected with node 0 are not, by the depths that
+/// a search from there reaches back to (Hopcroft, Tarjan 1973). O(n + m).
+fn first_cut_node(adjacency: &Adjacency) -> Option<u32> {
+    const UNSEEN: u32 = u32::MAX;
+    let nodes = adjacency.nodes();
+    let mut depth = vec![UNSEEN; nodes];
+    // The least depth that a node and what was found from it have an edge to.
+    let mut back = vec![UNSEEN; nodes];
+    let mut first: Option<u32> = None;
+    let mut from_root = 0;
+    // Nodes on the way from node 0, with how many of their neighbours have been looked at.
+    let mut way: Vec<(u32, usize)> = vec![(0, 0)];
+    (depth[0], back[0]) = (0, 0);
+    while let Some((v, looked_at)) = way.last_mut() {
+        let v = *v;
+        if let Some(&w) = adjacency.neighbours(v).get(*looked_at) {
+            *looked_at += 1;
+            if depth[w as usize] == UNSEEN {
+                depth[w as usize] = way.len() as u32;
+                back[w as usize] = way.len() as u32;
+                way.push((w, 0));
+            } else {
+                back[v as usize] = back[v as usize].min(depth[w as usize]);
+            }
+            continue;
+        }
+        way.pop();
+        let Some(&(parent, _)) = way.last() else {
+            break;
+        };
+        back[parent as usize] = back[parent as usize].min(back[v as usize]);
+        let cuts = if parent == 0 {
+            from_root += 1;
+            from_root > 1
+        } else {
+            back[v as usize] >= depth[parent as usize]
+        };
+        if cuts {
+            first = Some(first.map_or(parent, |first| first.min(parent)));
+        }
+    }
+    first
+}
+
+/// A part that is not connected with the rest, or is only through one node: the first such
+/// node, and the smaller side. O(n log n + m).
+pub(super) fn cut(adjacency: &Adjacency) -> Option<Witness> {
+    let nodes = adjacency.nodes() as u32;
+    let side = |start: u32, without: Option<u32>| {
+        let reached = reach(adjacency, start, without);
+        let total = nodes as usize - usize::from(without.is_some());
+        (reached.len() < total).then(|| {
+            if 2 * reached.len() <= total {
+                return reached;
+            }
+            let inside = |v: &u32| reached.binary_search(v).is_err() && Some(*v) != without;
+            (0..nodes).filter(inside).collect()
+        })
+    };
+    if let Some(part) = side(0, None) {
+        return Some(Witness::Apart(part));
+    }
+    let v = first_cut_node(adjacency)?;
+    Some(Witness::Cut(v, side(u32::from(v == 0), Some(v))?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn found(nodes: u32, pairs: &[(u32, u32)]) -> Option<Witness> {
+        let (graph, _) = Graph::from_pairs(nodes, pairs.to_vec()).unwrap();
+        cut(&Adjacency::new(&graph))
+    }
+
+    #[test]
+    fn connectivity_by_hand() {
+        assert_eq!(found(2, &[(0, 1)]), None);
+        assert_eq!(found(3, &[(0, 1), (1, 2), (0, 2)]), None);
+        assert_eq!(found(3, &[(0, 1)]), Some(Witness::Apart(vec![2])));
+        // Two triangles that share node 0, and a path through it.
+        let bowtie = [(0, 1), (0, 2), (1, 2), (0, 3), (0, 4), (3, 4)];
+        assert_eq!(found(5, &bowtie), Some(Witness::Cut(0, vec![1, 2])));
+        assert_eq!(found(3, &[(0, 1), (1, 2)]), Some(Witness::Cut(1, vec![0])));
+    }
+
+    proptest! {
+        /// The first node after whose removal a search does not reach all others.
+        #[test]
+        fn the_first_cut_node_by_trying_all(
+            nodes in 2u32..9,
+            ends in prop::collection::vec((0u32..9, 0u32..9), 1..14),
+        ) {
+            let pairs = ends.iter().map(|(a, b)| (a % nodes, b % nodes));
+            let pairs = pairs.filter(|(a, b)| a != b).collect();
+            let (graph, _) = Graph::from_pairs(nodes, pairs).unwrap();
+            let adjacency = Adjacency::new(&graph);
+            let reached = |start, without| reach(&adjacency, start, without).len();
+            if reached(0, None) == nodes as usize {
+                let cuts = |&v: &u32| reached(u32::from(v == 0), Some(v)) + 1 < nodes as usize;
+                let expected = (0..nodes).find(cuts);
+                prop_assert_eq!(first_cut_node(&adjacency), expected);
+                let found = match cut(&adjacency) {
+                    Some(Witness::Cut(v, _)) => Some(v),
+                    _ => None,
+                };
+                prop_assert_eq!(found, expected);
+            } else {
+                prop_assert!(matches!(cut(&adjacency), Some(Witness::Apart(_))));
+            }
+        }
+    }
+}

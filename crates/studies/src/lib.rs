@@ -1,0 +1,8 @@
+//! Studies beside the verifier: formulations of the literature side by side, the float audit,
+//! necessary and sufficient conditions, the catalog of minimal graphs, random graphs.
+
+pub mod audit;
+pub mod catalog;
+pub mod conditions;
+pub mod formulation;
+pub mod paper_components;

@@ -1,0 +1,250 @@
+//! Exact and float side by side.
+
+use crate::report::{counted, size};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+use viewcert::decide::Verdict;
+use viewcert_formats::NamedGraph;
+use viewcert_studies::audit::published::Study;
+use viewcert_studies::audit::{FloatVerdict, Outcome};
+
+/// Both sides of one graph.
+#[derive(Clone, Debug)]
+pub(super) struct Audit<'a> {
+    /// The graph.
+    pub(super) input: &'a NamedGraph,
+    /// The exact side.
+    pub(super) exact: &'a Verdict,
+    /// Its time.
+    pub(super) exact_time: Duration,
+    /// The tolerance of the float side.
+    pub(super) tolerance: f64,
+    /// The float side at the first draw.
+    pub(super) outcome: Outcome,
+    /// Components of the float side; `None` if it is undecided.
+    pub(super) components: Option<usize>,
+    /// Its time, components included.
+    pub(super) float_time: Duration,
+    /// Whether both sides agree at every draw, and on the number of components at the
+    /// first.
+    pub(super) agrees: bool,
+    /// How many draws there were.
+    pub(super) draws: usize,
+    /// At how many of them the float verdict was not the exact one.
+    pub(super) misjudged: usize,
+    /// The published method of components without rounding, where it may be what makes the
+    /// difference and does not take too long.
+    pub(super) method: Option<Study>,
+}
+
+impl Audit<'_> {
+    /// The margin in decades; `None` if it is not a number.
+    fn margin(&self) -> Option<f64> {
+        let margin = self.outcome.margin(self.tolerance);
+        (!margin.is_nan()).then_some(margin)
+    }
+
+    /// Why the sides do not agree, as far as it is known; `None` if they do.
+    fn reason(&self) -> Option<String> {
+        let exact = self.exact.components.len();
+        let float = match self.components {
+            _ if self.agrees => return None,
+            Some(float) => float,
+            None => return Some("floating point gave no number".into()),
+        };
+        if self.misjudged > 0 {
+            return Some(format!(
+                "the smallest eigenvalue is on the wrong side of the tolerance at {} of {}",
+                self.misjudged,
+                counted(self.draws, "draw")
+            ));
+        }
+        let Some(method) = &self.method else {
+            return Some(
+                "the components differ; the graph is too large to repeat the published method of components \
+                 in exact arithmetic"
+                    .into(),
+            );
+        };
+        if method.components != float {
+            let found = method.components;
+            return Some(format!(
+                "rounding: in exact arithmetic the published method of components finds {found}"
+            ));
+        }
+        let (least, most) = (method.by_start.start(), method.by_start.end());
+        let starts = counted(method.starts, "pair");
+        let spread = if least == most {
+            format!("begun at any of {starts}, {least}")
+        } else {
+            format!("begun at one or another of {starts}, {least} to {most}")
+        };
+        Some(format!(
+            "the published method of components, not rounding: pairs that always move as one need not be \
+             a component (docs/theory.md, Example 6.2); in exact arithmetic, too, it finds {float} instead of \
+             {exact}; without the pairs of earlier components, {spread}"
+        ))
+    }
+}
+
+/// Writes a few lines.
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let graph = &audit.input.graph;
+    let exact = audit.exact;
+    writeln!(out, "{}", audit.input.name)?;
+    writeln!(out, "  graph       {}", size(graph))?;
+    for note in &audit.input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
+    writeln!(
+        out,
+        "  exact       {} ({}), components {}, {:.3} s",
+        exact.value.name(),
+        exact.strength.name(),
+        exact.components.len(),
+        audit.exact_time.as_secs_f64()
+    )?;
+    let components = match audit.components {
+        Some(count) => count.to_string(),
+        None => "undecided".into(),
+    };
+    writeln!(
+        out,
+        "  float       {}, components {components}, {:.3} s",
+        audit.outcome.verdict.name(),
+        audit.float_time.as_secs_f64()
+    )?;
+    write!(
+        out,
+        "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {:e}",
+        audit.outcome.smallest(),
+        audit.outcome.eigenvalue,
+        audit.tolerance
+    )?;
+    match audit.margin() {
+        Some(margin) => writeln!(out, ", margin {margin:+.1} decades")?,
+        None => writeln!(out, ", no margin")?,
+    }
+    if let (Some(rank), Some(verdict)) = (audit.outcome.matlab_rank, audit.outcome.by_rank()) {
+        writeln!(
+            out,
+            "  MATLAB rank {rank} of {}: {}",
+            audit.outcome.columns,
+            verdict.name()
+        )?;
+    }
+    if audit.draws > 1 {
+        writeln!(
+            out,
+            "  draws       {} of {} misjudged ({:.2} %)",
+            audit.misjudged,
+            audit.draws,
+            100.0 * audit.misjudged as f64 / audit.draws as f64
+        )?;
+    }
+    let result = match (audit.agrees, audit.outcome.verdict) {
+        (true, _) => "agree",
+        (false, FloatVerdict::Undecided) => "undecided",
+        (false, _) => "DISAGREE",
+    };
+    writeln!(out, "  result      {result}")?;
+    match audit.reason() {
+        Some(reason) => writeln!(out, "  because     {reason}"),
+        None => Ok(()),
+    }
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    graph: &'a str,
+    nodes: usize,
+    edges: usize,
+    notes: &'a [String],
+    exact: Side,
+    float: Float,
+    agree: bool,
+    draws: usize,
+    misjudged: usize,
+    reason: Option<String>,
+    published_method: Option<PublishedMethod>,
+}
+
+#[derive(Serialize)]
+struct PublishedMethod {
+    components: usize,
+    components_least_by_start: usize,
+    components_most_by_start: usize,
+    starts: usize,
+}
+
+#[derive(Serialize)]
+struct Side {
+    verdict: &'static str,
+    strength: &'static str,
+    components: usize,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Float {
+    verdict: &'static str,
+    method: &'static str,
+    tolerance: f64,
+    smallest_singular_value: f64,
+    smallest_eigenvalue: f64,
+    margin_decades: Option<f64>,
+    matlab_rank: Option<usize>,
+    matlab_verdict: Option<&'static str>,
+    columns: usize,
+    components: Option<usize>,
+    seconds: f64,
+}
+
+/// Writes one line of JSON; numbers that are none become `null`.
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let outcome = &audit.outcome;
+    let line = Json {
+        graph: &audit.input.name,
+        nodes: audit.input.graph.nodes(),
+        edges: audit.input.graph.edges().len(),
+        notes: &audit.input.notes,
+        exact: Side {
+            verdict: audit.exact.value.name(),
+            strength: audit.exact.strength.name(),
+            components: audit.exact.components.len(),
+            seconds: audit.exact_time.as_secs_f64(),
+        },
+        float: Float {
+            verdict: outcome.verdict.name(),
+            method: outcome.method.name(),
+            tolerance: audit.tolerance,
+            smallest_singular_value: outcome.smallest(),
+            smallest_eigenvalue: outcome.eigenvalue,
+            margin_decades: audit.margin(),
+            matlab_rank: outcome.matlab_rank,
+            matlab_verdict: outcome.by_rank().map(FloatVerdict::name),
+            columns: outcome.columns,
+            components: audit.components,
+            seconds: audit.float_time.as_secs_f64(),
+        },
+        agree: audit.agrees,
+        draws: audit.draws,
+        misjudged: audit.misjudged,
+        reason: audit.reason(),
+        published_method: audit.method.as_ref().map(|method| PublishedMethod {
+            components: method.components,
+            components_least_by_start: *method.by_start.start(),
+            components_most_by_start: *method.by_start.end(),
+            starts: method.starts,
+        }),
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

@@ -1,0 +1,104 @@
+//! Rulings on claims.
+
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::Path;
+use viewcert::decide::Verdict;
+use viewcert_formats::NamedGraph;
+use viewcert_studies::audit::claims::Ruling;
+
+/// The ruling on one row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ruled<'a> {
+    /// The row, from 1.
+    pub(super) number: usize,
+    /// Its line in the table, from 1.
+    pub(super) line: usize,
+    /// What was found.
+    pub(super) ruling: &'a Ruling,
+    /// The graph and its exact verdict.
+    pub(super) decided: (&'a NamedGraph, &'a Verdict),
+    /// The certificate, where one was written.
+    pub(super) certificate: Option<&'a Path>,
+}
+
+fn word(ruling: &Ruling) -> &'static str {
+    match ruling {
+        Ruling::Confirmed => "confirmed",
+        Ruling::Refuted(_) => "REFUTED",
+        Ruling::NotDecidable(_) => "not decidable",
+    }
+}
+
+fn reasons(ruling: &Ruling) -> String {
+    match ruling {
+        Ruling::Confirmed => String::new(),
+        Ruling::Refuted(wrong) => wrong.join("; "),
+        Ruling::NotDecidable(why) => why.clone(),
+    }
+}
+
+/// Writes one line.
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+    write!(out, "row {:4}  {:13}", ruled.number, word(ruled.ruling))?;
+    let (input, exact) = ruled.decided;
+    write!(
+        out,
+        "  {}: {} ({}), components {}, rank {}",
+        input.name,
+        exact.value.name(),
+        exact.strength.name(),
+        exact.components.len(),
+        exact.rank
+    )?;
+    match ruled.ruling {
+        Ruling::Confirmed => writeln!(out)?,
+        other => writeln!(out, "; {}", reasons(other))?,
+    }
+    if let Some(path) = ruled.certificate {
+        writeln!(out, "          certificate {}", path.display())?;
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    row: usize,
+    line: usize,
+    ruling: &'static str,
+    reason: String,
+    graph: &'a str,
+    verdict: &'static str,
+    strength: &'static str,
+    components: usize,
+    rank: usize,
+    certificate: Option<String>,
+}
+
+/// Writes one line of JSON.
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+    let (input, exact) = ruled.decided;
+    let line = Json {
+        row: ruled.number,
+        line: ruled.line,
+        ruling: match ruled.ruling {
+            Ruling::Refuted(_) => "refuted",
+            other => word(other),
+        },
+        reason: reasons(ruled.ruling),
+        graph: &input.name,
+        verdict: exact.value.name(),
+        strength: exact.strength.name(),
+        components: exact.components.len(),
+        rank: exact.rank,
+        certificate: ruled.certificate.map(|path| path.display().to_string()),
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

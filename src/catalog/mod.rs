@@ -1,0 +1,250 @@
+//! `verify catalog`: candidates, verdicts, a table.
+
+mod merge;
+mod parts;
+mod publish;
+mod source;
+
+use super::progress::Progress;
+use super::{BAD_INPUT, GOOD, running};
+use crate::report::{counted, table};
+use anyhow::{Context, Result, bail};
+use clap::{Args, Subcommand};
+use parts::{Run, Shard, Writer};
+use rayon::prelude::*;
+use source::Source;
+use std::io::{BufWriter, Write};
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::str::FromStr;
+use std::time::Instant;
+use viewcert::decide::Options;
+use viewcert::graph::Graph;
+use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert_studies::catalog::mine;
+use viewcert_studies::catalog::mine::{Entry, Summary};
+use viewcert_studies::catalog::minimal::decide_minimal;
+
+/// Options of the catalog.
+#[derive(Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Number of nodes, or a range of them as in 3-10.
+    #[arg(long, value_name = "N", required_unless_present = "from")]
+    nodes: Option<Nodes>,
+    /// Number of edges [default: the least that can do, ceil((11 N - 15) / 7)].
+    #[arg(long, value_name = "M", conflicts_with_all = ["from", "minimal"])]
+    edges: Option<usize>,
+    /// Take the candidates from a file of graph6 instead; `-` is standard input.
+    #[arg(long, value_name = "FILE", conflicts_with = "nodes")]
+    from: Option<String>,
+    /// Leave out candidates with adjacent nodes of degree 2: they are not finite solvable.
+    #[arg(long, conflicts_with_all = ["from", "minimal"])]
+    necessary: bool,
+    /// All graphs that are finite solvable and not so without any one edge.
+    #[arg(long, conflicts_with = "from")]
+    minimal: bool,
+    /// Print a line of tab-separated values for every graph.
+    #[arg(long, conflicts_with = "out")]
+    list: bool,
+    /// Do part I of K of the work only.
+    #[arg(long, value_name = "I/K", default_value = "1/1")]
+    shard: Shard,
+    /// Write the lines to part files in this folder, and go on where an earlier run ended.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Candidates per part file.
+    #[arg(long, value_name = "COUNT", default_value_t = 16384, requires = "out")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    part: u32,
+    /// With --out: keep the lines of finite-solvable graphs and of unproved verdicts only.
+    #[arg(long, requires = "out")]
+    solvable_only: bool,
+    /// Compute modulo this prime, 5 <= P < 2^62.
+    #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME)]
+    prime: u64,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Check that all shards of one run are there, and print its table.
+    Merge(merge::Arguments),
+    /// Write the published catalog to a folder.
+    Publish(publish::Arguments),
+}
+
+/// A number of nodes, or a range of them.
+#[derive(Clone, Debug)]
+struct Nodes(RangeInclusive<usize>);
+
+impl FromStr for Nodes {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| {
+            text.parse()
+                .map_err(|_| format!("{text:?} is not a number"))
+        };
+        let range = match text.split_once('-') {
+            Some((first, last)) => number(first)?..=number(last)?,
+            None => number(text)?..=number(text)?,
+        };
+        if range.is_empty() {
+            return Err("the range is empty".into());
+        }
+        Ok(Self(range))
+    }
+}
+
+/// How many candidates are decided in one go, per shard.
+const BATCH: usize = 4096;
+
+/// Decides the candidates and prints the table.
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    match &arguments.command {
+        Some(Command::Merge(arguments)) => return merge::run(arguments),
+        Some(Command::Publish(arguments)) => return publish::run(arguments),
+        None => (),
+    }
+    let options = Options {
+        field: PrimeField::new(arguments.prime)
+            .with_context(|| format!("--prime {}", arguments.prime))?,
+        seed: arguments.seed,
+        watch: running::watch(),
+        ..Options::default()
+    };
+    let sizes = arguments.nodes.clone().map_or(0..=0, |nodes| nodes.0);
+    let several = sizes.clone().nth(1).is_some();
+    if several && (arguments.edges.is_some() || arguments.out.is_some()) {
+        bail!("--edges and --out go with a single number of nodes");
+    }
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    if arguments.list {
+        writeln!(out, "{}", mine::HEADER)?;
+    }
+    let mut rows = Vec::new();
+    let mut bad_lines = 0;
+    for nodes in sizes {
+        let start = Instant::now();
+        let source = Source::new(arguments, nodes)?;
+        let (summary, bad) = mine_all(arguments, &source, &options, &mut out)?;
+        bad_lines += bad;
+        rows.push(table::Row {
+            name: source.name(),
+            summary,
+            seconds: Some(start.elapsed().as_secs_f64()),
+        });
+    }
+    if !arguments.list {
+        table::write(&mut out, &rows)?;
+    }
+    out.flush().context("standard output")?;
+    let code = if bad_lines > 0 { BAD_INPUT } else { GOOD };
+    Ok(ExitCode::from(code))
+}
+
+/// Decides what a source gives; returns the counts, and the number of malformed graphs.
+fn mine_all(
+    arguments: &Arguments,
+    source: &Source,
+    options: &Options,
+    out: &mut impl Write,
+) -> Result<(Summary, u64)> {
+    let mut writer = match &arguments.out {
+        Some(folder) => {
+            let run = Run::new(arguments, source);
+            Some(Writer::open(folder, arguments.shard, run)?)
+        }
+        None => None,
+    };
+    let Shard { index, count } = arguments.shard;
+    let share = source
+        .total()
+        .map(|total| (arguments.shard.share(total), total));
+    if let Some((own, total)) = share.filter(|_| count > 1) {
+        let candidates = counted(total as usize, "candidate");
+        writeln!(
+            std::io::stderr(),
+            "verify: shard {index}/{count}: {own} of {candidates}"
+        )?;
+    }
+    let progress = Progress::new(share.map(|(own, _)| own));
+    let mut summary = Summary::default();
+    let mut batch = Vec::with_capacity(BATCH);
+    let mut bad = 0;
+    let mut failure = None;
+    let mut index = 0;
+    let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
+        let graphs = std::mem::take(batch);
+        let decided = graphs.len();
+        match &mut writer {
+            Some(writer) => writer.push(graphs, |graphs| decide(arguments, graphs, options))?,
+            None => {
+                for entry in decide(arguments, &graphs, options)? {
+                    summary.count(&entry);
+                    if arguments.list {
+                        entry.write(out).context("standard output")?;
+                    }
+                }
+            }
+        }
+        progress.done(decided as u64);
+        Ok(())
+    };
+    source.for_each(&mut |graph| {
+        let done = match graph {
+            Ok(graph) => {
+                let own = arguments.shard.owns(index);
+                index += 1;
+                if own {
+                    batch.push(graph);
+                }
+                if batch.len() == BATCH {
+                    flush(&mut batch)
+                } else {
+                    Ok(())
+                }
+            }
+            Err(error) => {
+                bad += 1;
+                writeln!(std::io::stderr(), "verify: {error:#}").map_err(Into::into)
+            }
+        };
+        failure = done.err();
+        failure.is_none()
+    })?;
+    if let Some(error) = failure {
+        return Err(error);
+    }
+    flush(&mut batch)?;
+    if let Some(writer) = writer {
+        summary = writer.finish(|graphs| decide(arguments, graphs, options))?;
+    }
+    progress.finish();
+    Ok((summary, bad))
+}
+
+/// The entries of some candidates; with `--minimal` of those that are minimal.
+fn decide(arguments: &Arguments, graphs: &[Graph], options: &Options) -> Result<Vec<Entry>> {
+    if !arguments.minimal {
+        return Ok(mine::decide_all(graphs, options)?);
+    }
+    let entries: Vec<Option<Entry>> = graphs
+        .par_iter()
+        .map(|graph| {
+            let minimal = decide_minimal(graph, options)?;
+            Ok(minimal.map(|(verdict, strength)| Entry {
+                // The claim is the minimality.
+                strength,
+                ..Entry::new(graph, &verdict)
+            }))
+        })
+        .collect::<Result<_>>()?;
+    Ok(entries.into_iter().flatten().collect())
+}

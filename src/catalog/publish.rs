@@ -1,0 +1,355 @@
+//! `verify catalog publish`: the published catalog, byte for byte the same every time.
+
+use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
+use super::super::progress::Progress;
+use super::super::{GOOD, atomic, running};
+use crate::report::catalog_page;
+use crate::report::catalog_page::Drawing;
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use flate2::{Compression, GzBuilder};
+use rayon::prelude::*;
+use std::io::Write;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use viewcert::certificate;
+use viewcert::certificate::Layout;
+use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
+use viewcert::graph::{Graph, graph6};
+use viewcert::linalg::prime::PrimeField;
+use viewcert_studies::catalog::candidates::to_graph;
+use viewcert_studies::catalog::canonical::canonical;
+use viewcert_studies::catalog::invariants::Invariants;
+use viewcert_studies::catalog::mine::{Entry, Summary, decide_all};
+use viewcert_studies::catalog::multigraph::Multigraph;
+use viewcert_studies::catalog::{Candidates, least_edges};
+
+/// Options of the publication.
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// The folder.
+    folder: PathBuf,
+    /// Certificates for all candidates with up to this many nodes.
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(value_parser = clap::value_parser!(u8).range(3..=12))]
+    certified: u8,
+    /// Finite-solvable graphs and their invariants with up to this many nodes.
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    #[arg(value_parser = clap::value_parser!(u8).range(3..=16))]
+    listed: u8,
+}
+
+/// A prime of 16 bits: any odd prime makes lower bounds and kernel vectors proofs, and
+/// residues of 5 digits instead of 19 make shorter certificates.
+const PRIME: u64 = 65_521;
+
+/// Pictures are drawn of graphs with up to this many nodes.
+const DRAWN: usize = 8;
+
+/// How many graphs are certified in one go.
+const BATCH: usize = 1024;
+
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let folder = &arguments.folder;
+    std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    // The only name among those of the catalog that anybody's folder may have.
+    let counts = std::fs::read_to_string(folder.join("counts.tsv")).unwrap_or_default();
+    ensure!(
+        !folder.join("README.md").exists() || counts.starts_with(COUNTED),
+        "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
+        folder.display()
+    );
+    let progress = Progress::new(None);
+    let mut drawings = Vec::new();
+    let mut counts = Vec::new();
+    let mut files = Files {
+        folder,
+        written: Vec::new(),
+    };
+    let certified = 3..=usize::from(arguments.certified);
+    for nodes in certified.clone() {
+        let (summary, mut found) = certify(&mut files, nodes, &progress)?;
+        counts.push((nodes, summary));
+        if nodes <= DRAWN {
+            drawings.append(&mut found);
+        }
+    }
+    let listed = certified.end() + 1..=usize::from(arguments.listed);
+    for nodes in listed.clone() {
+        counts.push((nodes, list(&mut files, nodes, &progress)?));
+    }
+    progress.finish();
+    files.write("finite-solvable.svg", None, |out| {
+        out.write_all(catalog_page::page(&drawings).as_bytes())
+    })?;
+    files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
+    files.write("README.md", None, |out| {
+        out.write_all(readme(&certified, &listed).as_bytes())
+    })?;
+    files.close()?;
+    Ok(ExitCode::from(GOOD))
+}
+
+/// The files that have been written to the folder.
+struct Files<'a> {
+    folder: &'a Path,
+    written: Vec<FileEntry>,
+}
+
+impl Files<'_> {
+    /// Writes a file; `certificates` says what it proves if it holds certificates.
+    fn write(
+        &mut self,
+        name: &str,
+        certificates: Option<Contents>,
+        write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Result<()> {
+        let mut sha256 = String::new();
+        atomic::write(&self.folder.join(name), |out| {
+            let mut out = Hashing::new(out);
+            write(&mut out)?;
+            sha256 = out.finish();
+            Ok(())
+        })?;
+        self.written.push(FileEntry {
+            file: name.into(),
+            sha256,
+            certificates,
+        });
+        Ok(())
+    }
+
+    /// Writes the manifest.
+    fn close(self) -> Result<()> {
+        let manifest = Manifest::new(self.written);
+        atomic::write(&self.folder.join(manifest::NAME), |out| {
+            serde_json::to_writer_pretty(&mut *out, &manifest)?;
+            out.write_all(b"\n")
+        })
+    }
+}
+
+fn options() -> Options {
+    Options {
+        watch: running::watch(),
+        ..Options::default()
+    }
+}
+
+/// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
+/// is decided anew modulo the default prime.
+fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
+    let options = options();
+    let small = PrimeField::new(PRIME).map_or_else(
+        |_| options.clone(),
+        |field| Options {
+            field,
+            ..options.clone()
+        },
+    );
+    match decide(graph, &small) {
+        Err(VerdictError::Undecided { .. }) => decide(graph, &options),
+        decided => decided,
+    }
+}
+
+/// The candidates of a size, all labelled canonically, in the order of the generator.
+fn candidates(nodes: usize) -> Result<Vec<Graph>> {
+    let mut graphs = Vec::new();
+    Candidates::new(nodes, least_edges(nodes), false)?.for_each(&mut |graph| {
+        graphs.push(graph);
+        true
+    });
+    Ok(graphs.par_iter().map(relabelled).collect())
+}
+
+fn relabelled(graph: &Graph) -> Graph {
+    Multigraph::from_graph(graph).map_or_else(
+        || graph.clone(),
+        |graph| to_graph(&Multigraph::from_key(&canonical(&graph).key)),
+    )
+}
+
+/// Writes the certificates of one size: a file of finite-solvable graphs, and one of refuted
+/// ones.
+fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summary, Vec<Drawing>)> {
+    let mut summary = Summary::default();
+    let mut drawings = Vec::new();
+    let mut files: [Vec<u8>; 2] = Default::default();
+    let mut contents: [Contents; 2] = Default::default();
+    for graphs in candidates(nodes)?.chunks(BATCH) {
+        let verdicts: Vec<Verdict> = graphs
+            .par_iter()
+            .map(decide_small)
+            .collect::<Result<_, _>>()?;
+        for (graph, verdict) in graphs.iter().zip(&verdicts) {
+            let entry = Entry::new(graph, verdict);
+            summary.count(&entry);
+            let solvable = verdict.value != Value::NotFiniteSolvable;
+            let file = &mut files[usize::from(!solvable)];
+            let found = &mut contents[usize::from(!solvable)];
+            found.graphs += 1;
+            *found
+                .verdicts
+                .entry(verdict.value.name().into())
+                .or_default() += 1;
+            certificate::write(file, &entry.graph6, graph, verdict, true, Layout::Compact)?;
+            if solvable && nodes <= DRAWN {
+                drawings.push(Drawing {
+                    graph: graph.clone(),
+                    unique: verdict.value == Value::Solvable,
+                });
+            }
+        }
+        progress.done(graphs.len() as u64);
+    }
+    let files = files.iter().zip(contents);
+    for (name, (lines, contents)) in ["finite-solvable", "refuted"].into_iter().zip(files) {
+        if lines.is_empty() {
+            continue;
+        }
+        let name = format!("n{nodes:02}-{name}.jsonl.gz");
+        out.write(&name, Some(contents), |out| {
+            // No time and no name in the header: nothing but the contents.
+            let mut gz = GzBuilder::new().write(out, Compression::best());
+            gz.write_all(lines)?;
+            gz.finish().map(drop)
+        })?;
+    }
+    Ok((summary, drawings))
+}
+
+/// Writes the finite-solvable graphs of one size, and their invariants in the same order.
+fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
+    let options = options();
+    let mut summary = Summary::default();
+    let mut found = Vec::new();
+    let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
+    let mut batch = Vec::with_capacity(BATCH);
+    let mut failure = None;
+    let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
+        let entries = decide_all(batch, &options)?;
+        for (graph, entry) in batch.iter().zip(&entries) {
+            summary.count(entry);
+            if entry.value != Value::NotFiniteSolvable {
+                found.push((relabelled(graph), entry.value));
+            }
+        }
+        progress.done(batch.len() as u64);
+        batch.clear();
+        Ok(())
+    };
+    candidates.for_each(&mut |graph| {
+        batch.push(graph);
+        if batch.len() == BATCH {
+            failure = flush(&mut batch).err();
+        }
+        failure.is_none()
+    });
+    if let Some(error) = failure {
+        return Err(error);
+    }
+    flush(&mut batch)?;
+    let name = |ending: &str| format!("n{nodes:02}-finite-solvable.{ending}");
+    out.write(&name("g6"), None, |out| {
+        found
+            .iter()
+            .try_for_each(|(graph, _)| writeln!(out, "{}", graph6::encode(graph)))
+    })?;
+    out.write(&name("tsv"), None, |out| {
+        writeln!(
+            out,
+            "graph6\tdegrees\tgirth\tautomorphisms\ttriangles\tunique_by_contraction"
+        )?;
+        for (graph, value) in &found {
+            let Some(small) = Multigraph::from_graph(graph) else {
+                continue;
+            };
+            let invariants = Invariants::new(&small);
+            let degrees: Vec<String> = invariants.degrees.iter().map(usize::to_string).collect();
+            let girth = invariants
+                .girth
+                .map_or(String::new(), |girth| girth.to_string());
+            writeln!(
+                out,
+                "{}\t{}\t{girth}\t{}\t{}\t{}",
+                graph6::encode(graph),
+                degrees.join(","),
+                invariants.group_order,
+                invariants.triangles,
+                u8::from(*value == Value::Solvable),
+            )?;
+        }
+        Ok(())
+    })?;
+    Ok(summary)
+}
+
+/// The first columns of `counts.tsv`.
+const COUNTED: &str = "nodes\tedges\tcandidates\t";
+
+fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{COUNTED}finite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
+         unproved\trank_proved\tcomponents_proved"
+    )?;
+    for (nodes, summary) in counts {
+        writeln!(
+            out,
+            "{nodes}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}",
+            least_edges(*nodes),
+            summary.candidates,
+            summary.finite_solvable(),
+            summary.unique,
+            summary.refuted,
+            summary.hub,
+            summary.unproved,
+            summary.rank_proved,
+            summary.components_proved,
+        )?;
+    }
+    Ok(())
+}
+
+fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> String {
+    let (last, first_listed, last_listed) = (certified.end(), listed.start(), listed.end());
+    format!(
+        "# The catalog\n\
+         \n\
+         All biconnected graphs with n nodes and the least possible number of edges,\n\
+         ceil((11 n - 15) / 7), decided and certified. Made, and made again byte for byte, by\n\
+         \n\
+         ```\n\
+         verify catalog publish certificates/\n\
+         ```\n\
+         \n\
+         and verified by the independent checker with `verify check certificates/`, which also says whether\n\
+         a file is missing, extra or changed.\n\
+         \n\
+         | file | contents |\n\
+         |---|---|\n\
+         | `nNN-finite-solvable.jsonl.gz` | n = 3 to {last}: the certificate of every finite-solvable graph |\n\
+         | `nNN-refuted.jsonl.gz` | n = 5 to {last}: the certificate of every candidate that is not finite solvable |\n\
+         | `nNN-finite-solvable.g6` | n = {first_listed} to {last_listed}: every finite-solvable graph, graph6, canonical labels |\n\
+         | `nNN-finite-solvable.tsv` | their invariants, in the same order |\n\
+         | `counts.tsv` | counts by number of nodes |\n\
+         | `finite-solvable.svg` | all finite-solvable graphs with up to {DRAWN} nodes, drawn |\n\
+         | `manifest.json` | all files but itself: SHA-256, and of certificates how many graphs and which verdicts |\n\
+         \n\
+         Certificates are JSON lines, one a graph, in the format of\n\
+         [docs/certificate.md](../docs/certificate.md), compressed with gzip (a sixth of the size).\n\
+         They are computed modulo {PRIME}: proofs modulo a small prime are proofs, and shorter. Each embeds its\n\
+         graph as graph6, which is its name as well. The certificate of any graph of the other\n\
+         lists is made by\n\
+         \n\
+         ```\n\
+         sed -n 42p certificates/n{first_listed:02}-finite-solvable.g6 | verify - --format graph6 --certificate 42.json\n\
+         ```\n\
+         \n\
+         Columns of the invariants: degrees, falling; length of a shortest cycle; number of\n\
+         automorphisms; number of triangles; whether the graph contracts to one body, which proves that\n\
+         the cameras are unique.\n"
+    )
+}

@@ -1,0 +1,139 @@
+//! Where certificates go: one file, or a folder with a file a graph.
+
+use super::{atomic, manifest};
+use anyhow::{Result, bail, ensure};
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use viewcert::certificate;
+use viewcert::certificate::Layout;
+use viewcert::decide::Verdict;
+use viewcert_formats::NamedGraph;
+
+/// The target of `--certificate`.
+pub(super) struct Target {
+    path: PathBuf,
+    folder: bool,
+    embed: bool,
+    taken: BTreeSet<String>,
+}
+
+impl Target {
+    /// A folder if there is one of that name; a file otherwise. `inputs` are files with graphs, one
+    /// graph at least each.
+    ///
+    /// # Errors
+    /// If a file is meant and there are several graphs, or it is one of the inputs.
+    pub(super) fn new(path: &Path, embed: bool, inputs: &[String]) -> Result<Self> {
+        let folder = path.is_dir();
+        if !folder {
+            let count = inputs.len();
+            ensure!(count <= 1, "{}", too_many(path, &format!("{count} graphs")));
+        }
+        let inputs = inputs.iter().map(Path::new);
+        atomic::ensure_apart(&[("--certificate", Some(path))], inputs)?;
+        Ok(Self {
+            path: path.to_owned(),
+            folder,
+            embed,
+            taken: BTreeSet::new(),
+        })
+    }
+
+    /// The file, if there is room for the certificate of one graph only.
+    pub(super) fn single(&self) -> Option<&Path> {
+        (!self.folder).then_some(&self.path)
+    }
+
+    /// Writes the certificate of one graph and returns the path.
+    pub(super) fn write(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<PathBuf> {
+        let path = if self.folder {
+            self.place(&input.name)?
+        } else if self.taken.insert(String::new()) {
+            self.path.clone()
+        } else {
+            bail!("{}", too_many(&self.path, "several graphs"));
+        };
+        atomic::write(&path, |mut out| {
+            let layout = Layout::Lines;
+            certificate::write(
+                &mut out,
+                &input.name,
+                &input.graph,
+                verdict,
+                self.embed,
+                layout,
+            )
+        })?;
+        Ok(path)
+    }
+
+    /// A place in the folder for a graph's certificate that no other graph of this run has, and
+    /// where there is nothing but perhaps an earlier certificate. That it is not the first
+    /// choice is said: who looks for the certificate would look there.
+    fn place(&mut self, graph: &str) -> Result<PathBuf> {
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '_');
+        let stem: String = match graph.trim_start_matches(['.', '/']) {
+            "-" | "" => "stdin".into(),
+            name => name
+                .chars()
+                .map(|c| if plain(c) { c } else { '_' })
+                .collect(),
+        };
+        let first = format!("{stem}.json");
+        let mut name = first.clone();
+        let mut reason = None;
+        for again in 2.. {
+            let path = self.path.join(&name);
+            if name == manifest::NAME || name.ends_with(".schema.json") {
+                reason = reason.or(Some(
+                    "is not a name that `verify check` takes for a certificate",
+                ));
+            } else if self.taken.contains(&name) {
+                reason = reason.or(Some("is a certificate of this run already"));
+            } else if !is_free(&path) {
+                reason = reason.or(Some("is not a certificate and stays as it is"));
+            } else {
+                break;
+            }
+            name = format!("{stem}-{again}.json");
+        }
+        let path = self.path.join(&name);
+        if let Some(reason) = reason {
+            writeln!(
+                std::io::stderr(),
+                "verify: {} {reason}; the certificate of {graph} is {}",
+                self.path.join(first).display(),
+                path.display()
+            )?;
+        }
+        self.taken.insert(name);
+        Ok(path)
+    }
+}
+
+/// Why a file cannot be the target for many graphs.
+pub(super) fn too_many(file: &Path, what: &str) -> String {
+    format!(
+        "--certificate {}: a file holds the certificate of one graph, and there are {what}; name \
+         an existing folder",
+        file.display()
+    )
+}
+
+/// Whether nothing is lost if a certificate is written to a path: nothing is there, or a
+/// certificate is.
+fn is_free(path: &Path) -> bool {
+    if std::fs::symlink_metadata(path).is_err() {
+        return true;
+    }
+    // A pipe would keep whoever opens it waiting.
+    if !path.is_file() {
+        return false;
+    }
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(256).read_to_end(&mut head));
+    head.retain(|byte| !byte.is_ascii_whitespace());
+    read.is_ok() && head.starts_with(br#"{"format":"viewcertcertificate""#)
+}

@@ -1,0 +1,91 @@
+//! All calls of the independent checker.
+
+use anyhow::{Context, Result};
+use std::io::Cursor;
+use std::path::Path;
+use viewcert::certificate::hex;
+use viewcert::graph::sha256;
+use viewcert_check::{Certificate, Failure, Graph, Verified};
+use viewcert_formats::ReadOptions;
+use viewcert_formats::read::graphs;
+
+/// What a certificate proves.
+pub(super) struct Proved {
+    /// The hash of the graph.
+    pub(super) sha256: String,
+    /// The verdict.
+    pub(super) verdict: String,
+    /// All of it in words, on several lines.
+    pub(super) text: String,
+}
+
+impl Proved {
+    fn new(verified: &Verified) -> Self {
+        Self {
+            sha256: verified.sha256.clone(),
+            verdict: verified.verdict.0.to_string(),
+            text: verified.to_string(),
+        }
+    }
+}
+
+/// What a certificate proves about the graph that it holds; otherwise why it is rejected.
+pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
+    viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
+}
+
+/// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
+/// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
+/// format, comes through this program's reader, of several graphs the one that is named.
+///
+/// # Errors
+/// If there is no such graph.
+pub(super) fn check_for(
+    text: &[u8],
+    path: &Path,
+    options: ReadOptions,
+) -> Result<Result<Proved, Failure>> {
+    let certificate = match Certificate::parse(text) {
+        Ok(certificate) => certificate,
+        Err(failure) => return Ok(Err(failure)),
+    };
+    let bytes = super::read(path)?;
+    let own = match options {
+        ReadOptions {
+            format: None,
+            variable: None,
+        } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
+        _ => None,
+    };
+    let graph = match own {
+        Some(graph) => graph,
+        None => converted(&certificate, bytes, path, options)?,
+    };
+    Ok(certificate
+        .check(Some(&graph))
+        .map(|verified| Proved::new(&verified)))
+}
+
+/// The graph that a certificate is about, or else the first one, by this program's reader.
+fn converted(
+    certificate: &Certificate,
+    bytes: Vec<u8>,
+    path: &Path,
+    options: ReadOptions,
+) -> Result<Graph> {
+    let name = path.display().to_string();
+    let mut first = None;
+    for input in graphs(name.clone(), Cursor::new(bytes), options) {
+        let graph = input?.graph;
+        let wanted = hex(&sha256(&graph)) == certificate.graph_sha256();
+        if wanted || first.is_none() {
+            first = Some(graph);
+        }
+        if wanted {
+            break;
+        }
+    }
+    let graph = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    let pairs = graph.edges().iter().copied();
+    Graph::new(graph.nodes(), pairs).with_context(|| name)
+}

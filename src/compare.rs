@@ -1,0 +1,123 @@
+//! `verify compare GRAPH...`: every formulation side by side.
+
+use super::bounds::BoundArguments;
+use super::input::InputArguments;
+use super::{GOOD, NOT, TOO_LARGE, atomic};
+use crate::report::{bars, comparison};
+use anyhow::{Context, Result};
+use clap::Args;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert_formats::NamedGraph;
+use viewcert_studies::formulation::compare;
+use viewcert_studies::formulation::compare::{
+    CompareError, Comparison, Limits, MAX_RATIONALS, MAX_RESIDUES, Outcome,
+};
+
+/// Options of the comparison.
+#[derive(Args)]
+pub(super) struct CompareArguments {
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
+    #[arg(required = true, value_name = "GRAPH")]
+    graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Modulo which prime, 5 <= P < 2^62.
+    #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME, conflicts_with = "rational")]
+    prime: u64,
+    /// Compute over the rationals, at cameras with small rational entries.
+    #[arg(long)]
+    rational: bool,
+    #[command(flatten)]
+    bounds: BoundArguments,
+    /// Seed of the random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Leave out matrices with more entries, rows times columns; Lambda, which is dense, counts
+    /// eightfold [default: 134217728, with --rational 262144].
+    #[arg(long, value_name = "ENTRIES")]
+    limit: Option<usize>,
+    /// Print one JSON object a graph.
+    #[arg(long)]
+    json: bool,
+    /// Draw the sizes of the first graph's matrices to this file (`-`: to standard output, and the
+    /// table to standard error).
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// Compares on every graph in turn; a bad one is reported and does not stop the others.
+pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
+    let field =
+        PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
+    let inputs = arguments.graphs.iter().map(Path::new);
+    atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
+    let mut out = atomic::text(&[arguments.svg.as_deref()]);
+    let mut svg = arguments.svg.as_deref();
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        let found = match compare(arguments, &field, input) {
+            Ok(found) => found,
+            Err(error @ CompareError::TooLarge { .. }) => {
+                writeln!(std::io::stderr(), "verify: {}: {error}", input.name)?;
+                return Ok(TOO_LARGE);
+            }
+            Err(error) => return Err(error).with_context(|| input.name.clone()),
+        };
+        if arguments.json {
+            comparison::json(out, input, &found)?;
+        } else {
+            comparison::text(out, input, &found)?;
+        }
+        if let Some(path) = svg.take() {
+            let picture = bars::draw(&comparison::sizes(input, &found));
+            atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
+        }
+        Ok(match found.outcome(&input.graph) {
+            Outcome::Agree(_) => GOOD,
+            Outcome::Disagree => NOT,
+            Outcome::NotCompared => TOO_LARGE,
+        })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, None, &mut out, each)?;
+    Ok(ExitCode::from(code))
+}
+
+/// Largest matrix whose elimination is not announced: a few seconds, modulo a prime and over Q.
+const SILENT: [usize; 2] = [1 << 25, 1 << 18];
+
+fn compare(
+    arguments: &CompareArguments,
+    field: &PrimeField,
+    input: &NamedGraph,
+) -> Result<Comparison, CompareError> {
+    let announce = |name: &str, (rows, columns): (usize, usize)| {
+        // A notice is not worth failing for.
+        let _ = writeln!(
+            std::io::stderr(),
+            "verify: {}: {name}: about {rows} x {columns} entries, which may take minutes; --limit leaves \
+             out what is too large",
+            input.name
+        );
+    };
+    let [residues, rationals] = SILENT;
+    if arguments.rational {
+        let bounds = (arguments.bounds.numerator, arguments.bounds.denominator);
+        let limits = Limits {
+            entries: arguments.limit.unwrap_or(MAX_RATIONALS),
+            silent: rationals,
+            announce: &announce,
+        };
+        return compare::rational(&input.graph, bounds, arguments.seed, &limits);
+    }
+    let limits = Limits {
+        entries: arguments.limit.unwrap_or(MAX_RESIDUES),
+        silent: residues,
+        announce: &announce,
+    };
+    compare::modular(field, &input.graph, arguments.seed, &limits)
+}

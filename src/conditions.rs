@@ -1,0 +1,44 @@
+//! `verify conditions GRAPH...`: what the literature's conditions say.
+
+use super::input::InputArguments;
+use super::{GOOD, NOT};
+use crate::report::conditions as report;
+use anyhow::Result;
+use clap::Args;
+use std::io::BufWriter;
+use std::process::ExitCode;
+use viewcert_formats::NamedGraph;
+use viewcert_studies::conditions;
+
+/// Options of the conditions.
+#[derive(Args)]
+pub(super) struct ConditionArguments {
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip; `-` is standard input.
+    #[arg(required = true, value_name = "GRAPH")]
+    graphs: Vec<String>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Print one JSON object a graph.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Decides the conditions on every graph in turn; a bad one does not stop the others.
+pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        let found = conditions::decide(&input.graph);
+        if arguments.json {
+            report::json(out, input, &found)?;
+        } else {
+            report::text(out, input, &found)?;
+        }
+        let refuted = conditions::refuted(&found);
+        Ok(if refuted { NOT } else { GOOD })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, None, &mut out, each)?;
+    Ok(ExitCode::from(code))
+}

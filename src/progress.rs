@@ -1,0 +1,287 @@
+//! Progress on standard error: of many graphs a bar on a terminal and plain lines elsewhere, of
+//! the work on one graph a bar on a terminal and nothing elsewhere.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{IsTerminal, Write};
+use std::sync::{Mutex, MutexGuard};
+use std::time::{Duration, Instant};
+use viewcert::watch::{Observer, Stage};
+
+/// Time between plain lines; short runs print none.
+const INTERVAL: Duration = Duration::from_secs(10);
+
+/// Progress of a run.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    plain: Option<Mutex<Plain>>,
+}
+
+struct Plain {
+    start: Instant,
+    last: Instant,
+    done: u64,
+    total: Option<u64>,
+}
+
+impl Progress {
+    /// Starts at nothing out of `total`, if that is known.
+    pub(super) fn new(total: Option<u64>) -> Self {
+        if std::io::stderr().is_terminal() {
+            let bar = match total {
+                Some(total) => ProgressBar::new(total),
+                None => ProgressBar::no_length(),
+            };
+            let template = match total {
+                Some(_) => "{wide_bar} {pos}/{len} {per_sec} {eta} left",
+                None => "{spinner} {pos} {per_sec} {elapsed}",
+            };
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style);
+            }
+            return Self { bar, plain: None };
+        }
+        let now = Instant::now();
+        Self {
+            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
+            plain: Some(Mutex::new(Plain {
+                start: now,
+                last: now,
+                done: 0,
+                total,
+            })),
+        }
+    }
+
+    /// Counts what has been done since the last call.
+    pub(super) fn done(&self, more: u64) {
+        self.bar.inc(more);
+        let Some(plain) = &self.plain else {
+            return;
+        };
+        let mut plain = plain.lock().unwrap_or_else(|broken| broken.into_inner());
+        plain.done += more;
+        if plain.last.elapsed() < INTERVAL {
+            return;
+        }
+        plain.last = Instant::now();
+        let seconds = plain.start.elapsed().as_secs_f64();
+        let rate = plain.done as f64 / seconds;
+        let of = match plain.total {
+            Some(total) => {
+                let left = total.saturating_sub(plain.done) as f64 / rate;
+                format!(" of {total}, {left:.0} s left")
+            }
+            None => String::new(),
+        };
+        // Progress is not worth failing for.
+        let _ = writeln!(
+            std::io::stderr(),
+            "verify: {}{of}, {rate:.0} a second",
+            plain.done
+        );
+    }
+
+    /// Takes the bar away.
+    pub(super) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
+/// What takes less time is not shown.
+const SHOWN_AFTER: Duration = Duration::from_secs(1);
+
+/// No remaining time is guessed from less than this.
+const GUESSED_AFTER: Duration = Duration::from_millis(300);
+
+/// The bar of the work on one graph: told by the library, drawn by whoever calls
+/// [`draw`](Self::draw).
+///
+/// The library's threads only ever wait for `state`, which nobody holds while drawing.
+#[derive(Debug, Default)]
+pub(super) struct Bar {
+    shown: Mutex<Option<Shown>>,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct Shown {
+    bar: ProgressBar,
+    /// Whether it shows how far the work is.
+    measured: bool,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// When that began for which the bar is, if there is anything.
+    since: Option<Instant>,
+    /// What is being done while no work goes on.
+    saying: String,
+    /// In the order in which they began.
+    works: Vec<Active>,
+}
+
+#[derive(Clone, Debug)]
+struct Active {
+    number: u64,
+    stage: Stage,
+    total: u64,
+    /// Units expected after it.
+    later: Option<u64>,
+    done: u64,
+    since: Instant,
+    /// When something was done last.
+    last: Instant,
+}
+
+impl Bar {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state
+            .lock()
+            .unwrap_or_else(|broken| broken.into_inner())
+    }
+
+    fn shown(&self) -> MutexGuard<'_, Option<Shown>> {
+        self.shown
+            .lock()
+            .unwrap_or_else(|broken| broken.into_inner())
+    }
+
+    /// From now on this is being done.
+    pub(super) fn say(&self, what: String) {
+        let mut state = self.state();
+        state.saying = what;
+        state.since = Some(Instant::now());
+    }
+
+    /// Draws what goes on now, if it has gone on for long.
+    pub(super) fn draw(&self) {
+        let mut shown = self.shown();
+        let (active, saying) = {
+            let state = self.state();
+            if state
+                .since
+                .is_none_or(|since| since.elapsed() < SHOWN_AFTER)
+            {
+                return;
+            }
+            (state.works.last().cloned(), state.saying.clone())
+        };
+        let (message, measure) = match &active {
+            None => (saying, None),
+            Some(active) => {
+                let measure = (active.total > 0).then_some((active.total, active.done));
+                (format!("{}{}", active.stage, active.remaining()), measure)
+            }
+        };
+        let shown = match &mut *shown {
+            Some(shown) if shown.measured == measure.is_some() => shown,
+            other => {
+                if let Some(shown) = other.take() {
+                    shown.bar.finish_and_clear();
+                }
+                other.insert(Shown::new(measure.is_some()))
+            }
+        };
+        if let Some((total, done)) = measure {
+            shown.bar.set_length(total);
+            shown.bar.set_position(done.min(total));
+        }
+        shown.bar.set_message(message);
+        shown.bar.tick();
+    }
+
+    /// Takes the bar off the terminal until something else goes on for long.
+    pub(super) fn clear(&self) {
+        let mut shown = self.shown();
+        {
+            let mut state = self.state();
+            state.since = None;
+            state.saying.clear();
+        }
+        if let Some(shown) = shown.take() {
+            shown.bar.finish_and_clear();
+        }
+    }
+}
+
+impl Shown {
+    fn new(measured: bool) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        let template = if measured {
+            "{spinner} {msg} {wide_bar} {percent} %"
+        } else {
+            "{spinner} {msg}"
+        };
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        Self { bar, measured }
+    }
+}
+
+impl Active {
+    /// The time that is left, as far as can be told.
+    fn remaining(&self) -> String {
+        let elapsed = self.last - self.since;
+        let left = self.total.saturating_sub(self.done);
+        let Some(later) = self.later.filter(|later| left + later > 0) else {
+            return String::new();
+        };
+        if self.done == 0 || elapsed < GUESSED_AFTER {
+            return String::new();
+        }
+        let seconds = elapsed.as_secs_f64() * (left + later) as f64 / self.done as f64;
+        let seconds = (seconds - self.last.elapsed().as_secs_f64())
+            .max(1.0)
+            .ceil() as u64;
+        match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+            (0, 0, seconds) => format!(", {seconds} s left"),
+            (0, minutes, seconds) => format!(", {minutes} min {seconds} s left"),
+            (hours, minutes, _) => format!(", {hours} h {minutes} min left"),
+        }
+    }
+}
+
+impl Observer for Bar {
+    fn begin(&self, work: u64, stage: Stage, total: u64, later: Option<u64>) {
+        let now = Instant::now();
+        let mut state = self.state();
+        if state.works.is_empty() && !state.saying.is_empty() {
+            // What was said is over.
+            state.saying.clear();
+            state.since = None;
+        }
+        state.since.get_or_insert(now);
+        state.works.push(Active {
+            number: work,
+            stage,
+            total,
+            later,
+            done: 0,
+            since: now,
+            last: now,
+        });
+    }
+
+    fn done(&self, work: u64, units: u64) {
+        let mut state = self.state();
+        // The latest ones are asked for most.
+        let active = state.works.iter_mut().rev();
+        if let Some(active) = active.into_iter().find(|active| active.number == work) {
+            active.done += units;
+            if units > 0 {
+                active.last = Instant::now();
+            }
+        }
+    }
+
+    fn end(&self, work: u64) {
+        self.state().works.retain(|active| active.number != work);
+    }
+}

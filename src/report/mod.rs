@@ -1,0 +1,62 @@
+//! Reports: text for people, JSON for programs, tables and pictures.
+
+pub mod bars;
+pub mod catalog_page;
+pub mod comparison;
+pub mod conditions;
+pub mod curves;
+pub mod json;
+pub mod layout;
+pub mod plot;
+pub mod svg;
+pub mod table;
+pub mod text;
+
+use std::time::Duration;
+use viewcert::decide::Verdict;
+use viewcert::graph::Graph;
+use viewcert_formats::NamedGraph;
+
+/// A number of things: "1 camera", "2 cameras".
+pub fn counted(count: usize, thing: &str) -> String {
+    let many = match thing.strip_suffix('y') {
+        _ if count == 1 => return format!("1 {thing}"),
+        Some(stem) => format!("{stem}ies"),
+        None => format!("{thing}s"),
+    };
+    format!("{count} {many}")
+}
+
+/// A graph's size: "5 cameras, 1 pair".
+pub(crate) fn size(graph: &Graph) -> String {
+    let (cameras, pairs) = (graph.nodes(), graph.edges().len());
+    format!("{}, {}", counted(cameras, "camera"), counted(pairs, "pair"))
+}
+
+/// Everything a report says about one graph.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The graph as it was read.
+    pub input: &'a NamedGraph,
+    /// What was decided.
+    pub verdict: &'a Verdict,
+    /// Whether the arithmetic was rational.
+    pub rational: bool,
+    /// Whether to list the members of the components.
+    pub list_components: bool,
+    /// How long reading, deciding and certifying took.
+    pub time: Duration,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_is_not_many() {
+        let found = [0, 1, 2].map(|count| counted(count, "body"));
+        assert_eq!(found, ["0 bodies", "1 body", "2 bodies"]);
+        let (graph, _) = Graph::from_pairs(2, vec![(0, 1)]).unwrap();
+        assert_eq!(size(&graph), "2 cameras, 1 pair");
+    }
+}
