@@ -15,48 +15,90 @@ use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 use std::fmt::Display;
 
-#[derive(Serialize)]
-pub(super) struct Document<'a> {
-    format: &'static str,
-    version: u32,
-    program: &'static str,
-    graph: GraphView<'a>,
-    model: &'static str,
-    claim: Claim,
-    bodies: Vec<BodyView<'a>>,
-    rigid: MembersView<'a>,
-    pieces: Vec<PieceView<'a>>,
+/// Declares objects by their members, in the order in which these are written.
+macro_rules! objects {
+    ($($name:ident $(<$($parameter:tt),+>)? { $($member:ident: $type:ty),* $(,)? })*) => {$(
+        pub(super) struct $name $(<$($parameter),+>)? { $($member: $type),* }
+
+        impl $(<$($parameter),+>)? Serialize for $name $(<$($parameter),+>)?
+        where
+            $($type: Serialize),*
+        {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let mut map = serializer.serialize_map(None)?;
+                $(map.serialize_entry(stringify!($member), &self.$member)?;)*
+                map.end()
+            }
+        }
+    )*};
 }
 
-#[derive(Serialize)]
-struct GraphView<'a> {
-    name: &'a str,
-    nodes: usize,
-    edges: usize,
-    sha256: String,
-    graph6: Option<String>,
-}
+objects! {
+    Document<'a> {
+        format: &'static str,
+        version: u32,
+        program: &'static str,
+        graph: GraphView<'a>,
+        model: &'static str,
+        claim: Claim,
+        bodies: Vec<BodyView<'a>>,
+        rigid: MembersView<'a>,
+        pieces: Vec<PieceView<'a>>,
+    }
 
-#[derive(Serialize)]
-struct Claim {
-    verdict: Valued<&'static str>,
-    rank: Rank,
-    components: Valued<usize>,
-}
+    GraphView<'a> {
+        name: &'a str,
+        nodes: usize,
+        edges: usize,
+        sha256: String,
+        graph6: Option<String>,
+    }
 
-#[derive(Serialize)]
-struct Valued<T> {
-    value: T,
-    strength: &'static str,
-    error_log2: Option<i64>,
-}
+    Claim {
+        verdict: Valued<&'static str>,
+        rank: Rank,
+        components: Valued<usize>,
+    }
 
-#[derive(Serialize)]
-struct Rank {
-    value: usize,
-    required: usize,
-    strength: &'static str,
-    error_log2: Option<i64>,
+    Valued<T> {
+        value: T,
+        strength: &'static str,
+        error_log2: Option<i64>,
+    }
+
+    Rank {
+        value: usize,
+        required: usize,
+        strength: &'static str,
+        error_log2: Option<i64>,
+    }
+
+    BodyView<'a> {
+        seed: PartView,
+        add: &'a [[u32; 3]],
+        merge: Vec<MergeView<'a>>,
+    }
+
+    MergeView<'a> {
+        with: Vec<PartView>,
+        at: &'a [u32],
+    }
+
+    MembersView<'a> {
+        bodies: &'a [u32],
+        edges: &'a [(u32, u32)],
+    }
+
+    PieceView<'a> {
+        bodies: &'a [u32],
+        edges: &'a [(u32, u32)],
+        evidence: List<'a, Evidence>,
+    }
+
+    SplitView<'a> {
+        rigid: MembersView<'a>,
+        pieces: Vec<PieceView<'a>>,
+    }
 }
 
 impl<'a> Document<'a> {
@@ -126,24 +168,19 @@ impl<T: Display> Serialize for Big<T> {
     }
 }
 
-#[derive(Serialize)]
-struct BodyView<'a> {
-    seed: PartView,
-    add: &'a [[u32; 3]],
-    merge: Vec<MergeView<'a>>,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
+/// An edge, or the number of a body.
 enum PartView {
     Edge([u32; 2]),
     Body(u32),
 }
 
-#[derive(Serialize)]
-struct MergeView<'a> {
-    with: Vec<PartView>,
-    at: &'a [u32],
+impl Serialize for PartView {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Edge(edge) => edge.serialize(serializer),
+            Self::Body(number) => number.serialize(serializer),
+        }
+    }
 }
 
 impl<'a> BodyView<'a> {
@@ -183,12 +220,6 @@ impl<'a> MergeView<'a> {
     }
 }
 
-#[derive(Serialize)]
-struct MembersView<'a> {
-    bodies: &'a [u32],
-    edges: &'a [(u32, u32)],
-}
-
 impl<'a> From<&'a Members> for MembersView<'a> {
     fn from(members: &'a Members) -> Self {
         Self {
@@ -198,17 +229,11 @@ impl<'a> From<&'a Members> for MembersView<'a> {
     }
 }
 
-#[derive(Serialize)]
-struct PieceView<'a> {
-    #[serde(flatten)]
-    members: MembersView<'a>,
-    evidence: List<'a, Evidence>,
-}
-
 impl<'a> PieceView<'a> {
     fn new(piece: &'a PieceVerdict) -> Self {
         Self {
-            members: (&piece.members).into(),
+            bodies: &piece.members.bodies,
+            edges: &piece.members.edges,
             evidence: List(&piece.evidence),
         }
     }
@@ -317,11 +342,6 @@ fn plane_flow<M: SerializeMap>(
 
 impl Serialize for View<'_, Class> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct SplitView<'a> {
-            rigid: MembersView<'a>,
-            pieces: Vec<PieceView<'a>>,
-        }
         let evidence: &[Evidence] = match &self.0.kind {
             ClassKind::Rigid(evidence) => evidence,
             _ => &[],

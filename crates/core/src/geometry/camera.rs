@@ -36,9 +36,9 @@
 use crate::linalg::integer::{Integer, Integers};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::{Field, Ring};
+use chacha20::ChaCha20Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
 use num_integer::Integer as _;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha20Rng;
 use sha2::{Digest, Sha256};
 
 /// How many draws are tried before the bounds or the prime are given up as too small.

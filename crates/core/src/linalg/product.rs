@@ -2,7 +2,6 @@
 
 use crate::linalg::prime::{PrimeField, SMALL_PRODUCTS, low};
 use crate::watch::Work;
-use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 /// Columns of a tile, in groups of four: with 64 rows 16 KiB, which stay in the first-level cache.
@@ -51,14 +50,15 @@ impl Product<'_> {
             }
             let share = a_row * (target.len() / cols) as u64;
             let left = Product { factors, ..*self };
-            Arch::new().dispatch(Chunk {
+            let chunk = Chunk {
                 field,
                 left,
                 target,
                 cols,
                 start,
                 packed,
-            });
+            };
+            chunk.dispatch();
             // If this fails, so does the caller's next one.
             let _ = work.done(share);
         };
@@ -92,20 +92,36 @@ struct Chunk<'a> {
     packed: &'a [[u64; 4]],
 }
 
-impl WithSimd for Chunk<'_> {
+#[cfg(feature = "simd")]
+impl pulp::WithSimd for Chunk<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: pulp::Simd>(self, _: S) {
+        self.run();
+    }
+}
+
+impl Chunk<'_> {
+    #[cfg(feature = "simd")]
+    fn dispatch(self) {
+        pulp::Arch::new().dispatch(self);
+    }
+
+    #[cfg(not(feature = "simd"))]
+    fn dispatch(self) {
+        self.run();
+    }
+
+    #[inline(always)]
+    fn run(self) {
         if self.field.is_small() {
             self.add_small();
         } else {
             self.add();
         }
     }
-}
 
-impl Chunk<'_> {
     #[inline(always)]
     fn add(self) {
         let depth = self.left.depth;
