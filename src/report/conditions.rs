@@ -3,6 +3,7 @@
 use super::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::conditions::moves::Move;
 use viewcert_studies::conditions::{Answer, Condition, Witness, refuted, solvable};
@@ -38,7 +39,7 @@ fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
             vec![format!("d is {d} on {}, and {whole} on all", list(nodes))]
         }
         Some(Witness::Partition(blocks, bound)) => {
-            let required = 11 * input.graph.nodes() - 15;
+            let required = Model::Projective.required(input.graph.nodes());
             let head = format!("rank at most {bound} of {required}, by the blocks:");
             std::iter::once(head)
                 .chain(blocks.iter().map(|block| list(block)))

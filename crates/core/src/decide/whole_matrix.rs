@@ -34,7 +34,7 @@ const MAX_LIFTED: usize = 1 << 23;
 const MAX_FRACTION_FREE: usize = 168 * 280;
 
 /// Largest minor whose determinant is computed: the rank at 25 cameras, a second or two.
-const MAX_DETERMINANT: usize = 11 * 25 - 15;
+const MAX_DETERMINANT: usize = Model::Projective.required(25);
 
 /// The rank of J_P modulo a prime at general cameras.
 pub(super) fn modular(

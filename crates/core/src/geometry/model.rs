@@ -1,7 +1,10 @@
 //! Which question is asked of a viewing graph.
 
+use std::fmt;
+use std::str::FromStr;
+
 /// What is known of the cameras besides the graph.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Model {
     /// Nothing: edges carry fundamental matrices (the paper).
     #[default]
@@ -12,21 +15,71 @@ pub enum Model {
 }
 
 impl Model {
-    /// The rank of a solvable graph (or body) with n >= 2 nodes: 11 n - 15 of J_P, in
-    /// the calibrated model 3 n - 4 of N. A single node is solvable without any.
-    pub fn required(self, n: usize) -> usize {
+    /// All models.
+    pub const ALL: [Self; 2] = [Self::Projective, Self::Calibrated];
+
+    /// The rank of a finite solvable graph, or of a body, with n >= 2 nodes: 11 n - 15 of J_P
+    /// (Theorem 1.3 of docs/theory.md; Theorem 1 of the paper), in the calibrated model
+    /// 3 n - 4 of N (Lemma 4.8). One camera leaves nothing to determine: 0.
+    pub const fn required(self, n: usize) -> usize {
         match self {
-            _ if n < 2 => 0,
-            Self::Projective => 11 * n - 15,
-            Self::Calibrated => 3 * n - 4,
+            Self::Projective => (11 * n).saturating_sub(15),
+            Self::Calibrated => (3 * n).saturating_sub(4),
         }
     }
 
     /// The name in certificates and on the command line.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Projective => "projective",
             Self::Calibrated => "calibrated",
         }
+    }
+}
+
+impl fmt::Display for Model {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A word that is not the name of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownModel;
+
+impl fmt::Display for UnknownModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the models are projective and calibrated")
+    }
+}
+
+impl std::error::Error for UnknownModel {}
+
+impl FromStr for Model {
+    type Err = UnknownModel;
+
+    fn from_str(name: &str) -> Result<Self, UnknownModel> {
+        let named = |model: &Self| model.name() == name;
+        Self::ALL.into_iter().find(named).ok_or(UnknownModel)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for model in Model::ALL {
+            assert_eq!(model.to_string().parse(), Ok(model));
+        }
+        assert_eq!("Projective".parse::<Model>(), Err(UnknownModel));
+    }
+
+    /// A pair has a fundamental matrix with 7 and a bearing with 2 degrees of freedom.
+    #[test]
+    fn required_ranks_of_small_graphs() {
+        let ranks = |n| Model::ALL.map(|model| model.required(n));
+        assert_eq!([1, 2, 3].map(ranks), [[0, 0], [7, 2], [18, 5]]);
     }
 }

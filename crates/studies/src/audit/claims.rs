@@ -32,7 +32,6 @@ use std::fmt;
 use viewcert::certificate::hex;
 use viewcert::decide::{Value, Verdict};
 use viewcert::geometry::model::Model;
-use viewcert_cli::report::counted;
 
 /// A row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -568,7 +567,7 @@ pub fn claim(row: &Row) -> Result<Claim, RowError> {
         )));
     }
     if let (Some(rank), Some(nodes)) = (claim.rank, claim.nodes) {
-        let full = if nodes < 2 { 0 } else { model.required(nodes) };
+        let full = model.required(nodes);
         let excluded = rank > full || finite && rank < full || infinite && rank == full;
         if excluded {
             return Err(RowError::Contradiction(format!(

@@ -150,9 +150,13 @@ pub fn blocks(graph: &Graph) -> Vec<Vec<u32>> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use viewcert::geometry::model::Model;
 
     fn sum(blocks: &[Vec<u32>]) -> usize {
-        blocks.iter().map(|block| 11 * block.len() - 15).sum()
+        blocks
+            .iter()
+            .map(|block| Model::Projective.required(block.len()))
+            .sum()
     }
 
     /// The smallest sum over all partitions of the edges, one by one.
@@ -161,7 +165,7 @@ mod tests {
             let Some((&(i, j), rest)) = edges.split_first() else {
                 return blocks
                     .iter()
-                    .map(|block| 11 * block.count_ones() as usize - 15)
+                    .map(|block| Model::Projective.required(block.count_ones() as usize))
                     .sum();
             };
             let edge = 1 << i | 1 << j;

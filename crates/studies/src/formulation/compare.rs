@@ -7,6 +7,7 @@ use crate::formulation::{Formulation, all, explicit, implicit};
 use std::time::{Duration, Instant};
 use viewcert::geometry::camera;
 use viewcert::geometry::camera::{Camera, DrawError, DrawKey};
+use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
@@ -369,7 +370,7 @@ fn plane_flow<F: RankField>(
         ],
         rank: timed.map(|(found, time)| {
             // The trivial kernel of J_P has dimension n + 15.
-            let full = (11 * graph.nodes()) - 15;
+            let full = Model::Projective.required(graph.nodes());
             let rank = found.rank(edges);
             Rank {
                 rank,
