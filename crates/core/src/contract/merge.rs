@@ -1,14 +1,13 @@
 //! Merging bodies: two that share two nodes, three that pairwise share a node.
 
 use super::{Body, Merge, Part, Seed};
-use crate::graph::Adjacency;
+use crate::graph::{Adjacency, Lists};
 use std::collections::{HashMap, VecDeque};
 
 /// For every node the bodies that contain it, by the numbers they had when it joined them,
 /// and which body each of those has become part of.
 pub(super) struct Owners {
-    start: Vec<u32>,
-    bodies: Vec<u32>,
+    first: Lists,
     /// Bodies that contain a node because a loose edge brought it in.
     joined: HashMap<u32, Vec<u32>>,
     parent: Vec<u32>,
@@ -16,26 +15,12 @@ pub(super) struct Owners {
 
 impl Owners {
     fn new(nodes: usize, bodies: &[Body]) -> Self {
-        let mut start = vec![0u32; nodes + 1];
-        for body in bodies {
-            for &v in &body.nodes {
-                start[v as usize + 1] += 1;
-            }
-        }
-        for v in 0..nodes {
-            start[v + 1] += start[v];
-        }
-        let mut fill = start.clone();
-        let mut list = vec![0; start[nodes] as usize];
-        for (k, body) in (0..).zip(bodies) {
-            for &v in &body.nodes {
-                list[fill[v as usize] as usize] = k;
-                fill[v as usize] += 1;
-            }
-        }
+        let pairs = (0..).zip(bodies).flat_map(|(k, body)| {
+            let nodes = body.nodes.iter();
+            nodes.map(move |&v| (v, k))
+        });
         Self {
-            start,
-            bodies: list,
+            first: Lists::group(nodes, pairs),
             joined: HashMap::new(),
             parent: (0..bodies.len() as u32).collect(),
         }
@@ -61,12 +46,9 @@ impl Owners {
 
     /// The bodies that contain a node, perhaps with repetitions.
     fn of(&self, v: u32) -> impl Iterator<Item = u32> {
-        let range = self.start[v as usize] as usize..self.start[v as usize + 1] as usize;
         let joined = self.joined.get(&v).map_or(&[][..], |list| list);
-        self.bodies[range]
-            .iter()
-            .chain(joined)
-            .map(|&k| self.current(k))
+        let first = self.first.of(v as usize).iter();
+        first.chain(joined).map(|&k| self.current(k))
     }
 
     /// The body that contains both nodes.

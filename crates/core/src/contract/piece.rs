@@ -5,7 +5,7 @@
 //! decided by itself, on its core: the nodes that its members share.
 
 use crate::contract::Contraction;
-use crate::graph::Graph;
+use crate::graph::{Graph, Lists, UnionFind, biconnected_components};
 
 /// Some members of a contracted graph: final bodies and loose edges.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -145,7 +145,7 @@ impl Assembly {
     /// Cuts some members at the nodes that are articulations of their structure. Linear
     /// time, up to sorting.
     pub fn split(&self, part: &Members) -> Split {
-        let piece_of = Incidence::new(part, &self.shared).pieces();
+        let piece_of = piece_of_members(part, &self.shared);
         let mut split = Split {
             rigid: Members::default(),
             pieces: Vec::new(),
@@ -266,139 +266,46 @@ pub struct Core {
     pub total_nodes: usize,
 }
 
-/// Lists of `u32`, one after another.
-struct Lists {
-    start: Vec<u32>,
-    items: Vec<u32>,
-}
-
-impl Lists {
-    fn len(&self) -> usize {
-        self.start.len() - 1
-    }
-
-    fn of(&self, k: usize) -> &[u32] {
-        &self.items[self.start[k] as usize..self.start[k + 1] as usize]
-    }
-
-    /// Groups `(key, item)` by key, the items of a key in the order given.
-    fn group(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let mut start = vec![0u32; keys + 1];
-        for (key, _) in pairs.clone() {
-            start[key as usize + 1] += 1;
-        }
-        for key in 0..keys {
-            start[key + 1] += start[key];
-        }
-        let mut fill = start.clone();
-        let mut items = vec![0; start[keys] as usize];
-        for (key, item) in pairs {
-            items[fill[key as usize] as usize] = item;
-            fill[key as usize] += 1;
-        }
-        Self { start, items }
-    }
-}
-
-/// Which members (bodies, then edges) contain which shared nodes.
-struct Incidence {
-    /// For every member its shared nodes, numbered among all of them.
-    of_member: Lists,
-    /// For every shared node the members that contain it.
-    of_node: Lists,
-}
-
-impl Incidence {
-    /// `shared` lists the shared nodes of every body.
-    fn new(part: &Members, shared: &[Vec<u32>]) -> Self {
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for (member, &body) in (0..).zip(&part.bodies) {
-            pairs.extend(shared[body as usize].iter().map(|&v| (member, v)));
-        }
-        for (member, &(i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
-            pairs.extend([(member, i), (member, j)]);
-        }
-        let mut nodes: Vec<u32> = pairs.iter().map(|&(_, v)| v).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        for (_, v) in &mut pairs {
-            *v = nodes.partition_point(|w| w < v) as u32;
-        }
-        Self {
-            of_member: Lists::group(part.len(), pairs.iter().copied()),
-            of_node: Lists::group(nodes.len(), pairs.iter().map(|&(m, v)| (v, m))),
-        }
-    }
-
-    /// For every member a number of its piece. Members are in one piece if they lie on
-    /// a common cycle of the bipartite graph of members and shared nodes, or are linked
-    /// by such cycles: Tarjan's biconnected components, united at common members.
-    fn pieces(&self) -> Vec<u32> {
-        const UNSEEN: u32 = u32::MAX;
-        let members = self.of_member.len();
-        let total = members + self.of_node.len();
-        let neighbour = |v: usize, at: usize| -> Option<usize> {
-            if v < members {
-                let node = self.of_member.of(v).get(at)?;
-                Some(members + *node as usize)
-            } else {
-                Some(*self.of_node.of(v - members).get(at)? as usize)
-            }
-        };
-        let mut piece = crate::graph::union_find::UnionFind::new(members);
-        let mut found = vec![UNSEEN; total];
-        let mut low = vec![UNSEEN; total];
-        let mut clock = 0;
-        // Vertices seen but not yet in a finished component, and the path to the
-        // current vertex with the next neighbour to look at.
-        let mut open: Vec<usize> = Vec::new();
-        let mut path: Vec<(usize, usize)> = Vec::new();
-        for root in 0..members {
-            if found[root] != UNSEEN {
-                continue;
-            }
-            path.push((root, 0));
-            while let Some(&mut (v, ref mut at)) = path.last_mut() {
-                if found[v] == UNSEEN {
-                    found[v] = clock;
-                    low[v] = clock;
-                    clock += 1;
-                    open.push(v);
-                }
-                let next = neighbour(v, *at);
-                *at += 1;
-                if let Some(w) = next {
-                    if found[w] == UNSEEN {
-                        path.push((w, 0));
-                    } else {
-                        low[v] = low[v].min(found[w]);
-                    }
-                    continue;
-                }
-                path.pop();
-                let Some(&(parent, _)) = path.last() else {
-                    open.clear();
-                    break;
-                };
-                low[parent] = low[parent].min(low[v]);
-                if low[v] >= found[parent] {
-                    let cut = open.iter().rposition(|&w| w == v).expect("v is open");
-                    let component = open.split_off(cut);
-                    // A component of v and its parent alone is a bridge, not a cycle.
-                    if component.len() > 1 {
-                        let mut of_component = component
-                            .iter()
-                            .chain(std::iter::once(&parent))
-                            .filter(|&&w| w < members);
-                        if let Some(&first) = of_component.next() {
-                            for &other in of_component {
-                                piece.union(first, other);
-                            }
-                        }
-                    }
+/// The number of its piece for every member of a part, bodies first, then edges; `shared` lists
+/// the shared nodes of every body.
+///
+/// Members are in one piece if they lie on a common cycle of the bipartite graph of members and
+/// shared nodes, or are linked by such cycles.
+fn piece_of_members(part: &Members, shared: &[Vec<u32>]) -> Vec<u32> {
+    let members = part.len();
+    let mut pieces = UnionFind::new(members);
+    biconnected_components(&incidence(part, shared), |component| {
+        // Two vertices are a bridge and not a cycle.
+        if component.len() > 2 {
+            let mut of_component = component.iter().filter(|&&v| (v as usize) < members);
+            if let Some(&first) = of_component.next() {
+                for &other in of_component {
+                    pieces.union(first as usize, other as usize);
                 }
             }
         }
-        (0..members).map(|m| piece.find(m) as u32).collect()
+    });
+    (0..members)
+        .map(|member| pieces.find(member) as u32)
+        .collect()
+}
+
+/// The bipartite graph of the members of a part, which come first, and the nodes that they share.
+fn incidence(part: &Members, shared: &[Vec<u32>]) -> Lists {
+    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    for (member, &body) in (0..).zip(&part.bodies) {
+        pairs.extend(shared[body as usize].iter().map(|&v| (member, v)));
     }
+    for (member, &(i, j)) in (part.bodies.len() as u32..).zip(&part.edges) {
+        pairs.extend([(member, i), (member, j)]);
+    }
+    let mut nodes: Vec<u32> = pairs.iter().map(|&(_, v)| v).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    for (_, v) in &mut pairs {
+        *v = (part.len() + nodes.partition_point(|w| w < v)) as u32;
+    }
+    let members_first = pairs.iter().copied();
+    let nodes_after = pairs.iter().map(|&(member, v)| (v, member));
+    Lists::group(part.len() + nodes.len(), members_first.chain(nodes_after))
 }

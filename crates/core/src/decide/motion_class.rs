@@ -7,7 +7,7 @@
 //! rank says so.
 
 use crate::contract::piece::{Core, Members};
-use crate::graph::union_find::UnionFind;
+use crate::graph::UnionFind;
 use std::collections::BTreeMap;
 
 /// Groups the members of a piece by the transformations of a motion: two members are in

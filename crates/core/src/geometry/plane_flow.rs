@@ -11,7 +11,7 @@
 //! from edge scalars to the plane flows, the left kernel of N.
 
 use crate::graph::Graph;
-use crate::graph::union_find::UnionFind;
+use crate::graph::UnionFind;
 use crate::linalg::dense_lu::{
     Echelon, eliminate_mod, eliminate_watched, elimination_products, unstopped,
 };

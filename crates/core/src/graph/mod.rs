@@ -1,17 +1,22 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
 
-pub mod union_find;
+mod union_find;
 
 mod adjacency;
+mod biconnected;
 pub mod identity;
+mod lists;
 
 pub mod graph6;
 
 pub mod labels;
 
 pub use adjacency::Adjacency;
+pub use biconnected::biconnected_components;
 pub use identity::{core_sha256, sha256};
 pub use labels::Labels;
+pub use lists::Lists;
+pub use union_find::UnionFind;
 
 /// A simple undirected graph on the nodes `0..nodes`.
 ///

@@ -5,7 +5,7 @@ use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::motion_class;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::Graph;
-use crate::graph::union_find::UnionFind;
+use crate::graph::UnionFind;
 use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;

@@ -149,7 +149,7 @@ fn agrees_with_rejection() {
                 }
             }
             let (graph, _) = Graph::from_pairs(20, pairs).unwrap();
-            let mut parts = viewcert::graph::union_find::UnionFind::new(20);
+            let mut parts = viewcert::graph::UnionFind::new(20);
             let united = graph.edges().iter();
             let united = united.filter(|(i, j)| parts.union(*i as usize, *j as usize));
             if united.count() == 19 {
