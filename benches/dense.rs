@@ -8,7 +8,7 @@
 mod input;
 
 use anyhow::{Result, bail};
-use viewcert::geometry::camera::cameras_mod;
+use viewcert::geometry::draw::cameras_mod;
 use viewcert::geometry::jacobian;
 use viewcert::linalg::dense_lu::eliminate_mod;
 use viewcert::linalg::prime::PrimeField;

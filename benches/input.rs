@@ -1,7 +1,7 @@
 //! The graph that a benchmark is run on, with the draw that `verify` takes by default.
 
 use anyhow::{Context, Result};
-use viewcert::geometry::camera::DrawKey;
+use viewcert::geometry::draw::DrawKey;
 use viewcert::graph::{Graph, core_sha256, sha256};
 use viewcert_formats::{ReadOptions, read_graphs};
 

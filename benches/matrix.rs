@@ -18,7 +18,7 @@ mod input;
 use anyhow::{Result, bail};
 use std::fmt::Display;
 use std::io::{self, BufWriter, Write};
-use viewcert::geometry::camera::{cameras_mod, cameras_rational, centres_mod};
+use viewcert::geometry::draw::{cameras_mod, cameras_rational, centres_mod};
 use viewcert::geometry::{jacobian, plane_flow};
 use viewcert::linalg::integer::{Integer, Integers};
 use viewcert::linalg::prime::PrimeField;

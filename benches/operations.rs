@@ -12,7 +12,7 @@
 mod input;
 
 use anyhow::{Context, Result};
-use viewcert::geometry::camera::centres_mod;
+use viewcert::geometry::draw::centres_mod;
 use viewcert::geometry::plane_flow::{PlaneFlows, rigidity_rows};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::sparse_lu::Factorisation;

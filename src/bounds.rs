@@ -1,7 +1,7 @@
 //! Bounds on the entries of rational cameras: options of the commands that have `--rational`.
 
 use clap::Args;
-use viewcert::geometry::camera::{MAX_DENOMINATOR, MAX_NUMERATOR};
+use viewcert::geometry::draw::{MAX_DENOMINATOR, MAX_NUMERATOR};
 
 /// Numerators and denominators of rational cameras.
 #[derive(Args)]

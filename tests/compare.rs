@@ -5,7 +5,8 @@ mod common;
 
 use common::{TABLE_1, data, geng, verify, verify_with};
 use std::path::Path;
-use viewcert::geometry::camera::{Camera, DrawKey, cameras_rational};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::draw::{DrawKey, cameras_rational};
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::bareiss;
 use viewcert::linalg::integer::Integer;

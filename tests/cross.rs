@@ -8,11 +8,11 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::decide::evidence::Strength;
 use viewcert::decide::{Arithmetic, Options, Verdict, decide};
-use viewcert::geometry::camera;
-use viewcert::geometry::camera::DrawKey;
+use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian;
 use viewcert::geometry::model::Model;
 use viewcert::geometry::plane_flow::PlaneFlows;
+use viewcert::geometry::{camera, draw};
 use viewcert::graph::{Graph, graph6, sha256};
 use viewcert::linalg::matrix::Matrix;
 use viewcert::linalg::prime::PrimeField;
@@ -62,7 +62,7 @@ fn key(graph: &Graph, draw: u64) -> DrawKey {
 
 /// The rank of the paper's J_P at general cameras, by textbook elimination.
 fn textbook_rank(field: &PrimeField, graph: &Graph) -> usize {
-    let cameras = camera::cameras_mod(field, graph.nodes(), &key(graph, 0)).unwrap();
+    let cameras = draw::cameras_mod(field, graph.nodes(), &key(graph, 0)).unwrap();
     let rows = jacobian::jacobian(field, graph, &cameras.values);
     textbook::eliminate(field, &jacobian::dense(field, &rows, 12 * graph.nodes())).rank()
 }
@@ -187,7 +187,7 @@ fn rational_against_prime() {
 /// Theorem 3.2 of docs/theory.md at the given graph, at one draw of centres.
 fn identity_holds(field: &PrimeField, graph: &Graph) {
     let key = key(graph, 5);
-    let centres = camera::centres_mod(field, graph.nodes(), &key)
+    let centres = draw::centres_mod(field, graph.nodes(), &key)
         .unwrap()
         .values;
     let cameras: Vec<_> = centres
@@ -265,7 +265,7 @@ fn calibrated_against_the_textbook() {
     };
     for graph in around_the_threshold(cases(600), 14) {
         let verdict = decide(&graph, &options).unwrap();
-        let centres = camera::centres_mod(&field, graph.nodes(), &key(&graph, 3))
+        let centres = draw::centres_mod(&field, graph.nodes(), &key(&graph, 3))
             .unwrap()
             .values;
         let rank = PlaneFlows::new(&field, &graph, &centres).rigidity_rank();

@@ -17,15 +17,7 @@ use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
 
-/// A number of things: "1 camera", "2 cameras".
-pub fn counted(count: usize, thing: &str) -> String {
-    let many = match thing.strip_suffix('y') {
-        _ if count == 1 => return format!("1 {thing}"),
-        Some(stem) => format!("{stem}ies"),
-        None => format!("{thing}s"),
-    };
-    format!("{count} {many}")
-}
+pub use viewcert_studies::wording::counted;
 
 /// A graph's size: "5 cameras, 1 pair".
 pub(crate) fn size(graph: &Graph) -> String {

@@ -5,8 +5,9 @@
 //! against the edge for rigid, so that on rare graphs it merges components
 //! (docs/theory.md, Example 6.2); it is here as an independent check of the others.
 
-use viewcert::geometry::camera;
-use viewcert::geometry::camera::{Camera, DrawError, DrawKey};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::draw;
+use viewcert::geometry::draw::{DrawError, DrawKey};
 use viewcert::geometry::jacobian;
 use viewcert::graph::Graph;
 use viewcert::linalg::dense_lu::eliminate_mod;
@@ -51,7 +52,7 @@ pub fn components_from(
         let number = |v: u32| nodes.partition_point(|&w| w < v) as u32;
         let pairs = left.iter().map(|&(i, j)| (number(i), number(j))).collect();
         let (rest, _) = Graph::from_pairs(nodes.len() as u32, pairs).expect("edges of a graph");
-        let cameras = camera::cameras_mod(field, rest.nodes(), key)?.values;
+        let cameras = draw::cameras_mod(field, rest.nodes(), key)?.values;
         let fixed = fixed_nodes(field, &rest, &cameras, start);
         let inside = |v: u32| fixed[number(v) as usize];
         let (inside, outside) = left.iter().partition(|&&(i, j)| inside(i) && inside(j));

@@ -10,7 +10,7 @@ mod whole_matrix;
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members};
 use crate::decide::evidence::{PieceVerdict, Strength};
-use crate::geometry::camera::DrawError;
+use crate::geometry::draw::DrawError;
 use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};

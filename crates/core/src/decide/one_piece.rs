@@ -7,8 +7,8 @@ use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, ModularDraw, PieceVerdict, Strength,
 };
 use crate::decide::motion_class;
-use crate::geometry::camera;
-use crate::geometry::camera::DrawKey;
+use crate::geometry::draw;
+use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow;
 use crate::geometry::plane_flow::{Lambda, PlaneFlowRank, PlaneFlows};
@@ -343,7 +343,7 @@ impl Piece<'_> {
         let work = self.task(Step::Draws).begin(count);
         for _ in 0..count {
             work.done(1)?;
-            let (field, values, used) = camera::centres_mod_drawn_prime(nodes, &self.key(next))?;
+            let (field, values, used) = draw::centres_mod_drawn_prime(nodes, &self.key(next))?;
             let at = Centres::new(field, values, self.key(used));
             next = used + 1;
             let ranks = self.ranks(&at)?;
@@ -397,7 +397,7 @@ impl Ranks<'_> {
 }
 
 fn draw(field: &PrimeField, nodes: usize, key: DrawKey) -> Result<Centres, VerdictError> {
-    let drawn = camera::centres_mod(field, nodes, &key)?;
+    let drawn = draw::centres_mod(field, nodes, &key)?;
     let key = DrawKey {
         draw: drawn.draw,
         ..key

@@ -2,8 +2,9 @@
 
 use super::VerdictError;
 use crate::decide::evidence::{Evidence, IntegerMinor, ModularDraw, Witness};
-use crate::geometry::camera;
-use crate::geometry::camera::{Camera, DrawKey};
+use crate::geometry::camera::Camera;
+use crate::geometry::draw;
+use crate::geometry::draw::DrawKey;
 use crate::geometry::jacobian;
 use crate::geometry::jacobian::SparseRows;
 use crate::geometry::model::Model;
@@ -44,7 +45,7 @@ pub(super) fn modular(
     task: &Task,
 ) -> Result<(Evidence, usize), VerdictError> {
     let (_, cols) = size(graph)?;
-    let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
+    let drawn = draw::cameras_mod(field, graph.nodes(), key)?;
     let jacobian = jacobian::jacobian(field, graph, &drawn.values);
     let pivots = pivots(graph, field, jacobian, cols, task)?;
     let rank = pivots.rank();
@@ -66,7 +67,7 @@ pub(super) fn rational(
     task: &Task,
 ) -> Result<(Evidence, usize), VerdictError> {
     let (rows, cols) = size(graph)?;
-    let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
+    let drawn = draw::cameras_rational(graph.nodes(), numerator, denominator, key)?;
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
     let (pivots, witness, kernel) = if rows * cols <= MAX_FRACTION_FREE {

@@ -200,9 +200,8 @@ pub fn dense<R: Ring>(ring: &R, rows: &SparseRows<R::Elem>, cols: usize) -> Matr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::camera::{
-        DrawKey, cameras_mod, cameras_rational, centres_integer, normal_form,
-    };
+    use crate::geometry::camera::normal_form;
+    use crate::geometry::draw::{DrawKey, cameras_mod, cameras_rational, centres_integer};
     use crate::linalg::dense_lu::eliminate_mod;
     use crate::linalg::integer::{Integer, Integers};
     use crate::linalg::prime::{DEFAULT_PRIME, PrimeField};

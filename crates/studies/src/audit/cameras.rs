@@ -1,6 +1,6 @@
 //! Cameras in double precision.
 
-use viewcert::geometry::camera::DrawKey;
+use viewcert::geometry::draw::DrawKey;
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 

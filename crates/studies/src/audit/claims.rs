@@ -23,6 +23,7 @@
 //! after another. Among the latter two the objects that `verify --json` prints are known, whose
 //! members are not flat.
 
+use crate::wording::counted;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value as Json;

@@ -11,8 +11,8 @@ use crate::formulation::augmented::reference;
 use crate::paper_components;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
-use viewcert::geometry::camera;
-use viewcert::geometry::camera::{DrawError, DrawKey};
+use viewcert::geometry::draw;
+use viewcert::geometry::draw::{DrawError, DrawKey};
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 
@@ -64,7 +64,7 @@ pub fn study(graph: &Graph, components: usize, seed: u64) -> Result<Option<Study
 
 /// How many components the method finds with all pairs at every step.
 fn of_all_pairs(field: &PrimeField, graph: &Graph, key: &DrawKey) -> Result<usize, DrawError> {
-    let cameras = camera::cameras_mod(field, graph.nodes(), key)?.values;
+    let cameras = draw::cameras_mod(field, graph.nodes(), key)?.values;
     let mut found = vec![false; graph.edges().len()];
     let mut frame = Some(reference(graph));
     let mut count = 0;

@@ -5,8 +5,9 @@ use crate::formulation::plane_ranks::Shape;
 use crate::formulation::rank::RankField;
 use crate::formulation::{Formulation, all, explicit, implicit};
 use std::time::{Duration, Instant};
-use viewcert::geometry::camera;
-use viewcert::geometry::camera::{Camera, DrawError, DrawKey};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::draw;
+use viewcert::geometry::draw::{DrawError, DrawKey};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
@@ -196,7 +197,7 @@ pub fn modular(
     limits: &Limits,
 ) -> Result<Comparison, CompareError> {
     compare(field, graph, seed, limits, |key| {
-        let drawn = camera::cameras_mod(field, graph.nodes(), key)?;
+        let drawn = draw::cameras_mod(field, graph.nodes(), key)?;
         Ok((drawn.values, drawn.draw))
     })
 }
@@ -212,7 +213,7 @@ pub fn rational(
     limits: &Limits,
 ) -> Result<Comparison, CompareError> {
     compare(&Rationals, graph, seed, limits, |key| {
-        let drawn = camera::cameras_rational(graph.nodes(), numerator, denominator, key)?;
+        let drawn = draw::cameras_rational(graph.nodes(), numerator, denominator, key)?;
         let whole = drawn.values.into_iter();
         let cameras = whole.map(|camera| camera.map(|row| row.map(Rational::from)));
         Ok((cameras.collect(), drawn.draw))
@@ -435,7 +436,7 @@ mod tests {
             seed: 1,
             draw: 0,
         };
-        let cameras = camera::cameras_mod(&field, 5, &key).unwrap().values;
+        let cameras = draw::cameras_mod(&field, 5, &key).unwrap().values;
         for formulation in all::<PrimeField>() {
             let rows = formulation.matrix(&field, &graph, &cameras);
             let (height, width) = formulation.size(&graph);

@@ -93,7 +93,7 @@ mod tests {
     use super::super::explicit::{block, chart};
     use super::*;
     use proptest::prelude::*;
-    use viewcert::geometry::camera::{DrawKey, cameras_mod, cameras_rational};
+    use viewcert::geometry::draw::{DrawKey, cameras_mod, cameras_rational};
     use viewcert::linalg::prime::PrimeField;
     use viewcert::linalg::rational::{Rational, Rationals};
 

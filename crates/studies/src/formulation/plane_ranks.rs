@@ -8,7 +8,9 @@
 //! Modulo a prime this is the verifier's own computation. Over Q it is another: all flows,
 //! as integer vectors that are verified to be flows.
 
-use viewcert::geometry::camera::{Camera, DrawKey, centre};
+use viewcert::geometry::camera::{Camera, centre};
+
+use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian::SparseRows;
 use viewcert::geometry::plane_flow::{PlaneFlows, cotree, directions, rigidity_rows};
 use viewcert::graph::Graph;

@@ -2,7 +2,8 @@
 
 use crate::formulation::plane_ranks;
 use crate::formulation::plane_ranks::PlaneRanks;
-use viewcert::geometry::camera::{Camera, DrawKey};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian::SparseRows;
 use viewcert::graph::Graph;
 use viewcert::linalg::Field;
