@@ -1,0 +1,232 @@
+//! docs/formulas.md says what there is: its files and names exist, what it calls a test is one,
+//! and no numbered statement is left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Equations of the paper are counted through to this one.
+const PAPER_EQUATIONS: usize = 40;
+
+/// What a row may say where there is no code to name.
+const NO_CODE: [&str; 2] = ["proof only", "not used"];
+
+/// The cells of a row, and the heading of the section it stands in.
+struct Row<'a> {
+    section: &'a str,
+    cells: Vec<&'a str>,
+}
+
+/// The rows of all tables, without heads and rules.
+fn rows(page: &str) -> Vec<Row<'_>> {
+    let mut section = "";
+    let mut rows = Vec::new();
+    let mut lines = page.lines().peekable();
+    while let Some(line) = lines.next() {
+        if let Some(heading) = line.strip_prefix("## ") {
+            section = heading;
+        }
+        let is_head = lines.peek().is_some_and(|next| next.starts_with("|---"));
+        if !line.starts_with("| ") || is_head {
+            continue;
+        }
+        let inner = line.trim_start_matches('|').trim_end_matches('|');
+        rows.push(Row {
+            section,
+            cells: inner.split('|').map(str::trim).collect(),
+        });
+    }
+    rows
+}
+
+/// The files that reference links lead to, by label, relative to the root.
+fn files(page: &str) -> BTreeMap<&str, &str> {
+    page.lines()
+        .filter_map(|line| line.strip_prefix('[')?.split_once("]: ../"))
+        .collect()
+}
+
+/// The links ``[`name`][label]`` of a cell.
+fn links(cell: &str) -> Vec<(&str, &str)> {
+    cell.split("[`")
+        .skip(1)
+        .map(|link| {
+            let (name, rest) = link.split_once("`][").expect("a link to a reference");
+            let (label, _) = rest.split_once(']').expect("a link that ends");
+            (name, label)
+        })
+        .collect()
+}
+
+/// The number of the line that defines an item with this name.
+fn definition(path: &str, text: &str, name: &str) -> Option<usize> {
+    let keywords: &[&str] = if path.ends_with(".py") {
+        &["def", "class"]
+    } else {
+        &["fn", "struct", "const"]
+    };
+    let comment = if path.ends_with(".py") { "#" } else { "//" };
+    text.lines().position(|line| {
+        let line = line.trim_start();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        !line.starts_with(comment)
+            && words.windows(2).any(|pair| {
+                let end = |c: char| !c.is_alphanumeric() && c != '_';
+                keywords.contains(&pair[0]) && pair[1].split(end).next() == Some(name)
+            })
+    })
+}
+
+/// Whether the item defined in this line is a test.
+fn is_test(path: &str, text: &str, line: usize) -> bool {
+    let lines: Vec<&str> = text.lines().map(str::trim_start).collect();
+    if path.ends_with(".py") {
+        return lines[line].starts_with("def test_");
+    }
+    lines[..line]
+        .iter()
+        .rev()
+        .take_while(|above| above.starts_with("//") || above.starts_with("#["))
+        .any(|above| *above == "#[test]")
+}
+
+/// What is wrong with the links of a page, given the text of a file by its path.
+fn broken(page: &str, read: impl Fn(&str) -> Option<String>) -> Vec<String> {
+    let files = files(page);
+    let mut problems = Vec::new();
+    for row in rows(page) {
+        let item = row.cells[0];
+        let [_, _, code, _, tests] = row.cells[..] else {
+            problems.push(format!("{item}: {} cells instead of 5", row.cells.len()));
+            continue;
+        };
+        if links(code).is_empty() && !NO_CODE.iter().any(|reason| code.starts_with(reason)) {
+            problems.push(format!("{item}: no code, and no reason why"));
+        }
+        for (column, cell) in row.cells.iter().enumerate() {
+            for (name, label) in links(cell) {
+                let Some(&path) = files.get(label) else {
+                    problems.push(format!("{item}: no file is behind [{label}]"));
+                    continue;
+                };
+                let Some(text) = read(path) else {
+                    problems.push(format!("{item}: there is no file {path}"));
+                    continue;
+                };
+                match definition(path, &text, name) {
+                    None => problems.push(format!("{item}: {path} has no {name}")),
+                    Some(line) if column == 4 && !is_test(path, &text, line) => {
+                        problems.push(format!("{item}: {name} in {path} is no test"));
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        let has_test = !links(tests).is_empty();
+        if !links(code).is_empty() && !has_test {
+            problems.push(format!("{item}: code that no test holds"));
+        }
+    }
+    problems
+}
+
+/// The numbered statements of docs/theory.md, and its numbered equations.
+fn statements(theory: &str) -> BTreeSet<String> {
+    let kinds = [
+        "Theorem",
+        "Lemma",
+        "Proposition",
+        "Corollary",
+        "Remark",
+        "Example",
+    ];
+    let number = |text: &str| -> String {
+        let end = |c: char| !c.is_ascii_digit() && c != '.';
+        let number = text.split(end).next().unwrap_or_default();
+        number.trim_end_matches('.').to_owned()
+    };
+    let mut found = BTreeSet::new();
+    for line in theory.lines() {
+        for kind in kinds {
+            let bold = line.strip_prefix("**").and_then(|s| s.strip_prefix(kind));
+            if let Some(rest) = bold.and_then(|rest| rest.strip_prefix(' ')) {
+                found.insert(format!("{kind} {}", number(rest)));
+            }
+        }
+        for tag in line.split("\\tag{").skip(1) {
+            found.insert(format!("({})", number(tag)));
+        }
+    }
+    found
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn page(name: &str) -> String {
+    std::fs::read_to_string(root().join("docs").join(name)).unwrap()
+}
+
+#[test]
+fn every_name_exists() {
+    let problems = broken(&page("formulas.md"), |path| {
+        std::fs::read_to_string(root().join(path)).ok()
+    });
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
+
+#[test]
+fn every_statement_of_the_theory_is_listed_once() {
+    let text = page("formulas.md");
+    let rows = rows(&text);
+    let of_theory = rows.iter().filter(|row| row.section.starts_with("theory"));
+    let mut listed: Vec<String> = of_theory.map(|row| row.cells[0].to_owned()).collect();
+    listed.sort();
+    let stated = statements(&page("theory.md"));
+    assert!(stated.len() > 60, "theory.md states {}", stated.len());
+    assert_eq!(listed, stated.into_iter().collect::<Vec<_>>());
+}
+
+#[test]
+fn every_equation_of_the_paper_is_listed_in_order() {
+    let text = page("formulas.md");
+    let rows = rows(&text);
+    let equations = rows
+        .iter()
+        .filter(|row| row.section == "The paper: equations");
+    let listed: Vec<&str> = equations.map(|row| row.cells[0]).collect();
+    let expected: Vec<String> = (1..=PAPER_EQUATIONS).map(|k| format!("({k})")).collect();
+    assert_eq!(listed, expected);
+}
+
+/// The check finds each kind of mistake.
+#[test]
+fn mistakes_are_found() {
+    let file = "/// Half.\nfn half(x: u32) -> u32 {\n    x / 2\n}\n\n#[test]\nfn halves() {}\n// fn gone\n";
+    let check = |code: &str, tests: &str| {
+        let page = format!(
+            "## S\n\n| item | what | code | checkers | tests |\n|---|---|---|---|---|\n| 1 | half | {code} | | {tests} |\n\n[a]: ../a.rs\n[b]: ../b.rs\n"
+        );
+        let problems = broken(&page, |path| (path == "a.rs").then(|| file.to_owned()));
+        problems.join("\n")
+    };
+    assert_eq!(check("[`half`][a]", "[`halves`][a]"), "");
+    assert_eq!(check("proof only: why", ""), "");
+    for (code, tests, said) in [
+        ("", "", "no reason"),
+        ("[`hal`][a]", "[`halves`][a]", "a.rs has no hal"),
+        ("[`gone`][a]", "[`halves`][a]", "a.rs has no gone"),
+        ("[`half`][b]", "[`halves`][a]", "no file b.rs"),
+        ("[`half`][c]", "[`halves`][a]", "no file is behind [c]"),
+        ("[`half`][a]", "[`half`][a]", "is no test"),
+        ("[`half`][a]", "", "no test holds"),
+    ] {
+        assert!(check(code, tests).contains(said), "{code} {tests}");
+    }
+    let stated =
+        statements("**Lemma 1.1 (a).** x\n$$y \\tag{1.2}$$\n**Theorem 10.3.** z\nTheorem 9.9\n");
+    assert_eq!(
+        stated.into_iter().collect::<Vec<_>>(),
+        ["(1.2)", "Lemma 1.1", "Theorem 10.3"]
+    );
+}
