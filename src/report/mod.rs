@@ -17,7 +17,7 @@ use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
 
-pub use viewcert_studies::wording::counted;
+pub use viewcert::wording::counted;
 
 /// A graph's size: "5 cameras, 1 pair".
 pub(crate) fn size(graph: &Graph) -> String {

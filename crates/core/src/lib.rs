@@ -12,3 +12,4 @@ pub mod geometry;
 pub mod graph;
 pub mod linalg;
 pub mod watch;
+pub mod wording;

@@ -16,3 +16,15 @@ pub mod sparse6;
 
 pub use error::ReadError;
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
+
+/// A note about pairs that were merged, if any were.
+fn merged(count: usize) -> Option<String> {
+    let (pairs, are) = match count {
+        0 => return None,
+        1 => ("pair", "is"),
+        _ => ("pairs", "are"),
+    };
+    Some(format!(
+        "{count} {pairs} {are} given again, the same or reversed, and merged"
+    ))
+}

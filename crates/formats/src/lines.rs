@@ -109,7 +109,7 @@ impl<R: Read> Lines<R> {
         if graph.nodes() == 0 {
             return Err(Problem::NoNodes);
         }
-        Ok((graph, Vec::from_iter(super::merged(merged))))
+        Ok((graph, Vec::from_iter(crate::merged(merged))))
     }
 }
 

@@ -15,6 +15,7 @@ use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
 use crate::sparse6::ISOLATED_LIMIT;
 use viewcert::graph::{Graph, GraphError};
+use viewcert::wording::counted;
 
 /// What every file begins with; upper and lower case are the same.
 pub const HEADER: &str = "%%MatrixMarket";
@@ -140,9 +141,9 @@ pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
             fault(Problem::Diagonal(node + 1))
         }
     })?;
-    let mut notes = Vec::from_iter(super::merged(repeated));
+    let mut notes = Vec::from_iter(crate::merged(repeated));
     if zeros > 0 {
-        let entries = super::counted(zeros, "entry");
+        let entries = counted(zeros as usize, "entry");
         notes.push(format!("explicit zeros are no pairs: {entries}"));
     }
     Ok((graph.0, notes))

@@ -6,4 +6,3 @@ pub mod catalog;
 pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
-pub mod wording;

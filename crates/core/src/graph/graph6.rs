@@ -52,7 +52,7 @@ pub enum Graph6Error {
 }
 
 /// The number of nodes at the start of characters of the alphabet, and what follows it.
-pub(super) fn size(line: &[u8]) -> Result<(u64, &[u8]), Graph6Error> {
+pub fn size(line: &[u8]) -> Result<(u64, &[u8]), Graph6Error> {
     let (skip, digits) = match line {
         [LONG, LONG, ..] => (2, 6),
         [LONG, ..] => (1, 3),
@@ -71,7 +71,7 @@ fn body_length(nodes: u64) -> u128 {
 }
 
 /// How long a line is that begins like this; `None` if it says too little, or is not graph6.
-pub(super) fn line_length(start: &[u8]) -> Option<u128> {
+pub fn line_length(start: &[u8]) -> Option<u128> {
     if start.iter().any(|b| !(OFFSET..=LONG).contains(b)) {
         return None;
     }

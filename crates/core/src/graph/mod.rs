@@ -95,26 +95,5 @@ impl Graph {
     }
 }
 
-/// A note about pairs that were merged, if any were.
-fn merged(count: usize) -> Option<String> {
-    let (pairs, are) = match count {
-        0 => return None,
-        1 => ("pair", "is"),
-        _ => ("pairs", "are"),
-    };
-    Some(format!(
-        "{count} {pairs} {are} given again, the same or reversed, and merged"
-    ))
-}
-
-/// A number of things, with the plural of their name if it is not one.
-fn counted(count: u64, name: &str) -> String {
-    match (count, name.strip_suffix('y')) {
-        (1, _) => format!("1 {name}"),
-        (_, Some(stem)) => format!("{count} {stem}ies"),
-        (_, None) => format!("{count} {name}s"),
-    }
-}
-
 #[cfg(test)]
 mod tests;

@@ -118,7 +118,7 @@ fn quoted(bytes: &[u8], at: usize) -> Result<Field, Problem> {
 }
 
 /// Whether this is a decimal number: `[+-]?(d+(.d*)?|.d+)([eE][+-]?d+)?`.
-pub(in viewcert::graph) fn is_number(field: &[u8]) -> bool {
+pub(crate) fn is_number(field: &[u8]) -> bool {
     let digits = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_digit()).count();
     let unsigned = |text: &[u8]| usize::from(matches!(text.first(), Some(b'+' | b'-')));
     let rest = &field[unsigned(field)..];

@@ -18,6 +18,7 @@ use std::io::Read;
 
 use crate::error::{Fault, Place, Problem};
 use viewcert::graph::{Graph, GraphError, Labels};
+use viewcert::wording::counted;
 
 mod doubts;
 pub(super) mod fields;
@@ -443,9 +444,9 @@ impl Collector {
             GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
             GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
         })?;
-        notes.extend(super::merged(merged));
+        notes.extend(crate::merged(merged));
         if lines_with_more > 0 {
-            let lines = super::counted(lines_with_more, "line");
+            let lines = counted(lines_with_more as usize, "line");
             notes.push(format!("fields behind the second are ignored on {lines}"));
         }
         Ok((graph, labels, notes))

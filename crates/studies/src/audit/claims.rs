@@ -23,12 +23,12 @@
 //! after another. Among the latter two the objects that `verify --json` prints are known, whose
 //! members are not flat.
 
-use crate::wording::counted;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::fmt;
+use viewcert::wording::counted;
 
 use viewcert::certificate::hex;
 use viewcert::decide::{Value, Verdict};

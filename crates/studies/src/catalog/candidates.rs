@@ -22,7 +22,7 @@ pub fn least_edges(nodes: usize) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SizeError {
     /// Fewer than 3 nodes, or more than the generator takes.
-    #[error("graphs with {} are not enumerated: ask for 3 to {MAX_NODES} nodes", crate::wording::counted(*.nodes, "node"))]
+    #[error("graphs with {} are not enumerated: ask for 3 to {MAX_NODES} nodes", viewcert::wording::counted(*.nodes, "node"))]
     Nodes {
         /// How many were asked for.
         nodes: usize,
