@@ -1,5 +1,7 @@
 //! From a graph to its verdict and the evidence for it.
 
+use std::fmt;
+
 pub mod counting;
 pub mod evidence;
 pub mod motion_class;
@@ -163,16 +165,11 @@ impl Verdict {
 }
 
 /// Why there is no verdict.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum VerdictError {
     /// No cameras could be drawn.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
+    Draw(DrawError),
     /// The prime is too small to decide.
-    #[error(
-        "undecided modulo {prime}: the rank falls short at {draws} draws, which modulo so small a prime \
-         says nothing; take a larger prime (the default is 2^61 - 1)"
-    )]
     Undecided {
         /// The prime.
         prime: u64,
@@ -180,7 +177,6 @@ pub enum VerdictError {
         draws: u64,
     },
     /// The matrix is too large for the method that was asked for.
-    #[error("{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}")]
     TooLarge {
         /// Which computation.
         what: &'static str,
@@ -194,8 +190,53 @@ pub enum VerdictError {
         advice: &'static str,
     },
     /// The work was stopped before there was an answer.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
+    Stopped(Stopped),
+}
+
+impl fmt::Display for VerdictError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Draw(inner) => inner.fmt(f),
+            Self::Undecided { prime, draws } => write!(
+                f,
+                "undecided modulo {prime}: the rank falls short at {draws} draws, which modulo so small a prime \
+         says nothing; take a larger prime (the default is 2^61 - 1)"
+            ),
+            Self::TooLarge {
+                what,
+                nodes,
+                edges,
+                needs,
+                advice,
+            } => write!(
+                f,
+                "{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}"
+            ),
+            Self::Stopped(inner) => inner.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for VerdictError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Draw(inner) => inner.source(),
+            Self::Stopped(inner) => inner.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<DrawError> for VerdictError {
+    fn from(inner: DrawError) -> Self {
+        Self::Draw(inner)
+    }
+}
+
+impl From<Stopped> for VerdictError {
+    fn from(inner: Stopped) -> Self {
+        Self::Stopped(inner)
+    }
 }
 
 /// Decides a graph.

@@ -41,6 +41,7 @@ use chacha20::ChaCha20Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 use num_integer::Integer as _;
 use sha2::{Digest, Sha256};
+use std::fmt;
 
 /// How many draws are tried before the bounds or the prime are given up as too small.
 const ATTEMPTS: u64 = 1000;
@@ -76,27 +77,41 @@ pub struct Drawn<T> {
 }
 
 /// Why nothing could be drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrawError {
     /// Every draw had coincident centres or a camera of rank below 3.
-    #[error(
-        "{ATTEMPTS} draws in a row had coincident centres or a camera of rank below 3 for \
-         {nodes} nodes: take a larger prime or larger bounds"
-    )]
     Degenerate {
         /// The number of nodes.
         nodes: usize,
     },
     /// A bound that leaves nothing to draw from.
-    #[error("the bound {0} is out of range: take one from 1 to 2^62 - 1")]
     Bound(u64),
     /// Bounds on rational entries out of range.
-    #[error(
-        "rational cameras take numerators up to 1 .. {MAX_NUMERATOR} and denominators up to \
-         1 .. {MAX_DENOMINATOR}"
-    )]
     RationalBounds,
 }
+
+impl fmt::Display for DrawError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Degenerate { nodes } => write!(
+                f,
+                "{ATTEMPTS} draws in a row had coincident centres or a camera of rank below 3 for \
+         {nodes} nodes: take a larger prime or larger bounds"
+            ),
+            Self::Bound(inner) => write!(
+                f,
+                "the bound {inner} is out of range: take one from 1 to 2^62 - 1"
+            ),
+            Self::RationalBounds => write!(
+                f,
+                "rational cameras take numerators up to 1 .. {MAX_NUMERATOR} and denominators up to \
+         1 .. {MAX_DENOMINATOR}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for DrawError {}
 
 impl DrawKey {
     fn generator(&self) -> ChaCha20Rng {

@@ -6,6 +6,7 @@
 //! padded with zeros; to every six bits 63 is added.
 
 use crate::graph::{Graph, GraphError};
+use std::fmt;
 
 /// The optional header; it stands on the same line as the first graph.
 pub const HEADER: &str = ">>graph6<<";
@@ -17,10 +18,9 @@ const SHORT_LIMIT: u64 = 62;
 const MEDIUM_LIMIT: u64 = 258_047;
 
 /// Why a line is not graph6.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Graph6Error {
     /// A character outside the alphabet `?`..`~`.
-    #[error("graph6: character {column} is byte {byte}, outside 63..126")]
     Character {
         /// Position in the line, from 1.
         column: usize,
@@ -28,16 +28,13 @@ pub enum Graph6Error {
         byte: u8,
     },
     /// The line ends within the number of nodes.
-    #[error("graph6: the line ends before the number of nodes is complete")]
     NoSize,
     /// The number of nodes takes more characters than it needs.
-    #[error("graph6: {nodes} nodes are written with more characters than that takes")]
     LongSize {
         /// Number of nodes.
         nodes: u64,
     },
     /// Fewer or more characters than the number of nodes asks for.
-    #[error("graph6: {nodes} nodes need {expected} characters of adjacency, the line has {found}")]
     Length {
         /// Number of nodes promised.
         nodes: u64,
@@ -47,9 +44,38 @@ pub enum Graph6Error {
         found: usize,
     },
     /// The bits after the last pair are not zero.
-    #[error("graph6: the padding after the last pair is not zero")]
     Padding,
 }
+
+impl fmt::Display for Graph6Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Character { column, byte } => write!(
+                f,
+                "graph6: character {column} is byte {byte}, outside 63..126"
+            ),
+            Self::NoSize => write!(
+                f,
+                "graph6: the line ends before the number of nodes is complete"
+            ),
+            Self::LongSize { nodes } => write!(
+                f,
+                "graph6: {nodes} nodes are written with more characters than that takes"
+            ),
+            Self::Length {
+                nodes,
+                expected,
+                found,
+            } => write!(
+                f,
+                "graph6: {nodes} nodes need {expected} characters of adjacency, the line has {found}"
+            ),
+            Self::Padding => write!(f, "graph6: the padding after the last pair is not zero"),
+        }
+    }
+}
+
+impl std::error::Error for Graph6Error {}
 
 /// The number of nodes at the start of characters of the alphabet, and what follows it.
 pub fn size(line: &[u8]) -> Result<(u64, &[u8]), Graph6Error> {

@@ -1,5 +1,7 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
 
+use std::fmt;
+
 mod union_find;
 
 mod adjacency;
@@ -30,13 +32,11 @@ pub struct Graph {
 }
 
 /// Why a list of pairs is not a viewing graph.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum GraphError {
     /// A pair joins a camera with itself.
-    #[error("camera {0} is paired with itself")]
     SelfLoop(u32),
     /// A pair names a node that the graph does not have.
-    #[error("node {node} is out of range: the graph has {nodes} nodes")]
     OutOfRange {
         /// The offending node.
         node: u32,
@@ -44,6 +44,20 @@ pub enum GraphError {
         nodes: u32,
     },
 }
+
+impl fmt::Display for GraphError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SelfLoop(inner) => write!(f, "camera {inner} is paired with itself"),
+            Self::OutOfRange { node, nodes } => write!(
+                f,
+                "node {node} is out of range: the graph has {nodes} nodes"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for GraphError {}
 
 impl Graph {
     /// Builds a graph from pairs in any order and orientation; pairs given more

@@ -5,6 +5,7 @@
 //! product.
 
 use crate::linalg::{Field, Ring};
+use std::fmt;
 
 /// The default modulus, the Mersenne prime 2^61 - 1.
 pub const DEFAULT_PRIME: u64 = (1 << 61) - 1;
@@ -48,21 +49,37 @@ pub struct PrimeField {
 }
 
 /// Why a number cannot be the modulus.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModulusError {
     /// Below 5.
-    #[error(
-        "{0} is too small a modulus: take a prime from 5 up (2 and 3 are excluded: \
-         the equations S + S^T = 0 lose rank in so small a characteristic)"
-    )]
     TooSmall(u64),
     /// 2^62 or more.
-    #[error("{0} is too large a modulus: take a prime below 2^62 = 4611686018427387904")]
     TooLarge(u64),
     /// Not a prime.
-    #[error("{0} is not a prime: residues form a field only modulo a prime")]
     Composite(u64),
 }
+
+impl fmt::Display for ModulusError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooSmall(inner) => write!(
+                f,
+                "{inner} is too small a modulus: take a prime from 5 up (2 and 3 are excluded: \
+         the equations S + S^T = 0 lose rank in so small a characteristic)"
+            ),
+            Self::TooLarge(inner) => write!(
+                f,
+                "{inner} is too large a modulus: take a prime below 2^62 = 4611686018427387904"
+            ),
+            Self::Composite(inner) => write!(
+                f,
+                "{inner} is not a prime: residues form a field only modulo a prime"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ModulusError {}
 
 /// Whether `n` is a prime. Miller-Rabin with the first twelve primes as bases, which
 /// is exact for every 64-bit number (Sorenson and Webster, Math. Comp. 86, 2017).

@@ -19,9 +19,16 @@ use std::fmt;
 pub struct Integer(backend::Inner);
 
 /// A text that is not a decimal integer: an optional minus sign and digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("not a decimal integer: write an optional minus sign followed by digits")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ParseIntegerError;
+
+impl fmt::Display for ParseIntegerError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("not a decimal integer: write an optional minus sign followed by digits")
+    }
+}
+
+impl std::error::Error for ParseIntegerError {}
 
 impl Integer {
     /// 0
