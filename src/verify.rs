@@ -12,7 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use viewcert::decide;
+use viewcert::decide as verdict;
 use viewcert::decide::{Arithmetic, Options, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
@@ -146,7 +146,7 @@ fn decide(
     start: Instant,
     out: &mut impl Write,
 ) -> Result<Value> {
-    let decided = decide::decide(&input.graph, options);
+    let decided = verdict::decide(&input.graph, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
     let certificate = target

@@ -63,3 +63,20 @@ fn example_commands() {
         .unwrap();
     assert!(root.join(graph).is_file());
 }
+
+/// The library's example is that of `examples/decide.rs`, which is compiled and run.
+#[test]
+fn library_example() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+    let readme = text("README.md");
+    let block = readme.split("```rust\n").nth(1).unwrap();
+    let block = block.split("```").next().unwrap();
+    let example = text("examples/decide.rs");
+    let mut lines = 0;
+    for line in block.lines().filter(|line| !line.is_empty()) {
+        assert!(example.contains(line), "{line}");
+        lines += 1;
+    }
+    assert!(lines >= 5);
+}

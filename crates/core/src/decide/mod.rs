@@ -1,7 +1,5 @@
 //! From a graph to its verdict and the evidence for it.
 
-use std::fmt;
-
 pub mod counting;
 pub mod evidence;
 pub mod motion_class;
@@ -17,6 +15,8 @@ use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
 use crate::watch::{Step, Stopped, Watch};
+use std::fmt;
+use std::str::FromStr;
 
 /// How the question is decided.
 #[derive(Clone, Debug)]
@@ -46,6 +46,27 @@ pub struct Options {
 const LARGE_CORE: usize = 256;
 
 impl Options {
+    /// Asks another question.
+    #[must_use]
+    pub fn model(mut self, model: Model) -> Self {
+        self.model = model;
+        self
+    }
+
+    /// Draws other cameras.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Tells somebody what is being done, who may stop it.
+    #[must_use]
+    pub fn watch(mut self, watch: Watch) -> Self {
+        self.watch = watch;
+        self
+    }
+
     /// The field in which a core with so many nodes is decided.
     fn field_for(&self, nodes: usize) -> PrimeField {
         if nodes < self.small_prime_from {
@@ -98,13 +119,47 @@ pub enum Value {
 }
 
 impl Value {
+    /// All answers, the strongest first.
+    pub const ALL: [Self; 3] = [
+        Self::Solvable,
+        Self::FiniteSolvable,
+        Self::NotFiniteSolvable,
+    ];
+
     /// The name in certificates and in JSON output.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Solvable => "solvable",
             Self::FiniteSolvable => "finite-solvable",
             Self::NotFiniteSolvable => "not-finite-solvable",
         }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A word that is not the name of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnknownValue;
+
+impl fmt::Display for UnknownValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the answers are solvable, finite-solvable and not-finite-solvable")
+    }
+}
+
+impl std::error::Error for UnknownValue {}
+
+impl FromStr for Value {
+    type Err = UnknownValue;
+
+    fn from_str(name: &str) -> Result<Self, UnknownValue> {
+        let named = |value: &Self| value.name() == name;
+        Self::ALL.into_iter().find(named).ok_or(UnknownValue)
     }
 }
 
@@ -149,6 +204,20 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// The edges of a component, increasing. O(m).
+    ///
+    /// Two components share at most one node, so an edge is in the component that has both its
+    /// ends.
+    pub fn component_edges(&self, graph: &Graph, component: &Component) -> Vec<(u32, u32)> {
+        let nodes = self.component_nodes(component);
+        let inside = |node: &u32| nodes.binary_search(node).is_ok();
+        let edges = graph.edges().iter();
+        edges
+            .filter(|(i, j)| inside(i) && inside(j))
+            .copied()
+            .collect()
+    }
+
     /// The nodes of a component, increasing.
     pub fn component_nodes(&self, component: &Component) -> Vec<u32> {
         let members = &component.members;

@@ -2,16 +2,13 @@
 
 use std::fmt;
 
-mod union_find;
-
 mod adjacency;
 mod biconnected;
-pub mod identity;
-mod lists;
-
 pub mod graph6;
-
+pub mod identity;
 pub mod labels;
+mod lists;
+mod union_find;
 
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
@@ -60,6 +57,25 @@ impl fmt::Display for GraphError {
 impl std::error::Error for GraphError {}
 
 impl Graph {
+    /// A graph from pairs in any order and orientation; pairs given more than once are one edge.
+    /// O(m log m), or O(m) when the pairs are already sorted.
+    ///
+    /// # Errors
+    /// A self-loop, or a node that is not below `nodes`.
+    ///
+    /// ```
+    /// let graph = viewcert::Graph::new(3, [(1, 0), (1, 2), (0, 1)])?;
+    /// assert_eq!(graph.edges(), [(0, 1), (1, 2)]);
+    /// # Ok::<(), viewcert::GraphError>(())
+    /// ```
+    pub fn new(
+        nodes: u32,
+        pairs: impl IntoIterator<Item = (u32, u32)>,
+    ) -> Result<Self, GraphError> {
+        let (graph, _) = Self::from_pairs(nodes, pairs.into_iter().collect())?;
+        Ok(graph)
+    }
+
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
     /// away. O(m log m), or O(m) when the pairs are already sorted; in place.

@@ -34,7 +34,7 @@ pub mod moves;
 pub mod pebbles;
 pub mod vertices;
 
-use viewcert::decide;
+use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Adjacency, Graph};
@@ -201,7 +201,7 @@ fn bearing(graph: &Graph) -> Decided {
         model: Model::Calibrated,
         ..Options::default()
     };
-    let verdict = decide::decide(graph, &options).map_err(|error| error.to_string())?;
+    let verdict = verdict::decide(graph, &options).map_err(|error| error.to_string())?;
     let count = Witness::Count(format!("rank {} of {}", verdict.rank, verdict.required));
     let answer = if verdict.value == Value::NotFiniteSolvable {
         Answer::No
