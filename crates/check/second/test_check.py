@@ -28,7 +28,7 @@ FINITE = [(0, 1), (0, 2), (0, 3), (1, 4), (1, 5), (2, 4), (2, 6), (3, 5), (3, 6)
 
 
 def page():
-    with open(os.path.join(HERE, "..", "..", "docs", "certificate.md"), encoding="utf-8") as file:
+    with open(os.path.join(HERE, "..", "..", "..", "docs", "certificate.md"), encoding="utf-8") as file:
         return file.read()
 
 

@@ -14,7 +14,7 @@ from draw import Core, Echelon, Stream, bearings, camera_at, graph6, graph_hash,
 
 P = 11
 EDGES = [(0, 1), (0, 3), (1, 2), (2, 3)]
-PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../docs/certificate.md")
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/certificate.md")
 ROWS, COLS = [0, 1, 4, 5, 6, 7, 2, 3], [1, 2, 4, 5, 7, 8, 0, 3]
 
 

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 COPY = os.path.join(ROOT, "target/mutants")
 SWITCH = """
 /// Whether the condition in this place is switched off.
@@ -33,14 +33,15 @@ def argued():
 
 
 def copy():
-    for part in ("checker", "docs"):
+    for part in ("crates/check", "docs"):
         shutil.copytree(os.path.join(ROOT, part), os.path.join(COPY, part), dirs_exist_ok=True)
     shutil.copy(os.path.join(ROOT, "Cargo.lock"), COPY)
     with open(os.path.join(ROOT, "Cargo.toml"), encoding="utf-8") as file:
         manifest = file.read()
     workspace = manifest[:manifest.index("\n[package]")]
     with open(os.path.join(COPY, "Cargo.toml"), "w", encoding="utf-8") as file:
-        file.write(re.sub(r"^exclude.*\n", "", workspace, flags=re.M))
+        workspace = re.sub(r"^exclude.*\n", "", workspace, flags=re.M)
+        file.write(re.sub(r"^members = .*$", 'members = ["crates/check"]', workspace, flags=re.M))
 
 
 def sources():
@@ -91,7 +92,7 @@ def build():
 def passes(binary, place):
     environment = {**os.environ, "CONDITION_OFF": place, "RUST_BACKTRACE": "0"}
     try:
-        run = subprocess.run([binary], cwd=os.path.join(COPY, "checker"), env=environment, timeout=300,
+        run = subprocess.run([binary], cwd=os.path.join(COPY, "crates/check"), env=environment, timeout=300,
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
         return False

@@ -579,7 +579,7 @@ fn truncated_anywhere() {
 /// The certificate that the specification checks by hand.
 #[test]
 fn the_one_checked_by_hand() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/certificate.md");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/certificate.md");
     let page = fs::read_to_string(page).unwrap();
     let (_, section) = page.split_once("```json\n").unwrap();
     let (text, _) = section.split_once("```").unwrap();

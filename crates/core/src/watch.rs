@@ -8,7 +8,7 @@
 //! ```
 //! use std::time::{Duration, Instant};
 //! use viewcert::graph::Graph;
-//! use viewcert::verdict::{Options, Value, decide};
+//! use viewcert::{Options, Value, decide};
 //! use viewcert::watch::{Limits, Watch};
 //!
 //! let watch = Watch::new(Limits {

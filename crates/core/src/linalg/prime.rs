@@ -28,8 +28,8 @@ pub(super) const SMALL_PRODUCTS: usize = 64;
 /// [`from_u64`](Self::from_u64) and [`to_u64`](Self::to_u64) convert.
 ///
 /// ```
-/// use viewcert::exact::prime::PrimeField;
-/// use viewcert::exact::{Field, Ring};
+/// use viewcert::linalg::prime::PrimeField;
+/// use viewcert::linalg::{Field, Ring};
 ///
 /// let f = PrimeField::new(7).unwrap();
 /// let third = f.inv(&f.from_u64(3)).unwrap();

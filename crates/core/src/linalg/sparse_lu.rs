@@ -44,7 +44,7 @@ const ENTRY_BYTES: usize = size_of::<(usize, u64)>() + size_of::<usize>();
 /// An eliminated sparse matrix modulo p.
 ///
 /// ```
-/// use viewcert::exact::{Ring, prime::PrimeField, sparse::Factorisation};
+/// use viewcert::linalg::{Ring, prime::PrimeField, sparse_lu::Factorisation};
 ///
 /// // Edges of a triangle: rows e_0 - e_1, e_1 - e_2, e_0 - e_2.
 /// let f = PrimeField::mersenne61();

@@ -33,7 +33,7 @@ pub enum Format {
     /// One pair a line, read leniently; see [`edge_list`]. (Without a format the same files are
     /// read strictly.)
     Edges,
-    /// One graph a line; see [`graph6`](super::graph6).
+    /// One graph a line; see [`graph6`](viewcert::graph::graph6).
     Graph6,
     /// One graph a line; see [`sparse6`](super::sparse6).
     Sparse6,

@@ -12,7 +12,7 @@ use viewcert::graph::Graph;
 ///
 /// # Example
 /// ```
-/// assert_eq!(viewcert::catalog::least_edges(9), 12);
+/// assert_eq!(viewcert_studies::catalog::least_edges(9), 12);
 /// ```
 pub fn least_edges(nodes: usize) -> usize {
     Model::Projective.required(nodes).div_ceil(7)
