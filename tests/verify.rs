@@ -352,7 +352,7 @@ fn bounds_are_validated_where_they_are_not_used() {
 
 #[test]
 fn one_is_not_many() {
-    let run = verify_with(b"1 2\n3\n", &["-"]);
+    let run = verify_with(b"1 2\n3\n", &["-", "--format", "edges"]);
     assert!(run.out.contains("3 cameras, 1 pair\n"), "{}", run.out);
     assert!(run.out.contains("2 cameras / 1 pair\n"), "{}", run.out);
 }
