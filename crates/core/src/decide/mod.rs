@@ -1,4 +1,23 @@
-//! From a graph to its verdict and the evidence for it.
+//! From a graph to its verdict and the evidence for it (docs/theory.md, sections 5 to 7).
+//!
+//! ```text
+//! decide(graph)
+//!   contract   graph -> rigid bodies and loose edges, the members           theory 4.1
+//!   split      members -> single ones, which are rigid, and pieces          4.3
+//!   piece      of each piece, side by side:
+//!     core       the nodes that its members share, a chain for every body   4.4
+//!     ranks      N, plane flows and Lambda at drawn centres                 3.3
+//!                full rank: the piece is finite solvable, a proof
+//!     motion     one random motion -> motion classes                        6
+//!     class      a single member, or of full rank by itself: a component;
+//!                else split again, and its pieces decided as these are
+//!     counting   a partition and hubs -> an upper bound                     5
+//!                a gap is left: draws that nobody chooses, an error bound   7.2
+//!   conclude   ranks add up; the verdict, and the components                4.6
+//! ```
+//!
+//! Pieces are in `one_piece`, classes in [`motion_class`], bounds in [`counting`], the paper's
+//! own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, what is found in [`evidence`].
 
 pub mod counting;
 pub mod evidence;
