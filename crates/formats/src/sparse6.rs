@@ -131,7 +131,7 @@ fn pairs(nodes: u32, body: &[u8]) -> Result<Vec<(u32, u32)>, Sparse6Error> {
             };
             x = x << 1 | u64::from(bit);
         }
-        if v >= nodes.into() {
+        if v >= u64::from(nodes) {
             break;
         }
         if x > v {
