@@ -434,18 +434,21 @@ fn an_observer_sees_every_stage_and_changes_nothing() {
             seen.push(begun.stage.step);
         }
     }
-    for step in [
-        Step::Contraction,
-        Step::WholeMatrix,
-        Step::Flows,
-        Step::Lambda,
-        Step::Elimination,
-        Step::Components,
-        Step::Counting,
-    ] {
+    for step in STEPS {
         assert!(seen.contains(&step), "{step:?}");
     }
 }
+
+/// The steps that the cases go through between them.
+const STEPS: [Step; 7] = [
+    Step::Contraction,
+    Step::WholeMatrix,
+    Step::Flows,
+    Step::Lambda,
+    Step::Elimination,
+    Step::Components,
+    Step::Counting,
+];
 
 /// Interrupts as soon as a step begins.
 #[derive(Debug)]
@@ -467,15 +470,7 @@ impl Observer for Interrupter {
 fn every_step_can_be_stopped() {
     let folder = tempfile::tempdir().unwrap();
     let cases = every_step(folder.path());
-    for step in [
-        Step::Contraction,
-        Step::WholeMatrix,
-        Step::Flows,
-        Step::Lambda,
-        Step::Elimination,
-        Step::Components,
-        Step::Counting,
-    ] {
+    for step in STEPS {
         let mut stopped = 0;
         for (graph, options) in &cases {
             let watch = Watch::new(Limits::default());

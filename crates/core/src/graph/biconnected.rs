@@ -104,10 +104,8 @@ impl<'a> Search<'a> {
         if low >= self.number[parent as usize] {
             // Nothing from v on reaches beyond its parent: they are a component with it.
             let from = self.open.iter().rposition(|&w| w == v).expect("v is open");
-            let parent_again = self.open.len();
             self.open.push(parent);
             each(&self.open[from..]);
-            debug_assert_eq!(self.open[parent_again], parent);
             self.open.truncate(from);
         }
     }

@@ -1,7 +1,7 @@
 //! Degrees and connectivity.
 
 use super::Witness;
-use viewcert::graph::{Adjacency, Graph};
+use viewcert::graph::{Adjacency, Graph, biconnected_components};
 
 /// The first node with fewer than two neighbours.
 pub(super) fn below_two(adjacency: &Adjacency) -> Option<Witness> {
@@ -38,48 +38,17 @@ fn reach(adjacency: &Adjacency, start: u32, without: Option<u32>) -> Vec<u32> {
     reached
 }
 
-/// The first node without which the nodes that are connected with node 0 are not, by the depths that
-/// a search from there reaches back to (Hopcroft, Tarjan 1973). O(n + m).
+/// The first node that two biconnected components share: without it a connected graph falls apart.
+/// O(n + m).
 fn first_cut_node(adjacency: &Adjacency) -> Option<u32> {
-    const UNSEEN: u32 = u32::MAX;
-    let nodes = adjacency.nodes();
-    let mut depth = vec![UNSEEN; nodes];
-    // The least depth that a node and what was found from it have an edge to.
-    let mut back = vec![UNSEEN; nodes];
-    let mut first: Option<u32> = None;
-    let mut from_root = 0;
-    // Nodes on the way from node 0, with how many of their neighbours have been looked at.
-    let mut way: Vec<(u32, usize)> = vec![(0, 0)];
-    (depth[0], back[0]) = (0, 0);
-    while let Some((v, looked_at)) = way.last_mut() {
-        let v = *v;
-        if let Some(&w) = adjacency.neighbours(v).get(*looked_at) {
-            *looked_at += 1;
-            if depth[w as usize] == UNSEEN {
-                depth[w as usize] = way.len() as u32;
-                back[w as usize] = way.len() as u32;
-                way.push((w, 0));
-            } else {
-                back[v as usize] = back[v as usize].min(depth[w as usize]);
-            }
-            continue;
+    let mut components = vec![0u32; adjacency.nodes()];
+    biconnected_components(adjacency.lists(), |component| {
+        for &v in component {
+            components[v as usize] += 1;
         }
-        way.pop();
-        let Some(&(parent, _)) = way.last() else {
-            break;
-        };
-        back[parent as usize] = back[parent as usize].min(back[v as usize]);
-        let cuts = if parent == 0 {
-            from_root += 1;
-            from_root > 1
-        } else {
-            back[v as usize] >= depth[parent as usize]
-        };
-        if cuts {
-            first = Some(first.map_or(parent, |first| first.min(parent)));
-        }
-    }
-    first
+    });
+    let first = components.iter().position(|&count| count > 1)?;
+    Some(first as u32)
 }
 
 /// A part that is not connected with the rest, or is only through one node: the first such
