@@ -8,6 +8,7 @@ pub mod edge_list;
 pub mod error;
 mod inflate;
 mod lines;
+pub mod matching;
 pub mod matlab;
 pub mod matrix_market;
 pub mod read;
@@ -15,6 +16,7 @@ mod recognise;
 pub mod sparse6;
 
 pub use error::ReadError;
+pub use matching::{Matching, OtherPair};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
 
 /// A note about pairs that were merged, if any were.

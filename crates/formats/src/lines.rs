@@ -144,6 +144,8 @@ impl<R: Read> Iterator for Lines<R> {
                         graph,
                         labels: Labels::Numbers { first: 0 },
                         notes,
+                        matching: None,
+                        cameras: None,
                     }));
                 }
                 // A graph without nodes is a graph of the format.

@@ -8,6 +8,7 @@ use crate::edge_list::Reading;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
+use crate::matching::Matching;
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::{edge_list, matlab, matrix_market};
@@ -25,6 +26,10 @@ pub struct NamedGraph {
     pub labels: Labels,
     /// What was merged, ignored or guessed in reading it.
     pub notes: Vec<String>,
+    /// What is known of its pairs, if the input is a database of matches.
+    pub matching: Option<Matching>,
+    /// Of a camera-point graph: how many of its nodes, the first ones, are cameras.
+    pub cameras: Option<u32>,
 }
 
 /// The formats that are read.
@@ -229,6 +234,8 @@ fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
                 graph,
                 labels,
                 notes,
+                matching: None,
+                cameras: None,
             })))
         }
         Err(fault) => failed(&name, fault),

@@ -1,0 +1,21 @@
+//! What a matching of images says of pairs, beyond the graph that it gives.
+
+/// Facts about pairs of images, from a database of matches; images are nodes of the graph.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Matching {
+    /// For every edge, in the order of the graph's edges, how many verified matches it has.
+    pub inliers: Vec<u32>,
+    /// Pairs of images that are known and are no edges, increasing.
+    pub others: Vec<OtherPair>,
+}
+
+/// A pair of images with matches that are too few, or not verified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OtherPair {
+    /// The two images, the smaller node first.
+    pub images: (u32, u32),
+    /// How many matches were verified.
+    pub inliers: u32,
+    /// How many there were before verification, if that is known.
+    pub matches: Option<u32>,
+}
