@@ -1,5 +1,7 @@
 //! `verify catalog` and `verify experiment`, through the program.
 
+mod common;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -53,23 +55,20 @@ fn counts(table: &str) -> Vec<[u64; 3]> {
         .collect()
 }
 
-fn data(name: &str) -> Option<String> {
-    let folder = std::env::var_os("VIEWCERT_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        PathBuf::from,
-    );
-    let found = fs::read_to_string(folder.join(name)).ok();
+/// geng of nauty with these arguments; `None` if it is not installed.
+fn geng(arguments: &[&str]) -> Option<Output> {
+    let run = |program| Command::new(program).args(arguments).output().ok();
+    let found = ["nauty-geng", "geng"].into_iter().find_map(run);
     if found.is_none() {
-        eprintln!("skipped: {} is not there", folder.join(name).display());
+        common::absent("neither geng nor nauty-geng is installed");
     }
     found
 }
 
 #[test]
 fn table_1_as_published() {
-    let Some(published) = data("table1.csv") else {
-        return;
-    };
+    let Some(data) = common::data() else { return };
+    let published = fs::read_to_string(data.join("table1.csv")).unwrap();
     let expected: Vec<[u64; 3]> = published
         .lines()
         .skip(1)
@@ -93,14 +92,7 @@ fn as_many_candidates_as_geng() {
     for nodes in 3..=11usize {
         let edges = (11 * nodes - 15).div_ceil(7);
         let size = format!("{edges}:{edges}");
-        let run = ["nauty-geng", "geng"].iter().find_map(|program| {
-            Command::new(program)
-                .args(["-Cu", &nodes.to_string(), &size])
-                .output()
-                .ok()
-        });
-        let Some(run) = run else {
-            eprintln!("skipped: geng is not there");
+        let Some(run) = geng(&["-Cu", &nodes.to_string(), &size]) else {
             return;
         };
         let report = text(&run.stderr);
@@ -119,13 +111,7 @@ fn as_many_candidates_as_geng() {
 
 #[test]
 fn candidates_of_geng_have_the_same_verdicts() {
-    let Some(run) = ["nauty-geng", "geng"].iter().find_map(|program| {
-        Command::new(program)
-            .args(["-Cq", "9", "12:12"])
-            .output()
-            .ok()
-    }) else {
-        eprintln!("skipped: geng is not there");
+    let Some(run) = geng(&["-Cq", "9", "12:12"]) else {
         return;
     };
     let table = good(&with_input(&["catalog", "--from", "-"], &run.stdout));
@@ -415,9 +401,8 @@ fn random_graphs_are_reproducible_and_written() {
 /// density, at a level of 1 in 1000 for all eight together.
 #[test]
 fn table_2_within_sampling_error() {
-    let Some(published) = data("table2.csv") else {
-        return;
-    };
+    let Some(data) = common::data() else { return };
+    let published = fs::read(data.join("table2.csv")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv");
     fs::write(&path, published).unwrap();

@@ -2,6 +2,8 @@
 //! a final name, and nothing lost that was complete.
 #![cfg(unix)]
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -114,11 +116,11 @@ impl Small {
             Ok(mount) if mount.status.success() => Some(Self(folder)),
             Ok(mount) => {
                 let reason = String::from_utf8_lossy(&mount.stderr);
-                eprintln!("skipped: no file system may be mounted: {}", reason.trim());
+                common::absent(&format!("no file system may be mounted: {}", reason.trim()));
                 None
             }
             Err(error) => {
-                eprintln!("skipped: mount is not there: {error}");
+                common::absent(&format!("mount is not there: {error}"));
                 None
             }
         }

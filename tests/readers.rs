@@ -1,23 +1,13 @@
 //! The readers on the published graphs.
 
+mod common;
+
+use common::data;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use viewcert::graph::{Graph, Labels};
 use viewcert_formats::{ReadOptions, matlab, read_graphs};
-
-/// The folder with the published graphs, which is not part of the repository.
-fn data() -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    if path.is_dir() {
-        return Some(path);
-    }
-    eprintln!(
-        "SKIPPED: the published graphs are not at {}",
-        path.display()
-    );
-    None
-}
 
 fn read_one(path: &Path) -> Graph {
     let path = path.to_str().unwrap();

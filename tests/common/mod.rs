@@ -5,13 +5,23 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// The folder with the published graphs and tables, which is not part of the repository.
+/// Says that a test cannot run here. With `VIEWCERT_REQUIRE_DATA=1`, which continuous
+/// integration sets, that is a failure.
+pub fn absent(what: &str) {
+    let required = std::env::var_os("VIEWCERT_REQUIRE_DATA").is_some_and(|value| value == "1");
+    assert!(!required, "VIEWCERT_REQUIRE_DATA is set, but {what}");
+    eprintln!("SKIPPED: {what}");
+}
+
+/// The folder with the published graphs and tables, which is not part of the repository:
+/// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
 pub fn data() -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let path = std::env::var_os("VIEWCERT_DATA").map_or_else(beside, PathBuf::from);
     if path.is_dir() {
         return Some(path);
     }
-    eprintln!("SKIPPED: the published data are not at {}", path.display());
+    absent(&format!("the published data are not at {}", path.display()));
     None
 }
 
@@ -27,7 +37,7 @@ pub fn geng(nodes: usize, edges: usize) -> Option<String> {
             return Some(String::from_utf8(made.stdout).unwrap());
         }
     }
-    eprintln!("SKIPPED: neither geng nor nauty-geng is installed");
+    absent("neither geng nor nauty-geng is installed");
     None
 }
 
