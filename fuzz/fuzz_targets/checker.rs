@@ -19,6 +19,7 @@ static VALID: LazyLock<Vec<(Value, Graph)>> = LazyLock::new(|| {
         include_str!("../../crates/check/tests/certificates/pentagon-split.json"),
         include_str!("../../crates/check/tests/certificates/prism.json"),
         include_str!("../../crates/check/tests/certificates/rigid-class.json"),
+        include_str!("../../crates/check/tests/certificates/ring.json"),
         include_str!("../../crates/check/tests/certificates/theta.json"),
     ];
     let parse = |text: &str| {

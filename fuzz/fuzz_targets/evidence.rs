@@ -1,7 +1,7 @@
 //! Evidence that the prover never writes, judged by ranks computed here: random small graphs with
-//! random bodies, or with random blocks and hubs. The numbers that a certificate states are repaired
-//! by what the checker says they should be. What it then verifies must be so, and an upper bound that
-//! it takes must not be below the rank.
+//! random bodies (in either model), or with random blocks and hubs. The numbers that a certificate
+//! states are repaired by what the checker says they should be. What it then verifies must be so,
+//! and an upper bound that it takes must not be below the rank.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -24,17 +24,26 @@ fuzz_target!(|data: &[u8]| {
     }
     let edges = pairs.iter().map(|&[i, j]| (i as u32, j as u32));
     let graph = Graph::new(nodes, edges).unwrap();
-    let with_bodies = below(2) == 0;
-    let evidence = match with_bodies {
-        true => bodies(nodes, &pairs, &mut below),
-        false => blocks(nodes, &pairs, &mut below),
+    // Bodies in either model, or blocks.
+    let kind = below(3);
+    let calibrated = kind == 2;
+    let evidence = match kind {
+        1 => blocks(nodes, &pairs, &mut below),
+        _ => bodies(nodes, &pairs, &mut below),
     };
     let mut certificate = about(&graph, nodes, pairs.len());
+    if calibrated {
+        certificate["model"] = json!("calibrated");
+        certificate["claim"]["rank"]["required"] = json!(3 * nodes - 4);
+    }
     for (member, value) in evidence {
         certificate[member] = value;
     }
     // Draws may be void, or a pivot vanish, with probability below 2^-50.
-    let rank = pivots(nodes, &pairs).len() as i64;
+    let rank = match calibrated {
+        true => direction_rank(nodes, &pairs),
+        false => pivots(nodes, &pairs).len(),
+    } as i64;
     for _ in 0..12 {
         match check(certificate.to_string().as_bytes(), Some(&graph)) {
             Ok(verified) => {
@@ -134,21 +143,34 @@ fn bodies(
             inside.push(v);
         }
         for _ in 0..below(2) {
-            let with: Vec<Value> = (0..1 + below(2))
-                .map(|_| match list.len() {
+            // What the merge goes around, beginning at the body: neighbours share a node.
+            let (mut with, mut around) = (Vec::new(), vec![inside.clone()]);
+            for _ in 0..1 + below(3) {
+                let (partner, nodes) = match list.len() {
                     earlier if earlier > 0 && below(2) == 0 => {
                         let body = below(earlier);
-                        inside.extend(sets[body].take().unwrap_or_default());
-                        json!(body)
+                        (json!(body), sets[body].take().unwrap_or_default())
                     }
                     _ => {
                         let pair = pairs[below(pairs.len())];
-                        inside.extend(pair);
-                        json!(pair)
+                        (json!(pair), pair.to_vec())
                     }
+                };
+                inside.extend(&nodes);
+                with.push(partner);
+                around.push(nodes);
+            }
+            let mut at: Vec<usize> = around
+                .iter()
+                .map(|part| match part.len() {
+                    size if size > 0 && below(4) > 0 => part[below(size)],
+                    _ => below(nodes),
                 })
                 .collect();
-            let at: Vec<usize> = (0..with.len() + 1).map(|_| below(nodes)).collect();
+            // Of three, the body and the last share the second.
+            if let [_, b, c] = &mut at[..] {
+                std::mem::swap(b, c);
+            }
             merge.push(json!({"with": with, "at": at}));
         }
         list.push(json!({"seed": seed, "add": add, "merge": merge}));
@@ -231,28 +253,52 @@ fn compressed(pairs: &[[usize; 2]]) -> Vec<[usize; 2]> {
 
 /// Pivots of J_P at random cameras: as many as the rank.
 fn pivots(nodes: usize, pairs: &[[usize; 2]]) -> Vec<(usize, usize)> {
+    let mut random = residues();
+    let cameras: Vec<[[u128; 4]; 3]> = (0..nodes)
+        .map(|_| [(); 3].map(|()| [(); 4].map(|()| random())))
+        .collect();
+    eliminated(pairs.iter().flat_map(|&pair| block(&cameras, pair)))
+}
+
+/// The rank of the calibrated model at random centres: d x (y_i - y_j) = 0 for each edge, where d is
+/// the difference of its centres.
+fn direction_rank(nodes: usize, pairs: &[[usize; 2]]) -> usize {
+    let mut random = residues();
+    let centres: Vec<[u128; 3]> = (0..nodes).map(|_| [(); 3].map(|()| random())).collect();
+    let rows = pairs.iter().flat_map(|&[i, j]| {
+        let d = [0, 1, 2].map(|k| (centres[i][k] + P - centres[j][k]) % P);
+        [0, 1, 2].map(|k| {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            let mut row = vec![0; 3 * nodes];
+            (row[3 * i + last], row[3 * i + next]) = (d[next], P - d[last]);
+            (row[3 * j + last], row[3 * j + next]) = (P - d[next], d[last]);
+            row
+        })
+    });
+    eliminated(rows).len()
+}
+
+/// Residues from a fixed stream.
+fn residues() -> impl FnMut() -> u128 {
     let mut state = 0x9e37_79b9_7f4a_7c15u64;
-    let mut random = || {
+    move || {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
         u128::from(state) % P
-    };
-    let cameras: Vec<[[u128; 4]; 3]> = (0..nodes)
-        .map(|_| [(); 3].map(|()| [(); 4].map(|()| random())))
-        .collect();
+    }
+}
+
+/// Pivots of a matrix, given by its rows.
+fn eliminated(matrix: impl Iterator<Item = Vec<u128>>) -> Vec<(usize, usize)> {
     let (mut rows, mut found): (Vec<(usize, Vec<u128>)>, _) = (Vec::new(), Vec::new());
-    for (number, mut row) in pairs
-        .iter()
-        .flat_map(|&pair| block(&cameras, pair))
-        .enumerate()
-    {
+    for (number, mut row) in matrix.enumerate() {
         for (pivot, other) in &rows {
             let factor = P - row[*pivot];
             let entries = row.iter_mut().zip(other);
             entries.for_each(|(entry, other)| *entry = (*entry + factor * other) % P);
         }
-        if let Some(pivot) = row.iter().position(|&entry| entry != 0) {
+        if let Some(pivot) = row.iter().position(|&entry| entry % P != 0) {
             let inverse = power(row[pivot], P - 2);
             row.iter_mut()
                 .for_each(|entry| *entry = *entry * inverse % P);

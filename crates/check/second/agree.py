@@ -395,6 +395,24 @@ def change_bodies(document, rng):
         rng.shuffle(document["bodies"])
 
 
+def change_merge(document, rng):
+    """Another partner, another shared node, or another order around a merge; the nodes of the body may be the same."""
+    step = rng.choice([step for body in document["bodies"] for step in body["merge"]])
+    way = rng.randrange(4)
+    if way == 0:
+        step["at"][rng.randrange(len(step["at"]))] = rng.randrange(document["graph"]["nodes"])
+    elif way == 1:
+        turned = rng.randrange(1, len(step["at"]))
+        step["at"] = step["at"][turned:] + step["at"][:turned]
+    elif way == 2:
+        step["with"].reverse()
+        step["at"].reverse()
+    else:
+        edges = check.read_graph6(document["graph"]["graph6"]).edges
+        partner = rng.choice([list(rng.choice(edges)), rng.randrange(len(document["bodies"]))])
+        step["with"][rng.randrange(len(step["with"]))] = partner
+
+
 def change_claim(document, rng):
     part = document["claim"][rng.choice(["verdict", "rank", "components"])]
     part.update(
@@ -438,6 +456,7 @@ def remake(document, rng):
         use_bodies=rng.random() < 0.6,
         variety=True,
         draws=rng.random() < 0.1,
+        bad_cycles=rng.random() < 0.1,
     )
     blocks = maker.blocks_of([member for member, _ in maker.members])
     if len(blocks) >= 2 and rng.random() < 0.3:
@@ -452,7 +471,7 @@ MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
-    remake,
+    *(change_merge, remake),
 )
 
 
@@ -701,7 +720,7 @@ def bases(paths, sample, made, rng):
         maker = make.Maker(
             make.random_graph(n, m, rng),
             rng,
-            model="calibrated" if rng.random() < 0.2 else "projective",
+            model="calibrated" if rng.random() < 0.3 else "projective",
             prime=rng.choice([101, 1009, 65521, PRIME]),
             use_bodies=rng.random() < 0.6,
             variety=rng.random() < 0.7,

@@ -850,16 +850,22 @@ class Check:
             for step in a_list(merge, f"{where}: merge"):
                 others, at = members(step, "with at", f"{where}: merge")
                 at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
-                need(len(a_list(others, f"{where}: with")) in (1, 2), f"{where}: with holds one or two")
-                need(len(at) == len(others) + 1, f"{where}: the length of at is wrong")
+                size = len(a_list(others, f"{where}: with"))
+                need(size in (1, 2, 3), f"{where}: with holds one, two or three")
+                need(size < 3 or not self.projective, f"{where}: a cycle of four is no body in the projective model")
+                need(len(at) == size + 1, f"{where}: the length of at is wrong")
                 need(distinct(at), f"{where}: the nodes of at are not different")
-                need(len(others) == 1 or not same(others[0], others[1]), f"{where}: merged with the same twice")
+                need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
                 others = [self.body_or_edge(other, where) for other in others]
-                if len(others) == 1:
+                if size == 1:
                     shared = all(node in body and node in others[0] for node in at)
-                else:
+                elif size == 2:
                     (x, y), (a, b, c) = others, at
                     shared = a in body and a in x and b in body and b in y and c in x and c in y
+                else:
+                    (x, y, z), (a, b, c, d) = others, at
+                    shared = a in body and a in x and b in x and b in y
+                    shared = shared and c in y and c in z and d in z and d in body
                 need(shared, f"{where}: the nodes of at are not shared as a merge demands")
                 body.update(*others)
             self.bodies.append(frozenset(body))

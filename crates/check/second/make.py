@@ -31,12 +31,25 @@ def random_graph(n, m, rng):
 
 
 class Maker:
-    """Makes one certificate. The bodies, and the members as (name, nodes), are open to change before `document`."""
+    """Makes one certificate. The bodies, and the members as (name, nodes), are open to change before `document`.
 
-    def __init__(self, graph, rng=None, model="projective", prime=PRIME, use_bodies=True, variety=False, draws=False):
+    With `bad_cycles` cycles of four are merged in the projective model too, or where shared nodes are the same.
+    """
+
+    def __init__(
+        self,
+        graph,
+        rng=None,
+        model="projective",
+        prime=PRIME,
+        use_bodies=True,
+        variety=False,
+        draws=False,
+        bad_cycles=False,
+    ):
         self.graph, self.model, self.prime, self.force_draws = graph, model, prime, draws
         self.rng = rng or random.Random(1)
-        self.variety = variety
+        self.variety, self.bad_cycles = variety, bad_cycles
         self.core_limit = check.CORE_LIMIT
         self.projective = model == "projective"
         self.body_list, self.bodies = [], []
@@ -68,6 +81,18 @@ class Maker:
                     if type(y) is type(z) is tuple and (not self.variety or self.rng.random() < 0.7):
                         return self.new_body(x, [[c, a, b]], [], [y, z], nodes)
                     return self.new_body(x, [], [{"with": [as_json(y), as_json(z)], "at": [a, b, c]}], [y, z], nodes)
+        return (not self.projective or self.bad_cycles) and self.merge_four(items)
+
+    def merge_four(self, items):
+        """One merge along a cycle of four; False if there is none."""
+        for (x, xs), *rest in itertools.combinations(items, 4):
+            for others in itertools.permutations(rest):
+                sets = [xs, *(nodes for _, nodes in others), xs]
+                for at in itertools.product(*(sorted(s & t) for s, t in zip(sets, sets[1:]))):
+                    if len(set(at)) == 4 or self.bad_cycles:
+                        names = [name for name, _ in others]
+                        merge = {"with": [as_json(name) for name in names], "at": list(at)}
+                        return self.new_body(x, [], [merge], names, set().union(*sets))
         return False
 
     def new_body(self, seed, add, merge, others, nodes):

@@ -402,7 +402,8 @@ class Bodies(Case):
             (step(1, "merge", merge([[3, 5], [4, 5]], [3, 3, 5])), "not different"),
             (step(1, "merge", merge([[3, 5], [4, 5]], [4, 3, 5])), "not shared"),
             (step(1, "merge", merge([[3, 5], [4, 5]], [3, 4])), "length of at"),
-            (step(1, "merge", merge([], [3])), "one or two"),
+            (step(1, "merge", merge([], [3])), "one, two or three"),
+            (step(1, "merge", merge([[3, 5], [4, 5], 0, 0], [3, 4, 5, 0, 1])), "one, two or three"),
             (step(1, "merge", merge([[3, 5], [3, 5]], [3, 5, 4])), "with the same twice"),
             (step(1, "merge", merge([0], [3, 4])), "not shared"),
             (step(2, "merge", merge([0, [0, 4]], [3, 0, 4])), "body 0 is consumed already"),
@@ -420,6 +421,84 @@ class Bodies(Case):
         document["bodies"].append({"seed": 0, "add": [], "merge": [{"with": [1], "at": [0, 1]}]})
         document["rigid"], document["pieces"] = {"bodies": [2], "edges": []}, []
         document["claim"]["verdict"]["value"] = "solvable"
+        self.verifies(document)
+
+    def test_cycles_of_four(self):
+        """Four triangles around the nodes 0, 1, 2, 3; and two more nodes, on a path from 0 to 2 and a path from 4 to 6."""
+        triangles = [(0, 1), (0, 4), (1, 4), (1, 2), (1, 5), (2, 5), (2, 3), (2, 6), (3, 6), (0, 3), (0, 7), (3, 7)]
+        graph = check.Graph(10, triangles + [(0, 8), (8, 9), (2, 9)])
+        maker = make.Maker(graph, model="calibrated", use_bodies=False)
+        maker.body_list = [
+            {"seed": [0, 1], "add": [[4, 0, 1]], "merge": []},
+            {"seed": [1, 2], "add": [[5, 1, 2]], "merge": []},
+            {"seed": [2, 3], "add": [[6, 2, 3]], "merge": []},
+            {"seed": [0, 3], "add": [[7, 0, 3]], "merge": []},
+            {"seed": 0, "add": [], "merge": [{"with": [1, 2, 3], "at": [1, 2, 3, 0]}]},
+            {"seed": [8, 9], "add": [], "merge": [{"with": [[0, 8], 4, [2, 9]], "at": [8, 0, 2, 9]}]},
+        ]
+        maker.bodies = [{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {0, 3, 7}, set(range(8)), set(range(10))]
+        maker.members = [(5, maker.bodies[5])]
+        document = maker.document()
+        self.assertEqual(document["claim"]["verdict"], check.stated("solvable"))
+        self.assertEqual(document["claim"]["rank"], {**check.stated(26), "required": 26})
+        self.verifies(document)
+
+        def merge(k, others, at):
+            return lambda other: other["bodies"][k].update(merge=[{"with": others, "at": at}])
+
+        for change, words in (
+            (lambda other: other.update(model="projective"), "no body in the projective model"),
+            # Each node is in one of the two bodies that it has to join, and not in the other.
+            (merge(4, [1, 2, 3], [5, 2, 3, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [4, 2, 3, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 5, 3, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 6, 3, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 2, 6, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 2, 7, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 2, 3, 7]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 2, 3, 4]), "not shared"),
+            (merge(4, [2, 1, 3], [1, 2, 3, 0]), "not shared"),
+            (merge(4, [1, 2, 3], [1, 2, 3]), "length of at"),
+            (merge(4, [1, 2, 3], [1, 2, 3, 0, 4]), "length of at"),
+            (merge(4, [1, 2, 4], [1, 2, 3, 0]), "4 is not an earlier body"),
+            (merge(4, [1, 2, 9], [1, 2, 3, 0]), "9 is not an earlier body"),
+            (merge(4, [1, 2, 0], [1, 2, 3, 0]), "body 0 is consumed already"),
+            (merge(4, [1, 2, 1], [1, 2, 3, 0]), "body 1 is consumed already"),
+            (merge(5, [[0, 8], 3, [2, 9]], [8, 0, 2, 9]), "body 3 is consumed already"),
+            (merge(5, [[0, 9], 4, [2, 9]], [9, 0, 2, 9]), "not different"),
+            (merge(5, [[0, 9], 4, [2, 9]], [9, 0, 2, 8]), "(0, 9) is not an edge"),
+            (merge(5, [[0, 8], 4, [9, 2]], [8, 0, 2, 9]), "smaller node first"),
+        ):
+            self.broken(document, change, "section 5", words)
+
+        # The same cycle another way around, and from another of its bodies.
+        for seed, others, at in ((0, [3, 2, 1], [0, 3, 2, 1]), (2, [3, 0, 1], [3, 0, 1, 2])):
+            other = copy.deepcopy(document)
+            other["bodies"][4] = {"seed": seed, "add": [], "merge": [{"with": others, "at": at}]}
+            self.verifies(other)
+
+    def test_nodes_of_a_cycle_are_different(self):
+        """Three triangles and an edge at one node, or two nodes, do not make a body; for each pair of the four nodes."""
+        edges = [(0, 1), (0, 2), (0, 3), (0, 4), (0, 5), (0, 6), (0, 7), (1, 2), (3, 4), (5, 6)]
+        document = make.make(edges, model="calibrated")
+        self.assertEqual(document["claim"]["verdict"]["value"], "not-finite-solvable")
+        bodies = [{"seed": [k, k + 1], "add": [[0, k, k + 1]], "merge": []} for k in (1, 3, 5)]
+        bodies.append({"seed": [0, 7], "add": [], "merge": [{"with": [0, 1, 2], "at": [0, 0, 0, 0]}]})
+        document.update(bodies=bodies, rigid={"bodies": [3], "edges": []}, pieces=[])
+        self.rejects(document, "section 5", "not different")
+        # Bodies K_5 of which neighbours share so much that only the equality of two nodes is wrong.
+        complete = [(i, j) for j in range(5) for i in range(j)]
+        document = make.make(complete, model="calibrated")
+        grown = [[node, 0, 1] for node in (2, 3, 4)]
+        for p in range(4):
+            for q in range(p):
+                at = [0, 1, 2, 3]
+                at[p] = at[q]
+                whole = {"seed": [0, 1], "add": grown, "merge": []}
+                document["bodies"] = [whole, whole, whole, {**whole, "merge": [{"with": [0, 1, 2], "at": at}]}]
+                document["rigid"], document["pieces"] = {"bodies": [3], "edges": []}, []
+                self.rejects(document, "section 5", "not different")
+        document["bodies"][3]["merge"][0]["at"] = [0, 1, 2, 3]
         self.verifies(document)
 
 

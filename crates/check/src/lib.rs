@@ -112,7 +112,7 @@ impl Certificate {
         let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
         let meter = &limits::Meter::new(limits);
-        let structure = &structure::Structure::new(&graph, &document.bodies, meter)?;
+        let structure = &structure::Structure::new(&graph, model, &document.bodies, meter)?;
         let setting = setting::Setting {
             model,
             sha256,

@@ -2,7 +2,7 @@
 //! these (section 6 of the specification).
 
 use crate::bodies::build_all;
-use crate::document::{Body, Pair};
+use crate::document::{Body, Model, Pair};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::limits::Meter;
@@ -47,8 +47,13 @@ pub(crate) struct Core {
 impl<'a> Structure<'a> {
     /// Rebuilds all bodies and finds which edges each of them covers (sections 5 and 6); rejects an
     /// edge covered twice.
-    pub fn new(graph: &'a Graph, list: &[Body], meter: &'a Meter) -> Checked<Structure<'a>> {
-        let bodies = build_all(graph, list)?.into_iter();
+    pub fn new(
+        graph: &'a Graph,
+        model: Model,
+        list: &[Body],
+        meter: &'a Meter,
+    ) -> Checked<Structure<'a>> {
+        let bodies = build_all(graph, model, list)?.into_iter();
         let mut structure = Structure {
             graph,
             meter,

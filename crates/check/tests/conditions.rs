@@ -301,13 +301,13 @@ fn section_5_bodies() {
             "merges",
             "/bodies/3/merge/0/at",
             json!([2, 0]),
-            "bodies[3].merge[0]: `with` and `at` have one and two",
+            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, or three and four",
         ),
         (
             "merges",
             "/bodies/3/merge/0/with",
             json!([1]),
-            "bodies[3].merge[0]: `with` and `at` have one and two",
+            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, or three and four",
         ),
         (
             "merges",
@@ -358,6 +358,99 @@ fn section_5_bodies() {
         two([2, 0]),
         "bodies[1].merge[0]: node 0 is not where the merge needs it"
     );
+}
+
+/// Cycles of four, in `ring` of triangles {0, 1, 4}, {1, 2, 5}, {2, 3, 6} and {0, 3, 7}, in `cycle`
+/// of edges, and in `clusters` of two triangles and two edges between them.
+#[test]
+fn section_5_cycles_of_four() {
+    let step = "bodies[4].merge[0]: ";
+    let merge =
+        |with: Value, at: Value| vec![("/bodies/4/merge/0", json!({"with": with, "at": at}))];
+    for name in ["cycle", "clusters", "ring"] {
+        let reason = rejection(&changed(name, &[("/model", json!("projective"))]), None);
+        let wanted = "merge[0]: a cycle of four is a body in the calibrated model only";
+        assert!(reason.ends_with(wanted), "{name}: {reason}");
+    }
+    // Each node is in one of the two bodies that it has to join, and not in the other.
+    for (at, wrong) in [
+        ([5, 2, 3, 0], 5),
+        ([4, 2, 3, 0], 4),
+        ([1, 5, 3, 0], 5),
+        ([1, 6, 3, 0], 6),
+        ([1, 2, 6, 0], 6),
+        ([1, 2, 7, 0], 7),
+        ([1, 2, 3, 7], 7),
+        ([1, 2, 3, 4], 4),
+        // The order of the other merge with three nodes.
+        ([1, 0, 2, 3], 0),
+    ] {
+        refused(
+            "ring",
+            &merge(json!([1, 2, 3]), json!(at)),
+            &format!("{step}node {wrong} is not where the merge needs it"),
+        );
+    }
+    for at in [json!([1, 2, 3]), json!([1, 2, 3, 0, 4])] {
+        refused(
+            "ring",
+            &merge(json!([1, 2, 3]), at),
+            &format!("{step}`with` and `at` have one and two, two and three, or three and four"),
+        );
+    }
+    // Later, unknown, consumed by the seed, and used a second time.
+    for body in [4, 9, 0, 1] {
+        refused(
+            "ring",
+            &merge(json!([1, 2, body]), json!([1, 2, 3, 0])),
+            &format!("{step}body {body} is not an earlier one, or is used a second time"),
+        );
+    }
+    refused(
+        "clusters",
+        &[("/bodies/2/merge/0/with/0", json!([0, 5]))],
+        "bodies[2].merge[0]: [0, 5] is not an edge (i < j) of the graph",
+    );
+    refused(
+        "clusters",
+        &[("/bodies/2/merge/0/with/0", json!([3, 0]))],
+        "bodies[2].merge[0]: [3, 0] is not an edge (i < j) of the graph",
+    );
+    // The same cycle another way around, and from another of its bodies.
+    for (seed, with, at) in [(0, [3, 2, 1], [0, 3, 2, 1]), (2, [3, 0, 1], [3, 0, 1, 2])] {
+        let mut changes = merge(json!(with), json!(at));
+        changes.push(("/bodies/4/seed", json!(seed)));
+        changes.retain(|(pointer, new)| named("ring").pointer(pointer) != Some(new));
+        let text = changed("ring", &changes).to_string();
+        assert!(check(text.as_bytes(), None).is_ok(), "{with:?}");
+    }
+}
+
+/// Four bodies that each hold five nodes, all joined: only that the four nodes are different can be
+/// wrong with a cycle.
+#[test]
+fn section_5_nodes_of_a_cycle_are_different() {
+    let graph = Graph::from_graph6(b"D~{").unwrap();
+    let body = |merge: Value| json!({"seed": [0, 1], "add": [[2, 0, 1], [3, 0, 1], [4, 0, 1]], "merge": merge});
+    let with = |at: [u32; 4]| {
+        let mut value = about(&graph, 10);
+        value["model"] = json!("calibrated");
+        let last = body(json!([{"with": [0, 1, 2], "at": at}]));
+        value["bodies"] = json!([body(json!([])), body(json!([])), body(json!([])), last]);
+        value["rigid"]["bodies"] = json!([3]);
+        claim(&mut value, "solvable", [11, 11, 1]);
+        value
+    };
+    let text = with([0, 1, 2, 3]).to_string();
+    assert!(check(text.as_bytes(), Some(&graph)).is_ok());
+    for (p, q) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+        let mut at = [0, 1, 2, 3];
+        at[q] = at[p];
+        assert_eq!(
+            rejection(&with(at), Some(&graph)),
+            "bodies[3].merge[0]: the nodes of `at` are not different"
+        );
+    }
 }
 
 #[test]

@@ -216,6 +216,10 @@ impl<'a> MergeView<'a> {
                 with: parts.iter().map(|&part| part.into()).collect(),
                 at,
             },
+            Merge::Cycle { parts, at } => Self {
+                with: parts.iter().map(|&part| part.into()).collect(),
+                at,
+            },
         }
     }
 }

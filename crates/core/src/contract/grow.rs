@@ -6,7 +6,7 @@ use crate::graph::Adjacency;
 const NONE: u32 = u32::MAX;
 
 /// What the growth knows of every node, for the body at hand.
-struct Growth {
+pub(super) struct Growth {
     /// The body at hand that the node has joined last.
     joined: Vec<u32>,
     /// The body at hand that has reached the node by one edge last...
@@ -23,18 +23,8 @@ struct Growth {
 /// itself looks at each edge a constant number of times for each body at its ends.
 pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
     let n = remaining.nodes();
-    let mut order: Vec<u32> = (0..n as u32).collect();
-    order.sort_by_key(|&v| std::cmp::Reverse(remaining.degree(v)));
-    let mut rank = vec![0u32; n];
-    for (k, &v) in (0..).zip(&order) {
-        rank[v as usize] = k;
-    }
-
-    let mut state = Growth {
-        joined: vec![NONE; n],
-        reached: vec![NONE; n],
-        reached_from: vec![0; n],
-    };
+    let (order, rank) = by_falling_degree(remaining);
+    let mut state = Growth::new(n);
     let mut near = vec![NONE; n];
     let mut refused_by = vec![NONE; n];
     let mut bodies: Vec<Body> = Vec::new();
@@ -55,7 +45,7 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
                 continue;
             }
             let k = bodies.len() as u32;
-            let body = state.grow_from(v, w, k, remaining);
+            let body = state.body_from_edge(v, w, k, remaining);
             for &u in &body.nodes {
                 near[u as usize] = NONE;
             }
@@ -70,13 +60,61 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
     bodies
 }
 
+/// The nodes by falling degree, and where each node stands in that order.
+pub(super) fn by_falling_degree(graph: &Adjacency) -> (Vec<u32>, Vec<u32>) {
+    let mut order: Vec<u32> = (0..graph.nodes() as u32).collect();
+    order.sort_by_key(|&v| std::cmp::Reverse(graph.degree(v)));
+    let mut rank = vec![0u32; graph.nodes()];
+    for (k, &v) in (0..).zip(&order) {
+        rank[v as usize] = k;
+    }
+    (order, rank)
+}
+
+/// Nodes that form a body, grown as far as edges go.
+pub(super) struct Grown {
+    /// The nodes: those it started from, then those that joined, in their order.
+    pub(super) nodes: Vec<u32>,
+    /// How each of these joined, as in [`Body::add`].
+    pub(super) add: Vec<[u32; 3]>,
+    /// How many edges it covers.
+    pub(super) edges: usize,
+}
+
 impl Growth {
-    /// Grows body number `k` from the edge v-w until no node outside is seen twice.
-    fn grow_from(&mut self, v: u32, w: u32, k: u32, remaining: &mut Adjacency) -> Body {
-        let mut nodes = vec![v, w];
+    pub(super) fn new(nodes: usize) -> Self {
+        Self {
+            joined: vec![NONE; nodes],
+            reached: vec![NONE; nodes],
+            reached_from: vec![0; nodes],
+        }
+    }
+
+    /// Body number `k`, grown from the edge v-w.
+    pub(super) fn body_from_edge(
+        &mut self,
+        v: u32,
+        w: u32,
+        k: u32,
+        remaining: &mut Adjacency,
+    ) -> Body {
+        let grown = self.grow(vec![v, w], k, remaining);
+        Body {
+            seed: Seed::Edge(v.min(w), v.max(w)),
+            add: grown.add,
+            merge: Vec::new(),
+            nodes: grown.nodes,
+            edges: grown.edges,
+        }
+    }
+
+    /// Grows a body from some nodes until no node outside is seen twice, and removes its edges
+    /// from `remaining`. `k` is a number that no other growth has.
+    pub(super) fn grow(&mut self, mut nodes: Vec<u32>, k: u32, remaining: &mut Adjacency) -> Grown {
         let mut add = Vec::new();
-        self.joined[v as usize] = k;
-        self.joined[w as usize] = k;
+        for &v in &nodes {
+            self.joined[v as usize] = k;
+        }
         let mut next = 0;
         while let Some(&u) = nodes.get(next) {
             next += 1;
@@ -101,11 +139,9 @@ impl Growth {
             remaining.retain(u, |x| self.joined[x as usize] != k);
             ends -= remaining.degree(u);
         }
-        Body {
-            seed: Seed::Edge(v.min(w), v.max(w)),
-            add,
-            merge: Vec::new(),
+        Grown {
             nodes,
+            add,
             edges: ends / 2,
         }
     }

@@ -3,15 +3,19 @@
 //! A *body* is a set of nodes whose relative cameras are determined. Bodies are
 //! grown from triangles until a node seen twice remains nowhere, then merged by the
 //! two rules that are left: bodies that share two nodes, and three bodies that
-//! pairwise share a node. Every step is recorded, and the record is the proof.
+//! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
+//! (rule 5 of Theorem 4.9). Every step is recorded, and the record is the proof.
 
 pub mod piece;
 
+mod cycles;
 mod grow;
 mod merge;
+mod seeds;
 #[cfg(test)]
 mod tests;
 
+use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph};
 
 /// What a body starts from.
@@ -56,6 +60,15 @@ pub enum Merge {
         /// The three common nodes, all different.
         at: [u32; 3],
     },
+    /// Body and parts stand around a cycle, which only the calibrated model allows: `at[0]` is in
+    /// the body and the first part, `at[1]` in the first and the second, `at[2]` in the second
+    /// and the third, `at[3]` in the third and the body.
+    Cycle {
+        /// What joins.
+        parts: [Part; 3],
+        /// The four common nodes, all different.
+        at: [u32; 4],
+    },
 }
 
 /// A body and how it came to be.
@@ -88,32 +101,55 @@ pub struct Contraction {
 }
 
 impl Contraction {
-    /// Contracts a graph. Close to O(m) on real graphs; O(m * arboricity) for the
-    /// search of triangles at worst.
-    pub fn new(graph: &Graph) -> Self {
+    /// Contracts a graph, by the rules of a model. Close to O(m) on real graphs;
+    /// O(m * arboricity) for the search of cycles of edges at worst.
+    pub fn new(graph: &Graph, model: Model) -> Self {
+        match model {
+            Model::Projective => Self::by_triangles(graph),
+            Model::Calibrated => Self::by_cycles(graph),
+        }
+    }
+
+    /// Closed under cycles of two and three (Theorem 4.1).
+    fn by_triangles(graph: &Graph) -> Self {
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);
         let mut bodies = grow::grow(&mut remaining);
         let owners = merge::close(&mut bodies, &remaining, graph.nodes());
+        let mut loose = Vec::new();
+        for (v, w) in remaining.edges() {
+            match owners.common_body(v, w) {
+                Some(body) => bodies[body as usize].edges += 1,
+                None => loose.push((v, w)),
+            }
+        }
+        Self::of_closed(bodies, loose)
+    }
+
+    /// Closed under cycles of two, three and four (Theorem 4.9).
+    fn by_cycles(graph: &Graph) -> Self {
+        let mut remaining = Adjacency::new(graph);
+        // A pendant edge lies on no cycle.
+        let mut loose = remaining.prune_leaves();
+        let mut bodies = seeds::grow(&mut remaining);
+        loose.extend(cycles::close(
+            &mut bodies,
+            remaining.edges().collect(),
+            graph.nodes(),
+        ));
+        Self::of_closed(bodies, loose)
+    }
+
+    fn of_closed(mut bodies: Vec<Body>, mut loose: Vec<(u32, u32)>) -> Self {
         for body in &mut bodies {
             body.nodes.sort_unstable();
+            body.nodes.dedup();
         }
         let finals = (0..)
             .zip(&bodies)
             .filter(|(_, body)| !body.nodes.is_empty())
             .map(|(k, _)| k)
             .collect();
-        let mut loose = Vec::new();
-        for v in 0..graph.nodes() as u32 {
-            for &w in remaining.neighbours(v) {
-                if v < w {
-                    match owners.common_body(v, w) {
-                        Some(body) => bodies[body as usize].edges += 1,
-                        None => loose.push((v, w)),
-                    }
-                }
-            }
-        }
         loose.sort_unstable();
         Self {
             bodies,

@@ -338,7 +338,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     work.done(0)?;
     let sha256 = sha256(graph);
     let contraction = if options.contraction {
-        Contraction::new(graph)
+        Contraction::new(graph, options.model)
     } else {
         Contraction::none(graph)
     };

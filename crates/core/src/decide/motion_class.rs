@@ -36,6 +36,7 @@ mod tests {
     use super::*;
     use crate::contract::Contraction;
     use crate::contract::piece::Assembly;
+    use crate::geometry::model::Model;
     use crate::graph::Graph;
 
     #[test]
@@ -43,7 +44,7 @@ mod tests {
         // The 4-cycle 0-1-2-3: four loose edges, one piece.
         let pairs = vec![(0, 1), (1, 2), (2, 3), (0, 3)];
         let (graph, _) = Graph::from_pairs(4, pairs).unwrap();
-        let assembly = Assembly::new(&graph, &Contraction::new(&graph));
+        let assembly = Assembly::new(&graph, &Contraction::new(&graph, Model::Projective));
         let piece = &assembly.split(&assembly.all()).pieces[0];
         let core = assembly.core(piece);
         let found = classes(piece, &core, &[7, 8, 7, 9]);

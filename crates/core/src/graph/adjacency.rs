@@ -1,6 +1,6 @@
 //! Neighbours of every node, in one array.
 
-use super::{Graph, Lists};
+use super::{Graph, Lists, prune_leaves};
 
 /// Neighbour lists in compressed form: 8 bytes an edge and 8 bytes a node. The
 /// lists can shrink.
@@ -48,5 +48,21 @@ impl Adjacency {
     /// neighbours stay as they are. O(degree).
     pub fn retain(&mut self, node: u32, keep: impl FnMut(u32) -> bool) {
         self.0.retain(node as usize, keep);
+    }
+
+    /// Each edge `(i, j)`, `i < j`, that both its ends still list, in increasing order while the
+    /// lists are.
+    pub fn edges(&self) -> impl Iterator<Item = (u32, u32)> {
+        let of = |v| self.neighbours(v).iter().map(move |&w| (v, w));
+        let nodes = 0..self.nodes() as u32;
+        nodes.flat_map(of).filter(|(v, w)| v < w)
+    }
+
+    /// Removes the edges at nodes with a single neighbour, again and again until there is no such
+    /// node, and returns them. O(n + m).
+    pub fn prune_leaves(&mut self) -> Vec<(u32, u32)> {
+        let removed = prune_leaves(&mut self.0);
+        let ordered = |(v, w): (u32, u32)| (v.min(w), v.max(w));
+        removed.into_iter().map(ordered).collect()
     }
 }

@@ -64,6 +64,17 @@ impl Lists {
         }
         self.len[key] = (kept - start) as u32;
     }
+
+    /// Puts other items in the place of a list. O(items).
+    ///
+    /// # Panics
+    /// If these are more than the list has.
+    pub fn rewrite(&mut self, key: usize, items: &[u32]) {
+        assert!(items.len() <= self.of(key).len(), "lists do not grow");
+        let start = self.start[key] as usize;
+        self.items[start..start + items.len()].copy_from_slice(items);
+        self.len[key] = items.len() as u32;
+    }
 }
 
 #[cfg(test)]
@@ -82,6 +93,8 @@ mod tests {
         assert_eq!(all(&lists), [vec![1], vec![], vec![7, 3, 5], vec![]]);
         lists.retain(2, |item| item != 3);
         assert_eq!(all(&lists), [vec![1], vec![], vec![7, 5], vec![]]);
+        lists.rewrite(2, &[9]);
+        assert_eq!(all(&lists), [vec![1], vec![], vec![9], vec![]]);
         assert!(Lists::group(0, std::iter::empty()).is_empty());
     }
 }

@@ -7,6 +7,7 @@ mod biconnected;
 pub mod graph6;
 pub mod identity;
 pub mod labels;
+mod leaves;
 mod lists;
 mod union_find;
 
@@ -14,6 +15,7 @@ pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
 pub use identity::{core_sha256, sha256};
 pub use labels::Labels;
+pub use leaves::prune_leaves;
 pub use lists::Lists;
 pub use union_find::UnionFind;
 

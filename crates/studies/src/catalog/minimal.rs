@@ -124,6 +124,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use viewcert::contract::Contraction;
+    use viewcert::geometry::model::Model;
 
     fn minimal(nodes: usize) -> Vec<Graph> {
         let mut found = Vec::new();
@@ -194,7 +195,7 @@ mod tests {
                     graph.add(u, v, 1);
                 }
             }
-            let contraction = Contraction::new(&to_graph(&graph));
+            let contraction = Contraction::new(&to_graph(&graph), Model::Projective);
             let mut expected: Vec<u16> = contraction
                 .finals
                 .iter()
