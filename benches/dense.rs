@@ -12,6 +12,7 @@ use viewcert::geometry::draw::cameras_mod;
 use viewcert::geometry::jacobian;
 use viewcert::linalg::dense_lu::eliminate_mod;
 use viewcert::linalg::prime::PrimeField;
+use viewcert::watch::unwatched;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -23,6 +24,7 @@ fn main() -> Result<()> {
     let cameras = cameras_mod(&field, graph.nodes(), key)?.values;
     let jacobian = jacobian::jacobian(&field, graph, &cameras);
     let matrix = jacobian::dense(&field, &jacobian, 12 * graph.nodes());
-    println!("{{\"rank\":{}}}", eliminate_mod(&field, matrix).rank());
+    let done = unwatched(|task| eliminate_mod(&field, matrix, task));
+    println!("{{\"rank\":{}}}", done.rank());
     Ok(())
 }

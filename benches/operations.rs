@@ -16,6 +16,7 @@ use viewcert::geometry::draw::centres_mod;
 use viewcert::geometry::plane_flow::{PlaneFlows, rigidity_rows};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::sparse_lu::Factorisation;
+use viewcert::watch::unwatched;
 
 fn main() -> Result<()> {
     let path = std::env::args().nth(1).context("usage: operations GRAPH")?;
@@ -25,15 +26,15 @@ fn main() -> Result<()> {
     let centres = centres_mod(&field, nodes, key)?.values;
 
     let rigidity = rigidity_rows(&field, graph, &centres);
-    let done = Factorisation::new(&field, rigidity, 3 * nodes);
+    let done = unwatched(|task| Factorisation::new(&field, rigidity, 3 * nodes, task));
     let (rows, cols) = done.dense_size();
     let free = done.free_rows().len();
     // Free rows of the sparse part are zero rows: what is not a pivot lies in the dense part.
     let rank = rows.saturating_sub(free);
     let of_rigidity = elimination(rows, cols, rank);
 
-    let flows = PlaneFlows::new(&field, graph, &centres);
-    let lambda = flows.lambda(key.flow_weights(&field));
+    let flows = unwatched(|task| PlaneFlows::new(&field, graph, &centres, task));
+    let lambda = unwatched(|task| flows.lambda(key.flow_weights(&field), task));
     let count = flows.rank(&lambda).flows;
     let of_flows = count as f64 * rank as f64 * (free as f64 + rank as f64 / 2.0);
     let cotree = edges + 1 - nodes;

@@ -13,6 +13,7 @@ use viewcert::linalg::integer::Integer;
 use viewcert::linalg::matrix::Matrix;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert::watch::unwatched;
 use viewcert_studies::formulation::all;
 use viewcert_studies::formulation::compare;
 use viewcert_studies::formulation::compare::{Limits, MAX_RATIONALS, MAX_RESIDUES};
@@ -282,7 +283,9 @@ fn bareiss_finds_the_same_ranks() {
                         matrix[(r, *column)] = x.numerator().mul(&lcm.div_exact(x.denominator()));
                     }
                 }
-                let expected = bareiss::eliminate(matrix).pivots().rank();
+                let expected = unwatched(|task| bareiss::eliminate(matrix, task))
+                    .pivots()
+                    .rank();
                 assert_eq!(
                     Rationals.rank(rows, width),
                     expected,

@@ -17,6 +17,7 @@ use viewcert::graph::{Graph, graph6, sha256};
 use viewcert::linalg::matrix::Matrix;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::textbook;
+use viewcert::watch::unwatched;
 use viewcert_studies::paper_components;
 
 fn cases(default: u64) -> u64 {
@@ -199,8 +200,8 @@ fn identity_holds(field: &PrimeField, graph: &Graph) {
         textbook::eliminate(field, &jacobian::dense(field, &rows, 12 * graph.nodes())).rank();
 
     // Lambda from a whole basis of plane flows, by the textbook.
-    let flows = PlaneFlows::new(field, graph, &centres);
-    let basis = flows.flows();
+    let flows = unwatched(|task| PlaneFlows::new(field, graph, &centres, task));
+    let basis = unwatched(|task| flows.flows(task));
     let m = graph.edges().len();
     let lambda = Matrix::from_fn(4 * basis.len(), m, |row, e| {
         let omega = &basis[row / 4][e];
@@ -214,7 +215,7 @@ fn identity_holds(field: &PrimeField, graph: &Graph) {
     let by_flows = 4 * rigidity + textbook::eliminate(field, &lambda).rank() - m;
     assert_eq!(by_flows, rank, "{}", graph6::encode(graph));
     // And from random flows, as the pipeline does.
-    let lambda = flows.lambda(key.flow_weights(field));
+    let lambda = unwatched(|task| flows.lambda(key.flow_weights(field), task));
     assert_eq!(
         flows.rank(&lambda).rank(m),
         rank,
@@ -268,7 +269,8 @@ fn calibrated_against_the_textbook() {
         let centres = draw::centres_mod(&field, graph.nodes(), &key(&graph, 3))
             .unwrap()
             .values;
-        let rank = PlaneFlows::new(&field, &graph, &centres).rigidity_rank();
+        let rank =
+            unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task)).rigidity_rank();
         assert_eq!(verdict.rank, rank, "{}", graph6::encode(&graph));
         let count: usize = verdict.components.iter().map(|c| 3 * c.nodes - 4).sum();
         assert_eq!(count, rank, "{}", graph6::encode(&graph));

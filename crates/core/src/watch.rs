@@ -296,6 +296,21 @@ impl Shared {
     }
 }
 
+/// Does work that nobody watches, so that nothing stops it: for what is short, and for tests.
+///
+/// ```
+/// use viewcert::linalg::{dense_lu::eliminate_mod, matrix::Matrix, prime::PrimeField};
+/// use viewcert::watch::unwatched;
+///
+/// let field = PrimeField::mersenne61();
+/// let one = Matrix::new(1, 1, vec![field.from_u64(1)]);
+/// assert_eq!(unwatched(|task| eliminate_mod(&field, one, task)).rank(), 1);
+/// ```
+pub fn unwatched<T>(work: impl FnOnce(&Task<'static>) -> Result<T, Stopped>) -> T {
+    let task = NOBODY.task(Step::Flows, 0);
+    work(&task).unwrap_or_else(|stopped| unreachable!("{stopped}"))
+}
+
 /// A stage under a watch: work on it can begin, once or several times.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'w> {
@@ -306,11 +321,6 @@ pub struct Task<'w> {
 }
 
 impl<'w> Task<'w> {
-    /// A task that nobody watches.
-    pub fn unwatched() -> Task<'static> {
-        NOBODY.task(Step::Flows, 0)
-    }
-
     /// The same cameras, another step.
     pub fn at(&self, step: Step) -> Self {
         let stage = Stage { step, ..self.stage };
@@ -609,12 +619,13 @@ mod tests {
 
     #[test]
     fn nobody_stops_what_nobody_watches() {
-        let task = Task::unwatched();
-        let work = task.begin(1);
-        work.done(1).unwrap();
-        NOBODY.interrupt();
-        assert!(!work.is_stopped() && task.check().is_ok());
-        assert!(task.reserve(u64::MAX, format_args!("all")).is_ok());
+        unwatched(|task| {
+            let work = task.begin(1);
+            work.done(1)?;
+            NOBODY.interrupt();
+            assert!(!work.is_stopped() && task.check().is_ok());
+            task.reserve(u64::MAX, format_args!("all"))
+        });
     }
 
     #[test]

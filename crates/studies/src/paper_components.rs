@@ -12,6 +12,7 @@ use viewcert::geometry::jacobian;
 use viewcert::graph::Graph;
 use viewcert::linalg::dense_lu::eliminate_mod;
 use viewcert::linalg::prime::PrimeField;
+use viewcert::watch::unwatched;
 
 /// The components of a graph by the paper's method at general cameras modulo p, as lists of
 /// edges, each increasing, in the order in which they are found: that of their first edges.
@@ -71,8 +72,8 @@ pub fn fixed_nodes(
     frame: usize,
 ) -> Vec<bool> {
     let rows = jacobian::augmented(field, graph, cameras, frame);
-    let kernel =
-        eliminate_mod(field, jacobian::dense(field, &rows, 12 * graph.nodes())).right_kernel();
+    let matrix = jacobian::dense(field, &rows, 12 * graph.nodes());
+    let kernel = unwatched(|task| eliminate_mod(field, matrix, task)).right_kernel();
     let fixed = |at: usize| {
         (0..kernel.rows()).all(|k| kernel.row(k)[12 * at..12 * at + 12].iter().all(|&x| x == 0))
     };

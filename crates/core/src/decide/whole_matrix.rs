@@ -1,6 +1,6 @@
 //! The paper's own matrix J_P at general cameras, modulo a prime or over the integers.
 
-use super::VerdictError;
+use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Evidence, IntegerMinor, ModularDraw, Witness};
 use crate::geometry::camera::Camera;
 use crate::geometry::draw;
@@ -71,7 +71,7 @@ pub(super) fn rational(
     let cameras = &drawn.values;
     let jacobian = primitive_rows(graph, cameras);
     let (pivots, witness, kernel) = if rows * cols <= MAX_FRACTION_FREE {
-        let done = bareiss::eliminate_watched(jacobian::dense(&Integers, &jacobian, cols), task)?;
+        let done = bareiss::eliminate(jacobian::dense(&Integers, &jacobian, cols), task)?;
         let witness = Witness::Determinant(done.determinant().clone());
         (done.pivots().clone(), witness, done.kernel())
     } else {
@@ -84,9 +84,7 @@ pub(super) fn rational(
                 let what = "an exact kernel of the whole Jacobian";
                 return Err(too_large(graph, what, (rows, cols)));
             }
-            dixon::rank_exact_watched(&jacobian, cols, task)?
-                .kernel()
-                .to_vec()
+            dixon::rank_exact(&jacobian, cols, task)?.kernel().to_vec()
         };
         let (pivots, witness) = witness(&jacobian, cols, pivots, task)?;
         (pivots, witness, kernel)
@@ -132,7 +130,7 @@ fn pivots(
     task: &Task,
 ) -> Result<Pivots, VerdictError> {
     let what = "the whole Jacobian, as far as it fills in,";
-    match Factorisation::watched(field, jacobian, cols, MAX_RESIDUES, task) {
+    match Factorisation::within(field, jacobian, cols, MAX_RESIDUES, task) {
         Ok(done) => Ok(done.pivots()),
         Err(Unfinished::TooLarge(rows, cols)) => Err(too_large(graph, what, (rows, cols))),
         Err(Unfinished::Stopped(stopped)) => Err(stopped.into()),
@@ -152,7 +150,7 @@ fn witness(
         return Ok((pivots, Witness::Prime(prime)));
     }
     let minor = jacobian::dense(&Integers, rows, cols).submatrix(&pivots.rows, &pivots.cols);
-    let done = bareiss::eliminate_watched(minor, task)?;
+    let done = bareiss::eliminate(minor, task)?;
     let order = done.pivots();
     let pivots = Pivots {
         rows: order.rows.iter().map(|&k| pivots.rows[k]).collect(),

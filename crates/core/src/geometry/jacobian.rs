@@ -207,6 +207,7 @@ mod tests {
     use crate::linalg::prime::{DEFAULT_PRIME, PrimeField};
     use crate::linalg::sparse_lu::Factorisation;
     use crate::linalg::{bareiss, textbook};
+    use crate::watch::unwatched;
     use proptest::prelude::*;
 
     fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
@@ -273,15 +274,20 @@ mod tests {
                 rank,
                 "{graph:?}"
             );
-            assert_eq!(eliminate_mod(&field, matrix).rank(), rank, "{graph:?}");
             assert_eq!(
-                Factorisation::new(&field, rows, cols).rank(),
+                unwatched(|task| eliminate_mod(&field, matrix, task)).rank(),
+                rank,
+                "{graph:?}"
+            );
+            assert_eq!(
+                unwatched(|task| Factorisation::new(&field, rows, cols, task)).rank(),
                 rank,
                 "{graph:?}"
             );
 
             let rows = jacobian(&Integers, &graph, &rational(&graph, 1));
-            let done = bareiss::eliminate(dense(&Integers, &rows, cols));
+            let matrix = dense(&Integers, &rows, cols);
+            let done = unwatched(|task| bareiss::eliminate(matrix, task));
             assert_eq!(done.pivots().rank(), rank, "{graph:?}");
         }
     }
@@ -295,7 +301,8 @@ mod tests {
                 .map(|c| normal_form(&Integers, &c.map(Integer::from)))
                 .collect();
             let rows = jacobian(&Integers, &graph, &cameras);
-            let done = bareiss::eliminate(dense(&Integers, &rows, 12 * graph.nodes()));
+            let matrix = dense(&Integers, &rows, 12 * graph.nodes());
+            let done = unwatched(|task| bareiss::eliminate(matrix, task));
             assert_eq!(done.pivots().rank(), rank, "{graph:?}");
         }
     }
@@ -322,7 +329,11 @@ mod tests {
                 assert_eq!(rows.len(), 10 * graph.edges().len() + graph.nodes() + 15);
                 let matrix = dense(&field, &rows, 12 * graph.nodes());
                 let expected = rank + graph.nodes() + 15;
-                assert_eq!(eliminate_mod(&field, matrix).rank(), expected, "{graph:?}");
+                assert_eq!(
+                    unwatched(|task| eliminate_mod(&field, matrix, task)).rank(),
+                    expected,
+                    "{graph:?}"
+                );
             }
         }
     }

@@ -12,12 +12,10 @@
 
 use crate::graph::Graph;
 use crate::graph::UnionFind;
-use crate::linalg::dense_lu::{
-    Echelon, eliminate_mod, eliminate_watched, elimination_products, unstopped,
-};
+use crate::linalg::dense_lu::{Echelon, eliminate_mod, elimination_products};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
-use crate::linalg::sparse_lu::{Factorisation, Unfinished};
+use crate::linalg::sparse_lu::Factorisation;
 use crate::linalg::textbook::Pivots;
 use crate::linalg::{Field, Ring};
 use crate::watch::{Reservation, Step, Stopped, Task, matrix_bytes};
@@ -194,20 +192,12 @@ impl<'a> PlaneFlows<'a> {
     /// Eliminates N at the given centres: sparse at first, then what fills in as a dense
     /// matrix, O(n^3) at worst.
     ///
+    /// # Errors
+    /// If the task was stopped.
+    ///
     /// # Panics
     /// If there is not one centre a node, or the centres of an edge coincide.
-    pub fn new(field: &'a PrimeField, graph: &'a Graph, centres: &'a [[u64; 3]]) -> Self {
-        unstopped(Self::watched(field, graph, centres, &Task::unwatched()))
-    }
-
-    /// The same as a task that can be stopped.
-    ///
-    /// # Errors
-    /// If it was.
-    ///
-    /// # Panics
-    /// As [`PlaneFlows::new`].
-    pub fn watched(
+    pub fn new(
         field: &'a PrimeField,
         graph: &'a Graph,
         centres: &'a [[u64; 3]],
@@ -216,16 +206,11 @@ impl<'a> PlaneFlows<'a> {
         assert_eq!(centres.len(), graph.nodes(), "one centre a node");
         let rows = rigidity_rows(field, graph, centres);
         let columns = 3 * graph.nodes();
-        let rigidity = Factorisation::watched(field, rows, columns, usize::MAX, task);
-        let rigidity = rigidity.map_err(|unfinished| match unfinished {
-            Unfinished::Stopped(stopped) => stopped,
-            Unfinished::TooLarge(..) => unreachable!("no part of a matrix has more entries"),
-        })?;
         Ok(Self {
             field,
             graph,
             centres,
-            rigidity,
+            rigidity: Factorisation::new(field, rows, columns, task)?,
         })
     }
 
@@ -251,15 +236,10 @@ impl<'a> PlaneFlows<'a> {
 
     /// A basis of the plane flows: for each the omega_e of every edge (the normal of its
     /// plane), omega flowing from j to i on the edge (i, j).
-    pub fn flows(&self) -> Vec<Vec<[u64; 3]>> {
-        unstopped(self.flows_watched(&Task::unwatched()))
-    }
-
-    /// The same as a task that can be stopped.
     ///
     /// # Errors
-    /// If it was.
-    pub fn flows_watched(&self, task: &Task) -> Result<Vec<Vec<[u64; 3]>>, Stopped> {
+    /// If the task was stopped.
+    pub fn flows(&self, task: &Task) -> Result<Vec<Vec<[u64; 3]>>, Stopped> {
         let dimension = self.rigidity.free_rows().len();
         let edges = self.graph.edges().len();
         let _memory = task.reserve(
@@ -268,7 +248,7 @@ impl<'a> PlaneFlows<'a> {
         )?;
         let one = self.field.one();
         let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
-        let kernel = self.rigidity.left_combinations_watched(&unit, task)?;
+        let kernel = self.rigidity.left_combinations(&unit, task)?;
         let both: Vec<_> = (0..self.graph.edges().len())
             .map(|e| self.edge_directions(e))
             .collect();
@@ -290,19 +270,10 @@ impl<'a> PlaneFlows<'a> {
     /// of `weights`, one flow after another (docs/certificate.md, section 7). Each gives four
     /// rows, so that about a quarter as many flows as columns are enough at full rank; more
     /// are taken until they no longer raise the rank.
-    pub fn lambda(&self, weights: impl FnMut() -> u64) -> Lambda {
-        unstopped(self.lambda_watched(weights, &Task::unwatched()))
-    }
-
-    /// The same as a task that can be stopped.
     ///
     /// # Errors
-    /// If it was.
-    pub fn lambda_watched(
-        &self,
-        mut weights: impl FnMut() -> u64,
-        task: &Task,
-    ) -> Result<Lambda, Stopped> {
+    /// If the task was stopped.
+    pub fn lambda(&self, mut weights: impl FnMut() -> u64, task: &Task) -> Result<Lambda, Stopped> {
         let cotree = cotree(self.graph);
         let dimension = self.rigidity.free_rows().len();
         let mut flows = 0;
@@ -328,7 +299,7 @@ impl<'a> PlaneFlows<'a> {
             }
             flows += more;
             let matrix = Matrix::new(4 * flows, cotree.len(), rows.clone());
-            let echelon = eliminate_watched(self.field, matrix, &elimination)?;
+            let echelon = eliminate_mod(self.field, matrix, &elimination)?;
             let found = echelon.rank();
             if found == cotree.len() || flows == dimension || rank == Some(found) {
                 return Ok(Lambda {
@@ -344,19 +315,22 @@ impl<'a> PlaneFlows<'a> {
 
     /// Eliminates Lambda with the rows of a basis of all flows: certain at any prime, at up
     /// to four times the cost of [`lambda`](Self::lambda).
-    pub fn lambda_of_all_flows(&self) -> Lambda {
+    ///
+    /// # Errors
+    /// If the task was stopped.
+    pub fn lambda_of_all_flows(&self, task: &Task) -> Result<Lambda, Stopped> {
         let cotree = cotree(self.graph);
         let dimension = self.rigidity.free_rows().len();
         let one = self.field.one();
         let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
-        let rows = unstopped(self.lambda_rows(&unit, &cotree, &Task::unwatched()));
+        let rows = self.lambda_rows(&unit, &cotree, task)?;
         let rows = Matrix::new(4 * dimension, cotree.len(), rows);
-        Lambda {
-            echelon: eliminate_mod(self.field, rows.clone()),
+        Ok(Lambda {
+            echelon: eliminate_mod(self.field, rows.clone(), task)?,
             rows,
             cotree,
             _memory: Reservation::default(),
-        }
+        })
     }
 
     /// The rows of Lambda that the flows with the given entries at the free rows of N give,
@@ -367,7 +341,7 @@ impl<'a> PlaneFlows<'a> {
         edges: &[usize],
         task: &Task,
     ) -> Result<Vec<u64>, Stopped> {
-        let kernel = self.rigidity.left_combinations_watched(weights, task)?;
+        let kernel = self.rigidity.left_combinations(weights, task)?;
         let width = edges.len();
         let mut rows = vec![0; 4 * kernel.rows() * width];
         for (at, &e) in edges.iter().enumerate() {

@@ -3,7 +3,6 @@
 //! Every intermediate entry is a minor of the matrix, so that each division is exact
 //! and no entry is longer than Hadamard's bound.
 
-use crate::linalg::dense_lu::unstopped;
 use crate::linalg::integer::Integer;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::textbook::Pivots;
@@ -27,15 +26,10 @@ pub struct FractionFree {
 ///
 /// O(rows * cols * rank) multiplications and exact divisions of integers of up to
 /// `rank` times the length of an entry.
-pub fn eliminate(m: Matrix<Integer>) -> FractionFree {
-    unstopped(eliminate_watched(m, &Task::unwatched()))
-}
-
-/// The same as a task that can be stopped.
 ///
 /// # Errors
-/// If it was.
-pub fn eliminate_watched(mut m: Matrix<Integer>, task: &Task) -> Result<FractionFree, Stopped> {
+/// If the task was stopped.
+pub fn eliminate(mut m: Matrix<Integer>, task: &Task) -> Result<FractionFree, Stopped> {
     let cols = m.cols();
     let work = task.begin(cols as u64);
     let mut rest: Vec<usize> = (0..m.rows()).collect();
@@ -145,7 +139,12 @@ mod tests {
     use super::super::samples::{known_rank, multiply};
     use super::super::{Ring, integer::Integers, textbook};
     use super::*;
+    use crate::watch::unwatched;
     use proptest::prelude::*;
+
+    fn whole(m: Matrix<Integer>) -> FractionFree {
+        unwatched(|task| eliminate(m, task))
+    }
 
     fn integers(rows: &[&[i64]]) -> Matrix<Integer> {
         Matrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j].into())
@@ -155,7 +154,7 @@ mod tests {
     fn by_hand() {
         // The smallest entry of column 0 is the 1 in row 1; column 1 repeats column 0.
         // Rows 1, 0 and columns 0, 2 in this order: 1 * 5 - 4 * 2 = -3.
-        let done = eliminate(integers(&[&[2, 2, 5], &[1, 1, 4], &[3, 3, 9]]));
+        let done = whole(integers(&[&[2, 2, 5], &[1, 1, 4], &[3, 3, 9]]));
         assert_eq!(
             done.pivots(),
             &Pivots {
@@ -169,18 +168,18 @@ mod tests {
 
     #[test]
     fn extremes() {
-        let zero = eliminate(integers(&[&[0, 0]]));
+        let zero = whole(integers(&[&[0, 0]]));
         assert_eq!(
             (zero.pivots().rank(), zero.determinant()),
             (0, &Integer::one())
         );
         assert_eq!(zero.kernel().len(), 2);
-        assert_eq!(eliminate(Matrix::new(0, 3, vec![])).kernel().len(), 3);
-        assert!(eliminate(Matrix::new(3, 0, vec![])).kernel().is_empty());
+        assert_eq!(whole(Matrix::new(0, 3, vec![])).kernel().len(), 3);
+        assert!(whole(Matrix::new(3, 0, vec![])).kernel().is_empty());
         // A Hilbert-like matrix: entry (i, j) = 60 / (i + j + 1); determinant of the
         // 3 x 3 Hilbert matrix is 1 / 2160.
         let hilbert = Matrix::from_fn(3, 3, |i, j| Integer::from(60 / (i + j + 1) as i64));
-        let done = eliminate(hilbert);
+        let done = whole(hilbert);
         assert_eq!(done.determinant().abs(), Integer::from(100i64));
     }
 
@@ -191,7 +190,7 @@ mod tests {
         ) {
             let (rows, cols) = (rank + more_rows, rank + more_cols);
             let m = known_rank(&Integers, rows, cols, rank, seed, 9);
-            let done = eliminate(m.clone());
+            let done = whole(m.clone());
             prop_assert_eq!(done.pivots().rank(), rank);
 
             let rational = m.map(|x| Rational::from(x.clone()));

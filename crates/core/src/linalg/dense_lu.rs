@@ -10,7 +10,7 @@ use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::product::Product;
 use crate::linalg::textbook::Pivots;
-use crate::watch::{Stopped, Task, Work};
+use crate::watch::{Stopped, Task, Work, unwatched};
 
 /// Columns of a panel: enough products to hide the reduction of their sum, few enough for a
 /// tile of the product to stay in the first-level cache.
@@ -34,33 +34,10 @@ pub struct Echelon {
 /// O(rows * cols * rank) multiply-accumulates; the products with large panels are
 /// shared among the threads of the current rayon pool. The result does not depend on
 /// the number of threads.
-pub fn eliminate_mod(field: &PrimeField, m: Matrix<u64>) -> Echelon {
-    unstopped(eliminate_watched(field, m, &Task::unwatched()))
-}
-
-/// What nobody watches is not stopped.
-pub(crate) fn unstopped<T>(done: Result<T, Stopped>) -> T {
-    done.unwrap_or_else(|stopped| unreachable!("{stopped}"))
-}
-
-/// The multiply-accumulates for the panel from column `start` on, if every column before it has a
-/// pivot.
-fn panel_products(rows: usize, cols: usize, start: usize) -> u64 {
-    let (height, width) = (rows.saturating_sub(start), cols - start);
-    height as u64 * width as u64 * PANEL as u64
-}
-
-/// The multiply-accumulates of an elimination, if every column has a pivot.
-pub(crate) fn elimination_products(rows: usize, cols: usize) -> u64 {
-    let panels = (0..cols).step_by(PANEL);
-    panels.map(|start| panel_products(rows, cols, start)).sum()
-}
-
-/// [`eliminate_mod`] as a task that can be stopped.
 ///
 /// # Errors
-/// If it was.
-pub fn eliminate_watched(
+/// If the task was stopped.
+pub fn eliminate_mod(
     field: &PrimeField,
     mut m: Matrix<u64>,
     task: &Task,
@@ -113,6 +90,19 @@ pub fn eliminate_watched(
         pivot_cols,
         factors: m,
     })
+}
+
+/// The multiply-accumulates for the panel from column `start` on, if every column before it has a
+/// pivot.
+fn panel_products(rows: usize, cols: usize, start: usize) -> u64 {
+    let (height, width) = (rows.saturating_sub(start), cols - start);
+    height as u64 * width as u64 * PANEL as u64
+}
+
+/// The multiply-accumulates of an elimination, if every column has a pivot.
+pub(crate) fn elimination_products(rows: usize, cols: usize) -> u64 {
+    let panels = (0..cols).step_by(PANEL);
+    panels.map(|start| panel_products(rows, cols, start)).sum()
 }
 
 /// Working space of one panel, reused by the next.
@@ -270,8 +260,8 @@ impl Echelon {
         });
         // Unknown k meets column k of -L below the diagonal: w_k = r_k + sum w_l (-L)_lk.
         let entry = |k: usize, l: usize| self.factors[(k, self.pivot_cols[l])];
-        let unwatched = Task::unwatched().begin(0);
-        unstopped(self.solve_backwards(&mut weights, entry, |_, value| value, &unwatched));
+        let finish = |_, value| value;
+        unwatched(|task| self.solve_backwards(&mut weights, entry, finish, &task.begin(0)));
         weights
     }
 
@@ -400,7 +390,7 @@ impl Echelon {
         self.field.invert_all(&mut inverses);
         let entry = |k: usize, l: usize| self.field.negate(self.factors[(l, self.pivot_cols[k])]);
         let finish = |k: usize, value| self.field.times(value, inverses[k]);
-        unstopped(self.solve_backwards(rows, entry, finish, &Task::unwatched().begin(0)));
+        unwatched(|task| self.solve_backwards(rows, entry, finish, &task.begin(0)));
     }
 
     /// From the last unknown down: x_l = finish(l, r_l + sum_(k > l) x_k entry(k, l)),
@@ -489,7 +479,7 @@ mod tests {
 
     /// Everything an elimination claims, verified by multiplication and by the textbook.
     fn verify(field: &PrimeField, m: &Matrix<u64>, rank: usize) {
-        let done = eliminate_mod(field, m.clone());
+        let done = unwatched(|task| eliminate_mod(field, m.clone(), task));
         let pivots = done.pivots();
         assert_eq!(done.rank(), rank);
         assert_eq!(pivots.cols, textbook::eliminate(field, m).cols);
@@ -584,7 +574,7 @@ mod tests {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| eliminate_mod(field, m.clone()))
+            pool.install(|| unwatched(|task| eliminate_mod(field, m.clone(), task)))
         };
         let (one, three) = (run(1), run(3));
         assert_eq!(one.rank(), 270);

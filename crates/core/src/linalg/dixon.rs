@@ -7,7 +7,7 @@
 //! reconstruction, at a fraction of the cost of fraction-free elimination.
 
 use crate::linalg::bareiss::primitive;
-use crate::linalg::dense_lu::{Echelon, eliminate_watched, unstopped};
+use crate::linalg::dense_lu::{Echelon, eliminate_mod};
 use crate::linalg::integer::Integer;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::{DEFAULT_PRIME, PrimeField, is_prime};
@@ -73,13 +73,12 @@ impl RankExact {
 /// A lower bound for the rank over Q by elimination modulo the field's prime.
 /// O(rows * cols * rank) operations modulo the prime.
 ///
+/// # Errors
+/// If the task was stopped.
+///
 /// # Panics
 /// If an entry lies beyond the last column.
-pub fn rank_at_least(field: &PrimeField, rows: &[IntegerRow], cols: usize) -> RankAtLeast {
-    unstopped(rank_at_least_watched(field, rows, cols, &Task::unwatched()))
-}
-
-fn rank_at_least_watched(
+pub fn rank_at_least(
     field: &PrimeField,
     rows: &[IntegerRow],
     cols: usize,
@@ -93,7 +92,7 @@ fn rank_at_least_watched(
     }
     Ok(RankAtLeast {
         prime: field.modulus(),
-        pivots: eliminate_watched(field, m, task)?.pivots(),
+        pivots: eliminate_mod(field, m, task)?.pivots(),
     })
 }
 
@@ -104,29 +103,17 @@ fn rank_at_least_watched(
 /// Elimination modulo p, and for each vector one p-adic digit for every 30 bits of the
 /// solution at the price of a multiplication of the matrix with a vector.
 ///
+/// # Errors
+/// If the task was stopped.
+///
 /// # Panics
 /// If an entry lies beyond the last column.
-pub fn rank_exact(rows: &[IntegerRow], cols: usize) -> RankExact {
-    unstopped(rank_exact_watched(rows, cols, &Task::unwatched()))
-}
-
-/// The same as a task that can be stopped.
-///
-/// # Errors
-/// If it was.
-///
-/// # Panics
-/// As [`rank_exact`].
-pub fn rank_exact_watched(
-    rows: &[IntegerRow],
-    cols: usize,
-    task: &Task,
-) -> Result<RankExact, Stopped> {
+pub fn rank_exact(rows: &[IntegerRow], cols: usize, task: &Task) -> Result<RankExact, Stopped> {
     let primes = (5..=DEFAULT_PRIME).rev().filter(|&p| is_prime(p));
     for prime in primes {
         let field = PrimeField::new(prime)
             .unwrap_or_else(|_| unreachable!("a prime from 5 to 2^61 - 1 is a modulus"));
-        let lower = rank_at_least_watched(&field, rows, cols, task)?;
+        let lower = rank_at_least(&field, rows, cols, task)?;
         if let Some(kernel) = kernel(&field, rows, cols, lower.pivots(), task)? {
             return Ok(RankExact { lower, kernel });
         }
@@ -166,7 +153,7 @@ fn kernel(
     }
     let system = System {
         field,
-        factors: eliminate_watched(field, residues, task)?,
+        factors: eliminate_mod(field, residues, task)?,
         rows: minor,
     };
     let free: Vec<usize> = (0..cols).filter(|&col| place[col].is_none()).collect();
@@ -337,6 +324,7 @@ mod tests {
     use super::super::integer::Integers;
     use super::super::samples::known_rank;
     use super::*;
+    use crate::watch::unwatched;
     use proptest::prelude::*;
 
     fn sparse(m: &Matrix<Integer>) -> Vec<IntegerRow> {
@@ -353,12 +341,17 @@ mod tests {
     /// The kernel vectors are unique, so fraction-free elimination must find the same for
     /// the same pivot columns.
     fn verify(m: &Matrix<Integer>, rank: usize) {
-        let exact = rank_exact(&sparse(m), m.cols());
+        let exact = unwatched(|task| rank_exact(&sparse(m), m.cols(), task));
         assert_eq!(exact.rank(), rank);
         assert_eq!(exact.rank(), exact.lower().bound());
         let pivots = exact.lower().pivots();
         let minor = m.submatrix(&pivots.rows, &pivots.cols);
-        assert_eq!(bareiss::eliminate(minor).pivots().rank(), rank);
+        assert_eq!(
+            unwatched(|task| bareiss::eliminate(minor, task))
+                .pivots()
+                .rank(),
+            rank
+        );
         assert_eq!(exact.kernel().len(), m.cols() - rank);
         let order: Vec<usize> = pivots
             .cols
@@ -375,7 +368,7 @@ mod tests {
 
     /// With the pivot columns moved to the front, elimination takes them as pivots too.
     fn compare(reordered: &Matrix<Integer>, order: &[usize], vectors: &[Vec<Integer>]) {
-        let expected = bareiss::eliminate(reordered.clone()).kernel();
+        let expected = unwatched(|task| bareiss::eliminate(reordered.clone(), task)).kernel();
         assert_eq!(expected.len(), vectors.len());
         for (expected, vector) in expected.iter().zip(vectors) {
             let moved: Vec<Integer> = order.iter().map(|&col| vector[col].clone()).collect();
@@ -390,8 +383,9 @@ mod tests {
         let n = |x: i64| Integer::from(x);
         let m = Matrix::new(2, 2, vec![n(1), n(1), n(1), p.add(&n(1))]);
         let field = PrimeField::mersenne61();
-        assert_eq!(rank_at_least(&field, &sparse(&m), 2).bound(), 1);
-        let exact = rank_exact(&sparse(&m), 2);
+        let bound = unwatched(|task| rank_at_least(&field, &sparse(&m), 2, task)).bound();
+        assert_eq!(bound, 1);
+        let exact = unwatched(|task| rank_exact(&sparse(&m), 2, task));
         assert_eq!((exact.rank(), exact.kernel().len()), (2, 0));
         assert!(exact.lower().prime() < DEFAULT_PRIME);
 

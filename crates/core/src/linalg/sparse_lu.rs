@@ -6,11 +6,11 @@
 //! kernel vectors and solutions for many right-hand sides at once.
 
 use crate::linalg::Ring;
-use crate::linalg::dense_lu::{Echelon, eliminate_watched, unstopped};
+use crate::linalg::dense_lu::{Echelon, eliminate_mod};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::textbook::Pivots;
-use crate::watch::{Reservation, Stopped, Task, matrix_bytes};
+use crate::watch::{Reservation, Stopped, Task, matrix_bytes, unwatched};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -45,12 +45,13 @@ const ENTRY_BYTES: usize = size_of::<(usize, u64)>() + size_of::<usize>();
 ///
 /// ```
 /// use viewcert::linalg::{Ring, prime::PrimeField, sparse_lu::Factorisation};
+/// use viewcert::watch::unwatched;
 ///
 /// // Edges of a triangle: rows e_0 - e_1, e_1 - e_2, e_0 - e_2.
 /// let f = PrimeField::mersenne61();
 /// let (one, minus) = (f.one(), f.from_i64(-1));
 /// let rows = vec![vec![(0, one), (1, minus)], vec![(1, one), (2, minus)], vec![(0, one), (2, minus)]];
-/// let done = Factorisation::new(&f, rows, 3);
+/// let done = unwatched(|task| Factorisation::new(&f, rows, 3, task));
 /// assert_eq!(done.rank(), 2);
 /// assert_eq!(done.right_kernel(done.free_cols()).data(), [one, one, one]);
 /// ```
@@ -288,42 +289,32 @@ impl Factorisation {
     /// the fill; it is at most that of the dense elimination, up to a constant, and the
     /// memory is at most that of the dense matrix of what remains.
     ///
+    /// # Errors
+    /// If the task was stopped.
+    ///
     /// # Panics
     /// If a row is not ascending, or has a column beyond the last or a zero.
-    pub fn new(field: &PrimeField, rows: Vec<SparseRow>, cols: usize) -> Self {
-        Self::within(field, rows, cols, usize::MAX)
-            .unwrap_or_else(|_| unreachable!("no part of a matrix has more entries than that"))
+    pub fn new(
+        field: &PrimeField,
+        rows: Vec<SparseRow>,
+        cols: usize,
+        task: &Task,
+    ) -> Result<Self, Stopped> {
+        Self::within(field, rows, cols, usize::MAX, task).map_err(|unfinished| match unfinished {
+            Unfinished::Stopped(stopped) => stopped,
+            Unfinished::TooLarge(..) => unreachable!("no part of a matrix has more entries"),
+        })
     }
 
     /// The same, if the part that is eliminated as a dense matrix has at most `limit` entries.
+    /// The work is counted in columns first, then in the products of the dense elimination.
     ///
     /// # Errors
-    /// The size of that part, rows and columns, if it is larger. It has not been stored then.
+    /// If the task was stopped, or that part is larger. It has not been stored then.
     ///
     /// # Panics
     /// As [`Factorisation::new`].
     pub fn within(
-        field: &PrimeField,
-        rows: Vec<SparseRow>,
-        cols: usize,
-        limit: usize,
-    ) -> Result<Self, (usize, usize)> {
-        match Self::watched(field, rows, cols, limit, &Task::unwatched()) {
-            Ok(done) => Ok(done),
-            Err(Unfinished::TooLarge(rows, cols)) => Err((rows, cols)),
-            Err(Unfinished::Stopped(stopped)) => unreachable!("{stopped}"),
-        }
-    }
-
-    /// [`Factorisation::within`] as a task that can be stopped: columns first, then the products
-    /// of the dense elimination.
-    ///
-    /// # Errors
-    /// If it was, or the dense part has more than `limit` entries.
-    ///
-    /// # Panics
-    /// As [`Factorisation::new`].
-    pub fn watched(
         field: &PrimeField,
         rows: Vec<SparseRow>,
         cols: usize,
@@ -395,7 +386,7 @@ impl Factorisation {
         let kept = upper.iter().chain(&lower).map(Vec::len).sum();
         active.entries = kept;
         active.account(task)?;
-        let dense = eliminate_watched(field, rest, task)?;
+        let dense = eliminate_mod(field, rest, task)?;
         let mut done = Self {
             field: *field,
             rows: count,
@@ -455,7 +446,8 @@ impl Factorisation {
     pub fn left_kernel(&self) -> Matrix<u64> {
         let free = self.free_rows.len();
         let unit = |i, k| if i == k { self.field.one() } else { 0 };
-        self.left_combinations(&Matrix::from_fn(free, free, unit))
+        let unit = Matrix::from_fn(free, free, unit);
+        unwatched(|task| self.left_combinations(&unit, task))
     }
 
     /// Vectors w with w A = 0, one row of the result for each row of `coefficients`: its
@@ -463,20 +455,12 @@ impl Factorisation {
     /// rows. Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and one
     /// pass over the sparse factors for every 8 vectors; shared among threads.
     ///
+    /// # Errors
+    /// If the task was stopped.
+    ///
     /// # Panics
     /// If `coefficients` does not have a column for each free row.
-    pub fn left_combinations(&self, coefficients: &Matrix<u64>) -> Matrix<u64> {
-        unstopped(self.left_combinations_watched(coefficients, &Task::unwatched()))
-    }
-
-    /// The same as a task that can be stopped.
-    ///
-    /// # Errors
-    /// If it was.
-    ///
-    /// # Panics
-    /// As [`left_combinations`](Self::left_combinations).
-    pub fn left_combinations_watched(
+    pub fn left_combinations(
         &self,
         coefficients: &Matrix<u64>,
         task: &Task,
@@ -688,7 +672,7 @@ mod tests {
 
     fn verify(field: &PrimeField, m: &Matrix<u64>) -> Factorisation {
         let rank = textbook::eliminate(field, m).rank();
-        let done = Factorisation::new(field, sparse(m), m.cols());
+        let done = unwatched(|task| Factorisation::new(field, sparse(m), m.cols(), task));
         assert_eq!(done.rank(), rank);
         let pivots = done.pivots();
         let minor = m.submatrix(&pivots.rows, &pivots.cols);
@@ -762,10 +746,14 @@ mod tests {
     fn the_dense_part_is_limited() {
         let field = PrimeField::mersenne61();
         let m = scattered(&field, 260, 200, 4, 3);
-        let (rows, cols) = Factorisation::new(&field, sparse(&m), 200).dense_size();
-        let within = |limit| Factorisation::within(&field, sparse(&m), 200, limit);
+        let new = |task: &Task| Factorisation::new(&field, sparse(&m), 200, task);
+        let (rows, cols) = unwatched(new).dense_size();
+        let within = |limit| {
+            unwatched(|task| Ok(Factorisation::within(&field, sparse(&m), 200, limit, task)))
+        };
         assert!(within(rows * cols).is_ok());
-        assert_eq!(within(rows * cols - 1).unwrap_err(), (rows, cols));
+        let refused = within(rows * cols - 1).unwrap_err();
+        assert!(matches!(refused, Unfinished::TooLarge(r, c) if (r, c) == (rows, cols)));
     }
 
     #[test]
@@ -817,7 +805,7 @@ mod tests {
                 memory: Some(memory),
             });
             let task = watch.task(Step::Flows, 0);
-            let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+            let done = Factorisation::within(&field, rows.clone(), 400, usize::MAX, &task);
             let account = |_| task.reserve(memory, format_args!("all")).is_ok();
             match done {
                 Ok(done) => {
@@ -838,7 +826,8 @@ mod tests {
         };
         assert_eq!(within(1 << 30), None);
         assert!(within(60_000).is_some_and(|what| what.contains("sparse matrix")));
-        let (height, width) = Factorisation::new(&field, rows.clone(), 400).dense_size();
+        let new = |task: &Task| Factorisation::new(&field, rows.clone(), 400, task);
+        let (height, width) = unwatched(new).dense_size();
         assert!(height > 100 && width > 100, "{height} x {width}");
         // Just above what the sparse part takes.
         let mut limits = (0..200).map(|k| 60_000 + k * matrix_bytes(height, width) / 10);
@@ -848,11 +837,11 @@ mod tests {
         let watch = Watch::new(Limits::default());
         watch.interrupt();
         let task = watch.task(Step::Flows, 0);
-        let done = Factorisation::watched(&field, rows.clone(), 400, usize::MAX, &task);
+        let done = Factorisation::within(&field, rows.clone(), 400, usize::MAX, &task);
         assert!(matches!(done, Err(Unfinished::Stopped(_))));
-        let done = Factorisation::new(&field, rows, 400);
+        let done = unwatched(new);
         let one = Matrix::from_fn(1, done.free_rows().len(), |_, _| field.one());
-        assert!(done.left_combinations_watched(&one, &task).is_err());
+        assert!(done.left_combinations(&one, &task).is_err());
     }
 
     proptest! {

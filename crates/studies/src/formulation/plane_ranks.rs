@@ -20,6 +20,7 @@ use viewcert::linalg::dixon::{IntegerRow, rank_exact};
 use viewcert::linalg::integer::{Integer, Integers};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::Rational;
+use viewcert::watch::unwatched;
 
 /// The two matrices, eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,12 +82,14 @@ pub fn modular(
         [x, y, z].map(|x| field.mul(&x, &inverse))
     };
     let centres: Vec<[u64; 3]> = cameras.iter().map(affine).collect();
-    let flows = PlaneFlows::new(field, graph, &centres);
-    let lambda = if field.modulus() < FEW_FLOWS {
-        flows.lambda_of_all_flows()
-    } else {
-        flows.lambda(key.flow_weights(field))
-    };
+    let flows = unwatched(|task| PlaneFlows::new(field, graph, &centres, task));
+    let lambda = unwatched(|task| {
+        if field.modulus() < FEW_FLOWS {
+            flows.lambda_of_all_flows(task)
+        } else {
+            flows.lambda(key.flow_weights(field), task)
+        }
+    });
     let nonzeros = |rows: &SparseRows<u64>| rows.iter().map(Vec::len).sum();
     PlaneRanks {
         rigidity: Shape {
@@ -156,7 +159,7 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
         }
     }
     let nonzeros = columns.iter().map(Vec::len).sum();
-    let transposed = rank_exact(&columns, 2 * edges);
+    let transposed = unwatched(|task| rank_exact(&columns, 2 * edges, task));
 
     let cotree = cotree(graph);
     let mut rows = Vec::with_capacity(4 * transposed.kernel().len());
@@ -186,7 +189,7 @@ pub fn rational(graph: &Graph, cameras: &[Camera<Rational>]) -> PlaneRanks {
         lambda: Shape {
             size: (rows.len(), cotree.len()),
             nonzeros: rows.iter().map(Vec::len).sum(),
-            rank: rank_exact(&rows, cotree.len()).rank(),
+            rank: unwatched(|task| rank_exact(&rows, cotree.len(), task)).rank(),
         },
     }
 }

@@ -12,6 +12,7 @@ use viewcert::linalg::integer::Integer;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
 use viewcert::linalg::sparse_lu::Factorisation;
+use viewcert::watch::unwatched;
 
 /// A field with an elimination of its own.
 pub trait RankField: Field + 'static {
@@ -34,7 +35,7 @@ pub trait RankField: Field + 'static {
 impl RankField for PrimeField {
     /// Sparse elimination with a dense end.
     fn rank(&self, rows: SparseRows<u64>, cols: usize) -> usize {
-        Factorisation::new(self, rows, cols).rank()
+        unwatched(|task| Factorisation::new(self, rows, cols, task)).rank()
     }
 
     fn plane_ranks(&self, graph: &Graph, cameras: &[Camera<u64>], key: &DrawKey) -> PlaneRanks {
@@ -53,7 +54,8 @@ impl RankField for Rationals {
     /// modulo a prime for the lower bound, and verified integer kernel vectors for the
     /// upper one.
     fn rank(&self, rows: SparseRows<Self::Elem>, cols: usize) -> usize {
-        rank_exact(&integer_rows(&rows), cols).rank()
+        let rows = integer_rows(&rows);
+        unwatched(|task| rank_exact(&rows, cols, task)).rank()
     }
 
     fn plane_ranks(&self, graph: &Graph, cameras: &[Camera<Rational>], _: &DrawKey) -> PlaneRanks {

@@ -61,8 +61,8 @@ pub(super) fn search(
         .collect();
     let centres = by.centres(core.graph.nodes());
     let quiet = by.task.untold();
-    let flows = PlaneFlows::watched(by.field, &core.graph, &centres, &quiet)?;
-    let flows = flows.flows_watched(&quiet)?;
+    let flows = PlaneFlows::new(by.field, &core.graph, &centres, &quiet)?;
+    let flows = flows.flows(&quiet)?;
 
     let work = by.task.begin(core.graph.nodes() as u64);
     let mut best: Option<Hub> = None;
@@ -235,7 +235,7 @@ impl Split<'_> {
         let pairs = edges.iter().map(|&(pair, _)| pair).collect();
         let (graph, _) = Graph::from_pairs(copies, pairs).expect("as in the core");
         let centres = by.centres(copies as usize);
-        let flows = PlaneFlows::watched(by.field, &graph, &centres, &by.task.untold())?;
+        let flows = PlaneFlows::new(by.field, &graph, &centres, &by.task.untold())?;
         let (_, transforms) = flows.calibrated_motion(&mut by.random);
         let mut sets = UnionFind::new(self.parts.len());
         motion_class::unite(

@@ -197,7 +197,7 @@ fn parallel_rigid_components(
 ) -> Result<Vec<Members>, Stopped> {
     let core = assembly.core(piece);
     let centres = by.centres(core.graph.nodes());
-    let flows = PlaneFlows::watched(by.field, &core.graph, &centres, &by.task.untold())?;
+    let flows = PlaneFlows::new(by.field, &core.graph, &centres, &by.task.untold())?;
     let (_, transforms) = flows.calibrated_motion(&mut by.random);
     Ok(motion_class::classes(piece, &core, &transforms))
 }

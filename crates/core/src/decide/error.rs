@@ -1,0 +1,80 @@
+//! Why there is no verdict.
+
+use crate::geometry::draw::DrawError;
+use crate::watch::Stopped;
+use std::fmt;
+
+/// Why there is no verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum VerdictError {
+    /// No cameras could be drawn.
+    Draw(DrawError),
+    /// The prime is too small to decide.
+    Undecided {
+        /// The prime.
+        prime: u64,
+        /// How many draws were tried.
+        draws: u64,
+    },
+    /// The matrix is too large for the method that was asked for.
+    TooLarge {
+        /// Which computation.
+        what: &'static str,
+        /// Nodes of the matrix's graph.
+        nodes: usize,
+        /// Its edges.
+        edges: usize,
+        /// Memory or time, for people.
+        needs: String,
+        /// What to do instead.
+        advice: &'static str,
+    },
+    /// The work was stopped before there was an answer.
+    Stopped(Stopped),
+}
+
+impl fmt::Display for VerdictError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Draw(inner) => inner.fmt(f),
+            Self::Undecided { prime, draws } => write!(
+                f,
+                "undecided modulo {prime}: the rank falls short at {draws} draws, which modulo so small a prime \
+         says nothing; take a larger prime (the default is 2^61 - 1)"
+            ),
+            Self::TooLarge {
+                what,
+                nodes,
+                edges,
+                needs,
+                advice,
+            } => write!(
+                f,
+                "{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}"
+            ),
+            Self::Stopped(inner) => inner.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for VerdictError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Draw(inner) => inner.source(),
+            Self::Stopped(inner) => inner.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<DrawError> for VerdictError {
+    fn from(inner: DrawError) -> Self {
+        Self::Draw(inner)
+    }
+}
+
+impl From<Stopped> for VerdictError {
+    fn from(inner: Stopped) -> Self {
+        Self::Stopped(inner)
+    }
+}
