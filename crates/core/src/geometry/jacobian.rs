@@ -49,11 +49,12 @@ pub fn fundamental<R: Ring>(
             // Laplace expansion along the first two rows; complementary pairs of columns
             // stand at mirrored places, with signs + - + + - +.
             let (a, b) = (&planes_i[k], &planes_j[h]);
+            // From left to right, which matters where numbers are rounded.
             let term = |m: usize| ring.mul(&a[m], &b[5 - m]);
-            let plus = [2, 3, 5]
-                .into_iter()
-                .fold(term(0), |sum, m| ring.add(&sum, &term(m)));
-            let determinant = ring.sub(&plus, &ring.add(&term(1), &term(4)));
+            let determinant = (1..6).fold(term(0), |sum, m| match m {
+                1 | 4 => ring.sub(&sum, &term(m)),
+                _ => ring.add(&sum, &term(m)),
+            });
             if (h + k) % 2 == 0 {
                 determinant
             } else {
@@ -104,8 +105,43 @@ fn sum<R: Ring>(ring: &R, term: impl Fn(usize) -> R::Elem) -> R::Elem {
     ring.add(&ring.add(&term(0), &term(1)), &term(2))
 }
 
-/// J_P, the 10m x 12n Jacobian of Phi with respect to all cameras, as sparse rows: the
-/// paper's equations (blockA) and (blockB). A row has at most 12 entries.
+/// The rows of J_P of one edge with fundamental matrix `f`, which may be any multiple of
+/// [`fundamental`]: the paper's equations (blockA) and (blockB).
+///
+/// `put` is called with the row (below 10), the column (below 12 for the first camera, from
+/// 12 to 23 for the second) and the entry, row by row with ascending columns; entries of
+/// one row at 12 places at most, zeros among them.
+pub fn edge_rows<R: Ring>(
+    ring: &R,
+    p_i: &Camera<R::Elem>,
+    p_j: &Camera<R::Elem>,
+    f: &[[R::Elem; 3]; 3],
+    mut put: impl FnMut(usize, usize, R::Elem),
+) {
+    // S = A P_i with A = P_j^T F, and S^T = B P_j with B = P_i^T F^T: the entry of
+    // S + S^T at (r, c) moves with column c of a camera as row r of A or B, and with
+    // column r as row c.
+    let a = transfer(ring, p_j, |h, k| &f[h][k]);
+    let b = transfer(ring, p_i, |h, k| &f[k][h]);
+    for (row, (r, c)) in VECH.into_iter().enumerate() {
+        for (start, block) in [(0, &a), (12, &b)] {
+            for k in 0..3 {
+                if r == c {
+                    put(row, start + 3 * c + k, ring.add(&block[r][k], &block[r][k]));
+                } else {
+                    put(row, start + 3 * c + k, block[r][k].clone());
+                }
+            }
+            // r > c in the lower triangle, so the columns ascend.
+            for k in (0..3).filter(|_| r != c) {
+                put(row, start + 3 * r + k, block[c][k].clone());
+            }
+        }
+    }
+}
+
+/// J_P, the 10m x 12n Jacobian of Phi with respect to all cameras, as sparse rows:
+/// [`edge_rows`] of every edge. A row has at most 12 entries.
 ///
 /// # Panics
 /// If there is not one camera a node.
@@ -118,33 +154,16 @@ pub fn jacobian<R: Ring>(
     let mut rows = Vec::with_capacity(10 * graph.edges().len());
     for &(i, j) in graph.edges() {
         let (i, j) = (i as usize, j as usize);
-        let f = fundamental(ring, &cameras[i], &cameras[j]);
-        // S = A P_i with A = P_j^T F, and S^T = B P_j with B = P_i^T F^T: the entry of
-        // S + S^T at (r, c) moves with column c of a camera as row r of A or B, and with
-        // column r as row c.
-        let a = transfer(ring, &cameras[j], |h, k| &f[h][k]);
-        let b = transfer(ring, &cameras[i], |h, k| &f[k][h]);
-        for (r, c) in VECH {
-            let mut row = Vec::with_capacity(12);
-            for (node, block) in [(i, &a), (j, &b)] {
-                let mut push = |col: usize, entries: [R::Elem; 3]| {
-                    let start = 12 * node + 3 * col;
-                    let places = (start..).zip(entries);
-                    row.extend(places.filter(|(_, entry)| !ring.is_zero(entry)));
-                };
-                if r == c {
-                    push(
-                        c,
-                        std::array::from_fn(|k| ring.add(&block[r][k], &block[r][k])),
-                    );
-                } else {
-                    // r > c in the lower triangle, so the columns ascend.
-                    push(c, block[r].clone());
-                    push(r, block[c].clone());
-                }
+        let (p_i, p_j) = (&cameras[i], &cameras[j]);
+        let f = fundamental(ring, p_i, p_j);
+        let first = rows.len();
+        rows.resize_with(first + VECH.len(), || Vec::with_capacity(12));
+        edge_rows(ring, p_i, p_j, &f, |row, column, entry| {
+            if !ring.is_zero(&entry) {
+                let node = if column < 12 { i } else { j };
+                rows[first + row].push((12 * node + column % 12, entry));
             }
-            rows.push(row);
-        }
+        });
     }
     rows
 }

@@ -1,6 +1,9 @@
 //! Cameras in double precision.
 
+use super::doubles::Doubles;
+use viewcert::geometry::camera;
 use viewcert::geometry::draw::DrawKey;
+use viewcert::geometry::jacobian;
 use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 
@@ -8,7 +11,7 @@ use viewcert::linalg::prime::PrimeField;
 pub const NORM: f64 = 10.0;
 
 /// A camera, row by row.
-pub type Camera = [[f64; 4]; 3];
+pub type Camera = camera::Camera<f64>;
 
 /// Scales a matrix to Frobenius norm [`NORM`].
 pub fn normalise<const R: usize, const C: usize>(matrix: &mut [[f64; C]; R]) {
@@ -41,42 +44,10 @@ pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
         .collect()
 }
 
-/// The determinant of four rows, by 2 x 2 minors.
-fn determinant(rows: [&[f64; 4]; 4]) -> f64 {
-    let [a, b, c, d] = rows;
-    let minor = |p: &[f64; 4], q: &[f64; 4], k: usize, l: usize| p[k] * q[l] - p[l] * q[k];
-    let pairs = [
-        (0, 1, 1.0),
-        (0, 2, -1.0),
-        (0, 3, 1.0),
-        (1, 2, 1.0),
-        (1, 3, -1.0),
-        (2, 3, 1.0),
-    ];
-    pairs
-        .iter()
-        .map(|&(k, l, sign)| {
-            let mut rest = (0..4).filter(|&x| x != k && x != l);
-            let (s, t) = (rest.next().unwrap_or(0), rest.next().unwrap_or(0));
-            sign * minor(a, b, k, l) * minor(c, d, s, t)
-        })
-        .sum()
-}
-
-/// The fundamental matrix by the paper's equation (2), scaled to norm 10.
+/// The fundamental matrix of
+/// [`jacobian::fundamental`](viewcert::geometry::jacobian::fundamental), scaled to norm 10.
 pub fn fundamental(p_i: &Camera, p_j: &Camera) -> [[f64; 3]; 3] {
-    let without = |camera: &Camera, row: usize| match row {
-        0 => [camera[1], camera[2]],
-        1 => [camera[0], camera[2]],
-        _ => [camera[0], camera[1]],
-    };
-    let mut f = std::array::from_fn(|h| {
-        std::array::from_fn(|k| {
-            let ([a, b], [c, d]) = (without(p_i, k), without(p_j, h));
-            let sign = if (h + k) % 2 == 0 { 1.0 } else { -1.0 };
-            sign * determinant([&a, &b, &c, &d])
-        })
-    });
+    let mut f = jacobian::fundamental(&Doubles, p_i, p_j);
     normalise(&mut f);
     f
 }

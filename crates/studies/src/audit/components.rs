@@ -1,8 +1,8 @@
 //! Components by the rows of a null space that vanish (the paper's section 4.2).
 
 use super::jacobian::{Blocks, Jacobian};
-use super::{AuditError, Method, Options, cameras, dense, jacobian, sparse};
-use crate::formulation::augmented::reference;
+use super::{AuditError, Method, Options, cameras, dense, sparse};
+use crate::formulation::augmented;
 use viewcert::graph::Graph;
 
 /// The bound on a camera's part of the null space, as in the published code.
@@ -22,11 +22,11 @@ pub fn components(graph: &Graph, options: &Options, draw: u64) -> Result<Vec<usi
     if edges.is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let method = options.method.choose(jacobian::size(graph))?;
+    let method = options.method.choose(augmented::size(graph))?;
     let cameras = cameras::draw(graph, options.seed, draw);
     let blocks = Blocks::new(graph, &cameras);
     let mut component = vec![None; edges.len()];
-    let mut frame = reference(graph);
+    let mut frame = augmented::reference(graph);
     for number in 0.. {
         let j = Jacobian::new(&blocks, frame);
         let null = match method {

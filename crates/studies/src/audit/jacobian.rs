@@ -1,8 +1,11 @@
 //! The augmented Jacobian in double precision, by blocks.
 
 use super::cameras::{Camera, fundamental};
+use super::doubles::Doubles;
+use crate::formulation::augmented;
 use faer::Mat;
-use viewcert::geometry::jacobian::VECH;
+use viewcert::geometry::jacobian;
+use viewcert::geometry::jacobian::SparseRows;
 use viewcert::graph::Graph;
 
 /// The rows of one edge: 12 columns of the first camera, then 12 of the second.
@@ -11,13 +14,8 @@ pub type EdgeRows = [[f64; 24]; 10];
 /// A block of J^T J, row by row.
 pub type GramBlock = [[f64; 12]; 12];
 
-/// Rows and columns of J.
-pub fn size(graph: &Graph) -> (usize, usize) {
-    let nodes = graph.nodes();
-    (10 * graph.edges().len() + nodes + 15, 12 * nodes)
-}
-
-/// J_P at given cameras, which J shares for every choice of the frame.
+/// J_P at given cameras and fundamental matrices of norm 10, which J shares for every choice
+/// of the frame.
 #[derive(Debug)]
 pub struct Blocks<'a> {
     /// The graph.
@@ -27,25 +25,15 @@ pub struct Blocks<'a> {
 }
 
 impl<'a> Blocks<'a> {
-    /// Computes all blocks by the paper's equations (blockA) and (blockB). O(m).
+    /// Computes the rows of all edges. O(m).
     pub fn new(graph: &'a Graph, cameras: &[Camera]) -> Self {
         let block = |&(i, j): &(u32, u32)| {
             let (p_i, p_j) = (&cameras[i as usize], &cameras[j as usize]);
             let f = fundamental(p_i, p_j);
-            let product = |p: &Camera, r: usize, entry: &dyn Fn(usize) -> f64| -> f64 {
-                (0..3).map(|h| p[h][r] * entry(h)).sum()
-            };
-            let a = |r: usize, k: usize| product(p_j, r, &|h| f[h][k]);
-            let b = |r: usize, k: usize| product(p_i, r, &|h| f[k][h]);
             let mut rows = [[0.0; 24]; 10];
-            for (row, (r, c)) in rows.iter_mut().zip(VECH) {
-                for k in 0..3 {
-                    row[3 * c + k] += a(r, k);
-                    row[3 * r + k] += a(c, k);
-                    row[12 + 3 * c + k] += b(r, k);
-                    row[12 + 3 * r + k] += b(c, k);
-                }
-            }
+            jacobian::edge_rows(&Doubles, p_i, p_j, &f, |row, column, entry| {
+                rows[row][column] = entry;
+            });
             rows
         };
         Self {
@@ -55,13 +43,12 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// J: the blocks, and the frame on one edge.
-#[derive(Clone, Copy, Debug)]
+/// J: the blocks, and the rows of the gauge below them.
+#[derive(Clone, Debug)]
 pub struct Jacobian<'a> {
     /// J_P.
     pub blocks: &'a Blocks<'a>,
-    /// The two cameras of the frame.
-    pub frame: (usize, usize),
+    gauge: SparseRows<f64>,
 }
 
 impl<'a> Jacobian<'a> {
@@ -70,16 +57,15 @@ impl<'a> Jacobian<'a> {
     /// # Panics
     /// If there is no such edge.
     pub fn new(blocks: &'a Blocks<'a>, reference: usize) -> Self {
-        let (first, second) = blocks.graph.edges()[reference];
         Self {
             blocks,
-            frame: (first as usize, second as usize),
+            gauge: jacobian::gauge(&Doubles, blocks.graph, reference),
         }
     }
 
     /// Rows and columns.
     pub fn size(&self) -> (usize, usize) {
-        size(self.blocks.graph)
+        augmented::size(self.blocks.graph)
     }
 
     /// The dense matrix, with rows of zeros added until there are as many as columns.
@@ -95,23 +81,12 @@ impl<'a> Jacobian<'a> {
                 }
             }
         }
-        for (row, columns) in (10 * self.blocks.edges.len()..).zip(self.gauge()) {
-            for column in columns {
-                matrix[(row, column)] = 1.0;
+        for (row, entries) in (10 * self.blocks.edges.len()..).zip(&self.gauge) {
+            for &(column, entry) in entries {
+                matrix[(row, column)] = entry;
             }
         }
         matrix
-    }
-
-    /// The columns of the ones in every row of the gauge: the first camera, the first row
-    /// of the second, the sums of the others.
-    fn gauge(&self) -> impl Iterator<Item = Vec<usize>> {
-        let (first, second) = self.frame;
-        let camera = (0..12).map(move |k| vec![12 * first + k]);
-        let row = (0..4).map(move |c| vec![12 * second + 3 * c]);
-        let others = (0..self.blocks.graph.nodes()).filter(move |&v| v != first);
-        let sums = others.map(|v| (12 * v..12 * (v + 1)).collect());
-        camera.chain(row).chain(sums)
     }
 
     /// J V for a matrix V of 12n rows.
@@ -130,8 +105,9 @@ impl<'a> Jacobian<'a> {
                 }
             }
             let start = 10 * self.blocks.edges.len();
-            for (row, columns) in (start..).zip(self.gauge()) {
-                product[(row, column)] = columns.iter().map(|&at| v[(at, column)]).sum();
+            for (row, entries) in (start..).zip(&self.gauge) {
+                let terms = entries.iter().map(|&(at, entry)| entry * v[(at, column)]);
+                product[(row, column)] = terms.sum();
             }
         }
         product
@@ -158,10 +134,11 @@ impl<'a> Jacobian<'a> {
                 }
             }
         }
-        for columns in self.gauge() {
-            for &x in &columns {
-                for &y in &columns {
-                    diagonal[x / 12][x % 12][y % 12] += 1.0;
+        // A row of the gauge has entries of one camera only.
+        for entries in &self.gauge {
+            for &(x, of_x) in entries {
+                for &(y, of_y) in entries {
+                    diagonal[x / 12][x % 12][y % 12] += of_x * of_y;
                 }
             }
         }
@@ -179,7 +156,6 @@ fn add(line: &mut [f64; 12], factor: f64, row: &[f64]) {
 mod tests {
     use super::*;
     use crate::audit::cameras::NORM;
-    use viewcert::geometry::jacobian;
     use viewcert::linalg::integer::{Integer, Integers};
 
     /// At small integer cameras J is the exact one, but for the norm of F.

@@ -16,12 +16,13 @@ pub mod cameras;
 pub mod claims;
 pub mod components;
 pub mod dense;
+pub mod doubles;
 pub mod jacobian;
 pub mod published;
 pub mod sparse;
 pub mod study;
 
-use crate::formulation::augmented::reference;
+use crate::formulation::augmented;
 use jacobian::{Blocks, Jacobian};
 use viewcert::graph::Graph;
 
@@ -206,10 +207,10 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
     if graph.edges().is_empty() {
         return Err(AuditError::NoPairs);
     }
-    let method = options.method.choose(jacobian::size(graph))?;
+    let method = options.method.choose(augmented::size(graph))?;
     let cameras = cameras::draw(graph, options.seed, draw);
     let blocks = Blocks::new(graph, &cameras);
-    let j = Jacobian::new(&blocks, reference(graph));
+    let j = Jacobian::new(&blocks, augmented::reference(graph));
     let columns = 12 * graph.nodes();
     let (eigenvalue, matlab_rank) = match method {
         Method::Gram => (dense::gram_eigenvalue(&j)?, None),

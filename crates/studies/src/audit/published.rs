@@ -7,7 +7,7 @@
 //! [`components`](super::components) runs it, with all pairs at every step; and as the paper
 //! writes it, with the pairs that are left, from every pair as the first.
 
-use crate::formulation::augmented::reference;
+use crate::formulation::augmented;
 use crate::paper_components;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -35,10 +35,12 @@ pub struct Study {
 /// # Errors
 /// If no cameras can be drawn.
 pub fn study(graph: &Graph, components: usize, seed: u64) -> Result<Option<Study>, DrawError> {
-    let (nodes, edges) = (graph.nodes(), graph.edges().len());
-    let elimination = (10 * edges + nodes + 15).saturating_mul(144 * nodes * nodes);
+    let (rows, columns) = augmented::size(graph);
+    let elimination = rows.saturating_mul(columns * columns);
     let run = elimination.saturating_mul(components);
-    let starts = (MAX_WORK / run.max(1)).saturating_sub(1).min(edges);
+    let starts = (MAX_WORK / run.max(1))
+        .saturating_sub(1)
+        .min(graph.edges().len());
     if starts == 0 {
         return Ok(None);
     }
@@ -66,7 +68,7 @@ pub fn study(graph: &Graph, components: usize, seed: u64) -> Result<Option<Study
 fn of_all_pairs(field: &PrimeField, graph: &Graph, key: &DrawKey) -> Result<usize, DrawError> {
     let cameras = draw::cameras_mod(field, graph.nodes(), key)?.values;
     let mut found = vec![false; graph.edges().len()];
-    let mut frame = Some(reference(graph));
+    let mut frame = Some(augmented::reference(graph));
     let mut count = 0;
     while let Some(at) = frame {
         let fixed = paper_components::fixed_nodes(field, graph, &cameras, at);

@@ -40,6 +40,12 @@ pub fn reference(graph: &Graph) -> usize {
     best.1
 }
 
+/// Rows and columns of J.
+pub fn size(graph: &Graph) -> (usize, usize) {
+    let nodes = graph.nodes();
+    (10 * graph.edges().len() + nodes + 15, 12 * nodes)
+}
+
 impl<F: Field> Formulation<F> for Augmented {
     fn name(&self) -> &'static str {
         "augmented"
@@ -54,8 +60,7 @@ impl<F: Field> Formulation<F> for Augmented {
     }
 
     fn size(&self, graph: &Graph) -> (usize, usize) {
-        let nodes = graph.nodes();
-        (10 * graph.edges().len() + nodes + 15, 12 * nodes)
+        size(graph)
     }
 
     fn trivial_kernel(&self, _graph: &Graph) -> usize {
