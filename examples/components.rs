@@ -12,14 +12,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let verdict = decide(&input.graph, &Options::default())?;
         println!("{}: {}", input.name, verdict.value);
         for part in &verdict.components {
-            let pairs = verdict.component_edges(&input.graph, part);
-            let label = |node| input.labels.label(node);
-            let names: Vec<_> = verdict
-                .component_nodes(part)
-                .into_iter()
-                .map(label)
-                .collect();
-            println!("  {} ({} pairs)", names.join(" "), pairs.len());
+            let nodes = part.nodes();
+            let names: Vec<_> = nodes.iter().map(|&v| input.labels.label(v)).collect();
+            println!("  {} ({} pairs)", names.join(" "), part.edge_count());
+            for (i, j) in part.edges(&input.graph) {
+                println!(
+                    "    {} - {}",
+                    input.labels.display(i),
+                    input.labels.display(j)
+                );
+            }
         }
     }
     Ok(())

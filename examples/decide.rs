@@ -7,9 +7,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let verdict = decide(&graph, &Options::default())?;
     assert_eq!(verdict.value, Value::NotFiniteSolvable);
     assert_eq!((verdict.rank, verdict.required), (28, 29));
-    println!(
-        "{}: rank {} of {}",
-        verdict.value, verdict.rank, verdict.required
-    );
+    // not-finite-solvable (proof): rank 28 (proof) of 29
+    let (answer, rank) = (verdict.value_claim(), verdict.rank_claim());
+    println!("{answer}: rank {rank} of {}", verdict.required);
     Ok(())
 }

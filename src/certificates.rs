@@ -6,8 +6,6 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use viewcert::certificate;
-use viewcert::certificate::Layout;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
 
@@ -56,15 +54,8 @@ impl Target {
             bail!("{}", too_many(&self.path, "several graphs"));
         };
         atomic::write(&path, |mut out| {
-            let layout = Layout::Lines;
-            certificate::write(
-                &mut out,
-                &input.name,
-                &input.graph,
-                verdict,
-                self.embed,
-                layout,
-            )
+            let certificate = verdict.certificate(&input.graph).named(&input.name);
+            certificate.embed_graph(self.embed).write_to(&mut out)
         })?;
         Ok(path)
     }

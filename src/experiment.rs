@@ -8,9 +8,7 @@ use clap::{Args, Subcommand};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::decide::evidence::Strength;
-use viewcert::decide::{Options, Value};
-use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert::decide::{Options, Strength, Value};
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::random;
 use viewcert_studies::catalog::random::{Density, Sampler, fisher};
@@ -86,12 +84,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         Some(path) => read_table(path)?,
         None => Vec::new(),
     };
-    let options = Options {
-        field: PrimeField::new(DEFAULT_PRIME)?,
-        seed: arguments.seed,
-        watch: running::watch(),
-        ..Options::default()
-    };
+    let options = Options::default()
+        .seed(arguments.seed)
+        .watch(running::watch());
     let mut columns = Vec::new();
     let mut lines = Vec::new();
     let samples = u64::from(arguments.samples);

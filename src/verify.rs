@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, Options, Value};
+use viewcert::decide::{Arithmetic, Options, Prime, Value};
 use viewcert::geometry::model::Model;
-use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::NamedGraph;
 
 /// Options of the verifier.
@@ -77,7 +77,6 @@ enum ModelName {
 
 impl VerifyArguments {
     fn options(&self) -> Result<Options> {
-        let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         ensure!(
             !self.rational || matches!(self.model, ModelName::Projective),
             "--rational: the calibrated model is decided modulo primes only; leave out --rational, or \
@@ -91,23 +90,24 @@ impl VerifyArguments {
         } else {
             Arithmetic::Prime
         };
-        Ok(Options {
-            model: match self.model {
-                ModelName::Projective => Model::Projective,
-                ModelName::Calibrated => Model::Calibrated,
-            },
-            arithmetic,
-            field: PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?,
-            small_prime_from: if self.prime.is_some() {
-                usize::MAX
-            } else {
-                Options::default().small_prime_from
-            },
-            contraction: !self.no_contraction,
-            counting: !self.no_counting,
-            seed: self.seed,
-            watch: running::shown_watch(),
-        })
+        let prime = match self.prime {
+            None => Prime::Auto,
+            Some(prime) => {
+                Prime::Fixed(PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?)
+            }
+        };
+        let model = match self.model {
+            ModelName::Projective => Model::Projective,
+            ModelName::Calibrated => Model::Calibrated,
+        };
+        Ok(Options::default()
+            .model(model)
+            .arithmetic(arithmetic)
+            .prime(prime)
+            .contraction(!self.no_contraction)
+            .counting(!self.no_counting)
+            .seed(self.seed)
+            .watch(running::shown_watch()))
     }
 }
 

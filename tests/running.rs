@@ -360,10 +360,7 @@ fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
     let path = folder.join("cycle.txt");
     fs::write(&path, cycle).unwrap();
     let cycle = graph(path.to_str().unwrap());
-    let whole = Options {
-        arithmetic: rational,
-        ..Options::default()
-    };
+    let whole = Options::default().arithmetic(rational);
     vec![
         (graph(&two_cycles(folder, 300)), Options::default()),
         (cycle.clone(), Options::default()),
@@ -417,15 +414,12 @@ fn an_observer_sees_every_stage_and_changes_nothing() {
     for (graph, options) in every_step(folder.path()) {
         let record = Arc::new(Record::default());
         let watch = Watch::new(Limits::default()).observed(record.clone());
-        let observed = Options {
-            watch,
-            ..options.clone()
-        };
+        let observed = options.clone().watch(watch);
         let verdict = decide::decide(&graph, &observed).unwrap();
         let alone = decide::decide(&graph, &options).unwrap();
         assert_eq!(
-            (verdict.value, verdict.rank, verdict.components),
-            (alone.value, alone.rank, alone.components)
+            (verdict.value, verdict.rank, verdict.components.len()),
+            (alone.value, alone.rank, alone.components.len())
         );
         assert_eq!(verdict.pieces, alone.pieces);
         for begun in record.0.lock().unwrap().values() {
@@ -475,10 +469,7 @@ fn every_step_can_be_stopped() {
         for (graph, options) in &cases {
             let watch = Watch::new(Limits::default());
             let interrupter = Arc::new(Interrupter(watch.clone(), step));
-            let options = Options {
-                watch: watch.observed(interrupter),
-                ..options.clone()
-            };
+            let options = options.clone().watch(watch.observed(interrupter));
             match decide::decide(graph, &options) {
                 Err(VerdictError::Stopped(found)) => {
                     assert_eq!(found.reason, Reason::Interrupted);

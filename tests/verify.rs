@@ -267,7 +267,7 @@ fn synthetic_graphs_have_their_true_components() {
         // Edges of one true component are in one found component, and the other way.
         let mut found = BTreeMap::new();
         for (k, component) in verdict.components.iter().enumerate() {
-            let nodes = verdict.component_nodes(component);
+            let nodes = component.nodes();
             for (e, (i, j)) in graph.edges().iter().enumerate() {
                 if nodes.contains(i) && nodes.contains(j) {
                     assert_eq!(found.insert(e, k), None);

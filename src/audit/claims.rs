@@ -33,10 +33,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
         let ruled = claim(arguments, row).and_then(|(claim, input)| {
-            let options = decide::Options {
-                model: claim.model,
-                ..arguments.exact()
-            };
+            let options = arguments.exact().model(claim.model);
             let exact =
                 decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
             let edges = input.graph.edges().len();

@@ -109,11 +109,9 @@ impl AuditArguments {
     }
 
     fn exact(&self) -> decide::Options {
-        decide::Options {
-            seed: self.seed,
-            watch: running::watch(),
-            ..decide::Options::default()
-        }
+        decide::Options::default()
+            .seed(self.seed)
+            .watch(running::watch())
     }
 
     /// The target of the certificates of graphs in these files.

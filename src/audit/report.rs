@@ -104,7 +104,7 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         out,
         "  exact       {} ({}), components {}, {:.3} s",
         exact.value.name(),
-        exact.strength.name(),
+        exact.value_claim().strength.name(),
         exact.components.len(),
         audit.exact_time.as_secs_f64()
     )?;
@@ -217,7 +217,7 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         notes: &audit.input.notes,
         exact: Side {
             verdict: audit.exact.value.name(),
-            strength: audit.exact.strength.name(),
+            strength: audit.exact.value_claim().strength.name(),
             components: audit.exact.components.len(),
             seconds: audit.exact_time.as_secs_f64(),
         },

@@ -50,7 +50,7 @@ pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         "  {}: {} ({}), components {}, rank {}",
         input.name,
         exact.value.name(),
-        exact.strength.name(),
+        exact.value_claim().strength.name(),
         exact.components.len(),
         exact.rank
     )?;
@@ -94,7 +94,7 @@ pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         reason: reasons(ruled.ruling),
         graph: &input.name,
         verdict: exact.value.name(),
-        strength: exact.strength.name(),
+        strength: exact.value_claim().strength.name(),
         components: exact.components.len(),
         rank: exact.rank,
         certificate: ruled.certificate.map(|path| path.display().to_string()),

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
-use viewcert::decide::Options;
+use viewcert::decide::{Options, Prime};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_studies::catalog::mine;
@@ -112,13 +112,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         Some(Command::Publish(arguments)) => return publish::run(arguments),
         None => (),
     }
-    let options = Options {
-        field: PrimeField::new(arguments.prime)
-            .with_context(|| format!("--prime {}", arguments.prime))?,
-        seed: arguments.seed,
-        watch: running::watch(),
-        ..Options::default()
-    };
+    let field =
+        PrimeField::new(arguments.prime).with_context(|| format!("--prime {}", arguments.prime))?;
+    let options = Options::default()
+        .prime(Prime::Fixed(field))
+        .seed(arguments.seed)
+        .watch(running::watch());
     let sizes = arguments.nodes.clone().map_or(0..=0, |nodes| nodes.0);
     let several = sizes.clone().nth(1).is_some();
     if several && (arguments.edges.is_some() || arguments.out.is_some()) {

@@ -13,9 +13,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::certificate;
-use viewcert::certificate::Layout;
-use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
+use viewcert::decide::{Options, Prime, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_studies::catalog::candidates::to_graph;
@@ -131,10 +129,7 @@ impl Files<'_> {
 }
 
 fn options() -> Options {
-    Options {
-        watch: running::watch(),
-        ..Options::default()
-    }
+    Options::default().watch(running::watch())
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
@@ -143,10 +138,7 @@ fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
     let options = options();
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
-        |field| Options {
-            field,
-            ..options.clone()
-        },
+        |field| options.clone().prime(Prime::Fixed(field)),
     );
     match decide(graph, &small) {
         Err(VerdictError::Undecided { .. }) => decide(graph, &options),
@@ -194,7 +186,8 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
                 .verdicts
                 .entry(verdict.value.name().into())
                 .or_default() += 1;
-            certificate::write(file, &entry.graph6, graph, verdict, true, Layout::Compact)?;
+            let certificate = verdict.certificate(graph).named(&entry.graph6);
+            certificate.embed_graph(true).compact().write_to(file)?;
             if solvable && nodes <= DRAWN {
                 drawings.push(Drawing {
                     graph: graph.clone(),

@@ -4,6 +4,7 @@ use super::Report;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
+use viewcert::decide::Component;
 
 #[derive(Serialize)]
 struct Line<'a> {
@@ -44,8 +45,9 @@ struct ComponentLine {
 /// Those of the writer.
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
-    let labels = |component| {
-        let nodes = verdict.component_nodes(component);
+    let strength = verdict.value_claim().strength;
+    let labels = |component: &Component| {
+        let nodes = component.nodes();
         nodes
             .iter()
             .map(|&v| input.labels.label(v).into_owned())
@@ -61,21 +63,21 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         notes: &input.notes,
         model: verdict.model.name(),
         verdict: verdict.value.name(),
-        strength: verdict.strength.name(),
-        error_log2: verdict.strength.error_log2(),
+        strength: strength.name(),
+        error_log2: strength.error_log2(),
         rank: verdict.rank,
         rank_required: verdict.required,
-        rank_strength: verdict.rank_strength.name(),
+        rank_strength: verdict.rank_claim().strength.name(),
         components: verdict
             .components
             .iter()
             .map(|component| ComponentLine {
-                nodes: component.nodes,
-                edges: component.edges,
+                nodes: component.node_count(),
+                edges: component.edge_count(),
                 labels: report.list_components.then(|| labels(component)),
             })
             .collect(),
-        components_strength: verdict.components_strength.name(),
+        components_strength: verdict.components_claim().strength.name(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
     };

@@ -2,7 +2,8 @@
 
 use super::{Report, counted, size};
 use std::io::{self, Write};
-use viewcert::decide::evidence::{Evidence, Strength, Witness};
+use viewcert::decide::Strength;
+use viewcert::decide::evidence::{Evidence, Witness};
 use viewcert::decide::{Value, Verdict};
 use viewcert::geometry::model::Model;
 
@@ -27,19 +28,19 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         "  rank        {} of {} ({})",
         verdict.rank,
         verdict.required,
-        strength(verdict.rank_strength)
+        strength(verdict.rank_claim().strength)
     )?;
     writeln!(
         out,
         "  components  {} ({}){}",
         verdict.components.len(),
-        strength(verdict.components_strength),
+        strength(verdict.components_claim().strength),
         sizes(verdict)
     )?;
     if report.list_components {
         for (k, component) in (1..).zip(&verdict.components) {
             write!(out, "  component {k}:")?;
-            for v in verdict.component_nodes(component) {
+            for v in component.nodes() {
                 write!(out, " {}", input.labels.display(v))?;
             }
             writeln!(out)?;
@@ -59,7 +60,7 @@ fn answer(verdict: &Verdict) -> String {
             "not solvable: infinitely many sets of cameras"
         }
     };
-    format!("{value} ({})", strength(verdict.strength))
+    format!("{value} ({})", strength(verdict.value_claim().strength))
 }
 
 fn strength(strength: Strength) -> String {
@@ -113,7 +114,7 @@ fn reason(report: &Report) -> String {
     }
     let parts = verdict.rigid.len() + verdict.pieces.len();
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
-    match verdict.strength {
+    match verdict.value_claim().strength {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
         Strength::Proof if parts == 0 => "there are no pairs".into(),
         Strength::Proof if parts > 1 => {
@@ -133,7 +134,7 @@ fn sizes(verdict: &Verdict) -> String {
         .iter()
         .take(SHOWN)
         .map(|component| {
-            let (nodes, edges) = (component.nodes, component.edges);
+            let (nodes, edges) = (component.node_count(), component.edge_count());
             format!("{} / {}", counted(nodes, "camera"), counted(edges, "pair"))
         })
         .collect();

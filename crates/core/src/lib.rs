@@ -5,29 +5,26 @@
 //! maximal parts of it do?
 //!
 //! ```
-//! use viewcert::{Graph, Options, Strength, Value, decide};
+//! use viewcert::{LabelledGraph, Options, Value, decide};
 //!
-//! // A triangle 0, 1, 2, and camera 3 seen from camera 2 alone.
-//! let graph = Graph::new(4, [(0, 1), (0, 2), (1, 2), (2, 3)])?;
-//! let verdict = decide(&graph, &Options::default())?;
+//! // Three images that see each other, and a fourth seen from one of them alone.
+//! let pairs = [("a", "b"), ("a", "c"), ("b", "c"), ("c", "d")];
+//! let images = LabelledGraph::from_pairs(pairs)?;
+//! let graph = images.graph();
+//! let verdict = decide(graph, &Options::default())?;
 //!
 //! assert_eq!(verdict.value, Value::NotFiniteSolvable);
-//! assert_eq!(verdict.strength, Strength::Proof);
+//! assert!(verdict.value_claim().is_proved());
 //! assert_eq!((verdict.rank, verdict.required), (25, 29));
+//! for component in &verdict.components {
+//!     let names: Vec<_> = component.nodes().iter().map(|&v| *images.label(v)).collect();
+//!     println!("{}: {} pairs", names.join(" "), component.edges(graph).len());
+//! }
 //!
-//! let parts = verdict.components.iter();
-//! let parts: Vec<Vec<u32>> = parts.map(|part| verdict.component_nodes(part)).collect();
-//! assert_eq!(parts, [vec![0, 1, 2], vec![2, 3]]);
-//!
-//! let mut certificate = Vec::new();
-//! viewcert::certificate::write(
-//!     &mut certificate,
-//!     "my graph",
-//!     &graph,
-//!     &verdict,
-//!     true,
-//!     viewcert::certificate::Layout::Lines,
-//! )?;
+//! let certificate = verdict.certificate(graph).named("my graph").to_string();
+//! # assert_eq!(verdict.components[0].nodes(), [0, 1, 2]);
+//! # assert_eq!(verdict.components[1].edges(graph), [(2, 3)]);
+//! # assert!(certificate.contains("my graph"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -48,7 +45,9 @@ pub mod linalg;
 pub mod watch;
 pub mod wording;
 
-pub use decide::evidence::Strength;
-pub use decide::{Component, Options, Value, Verdict, VerdictError, decide};
+pub use certificate::Certificate;
+pub use decide::{
+    Arithmetic, Claim, Component, Options, Prime, Strength, Value, Verdict, VerdictError, decide,
+};
 pub use geometry::model::Model;
-pub use graph::{Graph, GraphError, Labels};
+pub use graph::{Graph, GraphError, LabelledGraph, Labels, PairedWithItself};

@@ -15,8 +15,8 @@
 //!     deadline: Some(Instant::now() + Duration::from_secs(60)),
 //!     memory: Some(1 << 30),
 //! });
-//! let options = Options { watch: watch.clone(), ..Options::default() };
-//! let (graph, _) = Graph::from_pairs(4, vec![(0, 1), (1, 2), (2, 3), (3, 0)])?;
+//! let options = Options::default().watch(watch.clone());
+//! let graph = Graph::new(4, [(0, 1), (1, 2), (2, 3), (3, 0)])?;
 //! assert_eq!(decide(&graph, &options)?.value, Value::NotFiniteSolvable);
 //! // From any thread, at any time:
 //! watch.interrupt();

@@ -2,11 +2,11 @@
 
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
-use crate::decide::Verdict;
 use crate::decide::counting::{Block, Counting, Hub};
 use crate::decide::evidence::{
-    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Strength, Witness,
+    Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
+use crate::decide::{Claim, Verdict};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
 use crate::linalg::integer::Integer;
@@ -40,7 +40,7 @@ objects! {
         program: &'static str,
         graph: GraphView<'a>,
         model: &'static str,
-        claim: Claim,
+        claim: ClaimView,
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
@@ -54,7 +54,7 @@ objects! {
         graph6: Option<String>,
     }
 
-    Claim {
+    ClaimView {
         verdict: Valued<&'static str>,
         rank: Rank,
         components: Valued<usize>,
@@ -108,8 +108,8 @@ impl<'a> Document<'a> {
         graph6: Option<String>,
         verdict: &'a Verdict,
     ) -> Self {
-        let valued = |strength: Strength| (strength.name(), strength.error_log2());
-        let (rank_strength, rank_error) = valued(verdict.rank_strength);
+        let (value, rank) = (verdict.value_claim(), verdict.rank_claim());
+        let components = verdict.components_claim();
         Self {
             format: "viewcert certificate",
             version: 2,
@@ -122,15 +122,15 @@ impl<'a> Document<'a> {
                 graph6,
             },
             model: verdict.model.name(),
-            claim: Claim {
-                verdict: Valued::new(verdict.value.name(), verdict.strength),
+            claim: ClaimView {
+                verdict: Valued::new(value, |value| value.name()),
                 rank: Rank {
-                    value: verdict.rank,
+                    value: rank.value,
                     required: verdict.required,
-                    strength: rank_strength,
-                    error_log2: rank_error,
+                    strength: rank.strength.name(),
+                    error_log2: rank.strength.error_log2(),
                 },
-                components: Valued::new(verdict.components.len(), verdict.components_strength),
+                components: Valued::new(components, <[_]>::len),
             },
             bodies: verdict
                 .contraction
@@ -145,11 +145,11 @@ impl<'a> Document<'a> {
 }
 
 impl<T> Valued<T> {
-    fn new(value: T, strength: Strength) -> Self {
+    fn new<C>(claim: Claim<C>, written: impl FnOnce(C) -> T) -> Self {
         Self {
-            value,
-            strength: strength.name(),
-            error_log2: strength.error_log2(),
+            value: written(claim.value),
+            strength: claim.strength.name(),
+            error_log2: claim.strength.error_log2(),
         }
     }
 }

@@ -1,4 +1,7 @@
 //! The certificate as written: docs/certificate.md, version 2.
+//!
+//! In: a graph and its verdict. Out: the JSON text that both checkers read, as a [`Certificate`]
+//! that is written or displayed. Nothing is computed here.
 
 mod document;
 mod lines;
@@ -7,43 +10,108 @@ pub use document::hex;
 
 use crate::decide::Verdict;
 use crate::graph::{Graph, graph6};
+use std::fmt;
 use std::io::{self, Write};
 
 /// Up to this many nodes the graph is embedded unless asked otherwise.
 pub const EMBED_NODES: usize = 100;
 
-/// How the JSON text is laid out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layout {
-    /// On several lines, for a file of its own.
-    Lines,
-    /// On one line, for JSON lines.
-    Compact,
+/// The certificate of a verdict: text for [`write_to`](Self::write_to) or `to_string`. It depends
+/// on nothing but graph, verdict and what is set here.
+#[derive(Clone, Copy, Debug)]
+pub struct Certificate<'a> {
+    graph: &'a Graph,
+    verdict: &'a Verdict,
+    name: &'a str,
+    embed: bool,
+    compact: bool,
 }
 
-/// Writes the certificate of a verdict. `graph` is embedded as graph6 if it has at most
-/// [`EMBED_NODES`] nodes, or if `embed` asks for it. The bytes depend on nothing but the
-/// arguments.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write(
-    out: &mut impl Write,
-    name: &str,
-    graph: &Graph,
-    verdict: &Verdict,
-    embed: bool,
-    layout: Layout,
-) -> io::Result<()> {
-    let embedded = (embed || graph.nodes() <= EMBED_NODES).then(|| graph6::encode(graph));
-    let document = document::Document::new(name, graph, embedded, verdict);
-    match layout {
-        Layout::Compact => serde_json::to_writer(&mut *out, &document)?,
-        Layout::Lines => {
-            let mut serializer =
-                serde_json::Serializer::with_formatter(&mut *out, lines::Outer::default());
-            serde::Serialize::serialize(&document, &mut serializer)?;
+impl Verdict {
+    /// The certificate of this verdict on `graph`, which has to be the graph that was decided.
+    ///
+    /// ```
+    /// use viewcert::{Graph, Options, decide};
+    ///
+    /// let graph = Graph::new(2, [(0, 1)])?;
+    /// let verdict = decide(&graph, &Options::default())?;
+    /// let certificate = verdict.certificate(&graph).named("a pair").compact();
+    /// assert!(certificate.to_string().contains("\"verdict\":{\"value\":\"solvable\""));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn certificate<'a>(&'a self, graph: &'a Graph) -> Certificate<'a> {
+        Certificate {
+            graph,
+            verdict: self,
+            name: "",
+            embed: false,
+            compact: false,
         }
     }
-    out.write_all(b"\n")
 }
+
+impl<'a> Certificate<'a> {
+    /// Says what the graph is called; its name is empty otherwise.
+    #[must_use]
+    pub fn named(mut self, name: &'a str) -> Self {
+        self.name = name;
+        self
+    }
+
+    /// Whether the graph, as graph6, is part of the text however large it is. With at most
+    /// [`EMBED_NODES`] nodes it always is.
+    #[must_use]
+    pub fn embed_graph(mut self, embed: bool) -> Self {
+        self.embed = embed;
+        self
+    }
+
+    /// Puts everything on one line, for JSON lines, instead of on several.
+    #[must_use]
+    pub fn compact(mut self) -> Self {
+        self.compact = true;
+        self
+    }
+
+    /// Writes the text, which ends with a line feed.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_to(&self, mut out: impl Write) -> io::Result<()> {
+        let embed = self.embed || self.graph.nodes() <= EMBED_NODES;
+        let embedded = embed.then(|| graph6::encode(self.graph));
+        let document = document::Document::new(self.name, self.graph, embedded, self.verdict);
+        if self.compact {
+            serde_json::to_writer(&mut out, &document)?;
+        } else {
+            let mut serializer =
+                serde_json::Serializer::with_formatter(&mut out, lines::Outer::default());
+            serde::Serialize::serialize(&document, &mut serializer)?;
+        }
+        out.write_all(b"\n")
+    }
+}
+
+impl fmt::Display for Certificate<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_to(Text(f)).map_err(|_| fmt::Error)
+    }
+}
+
+/// A formatter as a writer of text, which comes in whole characters.
+struct Text<'a, 'f>(&'a mut fmt::Formatter<'f>);
+
+impl Write for Text<'_, '_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let text = std::str::from_utf8(bytes).map_err(io::Error::other)?;
+        self.0.write_str(text).map_err(io::Error::other)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -309,3 +309,6 @@ fn incidence(part: &Members, shared: &[Vec<u32>]) -> Lists {
     let nodes_after = pairs.iter().map(|&(member, v)| (v, member));
     Lists::group(part.len() + nodes.len(), members_first.chain(nodes_after))
 }
+
+#[cfg(test)]
+mod tests;

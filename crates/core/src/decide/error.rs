@@ -6,6 +6,7 @@ use std::fmt;
 
 /// Why there is no verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum VerdictError {
     /// No cameras could be drawn.
     Draw(DrawError),

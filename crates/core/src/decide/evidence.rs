@@ -2,6 +2,7 @@
 //! section 7, as the pipeline finds them.
 
 use crate::contract::piece::Members;
+use crate::decide::claim::Strength;
 use crate::decide::counting::Counting;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlowRank;
@@ -119,48 +120,6 @@ pub struct PieceVerdict {
     pub components_strength: Strength,
 }
 
-/// How strong a claim is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Strength {
-    /// It is proved.
-    Proof,
-    /// It is wrong with probability at most 2^e over the draws.
-    ErrorBound(i64),
-}
-
-impl Strength {
-    /// The name in certificates and in JSON output.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Proof => "proof",
-            Self::ErrorBound(_) => "error-bound",
-        }
-    }
-
-    /// The exponent of the error bound, for what is not proved.
-    pub fn error_log2(self) -> Option<i64> {
-        match self {
-            Self::Proof => None,
-            Self::ErrorBound(e) => Some(e),
-        }
-    }
-
-    /// The strength of a claim that rests on several: the sum of the error bounds,
-    /// rounded up to a power of two.
-    pub fn all(parts: impl IntoIterator<Item = Self>) -> Self {
-        let mut worst = None;
-        let mut count = 0u64;
-        for part in parts {
-            if let Self::ErrorBound(e) = part {
-                count += 1;
-                worst = Some(worst.map_or(e, |w: i64| w.max(e)));
-            }
-        }
-        let bits = |x: u64| i64::from(u64::BITS - x.leading_zeros());
-        worst.map_or(Self::Proof, |e| Self::ErrorBound(e + bits(count - 1)))
-    }
-}
-
 /// A non-zero minor of the integer J_P, whose rows are divided by their content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IntegerMinor {
@@ -210,5 +169,22 @@ impl Draws {
         let each = 56u64.checked_sub(size.into()).filter(|&each| each >= 20)?;
         let count = 120u64.div_ceil(each);
         Some((count, -((count * each) as i64)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 11 * 9 - 15 = 84 has 7 bits, so that a draw gives 2^-(56 - 7), and three give 2^-147. A
+    /// core with 2^33 nodes has a rank of 37 bits, which leaves 19 a draw: too few.
+    #[test]
+    fn draws_are_planned_by_the_size_of_the_core() {
+        assert_eq!(Draws::plan(9), Some((3, -147)));
+        // 11 * 1000 - 15 = 10985 has 14 bits.
+        assert_eq!(Draws::plan(1000), Some((3, -126)));
+        // 11 * 10^6 - 15 has 24 bits: 32 a draw.
+        assert_eq!(Draws::plan(1_000_000), Some((4, -128)));
+        assert_eq!(Draws::plan(1 << 33), None);
     }
 }

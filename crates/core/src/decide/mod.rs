@@ -25,6 +25,7 @@ pub mod counting;
 pub mod evidence;
 pub mod motion_class;
 
+mod claim;
 mod drawn;
 mod error;
 mod one_piece;
@@ -32,16 +33,18 @@ mod options;
 mod verdict;
 mod whole_matrix;
 
+pub use claim::{Claim, Strength, UnknownStrength};
 pub use error::VerdictError;
-pub use options::{Arithmetic, Options};
+pub use options::{Arithmetic, Options, Prime};
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
-use crate::decide::evidence::{PieceVerdict, Strength};
+use crate::decide::evidence::PieceVerdict;
 use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::watch::Step;
+use std::sync::Arc;
 
 /// Decides a graph.
 ///
@@ -97,18 +100,15 @@ impl Found<'_> {
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
         let upper = rigid_rank + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
         let value = self.value(rank);
+        let contraction = Arc::new(contraction);
         Verdict {
             model: self.model,
             sha256,
             value,
-            strength: self.strength(value, upper),
+            value_strength: self.strength(value, upper),
             rank,
             required: self.required(),
-            rank_strength: self.rank_strength(),
             components: self.components(&contraction),
-            components_strength: Strength::all(
-                self.pieces.iter().map(|piece| piece.components_strength),
-            ),
             contraction,
             rigid: self.rigid,
             pieces: self.pieces,
@@ -152,34 +152,23 @@ impl Found<'_> {
         if value != Value::NotFiniteSolvable || upper < self.required() {
             Strength::Proof
         } else {
-            self.rank_strength()
+            Strength::all(self.pieces.iter().map(|piece| piece.rank_strength))
         }
     }
 
-    fn rank_strength(&self) -> Strength {
-        Strength::all(self.pieces.iter().map(|piece| piece.rank_strength))
-    }
-
     /// The components of all pieces (Theorem 6.1), by falling number of edges.
-    fn components(&self, contraction: &Contraction) -> Vec<Component> {
-        let of_pieces = self
-            .pieces
-            .iter()
-            .flat_map(|piece| piece.components.clone());
-        let edges_of = |&body: &u32| contraction.bodies[body as usize].edges;
-        let mut components: Vec<Component> = self
-            .rigid
-            .singles()
-            .into_iter()
-            .chain(of_pieces)
-            .map(|members| Component {
-                nodes: self.assembly.count_nodes(&members),
-                edges: members.edges.len() + members.bodies.iter().map(edges_of).sum::<usize>(),
-                members,
+    fn components(&self, contraction: &Arc<Contraction>) -> Vec<Component> {
+        let pieces = self.pieces.iter();
+        let of_pieces = pieces.flat_map(|piece| piece.components.clone());
+        let all = self.rigid.singles().into_iter().chain(of_pieces);
+        let mut components: Vec<Component> = all
+            .map(|members| {
+                let nodes = self.assembly.count_nodes(&members);
+                Component::new(members, nodes, contraction)
             })
             .collect();
         components.sort_by(|a, b| {
-            let more_edges = b.edges.cmp(&a.edges);
+            let more_edges = b.edge_count().cmp(&a.edge_count());
             more_edges.then_with(|| a.members.cmp(&b.members))
         });
         components

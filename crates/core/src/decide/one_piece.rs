@@ -6,11 +6,12 @@
 //! one is (Theorem 6.3).
 
 use crate::contract::piece::{Assembly, Core, Members, Split};
+use crate::decide::claim::Strength;
 use crate::decide::counting;
 use crate::decide::counting::Counting;
 use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict, Strength};
+use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict};
 use crate::decide::options::{Arithmetic, Options};
 use crate::decide::whole_matrix;
 use crate::geometry::draw::DrawKey;
@@ -128,7 +129,7 @@ impl<'a> Piece<'a> {
                 return Ok(self.full(before));
             }
         }
-        let field = self.options.field_for(self.nodes());
+        let field = self.options.prime.for_core(self.nodes());
         let mut next = 0;
         for _ in 0..ATTEMPTS {
             let at = Centres::draw(&field, self.nodes(), self.key(next))?;
@@ -155,7 +156,8 @@ impl<'a> Piece<'a> {
                 denominator,
             } => whole_matrix::rational(graph, numerator, denominator, &key, &task).map(Some),
             Arithmetic::Prime if !self.options.contraction => {
-                whole_matrix::modular(graph, &self.options.field, &key, &task).map(Some)
+                let field = self.options.prime.for_whole_matrix();
+                whole_matrix::modular(graph, &field, &key, &task).map(Some)
             }
             Arithmetic::Prime => Ok(None),
         }
@@ -263,7 +265,7 @@ impl<'a> Piece<'a> {
     fn full_rank(&self, part: &Members, from: u64) -> Result<Option<Evidence>, VerdictError> {
         let core = self.assembly.core(part);
         let part = Piece::new(self.assembly, part, &core, self.sha256, self.options);
-        let field = self.options.field_for(part.nodes());
+        let field = self.options.prime.for_core(part.nodes());
         // Where bad luck is rare one draw tells: what it misses is looked at as a graph of its own.
         let attempts = if field.modulus() >> 10 > 22 * part.nodes() as u64 {
             1

@@ -4,20 +4,71 @@ use crate::geometry::model::Model;
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
 use crate::watch::Watch;
 
-/// How the question is decided.
+/// From so many nodes on elimination is most of the work on a core.
+const LARGE_CORE: usize = 256;
+
+/// The primes of the residues.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Prime {
+    /// 2^61 - 1, and for large cores 2^29 - 3, where elimination is several times as fast. What
+    /// it proves is as strong; a draw falls short of the generic rank with probability below
+    /// 22 nodes / 2^29 (Schwartz and Zippel), and costs another one then.
+    #[default]
+    Auto,
+    /// This one, whatever the size.
+    Fixed(PrimeField),
+}
+
+impl Prime {
+    /// The field in which a core with so many nodes is decided.
+    pub(super) fn for_core(self, nodes: usize) -> PrimeField {
+        match self {
+            Self::Auto if nodes >= LARGE_CORE => PrimeField::new(SMALL_PRIME).expect("a prime"),
+            _ => self.for_whole_matrix(),
+        }
+    }
+
+    /// The field of the paper's own matrix, whose elimination stays sparse for longer.
+    pub(super) fn for_whole_matrix(self) -> PrimeField {
+        match self {
+            Self::Auto => PrimeField::mersenne61(),
+            Self::Fixed(field) => field,
+        }
+    }
+}
+
+/// The arithmetic of the rank computation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// Residues modulo a prime.
+    #[default]
+    Prime,
+    /// Integers, at cameras with small rational entries.
+    Rational {
+        /// Largest absolute value of a numerator.
+        numerator: u64,
+        /// Largest denominator.
+        denominator: u64,
+    },
+}
+
+/// How the question is decided. Start from the default, and say what is to be different:
+///
+/// ```
+/// use viewcert::{Model, Options};
+///
+/// let options = Options::default().model(Model::Calibrated).seed(7);
+/// assert_eq!((options.model, options.seed), (Model::Calibrated, 7));
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Options {
     /// Which question.
     pub model: Model,
     /// Integers or residues.
     pub arithmetic: Arithmetic,
-    /// The prime of the residues (in rational mode, of components and their evidence).
-    pub field: PrimeField,
-    /// Cores with so many nodes or more are decided modulo [`SMALL_PRIME`] instead, where
-    /// elimination is several times as fast. What it proves is as strong; a draw falls
-    /// short of the generic rank with probability below 22 nodes / 2^29 (Schwartz and Zippel), and
-    /// costs another one then.
-    pub small_prime_from: usize,
+    /// The primes of the residues (in rational mode, of components and their evidence).
+    pub prime: Prime,
     /// Whether to contract to bodies first, and to decide piece by piece.
     pub contraction: bool,
     /// Whether to look for proofs by counting.
@@ -28,14 +79,39 @@ pub struct Options {
     pub watch: Watch,
 }
 
-/// From so many nodes on elimination is most of the work on a core.
-const LARGE_CORE: usize = 256;
-
 impl Options {
     /// Asks another question.
     #[must_use]
     pub fn model(mut self, model: Model) -> Self {
         self.model = model;
+        self
+    }
+
+    /// Takes other arithmetic.
+    #[must_use]
+    pub fn arithmetic(mut self, arithmetic: Arithmetic) -> Self {
+        self.arithmetic = arithmetic;
+        self
+    }
+
+    /// Takes other primes.
+    #[must_use]
+    pub fn prime(mut self, prime: Prime) -> Self {
+        self.prime = prime;
+        self
+    }
+
+    /// Contracts to bodies first, or not.
+    #[must_use]
+    pub fn contraction(mut self, contraction: bool) -> Self {
+        self.contraction = contraction;
+        self
+    }
+
+    /// Looks for proofs by counting, or not.
+    #[must_use]
+    pub fn counting(mut self, counting: bool) -> Self {
+        self.counting = counting;
         self
     }
 
@@ -52,24 +128,14 @@ impl Options {
         self.watch = watch;
         self
     }
-
-    /// The field in which a core with so many nodes is decided.
-    pub(super) fn field_for(&self, nodes: usize) -> PrimeField {
-        if nodes < self.small_prime_from {
-            self.field
-        } else {
-            PrimeField::new(SMALL_PRIME).expect("a prime")
-        }
-    }
 }
 
 impl Default for Options {
     fn default() -> Self {
         Self {
-            model: Model::Projective,
-            arithmetic: Arithmetic::Prime,
-            field: PrimeField::mersenne61(),
-            small_prime_from: LARGE_CORE,
+            model: Model::default(),
+            arithmetic: Arithmetic::default(),
+            prime: Prime::default(),
             contraction: true,
             counting: true,
             seed: 1,
@@ -78,16 +144,17 @@ impl Default for Options {
     }
 }
 
-/// The arithmetic of the rank computation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// Residues modulo a prime.
-    Prime,
-    /// Integers, at cameras with small rational entries.
-    Rational {
-        /// Largest absolute value of a numerator.
-        numerator: u64,
-        /// Largest denominator.
-        denominator: u64,
-    },
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_cores_take_the_small_prime_unless_told_otherwise() {
+        let modulus = |prime: Prime, nodes| prime.for_core(nodes).modulus();
+        assert_eq!(modulus(Prime::Auto, 255), (1 << 61) - 1);
+        assert_eq!(modulus(Prime::Auto, 256), (1 << 29) - 3);
+        let fixed = Prime::Fixed(PrimeField::new(101).unwrap());
+        assert_eq!([255, 256].map(|nodes| modulus(fixed, nodes)), [101, 101]);
+        assert_eq!(Prime::Auto.for_whole_matrix().modulus(), (1 << 61) - 1);
+    }
 }

@@ -2,11 +2,13 @@
 
 use crate::contract::Contraction;
 use crate::contract::piece::Members;
-use crate::decide::evidence::{PieceVerdict, Strength};
+use crate::decide::claim::{Claim, Strength};
+use crate::decide::evidence::PieceVerdict;
 use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 
 /// The answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,72 +67,116 @@ impl FromStr for Value {
     }
 }
 
-/// A component of the whole graph.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A component of the whole graph: a maximal part that the pairs determine by itself.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Component {
     /// The bodies and loose edges it consists of.
     pub members: Members,
+    nodes: usize,
+    edges: usize,
+    contraction: Arc<Contraction>,
+}
+
+impl Component {
+    /// The component that consists of the given members, which have so many nodes together.
+    pub(super) fn new(members: Members, nodes: usize, contraction: &Arc<Contraction>) -> Self {
+        let of_bodies = members.bodies.iter();
+        let of_bodies = of_bodies.map(|&body| contraction.bodies[body as usize].edges);
+        Self {
+            nodes,
+            edges: members.edges.len() + of_bodies.sum::<usize>(),
+            members,
+            contraction: Arc::clone(contraction),
+        }
+    }
+
     /// How many nodes it has.
-    pub nodes: usize,
+    pub fn node_count(&self) -> usize {
+        self.nodes
+    }
+
     /// How many edges it has.
-    pub edges: usize,
+    pub fn edge_count(&self) -> usize {
+        self.edges
+    }
+
+    /// Its nodes, increasing. O(k log k) for k nodes; nothing is kept.
+    pub fn nodes(&self) -> Vec<u32> {
+        let bodies = self.members.bodies.iter();
+        let mut nodes: Vec<u32> = bodies
+            .flat_map(|&body| &self.contraction.bodies[body as usize].nodes)
+            .copied()
+            .chain(self.members.edges.iter().flat_map(|&(i, j)| [i, j]))
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Its edges in the graph that was decided, increasing. O(k log m + d log k) for k nodes with
+    /// d edges to larger nodes; nothing is kept.
+    ///
+    /// Two components share at most one node, so an edge is in the component that has both its
+    /// ends.
+    pub fn edges(&self, graph: &Graph) -> Vec<(u32, u32)> {
+        let nodes = self.nodes();
+        let inside = |&&(_, j): &&(u32, u32)| nodes.binary_search(&j).is_ok();
+        let of_node = |&node: &u32| graph.edges_from(node).iter().filter(inside).copied();
+        nodes.iter().flat_map(of_node).collect()
+    }
 }
 
 /// The verdict on a graph, with everything it rests on.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Verdict {
     /// The question that was asked.
     pub model: Model,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
-    /// The answer.
+    /// The answer; [`value_claim`](Self::value_claim) says how strong it is.
     pub value: Value,
-    /// How strong it is.
-    pub strength: Strength,
-    /// The generic rank of J_P (calibrated: of N).
+    /// The generic rank of J_P (calibrated: of N), with [`rank_claim`](Self::rank_claim).
     pub rank: usize,
     /// The rank of a finite solvable graph with as many nodes.
     pub required: usize,
-    /// How strong the claim of the rank is.
-    pub rank_strength: Strength,
-    /// The maximal components, by falling number of edges.
+    /// The maximal components, by falling number of edges, with
+    /// [`components_claim`](Self::components_claim).
     pub components: Vec<Component>,
-    /// How strong the claim of the components is.
-    pub components_strength: Strength,
     /// Bodies and loose edges.
-    pub contraction: Contraction,
+    pub contraction: Arc<Contraction>,
     /// Pieces that are a single member.
     pub rigid: Members,
     /// The other pieces.
     pub pieces: Vec<PieceVerdict>,
+    pub(super) value_strength: Strength,
 }
 
 impl Verdict {
-    /// The edges of a component, increasing. O(m).
-    ///
-    /// Two components share at most one node, so an edge is in the component that has both its
-    /// ends.
-    pub fn component_edges(&self, graph: &Graph, component: &Component) -> Vec<(u32, u32)> {
-        let nodes = self.component_nodes(component);
-        let inside = |node: &u32| nodes.binary_search(node).is_ok();
-        let edges = graph.edges().iter();
-        edges
-            .filter(|(i, j)| inside(i) && inside(j))
-            .copied()
-            .collect()
+    /// The answer, and how strong it is.
+    pub fn value_claim(&self) -> Claim<Value> {
+        Claim {
+            value: self.value,
+            strength: self.value_strength,
+        }
     }
 
-    /// The nodes of a component, increasing.
-    pub fn component_nodes(&self, component: &Component) -> Vec<u32> {
-        let members = &component.members;
-        let bodies = members.bodies.iter();
-        let mut nodes: Vec<u32> = bodies
-            .flat_map(|&body| &self.contraction.bodies[body as usize].nodes)
-            .copied()
-            .chain(members.edges.iter().flat_map(|&(i, j)| [i, j]))
-            .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
+    /// The generic rank, and how strong the claim is that it is not larger.
+    pub fn rank_claim(&self) -> Claim<usize> {
+        let pieces = self.pieces.iter();
+        Claim {
+            value: self.rank,
+            strength: Strength::all(pieces.map(|piece| piece.rank_strength)),
+        }
+    }
+
+    /// The maximal components, and how strong the claim is that they are maximal.
+    pub fn components_claim(&self) -> Claim<&[Component]> {
+        let pieces = self.pieces.iter();
+        Claim {
+            value: &self.components,
+            strength: Strength::all(pieces.map(|piece| piece.components_strength)),
+        }
     }
 }

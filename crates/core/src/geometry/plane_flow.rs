@@ -539,3 +539,148 @@ impl Lambda {
         scales
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::camera::normal_form;
+    use crate::geometry::jacobian::{dense, jacobian};
+    use crate::linalg::textbook;
+    use crate::watch::unwatched;
+    use proptest::prelude::*;
+    use rand::{Rng, SeedableRng};
+
+    fn at(field: &PrimeField, centres: &[[i64; 3]]) -> Vec<[u64; 3]> {
+        let centre = |c: &[i64; 3]| c.map(|x| field.from_i64(x));
+        centres.iter().map(centre).collect()
+    }
+
+    /// The paper's matrix at cameras with these centres.
+    fn whole(field: &PrimeField, graph: &Graph, centres: &[[u64; 3]]) -> Matrix<u64> {
+        let cameras: Vec<_> = centres.iter().map(|c| normal_form(field, c)).collect();
+        let rows = jacobian(field, graph, &cameras);
+        dense(field, &rows, 12 * graph.nodes())
+    }
+
+    /// rank N, and rank Lambda from a basis of all flows.
+    fn ranks(field: &PrimeField, graph: &Graph, centres: &[[u64; 3]]) -> (usize, usize) {
+        let flows = unwatched(|task| PlaneFlows::new(field, graph, centres, task));
+        let lambda = unwatched(|task| flows.lambda_of_all_flows(task));
+        (flows.rigidity_rank(), lambda.rank())
+    }
+
+    #[test]
+    fn directions_by_hand() {
+        let field = PrimeField::mersenne61();
+        let both = |d: [i64; 3]| {
+            let [d, zero] = at(&field, &[d, [0; 3]])[..] else {
+                unreachable!("two points");
+            };
+            directions(&field, &d, &zero).map(|both| both.to_vec())
+        };
+        let expected = |rows: [[i64; 3]; 2]| Some(at(&field, &rows));
+        assert_eq!(both([2, 3, 5]), expected([[-3, 2, 0], [-5, 0, 2]]));
+        assert_eq!(both([0, 3, 5]), expected([[3, 0, 0], [0, -5, 3]]));
+        assert_eq!(both([0, 0, 5]), expected([[5, 0, 0], [0, 5, 0]]));
+        assert_eq!(both([0, 0, 0]), None);
+    }
+
+    /// Three centres in the plane z = 1. The only flow is that plane, around the triangle: with
+    /// sign + at the smaller end it is n, -n, n on the edges 01, 02, 12. Lambda has the four rows
+    /// k of (0, 0, 1, -1)_k (1, -1, 1), of rank 1, so that rank J_P = 4 * 5 + 1 - 3 = 18.
+    #[test]
+    fn a_triangle_has_one_flow() {
+        let field = PrimeField::mersenne61();
+        let graph = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
+        let centres = at(&field, &[[0, 0, 1], [1, 0, 1], [0, 1, 1]]);
+        let flows = unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));
+        let basis = unwatched(|task| flows.flows(task));
+        let [flow] = &basis[..] else {
+            panic!("{} flows", basis.len());
+        };
+        let z = flow[0][2];
+        assert!(z != 0);
+        assert_eq!(*flow, [[0, 0, z], [0, 0, field.neg(&z)], [0, 0, z]]);
+        assert_eq!(cotree(&graph), [2]);
+        assert_eq!(ranks(&field, &graph, &centres), (5, 1));
+        let matrix = whole(&field, &graph, &centres);
+        assert_eq!(textbook::eliminate(&field, &matrix).rank(), 18);
+    }
+
+    /// Three centres on a line: all planes through it flow, a space of dimension 2, and each gives
+    /// Lambda the row (1, -1, 1). So rank N = 4, rank Lambda = 1 and rank J_P = 16 + 1 - 3.
+    #[test]
+    fn a_triangle_on_a_line_has_two() {
+        let field = PrimeField::mersenne61();
+        let graph = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
+        let centres = at(&field, &[[0, 0, 0], [1, 0, 0], [3, 0, 0]]);
+        assert_eq!(ranks(&field, &graph, &centres), (4, 1));
+        let matrix = whole(&field, &graph, &centres);
+        assert_eq!(textbook::eliminate(&field, &matrix).rank(), 14);
+    }
+
+    /// The 4-cycle has 2 m = 3 n - 4 independent directions and so no flow at all: one scale is
+    /// free. Its motions are in the kernel of the paper's matrix, and move the edges differently.
+    #[test]
+    fn a_cycle_of_four_moves() {
+        let field = PrimeField::mersenne61();
+        let graph = Graph::new(4, [(0, 1), (1, 2), (2, 3), (0, 3)]).unwrap();
+        let centres = at(&field, &[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+        assert_eq!(ranks(&field, &graph, &centres), (8, 0));
+        let flows = unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let mut random = || field.from_u64(random.next_u64());
+        let lambda = unwatched(|task| flows.lambda(&mut random, task));
+        let rank = flows.rank(&lambda);
+        assert_eq!((rank.rank(4), rank.flows), (28, 0));
+        let motion = flows
+            .motion(&lambda, &mut random)
+            .expect("there are no flows to span");
+        assert!(in_kernel(
+            &field,
+            &whole(&field, &graph, &centres),
+            &motion.by_node()
+        ));
+        let mut transforms = motion.transforms;
+        transforms.sort_unstable();
+        transforms.dedup();
+        assert_eq!(transforms.len(), 4);
+        // With the directions alone it does not move: one scale and translation for all edges.
+        let (_, transforms) = flows.calibrated_motion(&mut random);
+        assert!(transforms.iter().all(|one| *one == transforms[0]));
+    }
+
+    fn in_kernel(field: &PrimeField, matrix: &Matrix<u64>, vector: &[u64]) -> bool {
+        (0..matrix.rows()).all(|row| field.dot(0, matrix.row(row), vector) == 0)
+    }
+
+    proptest! {
+        /// Theorem 3.2, at special positions too: centres on a coarse grid.
+        #[test]
+        fn ranks_are_those_of_the_whole_matrix(
+            grid in prop::collection::vec(prop::array::uniform3(0i64..4), 2..7),
+            ends in prop::collection::vec((0usize..7, 0usize..7), 1..16),
+            seed: u64,
+        ) {
+            let field = PrimeField::mersenne61();
+            let pairs = ends.into_iter().filter_map(|(a, b)| {
+                let (ca, cb) = (grid.get(a)?, grid.get(b)?);
+                (ca != cb).then_some((a as u32, b as u32))
+            });
+            let graph = Graph::new(grid.len() as u32, pairs).unwrap();
+            let centres = at(&field, &grid);
+            let matrix = whole(&field, &graph, &centres);
+            let expected = textbook::eliminate(&field, &matrix).rank();
+            let (rigidity, lambda) = ranks(&field, &graph, &centres);
+            prop_assert_eq!(4 * rigidity + lambda, expected + graph.edges().len());
+
+            let flows = unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));
+            let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+            let mut random = || field.from_u64(random.next_u64());
+            let lambda = unwatched(|task| flows.lambda(&mut random, task));
+            prop_assert_eq!(flows.rank(&lambda).rank(graph.edges().len()), expected);
+            let motion = flows.motion(&lambda, &mut random).unwrap();
+            prop_assert!(in_kernel(&field, &matrix, &motion.by_node()));
+        }
+    }
+}

@@ -1,4 +1,8 @@
 //! The viewing graph: cameras as nodes, pairs with a fundamental matrix as edges.
+//!
+//! In: pairs of numbers, of labels, or of a graph of petgraph (feature `petgraph`). Out: a
+//! [`Graph`], its hash ([`identity`]) and graph6 text ([`graph6`]), [`Labels`], and what the
+//! contraction of docs/theory.md, section 4, needs: neighbours, biconnected components, sets.
 
 use std::fmt;
 
@@ -6,14 +10,18 @@ mod adjacency;
 mod biconnected;
 pub mod graph6;
 pub mod identity;
+mod labelled;
 pub mod labels;
 mod leaves;
 mod lists;
+#[cfg(feature = "petgraph")]
+mod petgraph;
 mod union_find;
 
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
 pub use identity::{core_sha256, sha256};
+pub use labelled::{LabelledGraph, PairedWithItself};
 pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
@@ -78,6 +86,25 @@ impl Graph {
         Ok(graph)
     }
 
+    /// The graph with the given edges on the nodes from 0 to the largest end; see
+    /// [`new`](Self::new). It is no `FromIterator`, because a pair of a node with itself is an
+    /// error and not left out.
+    ///
+    /// # Errors
+    /// A self-loop, or the node 2^32 - 1, which would be one too many.
+    ///
+    /// ```
+    /// let graph = viewcert::Graph::from_edges([(1, 0), (1, 3)])?;
+    /// assert_eq!(graph.nodes(), 4);
+    /// # Ok::<(), viewcert::GraphError>(())
+    /// ```
+    pub fn from_edges(pairs: impl IntoIterator<Item = (u32, u32)>) -> Result<Self, GraphError> {
+        let pairs: Vec<(u32, u32)> = pairs.into_iter().collect();
+        let last = pairs.iter().map(|&(i, j)| i.max(j)).max();
+        let (graph, _) = Self::from_pairs(last.map_or(0, |last| last.saturating_add(1)), pairs)?;
+        Ok(graph)
+    }
+
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
     /// away. O(m log m), or O(m) when the pairs are already sorted; in place.
@@ -119,6 +146,13 @@ impl Graph {
     /// The edges `(i, j)`, `i < j`, sorted; its length is m.
     pub fn edges(&self) -> &[(u32, u32)] {
         &self.edges
+    }
+
+    /// The edges from a node to larger ones, sorted. O(log m).
+    pub fn edges_from(&self, node: u32) -> &[(u32, u32)] {
+        let start = self.edges.partition_point(|&(i, _)| i < node);
+        let rest = &self.edges[start..];
+        &rest[..rest.partition_point(|&(i, _)| i == node)]
     }
 
     /// The number of the edge between two nodes, in either order. O(log m).

@@ -24,6 +24,24 @@ proptest! {
 }
 
 #[test]
+fn edges_of_a_node() {
+    let graph = Graph::from_edges([(3, 0), (2, 0), (2, 3)]).unwrap();
+    assert_eq!(graph.nodes(), 4);
+    assert_eq!(graph.edges_from(0), [(0, 2), (0, 3)]);
+    assert_eq!(graph.edges_from(1), []);
+    assert_eq!(graph.edges_from(2), [(2, 3)]);
+    assert_eq!(graph.edges_from(3), []);
+    assert_eq!(Graph::from_edges([]).unwrap().nodes(), 0);
+    assert_eq!(Graph::from_edges([(4, 4)]), Err(GraphError::SelfLoop(4)));
+    let last = u32::MAX;
+    let beyond = GraphError::OutOfRange {
+        node: last,
+        nodes: last,
+    };
+    assert_eq!(Graph::from_edges([(0, last)]), Err(beyond));
+}
+
+#[test]
 fn a_loop_and_a_missing_node_are_refused() {
     assert_eq!(
         Graph::from_pairs(2, vec![(0, 1), (1, 1)]),

@@ -637,7 +637,7 @@ pub fn rule(claim: &Claim, nodes: usize, edges: usize, verdict: &Verdict) -> Rul
     let sizes = verdict
         .components
         .iter()
-        .map(|part| (part.nodes, part.edges));
+        .map(|part| (part.node_count(), part.edge_count()));
     if let Some(claimed) = &claim.sizes
         && claimed.len() == verdict.components.len()
         && *claimed != falling(sizes.collect())

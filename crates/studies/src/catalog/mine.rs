@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 use std::io::{self, Write};
-use viewcert::decide::evidence::{Evidence, PieceVerdict, Strength};
+use viewcert::decide::Strength;
+use viewcert::decide::evidence::{Evidence, PieceVerdict};
 use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 
@@ -37,11 +38,11 @@ impl Entry {
         Self {
             graph6: graph6::encode(graph),
             value: verdict.value,
-            strength: verdict.strength,
+            strength: verdict.value_claim().strength,
             rank: verdict.rank,
-            rank_strength: verdict.rank_strength,
+            rank_strength: verdict.rank_claim().strength,
             components: verdict.components.len(),
-            components_strength: verdict.components_strength,
+            components_strength: verdict.components_claim().strength,
             hub: verdict.pieces.iter().any(uses_hub)
                 && partition_bound(verdict) >= verdict.required,
         }
@@ -80,7 +81,7 @@ impl Entry {
 fn partition_bound(verdict: &Verdict) -> usize {
     let components = verdict.components.iter();
     components
-        .map(|component| verdict.model.required(component.nodes))
+        .map(|component| verdict.model.required(component.node_count()))
         .sum()
 }
 

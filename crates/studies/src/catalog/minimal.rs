@@ -14,7 +14,7 @@
 use super::candidates::{has_adjacent_nodes_of_degree_2, least_edges, to_graph};
 use super::grow::grow;
 use super::multigraph::{MAX_NODES, Multigraph};
-use viewcert::decide::evidence::Strength;
+use viewcert::decide::Strength;
 use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::Graph;
 
@@ -58,7 +58,7 @@ pub fn decide_minimal(
         if verdict.value != Value::NotFiniteSolvable {
             return Ok(None);
         }
-        strengths.push(verdict.strength);
+        strengths.push(verdict.value_claim().strength);
     }
     Ok(Some((verdict, Strength::all(strengths))))
 }

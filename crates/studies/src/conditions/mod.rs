@@ -197,10 +197,7 @@ pub fn decide(graph: &Graph) -> Vec<Condition> {
 
 /// The calibrated verdict.
 fn bearing(graph: &Graph) -> Decided {
-    let options = Options {
-        model: Model::Calibrated,
-        ..Options::default()
-    };
+    let options = Options::default().model(Model::Calibrated);
     let verdict = verdict::decide(graph, &options).map_err(|error| error.to_string())?;
     let count = Witness::Count(format!("rank {} of {}", verdict.rank, verdict.required));
     let answer = if verdict.value == Value::NotFiniteSolvable {

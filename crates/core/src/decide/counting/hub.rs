@@ -286,3 +286,83 @@ impl Split<'_> {
         self.assembly.count_nodes(&all) - usize::from(here > 0) + here
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Contraction;
+    use crate::geometry::model::Model;
+    use crate::watch::unwatched;
+    use rand::{Rng, SeedableRng};
+
+    /// The best hub of a graph as one block, its edges as parts, and the rank that is left.
+    fn best(nodes: u32, pairs: &[(u32, u32)]) -> Option<(Hub, usize)> {
+        let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
+        let assembly = Assembly::new(&graph, &Contraction::none(&graph));
+        let block = assembly.all();
+        let field = PrimeField::mersenne61();
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(1);
+        let mut random = || field.from_u64(random.next_u64());
+        let hub = unwatched(|task| {
+            let mut by = Search {
+                field: &field,
+                random: &mut random,
+                task: *task,
+            };
+            search(&assembly, &block, &block.singles(), &mut by)
+        });
+        let required = Model::Projective.required(nodes as usize);
+        hub.map(|hub| (hub.clone(), required - hub.less))
+    }
+
+    /// Example 5.6 of docs/theory.md: at node 1 five edges meet, which leave a tree of twelve
+    /// edges and node 1 by itself.
+    #[test]
+    fn gamma_has_a_hub() {
+        let edges = "02 03 05 14 15 16 17 18 24 26 37 38";
+        let digit = |c: u8| u32::from(c - b'0');
+        let pairs: Vec<_> = edges
+            .split(' ')
+            .map(|pair| (digit(pair.as_bytes()[0]), digit(pair.as_bytes()[1])))
+            .collect();
+        let (hub, bound) = best(9, &pairs).expect("a hub");
+        assert_eq!((hub.node, hub.components, hub.less), (1, 2, 1));
+        let split: Vec<_> = hub
+            .split
+            .iter()
+            .map(|&k| hub.parts[k as usize].edges[0])
+            .collect();
+        assert_eq!(split, [(1, 4), (1, 5), (1, 6), (1, 7), (1, 8)]);
+        assert_eq!(hub.groups.len(), 12);
+        assert_eq!(bound, 83);
+    }
+
+    /// Remark 5.4: each node of the 4-cycle gives the deduction 1, |F| = 2, kappa = 2, s = 0.
+    #[test]
+    fn a_cycle_of_four_has_four_hubs() {
+        let (hub, bound) = best(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]).expect("a hub");
+        assert_eq!((hub.node, hub.components, hub.less), (0, 2, 1));
+        assert_eq!((hub.split.len(), hub.groups.len()), (2, 4));
+        assert_eq!(bound, 28);
+    }
+
+    /// A bound below the rank would be false: 18 for the triangle, 40 for a strip of triangles.
+    /// And hubs are for connected blocks.
+    #[test]
+    fn there_is_none_where_nothing_is_lost() {
+        assert_eq!(best(3, &[(0, 1), (0, 2), (1, 2)]), None);
+        let strip = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (2, 4), (3, 4)];
+        assert_eq!(best(5, &strip), None);
+        let cycles = [
+            (0, 1),
+            (1, 2),
+            (2, 3),
+            (0, 3),
+            (4, 5),
+            (5, 6),
+            (6, 7),
+            (4, 7),
+        ];
+        assert_eq!(best(8, &cycles), None);
+    }
+}
