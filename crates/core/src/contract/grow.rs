@@ -71,6 +71,21 @@ pub(super) fn by_falling_degree(graph: &Adjacency) -> (Vec<u32>, Vec<u32>) {
     (order, rank)
 }
 
+/// A node whose neighbours are marked, so that growth need not look through them for every body.
+#[derive(Clone, Copy)]
+pub(super) struct Marked<'a> {
+    /// The node.
+    pub(super) node: u32,
+    /// The node again, at each neighbour by an edge that remains.
+    pub(super) near: &'a [u32],
+}
+
+impl Marked<'_> {
+    fn sees(&self, x: u32) -> bool {
+        self.near[x as usize] == self.node
+    }
+}
+
 /// Nodes that form a body, grown as far as edges go.
 pub(super) struct Grown {
     /// The nodes: those it started from, then those that joined, in their order.
@@ -98,7 +113,7 @@ impl Growth {
         k: u32,
         remaining: &mut Adjacency,
     ) -> Body {
-        let grown = self.grow(vec![v, w], k, remaining);
+        let grown = self.grow(vec![v, w], k, None, remaining);
         Body {
             seed: Seed::Edge(v.min(w), v.max(w)),
             add: grown.add,
@@ -109,8 +124,17 @@ impl Growth {
     }
 
     /// Grows a body from some nodes until no node outside is seen twice, and removes its edges
-    /// from `remaining`. `k` is a number that no other growth has.
-    pub(super) fn grow(&mut self, mut nodes: Vec<u32>, k: u32, remaining: &mut Adjacency) -> Grown {
+    /// from the lists of its nodes in `remaining`, except from that of the marked one, which is
+    /// among those it starts from. `k` is a number that no other growth has.
+    pub(super) fn grow(
+        &mut self,
+        mut nodes: Vec<u32>,
+        k: u32,
+        marked: Option<Marked>,
+        remaining: &mut Adjacency,
+    ) -> Grown {
+        let is_marked = |v: u32| marked.is_some_and(|marked| marked.node == v);
+        let seen_by_marked = |x: u32| marked.filter(|marked| marked.sees(x));
         let mut add = Vec::new();
         for &v in &nodes {
             self.joined[v as usize] = k;
@@ -118,15 +142,22 @@ impl Growth {
         let mut next = 0;
         while let Some(&u) = nodes.get(next) {
             next += 1;
+            if is_marked(u) {
+                continue;
+            }
             for &x in remaining.neighbours(u) {
                 let x_at = x as usize;
                 if self.joined[x_at] == k {
                     continue;
                 }
-                if self.reached[x_at] == k {
+                let first = match seen_by_marked(x) {
+                    Some(marked) => Some(marked.node),
+                    None => (self.reached[x_at] == k).then(|| self.reached_from[x_at]),
+                };
+                if let Some(first) = first {
                     self.joined[x_at] = k;
                     nodes.push(x);
-                    add.push([x, self.reached_from[x_at], u]);
+                    add.push([x, first, u]);
                 } else {
                     self.reached[x_at] = k;
                     self.reached_from[x_at] = u;
@@ -135,9 +166,12 @@ impl Growth {
         }
         let mut ends = 0;
         for &u in &nodes {
-            ends += remaining.degree(u);
-            remaining.retain(u, |x| self.joined[x as usize] != k);
-            ends -= remaining.degree(u);
+            ends += usize::from(seen_by_marked(u).is_some());
+            if !is_marked(u) {
+                ends += remaining.degree(u);
+                remaining.retain(u, |x| self.joined[x as usize] != k);
+                ends -= remaining.degree(u);
+            }
         }
         Grown {
             nodes,

@@ -1,6 +1,6 @@
 //! Growing bodies from cycles of three and four edges, in the calibrated model.
 
-use super::grow::{Growth, by_falling_degree};
+use super::grow::{Growth, Marked, by_falling_degree};
 use super::{Body, Merge, Part, Seed};
 use crate::graph::Adjacency;
 
@@ -27,12 +27,16 @@ struct Paths {
 }
 
 impl Paths {
+    fn is_lower(&self, v: u32, u: u32) -> bool {
+        self.rank[v as usize] > self.rank[u as usize]
+    }
+
     /// Walks from `u` through its neighbour `p`, to nodes of lower rank, until a cycle closes.
     fn walk(&mut self, u: u32, p: u32, remaining: &Adjacency) -> Option<Closing> {
         for &w in remaining.neighbours(p) {
             let at = w as usize;
-            // The node of highest rank finds a cycle; u itself is not lower either.
-            if self.rank[at] <= self.rank[u as usize] {
+            // The node of highest rank finds a cycle; u is not lower than itself either.
+            if !self.is_lower(w, u) {
                 continue;
             }
             if self.near[at] == u {
@@ -54,8 +58,9 @@ impl Paths {
 ///
 /// Each node, by falling degree, walks the paths of two edges that go through and to nodes of
 /// lower rank, which are O(m * arboricity) in all (Chiba and Nishizeki 1985); the second path to
-/// the same end closes a cycle. Growth itself looks at each edge a constant number of times for
-/// each body at its ends.
+/// the same end closes a cycle. Growth looks at each edge a constant number of times for each body
+/// at its ends, but never through the neighbours of the node that walks, which may have many
+/// bodies and many more neighbours.
 pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
     let n = remaining.nodes();
     let (order, rank) = by_falling_degree(remaining);
@@ -66,79 +71,81 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
         via: vec![0; n],
     };
     let mut growth = Growth::new(n);
-    let mut refused_by = vec![NONE; n];
     let mut bodies = Vec::new();
     for &u in &order {
         for &x in remaining.neighbours(u) {
             paths.near[x as usize] = u;
         }
-        let mut at = 0;
-        while let Some(&p) = remaining.neighbours(u).get(at) {
-            let lower = paths.rank[p as usize] > paths.rank[u as usize];
-            let closing = if lower {
-                paths.walk(u, p, remaining)
-            } else {
-                None
-            };
-            let Some(closing) = closing else {
-                refused_by[p as usize] = u;
-                at += 1;
-                continue;
-            };
-            push_body(&mut bodies, &mut growth, (u, p), &closing, remaining);
-            let body: &Body = bodies.last().expect("just pushed");
-            for &x in &body.nodes {
-                paths.near[x as usize] = NONE;
+        let before = bodies.len();
+        let mut next = 0;
+        while let Some(&p) = remaining.neighbours(u).get(next) {
+            next += 1;
+            // The edge may have gone to a body meanwhile.
+            let remains = paths.near[p as usize] == u;
+            if remains
+                && paths.is_lower(p, u)
+                && let Some(closing) = paths.walk(u, p, remaining)
+            {
+                let marked = Marked {
+                    node: u,
+                    near: &paths.near,
+                };
+                let k = bodies.len() as u32;
+                bodies.extend(body(&mut growth, marked, p, &closing, k, remaining));
+                let body = bodies.last().expect("one at least");
+                for &x in &body.nodes {
+                    paths.near[x as usize] = NONE;
+                }
             }
-            // Neighbours refused once are refused for good, as edges only go; the body's own
-            // have left the list of u.
-            at = remaining
-                .neighbours(u)
-                .partition_point(|&x| refused_by[x as usize] == u);
+        }
+        if bodies.len() > before {
+            remaining.retain(u, |x| paths.near[x as usize] == u);
         }
     }
     bodies
 }
 
-/// Appends the body that grows from a cycle with the edge u-p. As a body's merges come after its
-/// growth, a cycle of four that grows is continued by a second body.
-fn push_body(
-    bodies: &mut Vec<Body>,
+/// The body that grows from a cycle with the edge from the marked node to `p`. As a body's merges
+/// come after its growth, a cycle of four that grows is a body by itself, continued by a second.
+fn body(
     growth: &mut Growth,
-    (u, p): (u32, u32),
+    marked: Marked,
+    p: u32,
     closing: &Closing,
+    k: u32,
     remaining: &mut Adjacency,
-) {
-    let k = bodies.len() as u32;
-    let &Closing::Quadrilateral { opposite, other } = closing else {
-        bodies.push(growth.body_from_edge(u, p, k, remaining));
-        return;
+) -> impl Iterator<Item = Body> + use<> {
+    let u = marked.node;
+    let (start, merge) = match *closing {
+        Closing::Triangle => (vec![u, p], Vec::new()),
+        Closing::Quadrilateral { opposite, other } => {
+            let cycle = Merge::Cycle {
+                parts: [
+                    Part::edge(p, opposite),
+                    Part::edge(opposite, other),
+                    Part::edge(other, u),
+                ],
+                at: [p, opposite, other, u],
+            };
+            (vec![u, p, opposite, other], vec![cycle])
+        }
     };
-    let grown = growth.grow(vec![u, p, opposite, other], k, remaining);
-    bodies.push(Body {
-        seed: Seed::Edge(u.min(p), u.max(p)),
+    let grown = growth.grow(start, k, Some(marked), remaining);
+    let seed = Seed::Edge(u.min(p), u.max(p));
+    let is_continued = !merge.is_empty() && !grown.add.is_empty();
+    let cycle = is_continued.then(|| Body {
+        seed,
         add: Vec::new(),
-        merge: vec![Merge::Cycle {
-            parts: [
-                Part::edge(p, opposite),
-                Part::edge(opposite, other),
-                Part::edge(other, u),
-            ],
-            at: [p, opposite, other, u],
-        }],
+        merge: merge.clone(),
         nodes: Vec::new(),
         edges: 0,
     });
-    if !grown.add.is_empty() {
-        bodies.push(Body {
-            seed: Seed::Body(k),
-            add: grown.add,
-            merge: Vec::new(),
-            nodes: Vec::new(),
-            edges: 0,
-        });
-    }
-    let last = bodies.last_mut().expect("just pushed");
-    last.nodes = grown.nodes;
-    last.edges = grown.edges;
+    let whole = Body {
+        seed: if is_continued { Seed::Body(k) } else { seed },
+        add: grown.add,
+        merge: if is_continued { Vec::new() } else { merge },
+        nodes: grown.nodes,
+        edges: grown.edges,
+    };
+    cycle.into_iter().chain([whole])
 }
