@@ -456,7 +456,6 @@ def remake(document, rng):
         use_bodies=rng.random() < 0.6,
         variety=True,
         draws=rng.random() < 0.1,
-        bad_cycles=rng.random() < 0.1,
     )
     blocks = maker.blocks_of([member for member, _ in maker.members])
     if len(blocks) >= 2 and rng.random() < 0.3:
@@ -467,11 +466,20 @@ def remake(document, rng):
     document.update(maker.document(blocks, check_it=False))
 
 
+def bad_cycles(document, rng):
+    """All is made anew, honestly but for its cycles of four: they may share too few nodes, or be in the wrong model."""
+    graph = check.read_graph6(document["graph"]["graph6"])
+    model = "calibrated" if rng.random() < 0.7 else "projective"
+    maker = make.Maker(graph, rng, model=model, variety=True, bad_cycles=True)
+    document.clear()
+    document.update(maker.document(check_it=False))
+
+
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
-    *(change_merge, remake),
+    *(change_merge, bad_cycles, remake),
 )
 
 

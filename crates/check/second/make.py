@@ -88,11 +88,13 @@ class Maker:
         for (x, xs), *rest in itertools.combinations(items, 4):
             for others in itertools.permutations(rest):
                 sets = [xs, *(nodes for _, nodes in others), xs]
-                for at in itertools.product(*(sorted(s & t) for s, t in zip(sets, sets[1:]))):
-                    if len(set(at)) == 4 or self.bad_cycles:
-                        names = [name for name, _ in others]
-                        merge = {"with": [as_json(name) for name in names], "at": list(at)}
-                        return self.new_body(x, [], [merge], names, set().union(*sets))
+                shared = itertools.product(*(sorted(s & t) for s, t in zip(sets, sets[1:])))
+                choice = [at for at in shared if len(set(at)) == 4 or self.bad_cycles]
+                if choice:
+                    at = self.rng.choice(choice) if self.bad_cycles else choice[0]
+                    names = [name for name, _ in others]
+                    merge = {"with": [as_json(name) for name in names], "at": list(at)}
+                    return self.new_body(x, [], [merge], names, set().union(*sets))
         return False
 
     def new_body(self, seed, add, merge, others, nodes):
