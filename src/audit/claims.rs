@@ -29,25 +29,11 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         bail!(too_many(file, &counted(rows.len(), "claim")));
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    // Confirmed, refuted, not decidable, bad.
     let mut counts = [0; 4];
     let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
-        let ruled = claim(arguments, row).and_then(|(claim, input)| {
-            let options = decide::Options {
-                model: claim.model,
-                ..arguments.exact()
-            };
-            let exact =
-                decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
-            let edges = input.graph.edges().len();
-            let ruling = claims::rule(&claim, input.graph.nodes(), edges, &exact);
-            let certificate = match (&ruling, target.as_mut()) {
-                (Ruling::Refuted(_), Some(target)) => Some(target.write(&input, &exact)?),
-                _ => None,
-            };
-            Ok((ruling, (input, exact), certificate))
-        });
-        let (ruling, decided, certificate) = match ruled {
+        let ruled = match decide_again(arguments, (number, row), target.as_mut()) {
             Ok(ruled) => ruled,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
@@ -57,22 +43,15 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
                 continue;
             }
         };
-        counts[match ruling {
+        counts[match ruled.ruling {
             Ruling::Confirmed => 0,
             Ruling::Refuted(_) => 1,
             Ruling::NotDecidable(_) => 2,
         }] += 1;
-        let line = Ruled {
-            number,
-            line: row.line,
-            ruling: &ruling,
-            decided: (&decided.0, &decided.1),
-            certificate: certificate.as_deref(),
-        };
         if arguments.json {
-            rulings::json(&mut out, &line)?;
+            rulings::json(&mut out, &ruled)?;
         } else {
-            rulings::text(&mut out, &line)?;
+            rulings::text(&mut out, &ruled)?;
         }
         out.flush().context("standard output")?;
     }
@@ -89,6 +68,34 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
         worst = worst.max(NOT);
     }
     Ok(ExitCode::from(worst))
+}
+
+/// Rules on a row with its number; what is refuted is certified.
+fn decide_again(
+    arguments: &AuditArguments,
+    (number, row): (usize, &Row),
+    target: Option<&mut Target>,
+) -> Result<Ruled> {
+    let (claim, input) = claim(arguments, row)?;
+    let options = decide::Options {
+        model: claim.model,
+        ..arguments.exact()
+    };
+    let exact = decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
+    let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+    let ruling = claims::rule(&claim, nodes, edges, &exact);
+    let certificate = match (&ruling, target) {
+        (Ruling::Refuted(_), Some(target)) => Some(target.write(&input, &exact)?),
+        _ => None,
+    };
+    Ok(Ruled {
+        number,
+        line: row.line,
+        ruling,
+        input,
+        exact,
+        certificate,
+    })
 }
 
 /// The claim of a row and the graph that it names.
