@@ -1,5 +1,5 @@
 //! Conditions of the literature, necessary or sufficient for solvability, each with the
-//! witness that decides it.
+//! grounds on which it is decided.
 //!
 //! # What is known
 //!
@@ -55,7 +55,7 @@ pub enum Answer {
 
 /// What decides a condition. Nodes are those of the graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Witness {
+pub enum Grounds {
     /// A camera with too few pairs.
     Degree(u32, usize),
     /// Two cameras with two pairs each that are a pair.
@@ -92,24 +92,24 @@ pub struct Condition {
     /// Whether it holds.
     pub answer: Answer,
     /// What decides it.
-    pub witness: Option<Witness>,
+    pub grounds: Option<Grounds>,
 }
 
-/// An answer with its witness, or why there is none.
-type Decided = Result<(Answer, Option<Witness>), String>;
+/// An answer with its grounds, or why there is none.
+type Decided = Result<(Answer, Option<Grounds>), String>;
 
-/// A condition fails if there is a witness against it.
-fn unless(witness: Option<Witness>) -> Decided {
-    match witness {
-        Some(witness) => Ok((Answer::No, Some(witness))),
+/// A condition fails if there are grounds against it.
+fn unless(grounds: Option<Grounds>) -> Decided {
+    match grounds {
+        Some(grounds) => Ok((Answer::No, Some(grounds))),
         None => Ok((Answer::Yes, None)),
     }
 }
 
-/// A condition with the same witness whether it holds or not.
-fn answered(holds: bool, witness: Witness) -> Decided {
+/// A condition on the same grounds whether it holds or not.
+fn answered(holds: bool, grounds: Grounds) -> Decided {
     let answer = if holds { Answer::Yes } else { Answer::No };
-    Ok((answer, Some(witness)))
+    Ok((answer, Some(grounds)))
 }
 
 const LEVI: &str = "Levi, Werman 2003";
@@ -125,7 +125,7 @@ pub fn decide(graph: &Graph) -> Vec<Condition> {
     if graph.nodes() < 2 {
         for condition in &mut conditions {
             condition.answer = Answer::NotApplicable("a single camera is solvable".into());
-            condition.witness = None;
+            condition.grounds = None;
         }
     }
     conditions
@@ -163,13 +163,13 @@ fn sufficient(graph: &Graph, adjacency: &Adjacency) -> Vec<Condition> {
 
 impl Condition {
     fn new(necessary: bool, name: &'static str, source: &'static str, decided: Decided) -> Self {
-        let (answer, witness) = decided.unwrap_or_else(|why| (Answer::NotApplicable(why), None));
+        let (answer, grounds) = decided.unwrap_or_else(|why| (Answer::NotApplicable(why), None));
         Self {
             name,
             source,
             necessary,
             answer,
-            witness,
+            grounds,
         }
     }
 }
@@ -191,7 +191,7 @@ fn no_adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Decided {
 fn enough_edges(graph: &Graph) -> Decided {
     let left = 7 * graph.edges().len();
     let right = Model::Projective.required(graph.nodes());
-    answered(left >= right, Witness::Count(format!("{left} and {right}")))
+    answered(left >= right, Grounds::Count(format!("{left} and {right}")))
 }
 
 /// The d-condition by edges, as a count over partitions (see the module).
@@ -205,7 +205,7 @@ fn by_edges(graph: &Graph) -> Decided {
     let blocks = pebbles::blocks(graph);
     let bound: usize = blocks.iter().map(|block| 11 * block.len() - 15).sum();
     let refuted = bound < Model::Projective.required(nodes);
-    unless(refuted.then_some(Witness::Partition(blocks, bound)))
+    unless(refuted.then_some(Grounds::Partition(blocks, bound)))
 }
 
 /// The calibrated verdict.
@@ -218,7 +218,7 @@ fn bearing_rigid(graph: &Graph) -> Decided {
     let count = format!("rank {} of {}", verdict.rank, verdict.required);
     answered(
         verdict.value != Value::NotFiniteSolvable,
-        Witness::Count(count),
+        Grounds::Count(count),
     )
 }
 

@@ -14,7 +14,7 @@
 //! No move takes anything away, so the result does not depend on their order. If it is the
 //! complete graph, the graph is solvable.
 
-use super::{Answer, Decided, Witness};
+use super::{Answer, Decided, Grounds};
 use viewcert::graph::Graph;
 
 /// Most cameras for which moves are tried: each round takes O(n^3).
@@ -178,9 +178,9 @@ pub(super) fn decide(graph: &Graph) -> Decided {
     }
     let (moves, missing) = complete(graph);
     Ok(if missing == 0 {
-        (Answer::Yes, Some(Witness::Moves(moves)))
+        (Answer::Yes, Some(Grounds::Moves(moves)))
     } else {
-        (Answer::No, Some(Witness::Missing(missing)))
+        (Answer::No, Some(Grounds::Missing(missing)))
     })
 }
 
