@@ -7,7 +7,7 @@ use super::rulings::{self, Ruled};
 use crate::report::counted;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::graph::graph6;
@@ -22,7 +22,7 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let at = |line: usize| format!("{}:{line}", path.display());
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
-    let mut target = arguments.target(&[path.to_string_lossy().into_owned()])?;
+    let mut target = arguments.target(&[path.to_owned()])?;
     if let Some(file) = target.as_ref().and_then(Target::single)
         && rows.len() > 1
     {
@@ -101,9 +101,9 @@ fn decide_again(
 /// The claim of a row and the graph that it names.
 fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
     let claim = claims::claim(row)?;
-    let read = |path: &str| {
+    let read = |path: &Path| {
         let output = ("--certificate", arguments.certificate.as_deref());
-        atomic::ensure_apart(&[output], [Path::new(path)])?;
+        atomic::ensure_apart(&[output], [path])?;
         Ok::<_, anyhow::Error>(read_graphs(path, &ReadOptions::default()))
     };
     let folder = || {
@@ -125,11 +125,10 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
                 let named = graphs.find(|graph| graph.as_ref().is_ok_and(|g| g.name == *text));
                 named.with_context(|| format!("unknown graph {text}: no graph on that line"))??
             }
-            None => only(text, read(text)?)?,
+            None => only(text, read(Path::new(text))?)?,
         },
         Named::File(file) => {
             let path = folder()?.join(file);
-            let path = path.to_string_lossy();
             only(file, read(&path)?)?
         }
         Named::Name(name) => {
@@ -141,10 +140,11 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
 }
 
 /// The file in the name of a graph on a line of it, as in `file.g6:3`.
-fn line_of(name: &str) -> Option<&str> {
+fn line_of(name: &str) -> Option<&Path> {
     let (path, line) = name.rsplit_once(':')?;
     let is_line = !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit());
-    (is_line && !Path::new(name).exists() && Path::new(path).is_file()).then_some(path)
+    let path = Path::new(path);
+    (is_line && !Path::new(name).exists() && path.is_file()).then_some(path)
 }
 
 /// The only graph of an input.
@@ -158,22 +158,25 @@ fn only(name: &str, mut graphs: viewcert_formats::read::Graphs) -> Result<NamedG
 }
 
 /// The file of a name: that name, or that name up to a dot.
-fn find(folder: &Path, name: &str) -> Result<String> {
+fn find(folder: &Path, name: &str) -> Result<PathBuf> {
     let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut names = Vec::new();
     for entry in entries {
-        let file = entry?.file_name().to_string_lossy().into_owned();
-        let stem = file
-            .rsplit_once('.')
-            .map_or(file.as_str(), |(stem, _)| stem);
-        if file == name || stem == name {
+        let file = PathBuf::from(entry?.file_name());
+        if file.as_os_str() == name || file.file_stem().is_some_and(|stem| stem == name) {
             names.push(file);
         }
     }
     names.sort_unstable();
     match &names[..] {
-        [one] => Ok(folder.join(one).to_string_lossy().into_owned()),
+        [one] => Ok(folder.join(one)),
         [] => bail!("unknown graph {name}: no such file in {}", folder.display()),
-        _ => bail!("{name} may be any of {}", names.join(", ")),
+        _ => {
+            let names: Vec<String> = names
+                .iter()
+                .map(|file| file.display().to_string())
+                .collect();
+            bail!("{name} may be any of {}", names.join(", "))
+        }
     }
 }

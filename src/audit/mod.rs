@@ -31,7 +31,7 @@ pub(super) struct AuditArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
     /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required_unless_present = "claims", value_name = "GRAPH")]
-    graphs: Vec<String>,
+    graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// Decide a table of claims again: CSV with a head, a JSON list of objects, or what `verify
@@ -120,7 +120,7 @@ impl AuditArguments {
     }
 
     /// The target of the certificates of graphs in these files.
-    fn target(&self, inputs: &[String]) -> Result<Option<Target>> {
+    fn target(&self, inputs: &[PathBuf]) -> Result<Option<Target>> {
         let path = self.certificate.as_deref();
         path.map(|path| Target::new(path, false, inputs))
             .transpose()

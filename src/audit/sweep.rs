@@ -8,7 +8,7 @@ use crate::report::curves::Picture;
 use crate::report::values::Values;
 use anyhow::{Context, Result};
 use std::io::Write;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
@@ -18,7 +18,7 @@ use viewcert_studies::audit::study::{Errors, Populations};
 
 /// Sweeps over all graphs together.
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
-    let inputs = arguments.graphs.iter().map(Path::new);
+    let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut populations = Populations::default();
     let each = |_: &mut _, input: &NamedGraph, _| {

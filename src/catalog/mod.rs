@@ -41,7 +41,7 @@ pub(super) struct Arguments {
     edges: Option<usize>,
     /// Take the candidates from a file of graph6 instead; `-` is standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "nodes")]
-    from: Option<String>,
+    from: Option<PathBuf>,
     /// Leave out candidates with adjacent nodes of degree 2: they are not finite solvable.
     #[arg(long, conflicts_with_all = ["from", "minimal"])]
     necessary: bool,
