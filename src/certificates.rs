@@ -23,13 +23,13 @@ impl Target {
     ///
     /// # Errors
     /// If a file is meant and there are several graphs, or it is one of the inputs.
-    pub(super) fn new(path: &Path, embed: bool, inputs: &[String]) -> Result<Self> {
+    pub(super) fn new(path: &Path, embed: bool, inputs: &[PathBuf]) -> Result<Self> {
         let folder = path.is_dir();
         if !folder {
             let count = inputs.len();
             ensure!(count <= 1, "{}", too_many(path, &format!("{count} graphs")));
         }
-        let inputs = inputs.iter().map(Path::new);
+        let inputs = inputs.iter().map(PathBuf::as_path);
         atomic::ensure_apart(&[("--certificate", Some(path))], inputs)?;
         Ok(Self {
             path: path.to_owned(),

@@ -7,7 +7,7 @@ use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_formats::NamedGraph;
@@ -22,7 +22,7 @@ pub(super) struct CompareArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
     /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
-    graphs: Vec<String>,
+    graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// Modulo which prime, 5 <= P < 2^62.
@@ -53,7 +53,7 @@ pub(super) struct CompareArguments {
 pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
-    let inputs = arguments.graphs.iter().map(Path::new);
+    let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut out = atomic::text(&[arguments.svg.as_deref()]);
     let mut svg = arguments.svg.as_deref();

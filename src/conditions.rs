@@ -6,6 +6,7 @@ use crate::report::conditions as report;
 use anyhow::Result;
 use clap::Args;
 use std::io::BufWriter;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::conditions;
@@ -16,7 +17,7 @@ pub(super) struct ConditionArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
     /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
-    graphs: Vec<String>,
+    graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// Print one JSON object a graph.

@@ -3,15 +3,18 @@
 use super::progress::Progress;
 use super::{GOOD, atomic, running};
 use crate::report::plot::{Point, plot};
-use anyhow::{Context, Result, ensure};
+use crate::report::values::Values;
+use anyhow::{Context, Result, anyhow};
 use clap::{Args, Subcommand};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::{Options, Strength, Value};
 use viewcert_studies::catalog::mine;
+use viewcert_studies::catalog::mine::Entry;
 use viewcert_studies::catalog::random;
 use viewcert_studies::catalog::random::{Density, Sampler, fisher};
+use viewcert_studies::values;
 
 #[derive(Args)]
 pub(super) struct Arguments {
@@ -88,56 +91,24 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         .seed(arguments.seed)
         .watch(running::watch());
     let mut columns = Vec::new();
-    let mut lines = Vec::new();
+    let mut rows = Vec::new();
     let samples = u64::from(arguments.samples);
     let progress = Progress::new(Some(samples * arguments.density.len() as u64));
     for density in &arguments.density {
-        let sampler = Sampler::new(arguments.nodes as usize, density);
-        let mut column = Column {
-            percent: 100.0 * density.value(),
-            graphs: 0,
-            finite_solvable: 0,
-            proved: 0,
-            components: Vec::new(),
-        };
-        for first in (0..samples).step_by(BATCH as usize) {
-            let batch = first..samples.min(first + BATCH);
-            let graphs: Vec<_> = batch
-                .clone()
-                .map(|sample| sampler.draw(&mut random::generator(arguments.seed, sample)))
-                .collect();
-            let entries = mine::decide_all(&graphs, &options)?;
-            for ((sample, graph), entry) in batch.zip(&graphs).zip(entries) {
-                column.graphs += 1;
-                column.finite_solvable += u64::from(entry.value != Value::NotFiniteSolvable);
-                column.proved += u64::from(entry.strength == Strength::Proof);
-                column.components.push(entry.components);
-                if arguments.csv.is_some() {
-                    lines.push(format!(
-                        "{},{sample},{},{},{},{},{}",
-                        density.value(),
-                        graph.edges().len(),
-                        entry.value.name(),
-                        entry.rank,
-                        entry.components,
-                        quoted(&entry.graph6),
-                    ));
-                }
-            }
-            progress.done(graphs.len() as u64);
-        }
-        column.components.sort_unstable();
-        columns.push(column);
+        let keep = csv.is_some().then_some(&mut rows);
+        columns.push(at_density(arguments, density, &options, &progress, keep)?);
     }
     progress.finish();
     columns.sort_by(|a, b| a.percent.total_cmp(&b.percent));
-    if let Some(path) = &arguments.csv {
+    if let Some(path) = csv {
         atomic::write(path, |out| {
-            writeln!(out, "density,sample,edges,verdict,rank,components,graph6")?;
-            lines.iter().try_for_each(|line| writeln!(out, "{line}"))
+            let mut table = Values::commas(out);
+            table.row(GRAPH_COLUMNS)?;
+            rows.iter().try_for_each(|row| table.row(row))?;
+            table.finish()
         })?;
     }
-    if let Some(path) = &arguments.svg {
+    if let Some(path) = svg {
         let points: Vec<Point> = columns.iter().map(Column::point).collect();
         atomic::write(path, |out| out.write_all(plot(&points).as_bytes()))?;
     }
@@ -146,12 +117,69 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::from(GOOD))
 }
 
-/// A field of comma-separated values that may hold any character but a line end.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
+/// The table of `--csv`.
+const GRAPH_COLUMNS: [&str; 7] = [
+    "density",
+    "sample",
+    "edges",
+    "verdict",
+    "rank",
+    "components",
+    "graph6",
+];
+
+/// Draws and decides all graphs at one density, and adds their rows to `keep`.
+fn at_density(
+    arguments: &Random,
+    density: &Density,
+    options: &Options,
+    progress: &Progress,
+    mut keep: Option<&mut Vec<[String; 7]>>,
+) -> Result<Column> {
+    let sampler = Sampler::new(arguments.nodes as usize, density);
+    let samples = u64::from(arguments.samples);
+    let mut column = Column {
+        percent: 100.0 * density.value(),
+        graphs: 0,
+        finite_solvable: 0,
+        proved: 0,
+        components: Vec::new(),
+    };
+    for first in (0..samples).step_by(BATCH as usize) {
+        let batch = first..samples.min(first + BATCH);
+        let graphs: Vec<_> = batch
+            .clone()
+            .map(|sample| sampler.draw(&mut random::generator(arguments.seed, sample)))
+            .collect();
+        let entries = mine::decide_all(&graphs, options)?;
+        for ((sample, graph), entry) in batch.zip(&graphs).zip(entries) {
+            column.count(&entry);
+            if let Some(rows) = &mut keep {
+                rows.push([
+                    density.value().to_string(),
+                    sample.to_string(),
+                    graph.edges().len().to_string(),
+                    entry.value.name().into(),
+                    entry.rank.to_string(),
+                    entry.components.to_string(),
+                    entry.graph6,
+                ]);
+            }
+        }
+        progress.done(graphs.len() as u64);
+    }
+    column.components.sort_unstable();
+    Ok(column)
 }
 
 impl Column {
+    fn count(&mut self, entry: &Entry) {
+        self.graphs += 1;
+        self.finite_solvable += u64::from(entry.value != Value::NotFiniteSolvable);
+        self.proved += u64::from(entry.strength == Strength::Proof);
+        self.components.push(entry.components);
+    }
+
     fn least(&self) -> usize {
         self.components.first().copied().unwrap_or(0)
     }
@@ -226,27 +254,22 @@ fn write_table(
 
 fn read_table(path: &Path) -> Result<Vec<Published>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
-    let mut rows = Vec::new();
-    for (k, line) in text.lines().enumerate().skip(1) {
-        let parse = || {
-            let mut fields = line.split(',');
-            let row = Published {
-                percent: fields.next()?.parse().ok()?,
-                graphs: fields.next()?.parse().ok()?,
-                finite_solvable: fields.next()?.parse().ok()?,
-                least: fields.next()?.parse().ok()?,
-                most: fields.next()?.parse().ok()?,
-            };
-            (fields.next().is_none() && row.finite_solvable <= row.graphs).then_some(row)
-        };
-        let row = parse();
-        ensure!(
-            row.is_some(),
-            "{}:{}: not a line of the table",
-            path.display(),
-            k + 1
-        );
-        rows.extend(row);
-    }
-    Ok(rows)
+    let refused = |line| format!("{}:{line}: not a line of the table", path.display());
+    let lines = values::lines(&text).map_err(|quote| anyhow!("{}", refused(quote.line)))?;
+    lines
+        .iter()
+        .skip(1)
+        .map(|(line, cells)| published(cells).with_context(|| refused(*line)))
+        .collect()
+}
+
+fn published(cells: &csv::StringRecord) -> Option<Published> {
+    let (percent, graphs, finite_solvable, least, most) = cells.deserialize(None).ok()?;
+    (cells.len() == 5 && finite_solvable <= graphs).then_some(Published {
+        percent,
+        graphs,
+        finite_solvable,
+        least,
+        most,
+    })
 }

@@ -4,7 +4,7 @@ use super::{GOOD, certificates, ends_run, exit_code, running};
 use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert_formats::{Format, NamedGraph, ReadOptions, read_graphs};
 
@@ -53,7 +53,7 @@ impl InputArguments {
     /// or a signal has ended the run.
     pub(super) fn for_each<W: Write>(
         &self,
-        paths: &[String],
+        paths: &[PathBuf],
         single: Option<&Path>,
         out: &mut W,
         mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
@@ -66,7 +66,7 @@ impl InputArguments {
             let mut graphs = read_graphs(path, &options).peekable();
             while let Some(input) = graphs.next() {
                 if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
-                    let several = format!("several in {path}");
+                    let several = format!("several in {}", path.display());
                     return Err(anyhow!(certificates::too_many(file, &several)));
                 }
                 running::hide();

@@ -10,6 +10,7 @@ use super::{INTERRUPTED, TERMINATED, TOO_LARGE, atomic};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -162,10 +163,10 @@ pub(super) fn doing(what: String) {
 }
 
 /// The same for reading a file, which the bar shows if it takes long.
-pub(super) fn reading(path: &str) {
-    let what = match path {
-        "-" => "reading standard input".to_string(),
-        path => format!("reading {path}"),
+pub(super) fn reading(path: &Path) {
+    let what = match path.to_str() {
+        Some("-") => "reading standard input".to_string(),
+        _ => format!("reading {}", path.display()),
     };
     if let Some(bar) = RUNNING.get().and_then(|running| running.bar.as_ref()) {
         bar.say(what.clone());

@@ -24,7 +24,7 @@ pub(super) struct VerifyArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
     /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
-    graphs: Vec<String>,
+    graphs: Vec<PathBuf>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and
     /// without this option 2^29 - 3 for cores of 256 cameras and more].
     #[arg(long, value_name = "P", num_args = 0..=1, require_equals = true)]

@@ -316,7 +316,8 @@ fn rank_at(seen: &[(u32, u32)], positions: impl Fn(u32) -> [i64; 3]) -> usize {
         .iter()
         .map(|&name| positions(name).map(residue))
         .collect();
-    PlaneFlows::new(&field, &graph, &centres).rigidity_rank()
+    let flows = viewcert::watch::unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));
+    flows.rigidity_rank()
 }
 
 /// A position without anything special about it.

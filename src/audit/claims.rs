@@ -7,7 +7,7 @@ use super::rulings::{self, Ruled};
 use crate::report::counted;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::graph::graph6;
@@ -22,29 +22,18 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let at = |line: usize| format!("{}:{line}", path.display());
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
-    let mut target = arguments.target(&[path.to_string_lossy().into_owned()])?;
+    let mut target = arguments.target(&[path.to_owned()])?;
     if let Some(file) = target.as_ref().and_then(Target::single)
         && rows.len() > 1
     {
         bail!(too_many(file, &counted(rows.len(), "claim")));
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    // Confirmed, refuted, not decidable, bad.
     let mut counts = [0; 4];
     let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
-        let ruled = claim(arguments, row).and_then(|(claim, input)| {
-            let options = arguments.exact().model(claim.model);
-            let exact =
-                decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
-            let edges = input.graph.edges().len();
-            let ruling = claims::rule(&claim, input.graph.nodes(), edges, &exact);
-            let certificate = match (&ruling, target.as_mut()) {
-                (Ruling::Refuted(_), Some(target)) => Some(target.write(&input, &exact)?),
-                _ => None,
-            };
-            Ok((ruling, (input, exact), certificate))
-        });
-        let (ruling, decided, certificate) = match ruled {
+        let ruled = match decide_again(arguments, (number, row), target.as_mut()) {
             Ok(ruled) => ruled,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
@@ -54,22 +43,15 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
                 continue;
             }
         };
-        counts[match ruling {
+        counts[match ruled.ruling {
             Ruling::Confirmed => 0,
             Ruling::Refuted(_) => 1,
             Ruling::NotDecidable(_) => 2,
         }] += 1;
-        let line = Ruled {
-            number,
-            line: row.line,
-            ruling: &ruling,
-            decided: (&decided.0, &decided.1),
-            certificate: certificate.as_deref(),
-        };
         if arguments.json {
-            rulings::json(&mut out, &line)?;
+            rulings::json(&mut out, &ruled)?;
         } else {
-            rulings::text(&mut out, &line)?;
+            rulings::text(&mut out, &ruled)?;
         }
         out.flush().context("standard output")?;
     }
@@ -88,12 +70,37 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     Ok(ExitCode::from(worst))
 }
 
+/// Rules on a row with its number; what is refuted is certified.
+fn decide_again(
+    arguments: &AuditArguments,
+    (number, row): (usize, &Row),
+    target: Option<&mut Target>,
+) -> Result<Ruled> {
+    let (claim, input) = claim(arguments, row)?;
+    let options = arguments.exact().model(claim.model);
+    let exact = decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
+    let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+    let ruling = claims::rule(&claim, nodes, edges, &exact);
+    let certificate = match (&ruling, target) {
+        (Ruling::Refuted(_), Some(target)) => Some(target.write(&input, &exact)?),
+        _ => None,
+    };
+    Ok(Ruled {
+        number,
+        line: row.line,
+        ruling,
+        input,
+        exact,
+        certificate,
+    })
+}
+
 /// The claim of a row and the graph that it names.
 fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
     let claim = claims::claim(row)?;
-    let read = |path: &str| {
+    let read = |path: &Path| {
         let output = ("--certificate", arguments.certificate.as_deref());
-        atomic::ensure_apart(&[output], [Path::new(path)])?;
+        atomic::ensure_apart(&[output], [path])?;
         Ok::<_, anyhow::Error>(read_graphs(path, &ReadOptions::default()))
     };
     let folder = || {
@@ -115,11 +122,10 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
                 let named = graphs.find(|graph| graph.as_ref().is_ok_and(|g| g.name == *text));
                 named.with_context(|| format!("unknown graph {text}: no graph on that line"))??
             }
-            None => only(text, read(text)?)?,
+            None => only(text, read(Path::new(text))?)?,
         },
         Named::File(file) => {
             let path = folder()?.join(file);
-            let path = path.to_string_lossy();
             only(file, read(&path)?)?
         }
         Named::Name(name) => {
@@ -131,10 +137,11 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
 }
 
 /// The file in the name of a graph on a line of it, as in `file.g6:3`.
-fn line_of(name: &str) -> Option<&str> {
+fn line_of(name: &str) -> Option<&Path> {
     let (path, line) = name.rsplit_once(':')?;
     let is_line = !line.is_empty() && line.bytes().all(|byte| byte.is_ascii_digit());
-    (is_line && !Path::new(name).exists() && Path::new(path).is_file()).then_some(path)
+    let path = Path::new(path);
+    (is_line && !Path::new(name).exists() && path.is_file()).then_some(path)
 }
 
 /// The only graph of an input.
@@ -148,22 +155,25 @@ fn only(name: &str, mut graphs: viewcert_formats::read::Graphs) -> Result<NamedG
 }
 
 /// The file of a name: that name, or that name up to a dot.
-fn find(folder: &Path, name: &str) -> Result<String> {
+fn find(folder: &Path, name: &str) -> Result<PathBuf> {
     let entries = std::fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     let mut names = Vec::new();
     for entry in entries {
-        let file = entry?.file_name().to_string_lossy().into_owned();
-        let stem = file
-            .rsplit_once('.')
-            .map_or(file.as_str(), |(stem, _)| stem);
-        if file == name || stem == name {
+        let file = PathBuf::from(entry?.file_name());
+        if file.as_os_str() == name || file.file_stem().is_some_and(|stem| stem == name) {
             names.push(file);
         }
     }
     names.sort_unstable();
     match &names[..] {
-        [one] => Ok(folder.join(one).to_string_lossy().into_owned()),
+        [one] => Ok(folder.join(one)),
         [] => bail!("unknown graph {name}: no such file in {}", folder.display()),
-        _ => bail!("{name} may be any of {}", names.join(", ")),
+        _ => {
+            let names: Vec<String> = names
+                .iter()
+                .map(|file| file.display().to_string())
+                .collect();
+            bail!("{name} may be any of {}", names.join(", "))
+        }
     }
 }

@@ -15,12 +15,15 @@ use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use viewcert::decide;
 use viewcert::decide::Value;
+use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::audit;
-use viewcert_studies::audit::{FloatVerdict, Method, TOLERANCE, components, published, study};
+use viewcert_studies::audit::{
+    AuditError, FloatVerdict, Method, Outcome, TOLERANCE, components, published, study,
+};
 
 /// Options of the audit.
 #[derive(Args)]
@@ -28,7 +31,7 @@ pub(super) struct AuditArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
     /// matrices, also compressed by gzip; `-` is standard input.
     #[arg(required_unless_present = "claims", value_name = "GRAPH")]
-    graphs: Vec<String>,
+    graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// Decide a table of claims again: CSV with a head, a JSON list of objects, or what `verify
@@ -115,7 +118,7 @@ impl AuditArguments {
     }
 
     /// The target of the certificates of graphs in these files.
-    fn target(&self, inputs: &[String]) -> Result<Option<Target>> {
+    fn target(&self, inputs: &[PathBuf]) -> Result<Option<Target>> {
         let path = self.certificate.as_deref();
         path.map(|path| Target::new(path, false, inputs))
             .transpose()
@@ -166,17 +169,8 @@ fn one(
         .map(|target| target.write(input, &exact))
         .transpose()?;
 
-    let start = Instant::now();
-    let outcome = audit::decide(&input.graph, &options, 0).with_context(name)?;
-    let parts = match outcome.verdict {
-        FloatVerdict::Solvable => Some(1),
-        FloatVerdict::NotSolvable => {
-            let found = components::components(&input.graph, &options, 0).with_context(name)?;
-            Some(components::count(&found))
-        }
-        FloatVerdict::Undecided => None,
-    };
-    let float_time = start.elapsed();
+    let (outcome, components, float_time) =
+        in_doubles(&input.graph, &options).with_context(name)?;
     let further = study::eigenvalues(&input.graph, &options, 1..arguments.draws);
     let draws = [vec![outcome.eigenvalue], further.with_context(name)?].concat();
     let solvable = exact.value != Value::NotFiniteSolvable;
@@ -190,7 +184,7 @@ fn one(
         .map(|&value| FloatVerdict::by_tolerance(value, options.tolerance));
     let misjudged = verdicts.filter(|&verdict| verdict != right).count();
     // Where only the numbers of components differ, the method may be the reason, not rounding.
-    let counts_differ = parts.is_some_and(|parts| parts != exact.components.len());
+    let counts_differ = components.is_some_and(|count| count != exact.components.len());
     let method = if misjudged == 0 && counts_differ && !solvable {
         published::study(&input.graph, exact.components.len(), options.seed).with_context(name)?
     } else {
@@ -202,9 +196,9 @@ fn one(
         exact_time,
         tolerance: options.tolerance,
         outcome,
-        components: parts,
+        components,
         float_time,
-        agrees: misjudged == 0 && parts == Some(exact.components.len()),
+        agrees: misjudged == 0 && components == Some(exact.components.len()),
         draws: draws.len(),
         misjudged,
         method,
@@ -218,4 +212,23 @@ fn one(
         }
     }
     Ok(found.agrees)
+}
+
+/// The float side at the first draw: the verdict, the number of components if there is one, and
+/// the time of both.
+fn in_doubles(
+    graph: &Graph,
+    options: &audit::Options,
+) -> Result<(Outcome, Option<usize>, Duration), AuditError> {
+    let start = Instant::now();
+    let outcome = audit::decide(graph, options, 0)?;
+    let components = match outcome.verdict {
+        FloatVerdict::Solvable => Some(1),
+        FloatVerdict::NotSolvable => {
+            let found = components::components(graph, options, 0)?;
+            Some(components::count(&found))
+        }
+        FloatVerdict::Undecided => None,
+    };
+    Ok((outcome, components, start.elapsed()))
 }

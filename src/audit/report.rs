@@ -108,35 +108,7 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         exact.components.len(),
         audit.exact_time.as_secs_f64()
     )?;
-    let components = match audit.components {
-        Some(count) => count.to_string(),
-        None => "undecided".into(),
-    };
-    writeln!(
-        out,
-        "  float       {}, components {components}, {:.3} s",
-        audit.outcome.verdict.name(),
-        audit.float_time.as_secs_f64()
-    )?;
-    write!(
-        out,
-        "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {:e}",
-        audit.outcome.smallest(),
-        audit.outcome.eigenvalue,
-        audit.tolerance
-    )?;
-    match audit.margin() {
-        Some(margin) => writeln!(out, ", margin {margin:+.1} decades")?,
-        None => writeln!(out, ", no margin")?,
-    }
-    if let (Some(rank), Some(verdict)) = (audit.outcome.matlab_rank, audit.outcome.by_rank()) {
-        writeln!(
-            out,
-            "  MATLAB rank {rank} of {}: {}",
-            audit.outcome.columns,
-            verdict.name()
-        )?;
-    }
+    in_doubles(out, audit)?;
     if audit.draws > 1 {
         writeln!(
             out,
@@ -156,6 +128,37 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         Some(reason) => writeln!(out, "  because     {reason}"),
         None => Ok(()),
     }
+}
+
+/// The lines of the float side at the first draw.
+fn in_doubles(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+    let outcome = &audit.outcome;
+    let components = match audit.components {
+        Some(count) => count.to_string(),
+        None => "undecided".into(),
+    };
+    writeln!(
+        out,
+        "  float       {}, components {components}, {:.3} s",
+        outcome.verdict,
+        audit.float_time.as_secs_f64()
+    )?;
+    write!(
+        out,
+        "  smallest    singular value {:.3e}, eigenvalue {:.3e}; tolerance {:e}",
+        outcome.smallest(),
+        outcome.eigenvalue,
+        audit.tolerance
+    )?;
+    match audit.margin() {
+        Some(margin) => writeln!(out, ", margin {margin:+.1} decades")?,
+        None => writeln!(out, ", no margin")?,
+    }
+    if let (Some(rank), Some(verdict)) = (outcome.matlab_rank, outcome.by_rank()) {
+        let columns = outcome.columns;
+        writeln!(out, "  MATLAB rank {rank} of {columns}: {verdict}")?;
+    }
+    Ok(())
 }
 
 #[derive(Serialize)]

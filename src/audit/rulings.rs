@@ -2,24 +2,26 @@
 
 use serde::Serialize;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::PathBuf;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::audit::claims::Ruling;
 
 /// The ruling on one row.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ruled<'a> {
+#[derive(Clone, Debug)]
+pub(super) struct Ruled {
     /// The row, from 1.
     pub(super) number: usize,
     /// Its line in the table, from 1.
     pub(super) line: usize,
     /// What was found.
-    pub(super) ruling: &'a Ruling,
-    /// The graph and its exact verdict.
-    pub(super) decided: (&'a NamedGraph, &'a Verdict),
+    pub(super) ruling: Ruling,
+    /// The graph.
+    pub(super) input: NamedGraph,
+    /// Its exact verdict.
+    pub(super) exact: Verdict,
     /// The certificate, where one was written.
-    pub(super) certificate: Option<&'a Path>,
+    pub(super) certificate: Option<PathBuf>,
 }
 
 fn word(ruling: &Ruling) -> &'static str {
@@ -43,8 +45,8 @@ fn reasons(ruling: &Ruling) -> String {
 /// # Errors
 /// Those of the writer.
 pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
-    write!(out, "row {:4}  {:13}", ruled.number, word(ruled.ruling))?;
-    let (input, exact) = ruled.decided;
+    write!(out, "row {:4}  {:13}", ruled.number, word(&ruled.ruling))?;
+    let (input, exact) = (&ruled.input, &ruled.exact);
     write!(
         out,
         "  {}: {} ({}), components {}, rank {}",
@@ -54,11 +56,11 @@ pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         exact.components.len(),
         exact.rank
     )?;
-    match ruled.ruling {
+    match &ruled.ruling {
         Ruling::Confirmed => writeln!(out)?,
         other => writeln!(out, "; {}", reasons(other))?,
     }
-    if let Some(path) = ruled.certificate {
+    if let Some(path) = &ruled.certificate {
         writeln!(out, "          certificate {}", path.display())?;
     }
     Ok(())
@@ -83,21 +85,24 @@ struct Json<'a> {
 /// # Errors
 /// Those of the writer.
 pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
-    let (input, exact) = ruled.decided;
+    let (input, exact) = (&ruled.input, &ruled.exact);
     let line = Json {
         row: ruled.number,
         line: ruled.line,
-        ruling: match ruled.ruling {
+        ruling: match &ruled.ruling {
             Ruling::Refuted(_) => "refuted",
             other => word(other),
         },
-        reason: reasons(ruled.ruling),
+        reason: reasons(&ruled.ruling),
         graph: &input.name,
         verdict: exact.value.name(),
         strength: exact.value_claim().strength.name(),
         components: exact.components.len(),
         rank: exact.rank,
-        certificate: ruled.certificate.map(|path| path.display().to_string()),
+        certificate: ruled
+            .certificate
+            .as_ref()
+            .map(|path| path.display().to_string()),
     };
     serde_json::to_writer(&mut *out, &line)?;
     out.write_all(b"\n")

@@ -5,19 +5,20 @@ use super::AuditArguments;
 use crate::report::counted;
 use crate::report::curves;
 use crate::report::curves::Picture;
+use crate::report::values::Values;
 use anyhow::{Context, Result};
 use std::io::Write;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::audit::study;
-use viewcert_studies::audit::study::Populations;
+use viewcert_studies::audit::study::{Errors, Populations};
 
 /// Sweeps over all graphs together.
 pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
-    let inputs = arguments.graphs.iter().map(Path::new);
+    let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut populations = Populations::default();
     let each = |_: &mut _, input: &NamedGraph, _| {
@@ -27,28 +28,8 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     let code = arguments
         .input
         .for_each(&arguments.graphs, None, &mut std::io::sink(), each)?;
-    let sweep = populations.sweep();
-    let share = |count: usize, of: &[f64]| count as f64 / of.len().max(1) as f64;
     let mut out = atomic::text(&[arguments.svg.as_deref()]);
-    writeln!(
-        out,
-        "tolerance,not_solvable_draws,false_solvable,false_solvable_rate,solvable_draws,\
-         false_not_solvable,false_not_solvable_rate"
-    )?;
-    for errors in std::iter::once(populations.errors(arguments.tolerance)).chain(sweep.clone()) {
-        writeln!(
-            out,
-            "{:e},{},{},{:.6},{},{},{:.6}",
-            errors.tolerance,
-            populations.not_solvable.len(),
-            errors.false_solvable,
-            share(errors.false_solvable, &populations.not_solvable),
-            populations.solvable.len(),
-            errors.false_not_solvable,
-            share(errors.false_not_solvable, &populations.solvable),
-        )?;
-    }
-    out.flush().context("standard output")?;
+    write_table(&mut out, &populations, arguments.tolerance).context("standard output")?;
     if populations.undecided > 0 {
         writeln!(
             std::io::stderr(),
@@ -57,28 +38,65 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         )?;
     }
     if let Some(path) = &arguments.svg {
-        let errors = sweep
-            .iter()
-            .map(|errors| {
-                let not_solvable = share(errors.false_solvable, &populations.not_solvable);
-                let solvable = share(errors.false_not_solvable, &populations.solvable);
-                (errors.tolerance, [not_solvable, solvable])
-            })
-            .collect();
-        let picture = curves::draw(&Picture {
-            title: "Smallest eigenvalue of J^T J by exact verdict, and the errors by tolerance"
-                .into(),
-            axis: "eigenvalue, tolerance".into(),
-            populations: [
-                ("not finite solvable".into(), populations.not_solvable),
-                ("finite solvable".into(), populations.solvable),
-            ],
-            errors,
-            mark: arguments.tolerance,
-        });
+        let picture = curves::draw(&picture(populations, arguments.tolerance));
         atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
     }
     Ok(ExitCode::from(code))
+}
+
+const COLUMNS: [&str; 7] = [
+    "tolerance",
+    "not_solvable_draws",
+    "false_solvable",
+    "false_solvable_rate",
+    "solvable_draws",
+    "false_not_solvable",
+    "false_not_solvable_rate",
+];
+
+fn share(count: usize, of: &[f64]) -> f64 {
+    count as f64 / of.len().max(1) as f64
+}
+
+/// The errors of the given tolerance, and of all those of the sweep.
+fn write_table(
+    out: &mut impl Write,
+    populations: &Populations,
+    tolerance: f64,
+) -> std::io::Result<()> {
+    let mut table = Values::commas(out);
+    table.row(COLUMNS)?;
+    let (solvable, not_solvable) = (&populations.solvable, &populations.not_solvable);
+    for errors in std::iter::once(populations.errors(tolerance)).chain(populations.sweep()) {
+        table.row([
+            format!("{:e}", errors.tolerance),
+            not_solvable.len().to_string(),
+            errors.false_solvable.to_string(),
+            format!("{:.6}", share(errors.false_solvable, not_solvable)),
+            solvable.len().to_string(),
+            errors.false_not_solvable.to_string(),
+            format!("{:.6}", share(errors.false_not_solvable, solvable)),
+        ])?;
+    }
+    table.finish()
+}
+
+fn picture(populations: Populations, mark: f64) -> Picture {
+    let shares = |errors: &Errors| {
+        let not_solvable = share(errors.false_solvable, &populations.not_solvable);
+        let solvable = share(errors.false_not_solvable, &populations.solvable);
+        (errors.tolerance, [not_solvable, solvable])
+    };
+    Picture {
+        title: "Smallest eigenvalue of J^T J by exact verdict, and the errors by tolerance".into(),
+        axis: "eigenvalue, tolerance".into(),
+        errors: populations.sweep().iter().map(shares).collect(),
+        populations: [
+            ("not finite solvable".into(), populations.not_solvable),
+            ("finite solvable".into(), populations.solvable),
+        ],
+        mark,
+    }
 }
 
 fn add(

@@ -7,13 +7,14 @@ mod source;
 
 use super::progress::Progress;
 use super::{BAD_INPUT, GOOD, running};
+use crate::report::values::Values;
 use crate::report::{counted, table};
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
 use parts::{Run, Shard, Writer};
 use rayon::prelude::*;
 use source::Source;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -40,7 +41,7 @@ pub(super) struct Arguments {
     edges: Option<usize>,
     /// Take the candidates from a file of graph6 instead; `-` is standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "nodes")]
-    from: Option<String>,
+    from: Option<PathBuf>,
     /// Leave out candidates with adjacent nodes of degree 2: they are not finite solvable.
     #[arg(long, conflicts_with_all = ["from", "minimal"])]
     necessary: bool,
@@ -123,16 +124,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     if several && (arguments.edges.is_some() || arguments.out.is_some()) {
         bail!("--edges and --out go with a single number of nodes");
     }
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    if arguments.list {
-        writeln!(out, "{}", mine::HEADER)?;
+    let mut list = arguments
+        .list
+        .then(|| Values::tabs(std::io::stdout().lock()));
+    if let Some(list) = &mut list {
+        list.row(mine::COLUMNS).context("standard output")?;
     }
     let mut rows = Vec::new();
     let mut bad_lines = 0;
     for nodes in sizes {
         let start = Instant::now();
         let source = Source::new(arguments, nodes)?;
-        let (summary, bad) = mine_all(arguments, &source, &options, &mut out)?;
+        let (summary, bad) = mine_all(arguments, &source, &options, list.as_mut())?;
         bad_lines += bad;
         rows.push(table::Row {
             name: source.name(),
@@ -140,10 +143,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
             seconds: Some(start.elapsed().as_secs_f64()),
         });
     }
-    if !arguments.list {
-        table::write(&mut out, &rows)?;
+    match list {
+        Some(list) => list.finish(),
+        None => table::write(&mut std::io::stdout().lock(), &rows),
     }
-    out.flush().context("standard output")?;
+    .context("standard output")?;
     let code = if bad_lines > 0 { BAD_INPUT } else { GOOD };
     Ok(ExitCode::from(code))
 }
@@ -153,59 +157,33 @@ fn mine_all(
     arguments: &Arguments,
     source: &Source,
     options: &Options,
-    out: &mut impl Write,
+    list: Option<&mut Values<impl Write>>,
 ) -> Result<(Summary, u64)> {
-    let mut writer = match &arguments.out {
+    let parts = match &arguments.out {
         Some(folder) => {
             let run = Run::new(arguments, source);
             Some(Writer::open(folder, arguments.shard, run)?)
         }
         None => None,
     };
-    let Shard { index, count } = arguments.shard;
-    let share = source
-        .total()
-        .map(|total| (arguments.shard.share(total), total));
-    if let Some((own, total)) = share.filter(|_| count > 1) {
-        let candidates = counted(total as usize, "candidate");
-        writeln!(
-            std::io::stderr(),
-            "verify: shard {index}/{count}: {own} of {candidates}"
-        )?;
-    }
-    let progress = Progress::new(share.map(|(own, _)| own));
-    let mut summary = Summary::default();
-    let mut batch = Vec::with_capacity(BATCH);
-    let mut bad = 0;
-    let mut failure = None;
-    let mut index = 0;
-    let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
-        let graphs = std::mem::take(batch);
-        let decided = graphs.len();
-        match &mut writer {
-            Some(writer) => writer.push(graphs, |graphs| decide(arguments, graphs, options))?,
-            None => {
-                for entry in decide(arguments, &graphs, options)? {
-                    summary.count(&entry);
-                    if arguments.list {
-                        entry.write(out).context("standard output")?;
-                    }
-                }
-            }
-        }
-        progress.done(decided as u64);
-        Ok(())
+    let own = own_share(arguments.shard, source)?;
+    let mut miner = Miner {
+        arguments,
+        options,
+        list,
+        parts,
+        progress: Progress::new(own),
+        batch: Vec::with_capacity(BATCH),
+        summary: Summary::default(),
     };
+    let mut failure = None;
+    let (mut index, mut bad) = (0, 0);
     source.for_each(&mut |graph| {
         let done = match graph {
             Ok(graph) => {
-                let own = arguments.shard.owns(index);
                 index += 1;
-                if own {
-                    batch.push(graph);
-                }
-                if batch.len() == BATCH {
-                    flush(&mut batch)
+                if arguments.shard.owns(index - 1) {
+                    miner.push(graph)
                 } else {
                     Ok(())
                 }
@@ -218,15 +196,77 @@ fn mine_all(
         failure = done.err();
         failure.is_none()
     })?;
-    if let Some(error) = failure {
-        return Err(error);
+    match failure {
+        Some(error) => Err(error),
+        None => Ok((miner.finish()?, bad)),
     }
-    flush(&mut batch)?;
-    if let Some(writer) = writer {
-        summary = writer.finish(|graphs| decide(arguments, graphs, options))?;
+}
+
+/// How many candidates the shard decides, if that is known beforehand; said where it is not all.
+fn own_share(shard: Shard, source: &Source) -> Result<Option<u64>> {
+    let Some(total) = source.total() else {
+        return Ok(None);
+    };
+    let own = shard.share(total);
+    let Shard { index, count } = shard;
+    if count > 1 {
+        let candidates = counted(total as usize, "candidate");
+        writeln!(
+            std::io::stderr(),
+            "verify: shard {index}/{count}: {own} of {candidates}"
+        )?;
     }
-    progress.finish();
-    Ok((summary, bad))
+    Ok(Some(own))
+}
+
+/// Decides candidates batch by batch, and passes on what is found.
+struct Miner<'a, W: Write> {
+    arguments: &'a Arguments,
+    options: &'a Options,
+    list: Option<&'a mut Values<W>>,
+    parts: Option<Writer>,
+    progress: Progress,
+    batch: Vec<Graph>,
+    summary: Summary,
+}
+
+impl<W: Write> Miner<'_, W> {
+    fn push(&mut self, graph: Graph) -> Result<()> {
+        self.batch.push(graph);
+        if self.batch.len() == BATCH {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    fn flush(&mut self) -> Result<()> {
+        let graphs = std::mem::take(&mut self.batch);
+        let decided = graphs.len();
+        let decide = |graphs: &[Graph]| decide(self.arguments, graphs, self.options);
+        match &mut self.parts {
+            Some(parts) => parts.push(graphs, decide)?,
+            None => {
+                for entry in decide(&graphs)? {
+                    self.summary.count(&entry);
+                    if let Some(list) = &mut self.list {
+                        list.row(entry.cells()).context("standard output")?;
+                    }
+                }
+            }
+        }
+        self.progress.done(decided as u64);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<Summary> {
+        self.flush()?;
+        if let Some(parts) = self.parts {
+            let decide = |graphs: &[Graph]| decide(self.arguments, graphs, self.options);
+            self.summary = parts.finish(decide)?;
+        }
+        self.progress.finish();
+        Ok(self.summary)
+    }
 }
 
 /// The entries of some candidates; with `--minimal` of those that are minimal.

@@ -10,6 +10,7 @@
 use super::super::atomic;
 use super::Arguments;
 use super::source::Source;
+use crate::report::values::Values;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -18,7 +19,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use viewcert::graph::{Graph, graph6};
-use viewcert_studies::catalog::mine::{Entry, HEADER, Summary};
+use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 
 /// Candidates that go to the same shard together.
 const BLOCK: u64 = 64;
@@ -196,12 +197,15 @@ impl Writer {
             entries.iter().for_each(|entry| summary.count(entry));
             atomic::write(&path, |mut out| {
                 serde_json::to_writer(&mut out, &self.run)?;
-                writeln!(out, "\n{HEADER}")?;
+                out.write_all(b"\n")?;
+                let mut table = Values::tabs(&mut out);
+                table.row(COLUMNS)?;
                 for entry in &entries {
                     if !self.run.solvable_only || entry.is_notable() {
-                        entry.write(&mut out)?;
+                        table.row(entry.cells())?;
                     }
                 }
+                table.finish()?;
                 let end = End {
                     summary,
                     candidates_sha256: digest,

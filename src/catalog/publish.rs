@@ -5,6 +5,7 @@ use super::super::progress::Progress;
 use super::super::{GOOD, atomic, running};
 use crate::report::catalog_page;
 use crate::report::catalog_page::Drawing;
+use crate::report::values::Values;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
@@ -54,7 +55,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     // The only name among those of the catalog that anybody's folder may have.
     let counts = std::fs::read_to_string(folder.join("counts.tsv")).unwrap_or_default();
     ensure!(
-        !folder.join("README.md").exists() || counts.starts_with(COUNTED),
+        !folder.join("README.md").exists() || counts.starts_with(&COUNTS[..3].join("\t")),
         "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
         folder.display()
     );
@@ -250,49 +251,61 @@ fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
             .iter()
             .try_for_each(|(graph, _)| writeln!(out, "{}", graph6::encode(graph)))
     })?;
-    out.write(&name("tsv"), None, |out| {
-        writeln!(
-            out,
-            "graph6\tdegrees\tgirth\tautomorphisms\ttriangles\tunique_by_contraction"
-        )?;
-        for (graph, value) in &found {
-            let Some(small) = Multigraph::from_graph(graph) else {
-                continue;
-            };
-            let invariants = Invariants::new(&small);
-            let degrees: Vec<String> = invariants.degrees.iter().map(usize::to_string).collect();
-            let girth = invariants
-                .girth
-                .map_or(String::new(), |girth| girth.to_string());
-            writeln!(
-                out,
-                "{}\t{}\t{girth}\t{}\t{}\t{}",
-                graph6::encode(graph),
-                degrees.join(","),
-                invariants.group_order,
-                invariants.triangles,
-                u8::from(*value == Value::Solvable),
-            )?;
-        }
-        Ok(())
-    })?;
+    out.write(&name("tsv"), None, |out| write_invariants(out, &found))?;
     Ok(summary)
 }
 
-/// The first columns of `counts.tsv`.
-const COUNTED: &str = "nodes\tedges\tcandidates\t";
+fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::Result<()> {
+    let mut table = Values::tabs(out);
+    table.row([
+        "graph6",
+        "degrees",
+        "girth",
+        "automorphisms",
+        "triangles",
+        "unique_by_contraction",
+    ])?;
+    for (graph, value) in found {
+        let Some(small) = Multigraph::from_graph(graph) else {
+            continue;
+        };
+        let invariants = Invariants::new(&small);
+        let degrees: Vec<String> = invariants.degrees.iter().map(usize::to_string).collect();
+        table.row([
+            graph6::encode(graph),
+            degrees.join(","),
+            invariants
+                .girth
+                .map_or(String::new(), |girth| girth.to_string()),
+            invariants.group_order.to_string(),
+            invariants.triangles.to_string(),
+            u8::from(*value == Value::Solvable).to_string(),
+        ])?;
+    }
+    table.finish()
+}
+
+/// The head of `counts.tsv`.
+const COUNTS: [&str; 10] = [
+    "nodes",
+    "edges",
+    "candidates",
+    "finite_solvable",
+    "unique_by_contraction",
+    "refuted",
+    "refuted_by_hub",
+    "unproved",
+    "rank_proved",
+    "components_proved",
+];
 
 fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
-    writeln!(
-        out,
-        "{COUNTED}finite_solvable\tunique_by_contraction\trefuted\trefuted_by_hub\t\
-         unproved\trank_proved\tcomponents_proved"
-    )?;
+    let mut table = Values::tabs(out);
+    table.row(COUNTS)?;
     for (nodes, summary) in counts {
-        writeln!(
-            out,
-            "{nodes}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}",
-            least_edges(*nodes),
+        let cells = [
+            *nodes as u64,
+            least_edges(*nodes) as u64,
             summary.candidates,
             summary.finite_solvable(),
             summary.unique,
@@ -301,48 +314,36 @@ fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Re
             summary.unproved,
             summary.rank_proved,
             summary.components_proved,
-        )?;
+        ];
+        table.row(cells.map(|cell| cell.to_string()))?;
     }
-    Ok(())
+    table.finish()
 }
 
+/// The page beside the catalog, with names in braces for what depends on the options.
+const PAGE: &str = include_str!("published.md");
+
 fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> String {
-    let (last, first_listed, last_listed) = (certified.end(), listed.start(), listed.end());
-    format!(
-        "# The catalog\n\
-         \n\
-         All biconnected graphs with n nodes and the least possible number of edges,\n\
-         ceil((11 n - 15) / 7), decided and certified. Made, and made again byte for byte, by\n\
-         \n\
-         ```\n\
-         verify catalog publish certificates/\n\
-         ```\n\
-         \n\
-         and verified by the independent checker with `verify check certificates/`, which also says whether\n\
-         a file is missing, extra or changed.\n\
-         \n\
-         | file | contents |\n\
-         |---|---|\n\
-         | `nNN-finite-solvable.jsonl.gz` | n = 3 to {last}: the certificate of every finite-solvable graph |\n\
-         | `nNN-refuted.jsonl.gz` | n = 5 to {last}: the certificate of every candidate that is not finite solvable |\n\
-         | `nNN-finite-solvable.g6` | n = {first_listed} to {last_listed}: every finite-solvable graph, graph6, canonical labels |\n\
-         | `nNN-finite-solvable.tsv` | their invariants, in the same order |\n\
-         | `counts.tsv` | counts by number of nodes |\n\
-         | `finite-solvable.svg` | all finite-solvable graphs with up to {DRAWN} nodes, drawn |\n\
-         | `manifest.json` | all files but itself: SHA-256, and of certificates how many graphs and which verdicts |\n\
-         \n\
-         Certificates are JSON lines, one a graph, in the format of\n\
-         [docs/certificate.md](../docs/certificate.md), compressed with gzip (a sixth of the size).\n\
-         They are computed modulo {PRIME}: proofs modulo a small prime are proofs, and shorter. Each embeds its\n\
-         graph as graph6, which is its name as well. The certificate of any graph of the other\n\
-         lists is made by\n\
-         \n\
-         ```\n\
-         sed -n 42p certificates/n{first_listed:02}-finite-solvable.g6 | verify - --format graph6 --certificate 42.json\n\
-         ```\n\
-         \n\
-         Columns of the invariants: degrees, falling; length of a shortest cycle; number of\n\
-         automorphisms; number of triangles; whether the graph contracts to one body, which proves that\n\
-         the cameras are unique.\n"
-    )
+    let values = [
+        ("{last-certified}", certified.end().to_string()),
+        ("{first-listed}", listed.start().to_string()),
+        ("{first-listed-02}", format!("{:02}", listed.start())),
+        ("{last-listed}", listed.end().to_string()),
+        ("{last-drawn}", DRAWN.to_string()),
+        ("{prime}", PRIME.to_string()),
+    ];
+    let fill = |page: String, (name, value): &(&str, String)| page.replace(name, value);
+    values.iter().fold(PAGE.to_owned(), fill)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The page of the catalog in the repository, which the default options have made.
+    #[test]
+    fn the_page_is_the_published_one() {
+        let published = include_str!("../../certificates/README.md");
+        assert_eq!(readme(&(3..=10), &(11..=12)), published);
+    }
 }

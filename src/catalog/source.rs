@@ -2,6 +2,7 @@
 
 use super::Arguments;
 use anyhow::{Error, Result, bail};
+use std::path::PathBuf;
 use viewcert::graph::Graph;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
 use viewcert_studies::catalog::{Candidates, least_edges, minimal};
@@ -18,7 +19,7 @@ pub(super) enum Source {
     /// Graphs that may be minimally finite solvable.
     Minimal { nodes: usize },
     /// A file of graph6.
-    File { path: String },
+    File { path: PathBuf },
 }
 
 impl Source {
@@ -62,8 +63,8 @@ impl Source {
                 format!("{nodes} nodes, {edges} edges, {which}")
             }
             Self::Minimal { nodes } => format!("{nodes} nodes, minimal"),
-            Self::File { path } if path == "-" => "standard input".into(),
-            Self::File { path } => path.clone(),
+            Self::File { path } if path.as_os_str() == "-" => "standard input".into(),
+            Self::File { path } => path.display().to_string(),
         }
     }
 

@@ -1,4 +1,4 @@
-//! The conditions of the literature with their witnesses.
+//! The conditions of the literature and the grounds on which they are decided.
 
 use super::{counted, size};
 use serde::Serialize;
@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::conditions::moves::Move;
-use viewcert_studies::conditions::{Answer, Condition, Witness, refuted, solvable};
+use viewcert_studies::conditions::{Answer, Condition, Grounds, refuted, solvable};
 
 fn answer(condition: &Condition) -> &'static str {
     match condition.answer {
@@ -17,7 +17,7 @@ fn answer(condition: &Condition) -> &'static str {
 }
 
 /// What decided a condition, a line a step.
-fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
+fn grounds(condition: &Condition, input: &NamedGraph) -> Vec<String> {
     if let Answer::NotApplicable(why) = &condition.answer {
         return vec![why.clone()];
     }
@@ -26,26 +26,26 @@ fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
         let names: Vec<String> = nodes.iter().map(|&v| label(v)).collect();
         names.join(" ")
     };
-    match &condition.witness {
+    match &condition.grounds {
         None => Vec::new(),
-        Some(Witness::Degree(v, degree)) => vec![format!("{} has degree {degree}", label(*v))],
-        Some(Witness::Adjacent(i, j)) => {
+        Some(Grounds::Degree(v, degree)) => vec![format!("{} has degree {degree}", label(*v))],
+        Some(Grounds::Adjacent(i, j)) => {
             vec![format!("{} and {} have degree 2", label(*i), label(*j))]
         }
-        Some(Witness::Cut(v, part)) => vec![format!("{} cuts off {}", label(*v), list(part))],
-        Some(Witness::Apart(part)) => vec![format!("not connected with the rest: {}", list(part))],
-        Some(Witness::Count(text)) => vec![text.clone()],
-        Some(Witness::Vertices(nodes, d, whole)) => {
+        Some(Grounds::Cut(v, part)) => vec![format!("{} cuts off {}", label(*v), list(part))],
+        Some(Grounds::Apart(part)) => vec![format!("not connected with the rest: {}", list(part))],
+        Some(Grounds::Count(text)) => vec![text.clone()],
+        Some(Grounds::Vertices(nodes, d, whole)) => {
             vec![format!("d is {d} on {}, and {whole} on all", list(nodes))]
         }
-        Some(Witness::Partition(blocks, bound)) => {
+        Some(Grounds::Partition(blocks, bound)) => {
             let required = Model::Projective.required(input.graph.nodes());
             let head = format!("rank at most {bound} of {required}, by the blocks:");
             std::iter::once(head)
                 .chain(blocks.iter().map(|block| list(block)))
                 .collect()
         }
-        Some(Witness::Growth((i, j), steps)) => {
+        Some(Grounds::Growth((i, j), steps)) => {
             let start = format!("{} - {}", label(*i), label(*j));
             let step = |&[v, a, b]: &[u32; 3]| {
                 format!(
@@ -59,13 +59,13 @@ fn witness(condition: &Condition, input: &NamedGraph) -> Vec<String> {
                 .chain(steps.iter().map(step))
                 .collect()
         }
-        Some(Witness::Reached(count)) => {
+        Some(Grounds::Reached(count)) => {
             let nodes = input.graph.nodes();
             let cameras = counted(nodes, "camera");
             vec![format!("at most {count} of {cameras} are reached")]
         }
-        Some(Witness::Moves(moves)) => moves.iter().map(|step| describe(step, &label)).collect(),
-        Some(Witness::Missing(count)) => {
+        Some(Grounds::Moves(moves)) => moves.iter().map(|step| describe(step, &label)).collect(),
+        Some(Grounds::Missing(count)) => {
             let edges = counted(*count, "edge");
             vec![format!("{edges} of the complete graph missing")]
         }
@@ -109,7 +109,7 @@ fn conclusion(conditions: &[Condition]) -> &'static str {
     }
 }
 
-/// How many lines of a witness are shown to people.
+/// How many lines of the grounds are shown to people.
 const SHOWN: usize = 12;
 
 /// Writes a few lines a condition.
@@ -135,7 +135,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
             answer(condition),
             condition.source
         )?;
-        let lines = witness(condition, input);
+        let lines = grounds(condition, input);
         for line in lines.iter().take(SHOWN) {
             writeln!(out, "                {line}")?;
         }
@@ -163,7 +163,8 @@ struct JsonCondition {
     source: &'static str,
     kind: &'static str,
     answer: &'static str,
-    witness: Vec<String>,
+    #[serde(rename = "witness")]
+    grounds: Vec<String>,
 }
 
 /// Writes one line of JSON.
@@ -182,7 +183,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
                 "sufficient"
             },
             answer: answer(condition),
-            witness: witness(condition, input),
+            grounds: grounds(condition, input),
         })
         .collect();
     let line = Json {

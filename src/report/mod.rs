@@ -11,6 +11,7 @@ pub mod plot;
 pub mod svg;
 pub mod table;
 pub mod text;
+pub mod values;
 
 use std::time::Duration;
 use viewcert::decide::Verdict;

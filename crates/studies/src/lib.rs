@@ -6,3 +6,4 @@ pub mod catalog;
 pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
+pub mod values;

@@ -5,6 +5,7 @@ use crate::geometry::draw::{DrawKey, centres_mod};
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::sha256;
 use crate::linalg::prime::PrimeField;
+use crate::watch::unwatched;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -174,7 +175,8 @@ fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
     };
     let field = PrimeField::mersenne61();
     let centres = centres_mod(&field, graph.nodes(), &key).unwrap().values;
-    PlaneFlows::new(&field, &graph, &centres).rigidity_rank()
+    let flows = unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));
+    flows.rigidity_rank()
 }
 
 fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {

@@ -4,7 +4,7 @@
 //! the cameras. Their Jacobian J_P decides finite solvability by its rank 11n - 15
 //! (Theorem 1 of the paper).
 //!
-//! # Layout
+//! # Rows and columns
 //!
 //! * Column `12 v + 3 c + r` belongs to entry (r, c) of camera v: cameras are vectorised
 //!   column by column.

@@ -1,7 +1,9 @@
 //! Any input to graphs: which format it is, and its graphs one by one.
 
+use std::fmt;
 use std::fs::File;
 use std::io::{Cursor, Read};
+use std::path::Path;
 use std::str::FromStr;
 
 use crate::edge_list::Reading;
@@ -17,8 +19,8 @@ use viewcert::graph::{Graph, Labels};
 /// A graph as it was read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedGraph {
-    /// The path as given, `-` for standard input; for line k of a graph6 or sparse6 file
-    /// followed by `:k`.
+    /// The path as given, what is not UTF-8 in it replaced; `-` for standard input; for line k of a
+    /// graph6 or sparse6 file followed by `:k`.
     pub name: String,
     /// The graph.
     pub graph: Graph,
@@ -68,6 +70,19 @@ impl FromStr for Format {
 #[error("the formats are edges, graph6, sparse6, matlab and matrix-market")]
 pub struct UnknownFormat;
 
+/// The name on the command line, which [`FromStr`] reads.
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Edges => "edges",
+            Self::Graph6 => "graph6",
+            Self::Sparse6 => "sparse6",
+            Self::Matlab => "matlab",
+            Self::MatrixMarket => "matrix-market",
+        })
+    }
+}
+
 /// How to read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
@@ -88,13 +103,14 @@ type Input = Box<dyn Read>;
 ///
 /// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or the options
 /// say that it is such a file; every other error ends the stream.
-pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
-    let (path, options) = (path.to_owned(), options.clone());
-    let open = move || match path.as_str() {
-        "-" => graphs(path, std::io::stdin(), options),
+pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
+    let (path, options) = (path.as_ref().to_owned(), options.clone());
+    let name = path.display().to_string();
+    let open = move || match path.to_str() {
+        Some("-") => graphs(name, std::io::stdin(), options),
         _ => match File::open(&path) {
-            Ok(file) => graphs(path, file, options),
-            Err(error) => failed(&path, Place::Input.fault(Problem::Unreadable(error))),
+            Ok(file) => graphs(name, file, options),
+            Err(error) => failed(&name, Place::Input.fault(Problem::Unreadable(error))),
         },
     };
     Box::new(std::iter::once_with(open).flatten())

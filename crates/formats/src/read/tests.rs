@@ -157,6 +157,7 @@ fn a_format_that_is_asked_for_is_not_guessed() {
         ("matrix-market", Format::MatrixMarket),
     ] {
         assert_eq!(name.parse(), Ok(format));
+        assert_eq!(format.to_string().parse(), Ok(format));
     }
     assert_eq!("mat".parse::<Format>(), Err(UnknownFormat));
 }

@@ -23,16 +23,17 @@
 //! after another. Among the latter two the objects that `verify --json` prints are known, whose
 //! members are not flat.
 
+mod ruling;
+
+pub use ruling::{Claim, ClaimedVerdict, Named, RowError, Ruling, claim, rule};
+
+use crate::values;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::fmt;
 use viewcert::wording::counted;
-
-use viewcert::certificate::hex;
-use viewcert::decide::{Value, Verdict};
-use viewcert::geometry::model::Model;
 
 /// A row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -105,118 +106,6 @@ impl TableProblem {
     }
 }
 
-/// Why a row has no claim that can be decided.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum RowError {
-    /// No column names a graph.
-    #[error("no graph is named: one of the columns graph, file, name is needed")]
-    NoGraph,
-    /// Nothing is claimed.
-    #[error("nothing is claimed: one of the columns verdict, components, rank is needed")]
-    NoClaim,
-    /// A cell does not hold a number.
-    #[error("{column}: {text:?} is not a number")]
-    Number {
-        /// The column.
-        column: String,
-        /// What it holds.
-        text: String,
-    },
-    /// A cell does not hold a verdict.
-    #[error(
-        "verdict: {0:?} is not one of solvable, finite-solvable, not-finite-solvable, not-solvable"
-    )]
-    Verdict(String),
-    /// A cell does not hold a model.
-    #[error("model: {0:?} is neither projective nor calibrated")]
-    Model(String),
-    /// Two claims exclude each other, whatever the graph.
-    #[error("the claims contradict each other: {0}")]
-    Contradiction(String),
-}
-
-/// A claimed verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ClaimedVerdict {
-    /// The cameras are unique.
-    Solvable,
-    /// There are finitely many sets of cameras.
-    FiniteSolvable,
-    /// There are infinitely many.
-    NotFiniteSolvable,
-    /// There is more than one.
-    NotSolvable,
-}
-
-impl ClaimedVerdict {
-    fn parse(text: &str) -> Result<Self, RowError> {
-        match text.trim().to_lowercase().replace([' ', '_'], "-").as_str() {
-            "solvable" => Ok(Self::Solvable),
-            "finite-solvable" => Ok(Self::FiniteSolvable),
-            "not-finite-solvable" => Ok(Self::NotFiniteSolvable),
-            "not-solvable" => Ok(Self::NotSolvable),
-            _ => Err(RowError::Verdict(text.to_owned())),
-        }
-    }
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Solvable => "solvable",
-            Self::FiniteSolvable => "finite-solvable",
-            Self::NotFiniteSolvable => "not-finite-solvable",
-            Self::NotSolvable => "not-solvable",
-        }
-    }
-}
-
-/// How a graph is named.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Named {
-    /// A path or a graph6 line.
-    Graph(String),
-    /// A file in the folder of graphs.
-    File(String),
-    /// A name in the folder of graphs.
-    Name(String),
-}
-
-/// What a row claims.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Claim {
-    /// Of which graph.
-    pub graph: Named,
-    /// In which model.
-    pub model: Model,
-    /// Its size, if given.
-    pub nodes: Option<usize>,
-    /// Its size, if given.
-    pub edges: Option<usize>,
-    /// Its hash, if given.
-    pub sha256: Option<String>,
-    /// The verdict.
-    pub verdict: Option<ClaimedVerdict>,
-    /// The number of components.
-    pub components: Option<usize>,
-    /// Cameras and pairs of every component, falling.
-    pub sizes: Option<Vec<(usize, usize)>>,
-    /// The rank.
-    pub rank: Option<usize>,
-    /// The rank of a finite solvable graph of that size.
-    pub required: Option<usize>,
-}
-
-/// What the exact decision says about a claim.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ruling {
-    /// All that was claimed is so.
-    Confirmed,
-    /// Something is not; what.
-    Refuted(Vec<String>),
-    /// Something is neither confirmed nor refuted; why.
-    NotDecidable(String),
-}
-
 /// Whether a column is known; the names are in lower case.
 fn is_known(column: &str) -> bool {
     matches!(
@@ -258,14 +147,10 @@ pub fn read_table(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError
 }
 
 fn read_csv(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    let mut lines = (1..)
-        .zip(text.lines())
-        .filter(|(_, line)| !line.trim().is_empty());
+    let lines = values::lines(text).map_err(|quote| TableProblem::Quote.at(quote.line))?;
+    let mut lines = lines.into_iter();
     let (number, head) = lines.next().ok_or(TableProblem::Empty.at(1))?;
-    let head: Vec<String> = cells(head, number)?
-        .iter()
-        .map(|cell| cell.trim().to_lowercase())
-        .collect();
+    let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();
     for (k, column) in head.iter().enumerate() {
         if !is_known(column) && !ignored.contains(column) {
             return Err(TableProblem::Column(column.clone()).at(number));
@@ -275,12 +160,12 @@ fn read_csv(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
         }
     }
     lines
-        .map(|(line, text)| {
-            let cells = cells(text, line)?;
+        .map(|(line, cells)| {
             if cells.len() != head.len() {
                 let (expected, found) = (head.len(), cells.len());
                 return Err(TableProblem::Cells { expected, found }.at(line));
             }
+            let cells = cells.iter().map(str::to_owned);
             let cells = head.iter().cloned().zip(cells);
             Ok(Row {
                 line,
@@ -471,199 +356,9 @@ fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProbl
     })
 }
 
-/// The cells of a line.
-fn cells(line: &str, number: usize) -> Result<Vec<String>, TableError> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    let mut characters = line.trim_end_matches('\r').chars().peekable();
-    while let Some(c) = characters.next() {
-        let Some(cell) = cells.last_mut() else { break };
-        match c {
-            '"' if quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                cell.push('"');
-            }
-            '"' if quoted || cell.is_empty() => quoted = !quoted,
-            ',' if !quoted => cells.push(String::new()),
-            _ => cell.push(c),
-        }
-    }
-    if quoted {
-        return Err(TableProblem::Quote.at(number));
-    }
-    Ok(cells)
-}
-
-/// The claim of a row.
-///
-/// # Errors
-/// See [`RowError`].
-pub fn claim(row: &Row) -> Result<Claim, RowError> {
-    let cell = |name: &str| {
-        row.cells
-            .get(name)
-            .map(|text| text.trim())
-            .filter(|text| !text.is_empty())
-    };
-    let number = |column: &str, text: &str| {
-        text.trim().parse::<usize>().map_err(|_| RowError::Number {
-            column: column.to_owned(),
-            text: text.to_owned(),
-        })
-    };
-    let size = |name: &str| cell(name).map(|text| number(name, text)).transpose();
-    let graph = cell("graph")
-        .map(|text| Named::Graph(text.to_owned()))
-        .or_else(|| cell("file").map(|text| Named::File(text.to_owned())))
-        .or_else(|| cell("name").map(|text| Named::Name(text.to_owned())))
-        .ok_or(RowError::NoGraph)?;
-    let mut components: Option<(&str, usize)> = None;
-    let columns = row
-        .cells
-        .keys()
-        .filter(|column| *column == "components" || column.starts_with("components_"));
-    for column in columns {
-        let Some(text) = cell(column) else { continue };
-        let value = number(column, text)?;
-        match components {
-            Some((other, before)) if before != value => {
-                return Err(RowError::Contradiction(format!(
-                    "{other} is {before}, {column} is {value}"
-                )));
-            }
-            _ => components = Some((column, value)),
-        }
-    }
-    let model = match cell("model") {
-        None | Some("projective") => Model::Projective,
-        Some("calibrated") => Model::Calibrated,
-        Some(other) => return Err(RowError::Model(other.to_owned())),
-    };
-    let claim = Claim {
-        graph,
-        model,
-        nodes: size("nodes")?,
-        edges: size("edges")?,
-        verdict: cell("verdict").map(ClaimedVerdict::parse).transpose()?,
-        components: components.map(|(_, value)| value),
-        sizes: row.sizes.clone().map(falling),
-        rank: size("rank")?,
-        required: size("rank_required")?,
-        sha256: cell("sha256").map(str::to_lowercase),
-    };
-    if claim.verdict.is_none() && claim.components.is_none() && claim.rank.is_none() {
-        return Err(RowError::NoClaim);
-    }
-    let finite = matches!(
-        claim.verdict,
-        Some(ClaimedVerdict::Solvable | ClaimedVerdict::FiniteSolvable)
-    );
-    let infinite = claim.verdict == Some(ClaimedVerdict::NotFiniteSolvable);
-    if let Some(count) = claim.components
-        && (finite && count > 1)
-    {
-        return Err(RowError::Contradiction(format!(
-            "{} has one component, not {count}",
-            claim.verdict.map_or("", ClaimedVerdict::name)
-        )));
-    }
-    if let (Some(rank), Some(nodes)) = (claim.rank, claim.nodes) {
-        let full = model.required(nodes);
-        let excluded = rank > full || finite && rank < full || infinite && rank == full;
-        if excluded {
-            return Err(RowError::Contradiction(format!(
-                "rank {rank} of {full} at most{}",
-                claim
-                    .verdict
-                    .map_or(String::new(), |verdict| format!(", and {}", verdict.name()))
-            )));
-        }
-    }
-    Ok(claim)
-}
-
-fn falling(mut sizes: Vec<(usize, usize)>) -> Vec<(usize, usize)> {
-    sizes.sort_unstable_by(|a, b| b.cmp(a));
-    sizes
-}
-
-/// Holds a claim against the exact verdict, which is that of the claim's model.
-pub fn rule(claim: &Claim, nodes: usize, edges: usize, verdict: &Verdict) -> Ruling {
-    let other = |what, claimed: Option<usize>, found| {
-        let claimed = claimed.filter(|&claimed| claimed != found)?;
-        let claimed = counted(claimed, what);
-        Some(format!("the row has {claimed}, the graph {found}"))
-    };
-    let sizes = other("node", claim.nodes, nodes).or_else(|| other("edge", claim.edges, edges));
-    let hash = || {
-        let differs = claim.sha256.as_ref() != Some(&hex(&verdict.sha256));
-        (claim.sha256.is_some() && differs).then(|| "it has another SHA-256".to_owned())
-    };
-    if let Some(why) = sizes.or_else(hash) {
-        return Ruling::NotDecidable(format!("another graph is meant: {why}"));
-    }
-    let mut wrong = Vec::new();
-    let mut open = None;
-    if let Some(claimed) = claim.verdict {
-        use ClaimedVerdict as C;
-        match (claimed, verdict.value) {
-            (C::Solvable, Value::FiniteSolvable) | (C::NotSolvable, Value::FiniteSolvable) => {
-                open = Some(
-                    "finite solvable, and whether one or several sets of cameras is not decided"
-                        .to_owned(),
-                );
-            }
-            (C::Solvable | C::FiniteSolvable, Value::NotFiniteSolvable)
-            | (C::NotFiniteSolvable, Value::Solvable | Value::FiniteSolvable)
-            | (C::NotSolvable, Value::Solvable) => {
-                wrong.push(format!(
-                    "claimed {}, is {}",
-                    claimed.name(),
-                    verdict.value.name()
-                ));
-            }
-            _ => {}
-        }
-    }
-    for (what, claimed, found) in [
-        ("components", claim.components, verdict.components.len()),
-        ("rank", claim.rank, verdict.rank),
-        ("rank_required", claim.required, verdict.required),
-    ] {
-        if let Some(claimed) = claimed.filter(|&claimed| claimed != found) {
-            wrong.push(format!("claimed {what} {claimed}, is {found}"));
-        }
-    }
-    let sizes = verdict
-        .components
-        .iter()
-        .map(|part| (part.node_count(), part.edge_count()));
-    if let Some(claimed) = &claim.sizes
-        && claimed.len() == verdict.components.len()
-        && *claimed != falling(sizes.collect())
-    {
-        wrong.push("the components have other sizes".to_owned());
-    }
-    match open {
-        _ if !wrong.is_empty() => Ruling::Refuted(wrong),
-        Some(why) => Ruling::NotDecidable(why),
-        None => Ruling::Confirmed,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use viewcert::decide::{Options, decide};
-    use viewcert::graph::Graph;
-
-    fn row(cells: &[(&str, &str)]) -> Row {
-        let owned = |(a, b): &(&str, &str)| ((*a).to_owned(), (*b).to_owned());
-        Row {
-            cells: cells.iter().map(owned).collect(),
-            ..Row::default()
-        }
-    }
 
     #[test]
     fn tables() {
@@ -673,6 +368,11 @@ mod tests {
         assert_eq!(rows[0].cells["name"], "Tower, \"London\"");
         assert_eq!((rows[0].line, rows[1].line), (2, 4));
         assert_eq!(rows[1].cells["components"], "1");
+        let windows = "name,rank\r\n \r\na,1\r\nb,\"2\"\r\n";
+        let rows = read_table(windows, &[]).unwrap();
+        assert_eq!((rows[0].line, rows[1].line), (3, 4));
+        let ranks = [&rows[0].cells["rank"], &rows[1].cells["rank"]];
+        assert_eq!(ranks, ["1", "2"]);
         let json = "[\n{\"Graph\": \"C~{\\\"\", \"components\": 1,\n \"rank\": null},\n{}]";
         let rows = read_table(json, &[]).unwrap();
         assert_eq!(rows[0].cells["graph"], "C~{\"");
@@ -698,7 +398,20 @@ mod tests {
         let cells = |expected, found| P::Cells { expected, found };
         assert_eq!(problem("name,rank\n1,2\n3\n"), (3, cells(2, 1)));
         assert_eq!(problem("name,rank\n\n1,2,3\n"), (3, cells(2, 3)));
-        assert_eq!(problem("name,rank\n\"1,2\n"), (2, P::Quote));
+        for open in [
+            "\"1,2\n",
+            "\"1,2",
+            "1,\"2\n3,4\n",
+            "1,\"2\n3\"\n",
+            "\r\n1,\"2\r\n",
+        ] {
+            let line = 2 + usize::from(open.starts_with('\r'));
+            assert_eq!(
+                problem(&format!("name,rank\n{open}")),
+                (line, P::Quote),
+                "{open:?}"
+            );
+        }
         assert_eq!(problem("\n"), (1, P::Empty));
         for none in ["name,rank\n", "[]", "[ ]\n"] {
             assert_eq!(problem(none), (1, P::NoRows), "{none}");
@@ -718,60 +431,5 @@ mod tests {
         }
         let report = "{\"graph\": {\"name\": \"a\"}}";
         assert!(matches!(problem(report), (1, P::Report(_))));
-    }
-
-    #[test]
-    fn claims_that_are_none() {
-        let error = |cells| claim(&row(cells)).unwrap_err().to_string();
-        assert!(error(&[("rank", "3")]).contains("no graph"));
-        assert!(error(&[("graph", "C~"), ("components", " ")]).contains("nothing is claimed"));
-        assert!(error(&[("graph", "C~"), ("rank", "-1")]).contains("not a number"));
-        assert!(error(&[("graph", "C~"), ("verdict", "maybe")]).contains("\"maybe\""));
-        let two = [("file", "x"), ("components_a", "1"), ("components_b", "4")];
-        assert!(error(&two).contains("contradict"));
-        let both = [("file", "x"), ("verdict", "solvable"), ("components", "2")];
-        assert!(error(&both).contains("contradict"));
-        let full = [
-            ("file", "x"),
-            ("verdict", "not finite solvable"),
-            ("rank", "29"),
-            ("nodes", "4"),
-        ];
-        assert!(error(&full).contains("contradict"));
-    }
-
-    /// Every claim against every verdict.
-    #[test]
-    fn rulings() {
-        let graph =
-            |nodes, pairs: &[(u32, u32)]| Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0;
-        let triangle = graph(3, &[(0, 1), (0, 2), (1, 2)]);
-        let square = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
-        let ruled = |graph: &Graph, cells: &[(&str, &str)]| {
-            let verdict = decide(graph, &Options::default()).unwrap();
-            let mut cells = cells.to_vec();
-            cells.push(("file", "x"));
-            let claim = claim(&row(&cells)).unwrap();
-            rule(&claim, graph.nodes(), graph.edges().len(), &verdict)
-        };
-        for (verdict, of_triangle, of_square) in [
-            ("solvable", true, false),
-            ("finite-solvable", true, false),
-            ("not-finite-solvable", false, true),
-            ("not-solvable", false, true),
-        ] {
-            let confirmed = |graph| ruled(graph, &[("verdict", verdict)]) == Ruling::Confirmed;
-            assert_eq!(confirmed(&triangle), of_triangle, "{verdict}");
-            assert_eq!(confirmed(&square), of_square, "{verdict}");
-        }
-        assert_eq!(
-            ruled(&square, &[("components", "4"), ("rank", "28")]),
-            Ruling::Confirmed
-        );
-        let wrong = ruled(&square, &[("components", "1"), ("rank", "29")]);
-        let expected = ["claimed components 1, is 4", "claimed rank 29, is 28"];
-        assert_eq!(wrong, Ruling::Refuted(expected.map(String::from).to_vec()));
-        let other = ruled(&square, &[("components", "4"), ("nodes", "5")]);
-        assert!(matches!(other, Ruling::NotDecidable(_)));
     }
 }

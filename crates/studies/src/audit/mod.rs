@@ -24,6 +24,8 @@ pub mod study;
 
 use crate::formulation::augmented;
 use jacobian::{Blocks, Jacobian};
+use std::fmt;
+use std::str::FromStr;
 use viewcert::graph::Graph;
 
 /// The tolerance of the published code, on the smallest eigenvalue of J^T J.
@@ -90,6 +92,12 @@ impl FloatVerdict {
             Self::NotSolvable => "not-finite-solvable",
             Self::Undecided => "undecided",
         }
+    }
+}
+
+impl fmt::Display for FloatVerdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -169,8 +177,31 @@ pub enum AuditError {
     NoFactor(String),
 }
 
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A word that is not the name of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the methods are auto, dense, gram and sparse")]
+pub struct UnknownMethod;
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
+        let named = |method: &Self| method.name() == name;
+        Self::ALL.into_iter().find(named).ok_or(UnknownMethod)
+    }
+}
+
 impl Method {
-    /// The name in reports.
+    /// All methods.
+    pub const ALL: [Self; 4] = [Self::Auto, Self::Dense, Self::Gram, Self::Sparse];
+
+    /// The name in reports and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -234,6 +265,14 @@ pub fn decide(graph: &Graph, options: &Options, draw: u64) -> Result<Outcome, Au
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_read_as_they_are_written() {
+        for method in Method::ALL {
+            assert_eq!(method.to_string().parse(), Ok(method));
+        }
+        assert_eq!("Dense".parse::<Method>(), Err(UnknownMethod));
+    }
 
     #[test]
     fn what_is_not_a_number_is_no_verdict() {

@@ -1,7 +1,6 @@
 //! Decides candidates and sums up.
 
 use rayon::prelude::*;
-use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, PieceVerdict};
 use viewcert::decide::{Options, Value, Verdict, VerdictError, decide};
@@ -28,9 +27,17 @@ pub struct Entry {
     pub hub: bool,
 }
 
-/// The first line of a table of entries.
-pub const HEADER: &str =
-    "graph6\tverdict\tstrength\trank\trank_strength\tcomponents\tcomponents_strength\thub";
+/// The names of [`Entry::cells`].
+pub const COLUMNS: [&str; 8] = [
+    "graph6",
+    "verdict",
+    "strength",
+    "rank",
+    "rank_strength",
+    "components",
+    "components_strength",
+    "hub",
+];
 
 impl Entry {
     /// The entry of a graph and its verdict.
@@ -53,27 +60,22 @@ impl Entry {
         self.value != Value::NotFiniteSolvable || self.strength != Strength::Proof
     }
 
-    /// Writes the entry as a line of tab-separated values.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    /// The entry as a row of a table with [`COLUMNS`].
+    pub fn cells(&self) -> [String; 8] {
         let strength = |strength: Strength| match strength {
             Strength::Proof => "proof".into(),
             Strength::ErrorBound(e) => format!("2^{e}"),
         };
-        writeln!(
-            out,
-            "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}",
-            self.graph6,
-            self.value.name(),
+        [
+            self.graph6.clone(),
+            self.value.name().into(),
             strength(self.strength),
-            self.rank,
+            self.rank.to_string(),
             strength(self.rank_strength),
-            self.components,
+            self.components.to_string(),
             strength(self.components_strength),
-            u8::from(self.hub),
-        )
+            u8::from(self.hub).to_string(),
+        ]
     }
 }
 
@@ -199,15 +201,13 @@ mod tests {
 
     /// Two triangles on a common edge: one body, rank 11 * 4 - 15.
     #[test]
-    fn an_entry_as_a_line() {
+    fn an_entry_as_a_row() {
         let [entry] = &entries(4)[..] else {
             panic!("one candidate");
         };
-        let mut line = Vec::new();
-        entry.write(&mut line).unwrap();
-        let line = String::from_utf8(line).unwrap();
-        let (graph, rest) = line.split_once('\t').unwrap();
+        let [graph, rest @ ..] = entry.cells();
         assert_eq!(graph6::decode(graph.as_bytes()).unwrap().edges().len(), 5);
-        assert_eq!(rest, "solvable\tproof\t29\tproof\t1\tproof\t0\n");
+        let expected = ["solvable", "proof", "29", "proof", "1", "proof", "0"];
+        assert_eq!(rest, expected);
     }
 }

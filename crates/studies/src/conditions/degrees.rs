@@ -1,23 +1,23 @@
 //! Degrees and connectivity.
 
-use super::Witness;
+use super::Grounds;
 use viewcert::graph::{Adjacency, Graph, biconnected_components};
 
 /// The first node with fewer than two neighbours.
-pub(super) fn below_two(adjacency: &Adjacency) -> Option<Witness> {
+pub(super) fn below_two(adjacency: &Adjacency) -> Option<Grounds> {
     (0..adjacency.nodes() as u32)
         .map(|v| (v, adjacency.degree(v)))
         .find(|&(_, degree)| degree < 2)
-        .map(|(v, degree)| Witness::Degree(v, degree))
+        .map(|(v, degree)| Grounds::Degree(v, degree))
 }
 
 /// The first edge between two nodes of degree two.
-pub(super) fn adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Option<Witness> {
+pub(super) fn adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Option<Grounds> {
     graph
         .edges()
         .iter()
         .find(|&&(i, j)| adjacency.degree(i) == 2 && adjacency.degree(j) == 2)
-        .map(|&(i, j)| Witness::Adjacent(i, j))
+        .map(|&(i, j)| Grounds::Adjacent(i, j))
 }
 
 /// The nodes reachable from `start` without passing through `without`, increasing.
@@ -53,7 +53,7 @@ fn first_cut_node(adjacency: &Adjacency) -> Option<u32> {
 
 /// A part that is not connected with the rest, or is only through one node: the first such
 /// node, and the smaller side. O(n log n + m).
-pub(super) fn cut(adjacency: &Adjacency) -> Option<Witness> {
+pub(super) fn cut(adjacency: &Adjacency) -> Option<Grounds> {
     let nodes = adjacency.nodes() as u32;
     let side = |start: u32, without: Option<u32>| {
         let reached = reach(adjacency, start, without);
@@ -67,10 +67,10 @@ pub(super) fn cut(adjacency: &Adjacency) -> Option<Witness> {
         })
     };
     if let Some(part) = side(0, None) {
-        return Some(Witness::Apart(part));
+        return Some(Grounds::Apart(part));
     }
     let v = first_cut_node(adjacency)?;
-    Some(Witness::Cut(v, side(u32::from(v == 0), Some(v))?))
+    Some(Grounds::Cut(v, side(u32::from(v == 0), Some(v))?))
 }
 
 #[cfg(test)]
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn found(nodes: u32, pairs: &[(u32, u32)]) -> Option<Witness> {
+    fn found(nodes: u32, pairs: &[(u32, u32)]) -> Option<Grounds> {
         let (graph, _) = Graph::from_pairs(nodes, pairs.to_vec()).unwrap();
         cut(&Adjacency::new(&graph))
     }
@@ -87,11 +87,11 @@ mod tests {
     fn connectivity_by_hand() {
         assert_eq!(found(2, &[(0, 1)]), None);
         assert_eq!(found(3, &[(0, 1), (1, 2), (0, 2)]), None);
-        assert_eq!(found(3, &[(0, 1)]), Some(Witness::Apart(vec![2])));
+        assert_eq!(found(3, &[(0, 1)]), Some(Grounds::Apart(vec![2])));
         // Two triangles that share node 0, and a path through it.
         let bowtie = [(0, 1), (0, 2), (1, 2), (0, 3), (0, 4), (3, 4)];
-        assert_eq!(found(5, &bowtie), Some(Witness::Cut(0, vec![1, 2])));
-        assert_eq!(found(3, &[(0, 1), (1, 2)]), Some(Witness::Cut(1, vec![0])));
+        assert_eq!(found(5, &bowtie), Some(Grounds::Cut(0, vec![1, 2])));
+        assert_eq!(found(3, &[(0, 1), (1, 2)]), Some(Grounds::Cut(1, vec![0])));
     }
 
     proptest! {
@@ -111,12 +111,12 @@ mod tests {
                 let expected = (0..nodes).find(cuts);
                 prop_assert_eq!(first_cut_node(&adjacency), expected);
                 let found = match cut(&adjacency) {
-                    Some(Witness::Cut(v, _)) => Some(v),
+                    Some(Grounds::Cut(v, _)) => Some(v),
                     _ => None,
                 };
                 prop_assert_eq!(found, expected);
             } else {
-                prop_assert!(matches!(cut(&adjacency), Some(Witness::Apart(_))));
+                prop_assert!(matches!(cut(&adjacency), Some(Grounds::Apart(_))));
             }
         }
     }

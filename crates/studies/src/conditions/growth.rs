@@ -1,6 +1,6 @@
 //! Growth from a triangle: cameras join that have two pairs into what is there already.
 
-use super::{Answer, Decided, Witness};
+use super::{Answer, Decided, Grounds};
 use viewcert::graph::{Adjacency, Graph};
 
 const NONE: u32 = u32::MAX;
@@ -75,21 +75,21 @@ pub(super) fn decide(graph: &Graph, adjacency: &Adjacency) -> Decided {
         }
         let joined = growth.grow(adjacency, trial, (i, j));
         if joined.len() + 2 == graph.nodes() {
-            return Ok((Answer::Yes, Some(Witness::Growth((i, j), joined))));
+            return Ok((Answer::Yes, Some(Grounds::Growth((i, j), joined))));
         }
         largest = largest.max(joined.len() + 2);
         for v in joined.iter().map(|step| step[0]).chain([i, j]) {
             grown[v as usize].push(trial);
         }
     }
-    Ok((Answer::No, Some(Witness::Reached(largest))))
+    Ok((Answer::No, Some(Grounds::Reached(largest))))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn found(nodes: u32, pairs: &[(u32, u32)]) -> (Answer, Option<Witness>) {
+    fn found(nodes: u32, pairs: &[(u32, u32)]) -> (Answer, Option<Grounds>) {
         let (graph, _) = Graph::from_pairs(nodes, pairs.to_vec()).unwrap();
         decide(&graph, &Adjacency::new(&graph)).unwrap()
     }
@@ -99,10 +99,10 @@ mod tests {
         // 3 sees 1 and 2; 4 sees 2 and 3.
         let strip = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (2, 4), (3, 4)];
         let steps = vec![[2, 0, 1], [3, 1, 2], [4, 2, 3]];
-        let expected = (Answer::Yes, Some(Witness::Growth((0, 1), steps)));
+        let expected = (Answer::Yes, Some(Grounds::Growth((0, 1), steps)));
         assert_eq!(found(5, &strip), expected);
         // The 4-cycle has no triangle; nothing joins an edge.
         let square = [(0, 1), (1, 2), (2, 3), (0, 3)];
-        assert_eq!(found(4, &square), (Answer::No, Some(Witness::Reached(2))));
+        assert_eq!(found(4, &square), (Answer::No, Some(Grounds::Reached(2))));
     }
 }

@@ -1,5 +1,5 @@
 //! Conditions of the literature, necessary or sufficient for solvability, each with the
-//! witness that decides it.
+//! grounds on which it is decided.
 //!
 //! # What is known
 //!
@@ -55,7 +55,7 @@ pub enum Answer {
 
 /// What decides a condition. Nodes are those of the graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Witness {
+pub enum Grounds {
     /// A camera with too few pairs.
     Degree(u32, usize),
     /// Two cameras with two pairs each that are a pair.
@@ -92,120 +92,131 @@ pub struct Condition {
     /// Whether it holds.
     pub answer: Answer,
     /// What decides it.
-    pub witness: Option<Witness>,
+    pub grounds: Option<Grounds>,
 }
 
-/// A failed condition's witness; none if it holds.
-type Decided = Result<(Answer, Option<Witness>), String>;
+/// An answer with its grounds, or why there is none.
+type Decided = Result<(Answer, Option<Grounds>), String>;
 
-fn unless(witness: Option<Witness>) -> Decided {
-    match witness {
-        Some(witness) => Ok((Answer::No, Some(witness))),
+/// A condition fails if there are grounds against it.
+fn unless(grounds: Option<Grounds>) -> Decided {
+    match grounds {
+        Some(grounds) => Ok((Answer::No, Some(grounds))),
         None => Ok((Answer::Yes, None)),
     }
 }
 
+/// A condition on the same grounds whether it holds or not.
+fn answered(holds: bool, grounds: Grounds) -> Decided {
+    let answer = if holds { Answer::Yes } else { Answer::No };
+    Ok((answer, Some(grounds)))
+}
+
+const LEVI: &str = "Levi, Werman 2003";
+const HEBERT: &str = "Trager, Hebert, Ponce 2015";
+const TRAGER: &str = "Trager, Osserman, Ponce 2018";
+const ARRIGONI: &str = "Arrigoni et al. 2022";
+
 /// Decides all conditions, the necessary ones first. Of a single camera they say nothing.
 pub fn decide(graph: &Graph) -> Vec<Condition> {
-    let (nodes, edges) = (graph.nodes(), graph.edges().len());
     let adjacency = Adjacency::new(graph);
-    let required = Model::Projective.required(nodes);
-    let partition = if nodes * edges <= MAX_PEBBLES {
-        let blocks = pebbles::blocks(graph);
-        let bound: usize = blocks.iter().map(|block| 11 * block.len() - 15).sum();
-        unless((bound < required).then_some(Witness::Partition(blocks, bound)))
-    } else {
-        Err(format!(
-            "{nodes} cameras and {edges} pairs are too many for the count"
-        ))
-    };
-    let holds_by_edges = matches!(&partition, Ok((Answer::Yes, _)));
-    let condition = |necessary, name, source, decided: Decided| {
-        let decided = if nodes < 2 {
-            Err("a single camera is solvable".into())
-        } else {
-            decided
-        };
-        let (answer, witness) = decided.unwrap_or_else(|why| (Answer::NotApplicable(why), None));
-        Condition {
+    let mut conditions = necessary(graph, &adjacency);
+    conditions.extend(sufficient(graph, &adjacency));
+    if graph.nodes() < 2 {
+        for condition in &mut conditions {
+            condition.answer = Answer::NotApplicable("a single camera is solvable".into());
+            condition.grounds = None;
+        }
+    }
+    conditions
+}
+
+fn necessary(graph: &Graph, adjacency: &Adjacency) -> Vec<Condition> {
+    let condition = |name, source, decided| Condition::new(true, name, source, decided);
+    let by_edges = by_edges(graph);
+    let holds_by_edges = matches!(by_edges, Ok((Answer::Yes, _)));
+    let by_vertices = vertices::decide(graph, holds_by_edges);
+    let biconnected = unless(degrees::cut(adjacency));
+    vec![
+        condition("minimum degree 2", LEVI, minimum_degree(adjacency)),
+        condition(
+            "no adjacent nodes of degree 2",
+            LEVI,
+            no_adjacent_twos(graph, adjacency),
+        ),
+        condition("biconnected", TRAGER, biconnected),
+        condition("7m >= 11n - 15", TRAGER, enough_edges(graph)),
+        condition("d-condition by vertices", TRAGER, by_vertices),
+        condition("d-condition by edges", TRAGER, by_edges),
+        condition("bearing rigid", ARRIGONI, bearing_rigid(graph)),
+    ]
+}
+
+fn sufficient(graph: &Graph, adjacency: &Adjacency) -> Vec<Condition> {
+    let condition = |name, source, decided| Condition::new(false, name, source, decided);
+    let grows = growth::decide(graph, adjacency);
+    vec![
+        condition("grows from a triangle", HEBERT, grows),
+        condition("moves", TRAGER, moves::decide(graph)),
+    ]
+}
+
+impl Condition {
+    fn new(necessary: bool, name: &'static str, source: &'static str, decided: Decided) -> Self {
+        let (answer, grounds) = decided.unwrap_or_else(|why| (Answer::NotApplicable(why), None));
+        Self {
             name,
             source,
             necessary,
             answer,
-            witness,
+            grounds,
         }
-    };
-    let trager = "Trager, Osserman, Ponce 2018";
-    vec![
-        condition(true, "minimum degree 2", "Levi, Werman 2003", {
-            if nodes < 3 {
-                Err("a single pair is solvable".into())
-            } else {
-                unless(degrees::below_two(&adjacency))
-            }
-        }),
-        condition(
-            true,
-            "no adjacent nodes of degree 2",
-            "Levi, Werman 2003",
-            {
-                if nodes < 4 {
-                    Err("fewer than 4 cameras".into())
-                } else {
-                    unless(degrees::adjacent_twos(graph, &adjacency))
-                }
-            },
-        ),
-        condition(
-            true,
-            "biconnected",
-            trager,
-            unless(degrees::cut(&adjacency)),
-        ),
-        condition(true, "7m >= 11n - 15", trager, {
-            let (left, right) = (7 * edges, required);
-            let count = Witness::Count(format!("{left} and {right}"));
-            let answer = if left < right {
-                Answer::No
-            } else {
-                Answer::Yes
-            };
-            Ok((answer, Some(count)))
-        }),
-        condition(
-            true,
-            "d-condition by vertices",
-            trager,
-            vertices::decide(graph, holds_by_edges),
-        ),
-        condition(true, "d-condition by edges", trager, partition),
-        condition(
-            true,
-            "bearing rigid",
-            "Arrigoni et al. 2022",
-            bearing(graph),
-        ),
-        condition(
-            false,
-            "grows from a triangle",
-            "Trager, Hebert, Ponce 2015",
-            growth::decide(graph, &adjacency),
-        ),
-        condition(false, "moves", trager, moves::decide(graph)),
-    ]
+    }
+}
+
+fn minimum_degree(adjacency: &Adjacency) -> Decided {
+    if adjacency.nodes() < 3 {
+        return Err("a single pair is solvable".into());
+    }
+    unless(degrees::below_two(adjacency))
+}
+
+fn no_adjacent_twos(graph: &Graph, adjacency: &Adjacency) -> Decided {
+    if graph.nodes() < 4 {
+        return Err("fewer than 4 cameras".into());
+    }
+    unless(degrees::adjacent_twos(graph, adjacency))
+}
+
+fn enough_edges(graph: &Graph) -> Decided {
+    let left = 7 * graph.edges().len();
+    let right = Model::Projective.required(graph.nodes());
+    answered(left >= right, Grounds::Count(format!("{left} and {right}")))
+}
+
+/// The d-condition by edges, as a count over partitions (see the module).
+fn by_edges(graph: &Graph) -> Decided {
+    let (nodes, edges) = (graph.nodes(), graph.edges().len());
+    if nodes * edges > MAX_PEBBLES {
+        return Err(format!(
+            "{nodes} cameras and {edges} pairs are too many for the count"
+        ));
+    }
+    let blocks = pebbles::blocks(graph);
+    let bound: usize = blocks.iter().map(|block| 11 * block.len() - 15).sum();
+    let refuted = bound < Model::Projective.required(nodes);
+    unless(refuted.then_some(Grounds::Partition(blocks, bound)))
 }
 
 /// The calibrated verdict.
-fn bearing(graph: &Graph) -> Decided {
+fn bearing_rigid(graph: &Graph) -> Decided {
     let options = Options::default().model(Model::Calibrated);
     let verdict = verdict::decide(graph, &options).map_err(|error| error.to_string())?;
-    let count = Witness::Count(format!("rank {} of {}", verdict.rank, verdict.required));
-    let answer = if verdict.value == Value::NotFiniteSolvable {
-        Answer::No
-    } else {
-        Answer::Yes
-    };
-    Ok((answer, Some(count)))
+    let count = format!("rank {} of {}", verdict.rank, verdict.required);
+    answered(
+        verdict.value != Value::NotFiniteSolvable,
+        Grounds::Count(count),
+    )
 }
 
 /// Whether a necessary condition fails: then the graph is not finite solvable.

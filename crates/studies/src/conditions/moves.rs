@@ -14,7 +14,7 @@
 //! No move takes anything away, so the result does not depend on their order. If it is the
 //! complete graph, the graph is solvable.
 
-use super::{Answer, Decided, Witness};
+use super::{Answer, Decided, Grounds};
 use viewcert::graph::Graph;
 
 /// Most cameras for which moves are tried: each round takes O(n^3).
@@ -76,65 +76,97 @@ fn diagonal(solid: &Flags, a: usize, b: usize) -> Option<[u32; 2]> {
 /// All moves in the order in which they are made, and the number of pairs of nodes that
 /// end without a solid edge.
 pub fn complete(graph: &Graph) -> (Vec<Move>, usize) {
-    let nodes = graph.nodes();
-    let (mut solid, mut arrow) = (Flags::new(nodes), Flags::new(nodes));
-    for &(i, j) in graph.edges() {
-        for (a, b) in [(i as usize, j as usize), (j as usize, i as usize)] {
-            solid.set(a, b);
-            arrow.set(a, b);
-        }
-    }
-    let pair = |a: usize, b: usize| [a as u32, b as u32];
-    let mut moves = Vec::new();
+    let mut board = Board::new(graph);
     loop {
-        let before = moves.len();
-        for a in 0..nodes {
-            for b in a + 1..nodes {
-                if solid.get(a, b) {
-                    continue;
-                }
-                let Some(via) = diagonal(&solid, a, b) else {
-                    continue;
-                };
-                for (x, y) in [(a, b), (b, a)] {
-                    solid.set(x, y);
-                    arrow.set(x, y);
-                }
-                moves.push(Move::Solid(pair(a, b), via));
-            }
-        }
-        for a in 0..nodes {
-            for b in (0..nodes).filter(|&b| b != a) {
-                if arrow.get(a, b) {
-                    continue;
-                }
-                if let Some(via) = first(nodes, |k| arrow.get(a, k) && solid.get(k, b)) {
-                    arrow.set(a, b);
-                    moves.push(Move::Dashed(pair(a, b), via));
-                }
-            }
-        }
-        for a in 0..nodes {
-            for b in a + 1..nodes {
-                if solid.get(a, b) || !arrow.get(a, b) || !arrow.get(b, a) {
-                    continue;
-                }
-                if let Some(via) = first(nodes, |k| arrow.get(k, a) && arrow.get(k, b)) {
-                    solid.set(a, b);
-                    solid.set(b, a);
-                    moves.push(Move::Upgrade(pair(a, b), via));
-                }
-            }
-        }
-        if moves.len() == before {
+        let before = board.moves.len();
+        board.solid_moves();
+        board.dashed_moves();
+        board.upgrades();
+        if board.moves.len() == before {
             break;
         }
     }
-    let missing = (0..nodes)
-        .flat_map(|b| (0..b).map(move |a| (a, b)))
-        .filter(|&(a, b)| !solid.get(a, b))
-        .count();
-    (moves, missing)
+    let missing = board.without_solid().len();
+    (board.moves, missing)
+}
+
+/// The edges that there are, and the moves that have made them.
+struct Board {
+    nodes: usize,
+    solid: Flags,
+    /// Dashed edges have a direction; a solid edge counts as one in both.
+    arrow: Flags,
+    moves: Vec<Move>,
+}
+
+impl Board {
+    fn new(graph: &Graph) -> Self {
+        let nodes = graph.nodes();
+        let (mut solid, mut arrow) = (Flags::new(nodes), Flags::new(nodes));
+        for &(i, j) in graph.edges() {
+            for (a, b) in [(i as usize, j as usize), (j as usize, i as usize)] {
+                solid.set(a, b);
+                arrow.set(a, b);
+            }
+        }
+        Self {
+            nodes,
+            solid,
+            arrow,
+            moves: Vec::new(),
+        }
+    }
+
+    /// The pairs (a, b) with a < b and no solid edge, by a.
+    fn without_solid(&self) -> Vec<(usize, usize)> {
+        let pairs = (0..self.nodes).flat_map(|a| (a + 1..self.nodes).map(move |b| (a, b)));
+        pairs.filter(|&(a, b)| !self.solid.get(a, b)).collect()
+    }
+
+    fn solid_moves(&mut self) {
+        for (a, b) in self.without_solid() {
+            if let Some(via) = diagonal(&self.solid, a, b) {
+                for (x, y) in [(a, b), (b, a)] {
+                    self.solid.set(x, y);
+                    self.arrow.set(x, y);
+                }
+                self.moves.push(Move::Solid(pair(a, b), via));
+            }
+        }
+    }
+
+    fn dashed_moves(&mut self) {
+        for a in 0..self.nodes {
+            for b in (0..self.nodes).filter(|&b| b != a) {
+                if self.arrow.get(a, b) {
+                    continue;
+                }
+                let by = |k| self.arrow.get(a, k) && self.solid.get(k, b);
+                if let Some(via) = first(self.nodes, by) {
+                    self.arrow.set(a, b);
+                    self.moves.push(Move::Dashed(pair(a, b), via));
+                }
+            }
+        }
+    }
+
+    fn upgrades(&mut self) {
+        for (a, b) in self.without_solid() {
+            if !self.arrow.get(a, b) || !self.arrow.get(b, a) {
+                continue;
+            }
+            let by = |k| self.arrow.get(k, a) && self.arrow.get(k, b);
+            if let Some(via) = first(self.nodes, by) {
+                self.solid.set(a, b);
+                self.solid.set(b, a);
+                self.moves.push(Move::Upgrade(pair(a, b), via));
+            }
+        }
+    }
+}
+
+fn pair(a: usize, b: usize) -> [u32; 2] {
+    [a as u32, b as u32]
 }
 
 pub(super) fn decide(graph: &Graph) -> Decided {
@@ -146,9 +178,9 @@ pub(super) fn decide(graph: &Graph) -> Decided {
     }
     let (moves, missing) = complete(graph);
     Ok(if missing == 0 {
-        (Answer::Yes, Some(Witness::Moves(moves)))
+        (Answer::Yes, Some(Grounds::Moves(moves)))
     } else {
-        (Answer::No, Some(Witness::Missing(missing)))
+        (Answer::No, Some(Grounds::Missing(missing)))
     })
 }
 

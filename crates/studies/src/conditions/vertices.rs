@@ -1,6 +1,6 @@
 //! The d-condition by vertices: no three or more cameras induce a subgraph with a larger d.
 
-use super::{Answer, Decided, Witness};
+use super::{Answer, Decided, Grounds};
 use viewcert::graph::Graph;
 
 /// Most cameras for which all subsets are looked at.
@@ -45,7 +45,7 @@ pub(super) fn decide(graph: &Graph, holds_by_edges: bool) -> Decided {
     let members = (0..nodes as u32)
         .filter(|v| worst.1 >> v & 1 == 1)
         .collect();
-    Ok((Answer::No, Some(Witness::Vertices(members, worst.0, whole))))
+    Ok((Answer::No, Some(Grounds::Vertices(members, worst.0, whole))))
 }
 
 #[cfg(test)]
@@ -60,7 +60,7 @@ mod tests {
             .collect();
         pairs.extend([(3, 4), (4, 5)]);
         let (graph, _) = Graph::from_pairs(6, pairs).unwrap();
-        let witness = Witness::Vertices(vec![0, 1, 2, 3], 13, 5);
-        assert_eq!(decide(&graph, false), Ok((Answer::No, Some(witness))));
+        let grounds = Grounds::Vertices(vec![0, 1, 2, 3], 13, 5);
+        assert_eq!(decide(&graph, false), Ok((Answer::No, Some(grounds))));
     }
 }

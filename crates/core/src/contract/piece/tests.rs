@@ -1,10 +1,11 @@
 //! Splits and cores by hand.
 
 use super::*;
+use crate::geometry::model::Model;
 
 fn assembled(nodes: u32, pairs: &[(u32, u32)]) -> Assembly {
     let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
-    Assembly::new(&graph, &Contraction::new(&graph))
+    Assembly::new(&graph, &Contraction::new(&graph, Model::Projective))
 }
 
 fn edges(edges: &[(u32, u32)]) -> Members {

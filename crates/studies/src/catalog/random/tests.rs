@@ -131,32 +131,34 @@ fn every_connected_graph_has_its_probability() {
     assert!(statistic < limit, "{statistic} > {limit}");
 }
 
+/// A connected graph with 20 nodes at 30 %: graphs are drawn until one is connected.
+fn by_rejection(sample: u64) -> Graph {
+    let mut generator = generator(2, sample);
+    loop {
+        let mut pairs = Vec::new();
+        for j in 1..20 {
+            for i in 0..j {
+                if below(&mut generator, &10u32.into()) < 3u32.into() {
+                    pairs.push((i, j));
+                }
+            }
+        }
+        let (graph, _) = Graph::from_pairs(20, pairs).unwrap();
+        let mut parts = viewcert::graph::UnionFind::new(20);
+        let united = graph.edges().iter();
+        let united = united.filter(|(i, j)| parts.union(*i as usize, *j as usize));
+        if united.count() == 19 {
+            return graph;
+        }
+    }
+}
+
 /// 20 nodes at 30 %, where four graphs in five are connected: numbers of edges and of
 /// triangles against rejection, as two samples.
 #[test]
 fn agrees_with_rejection() {
     let sampler = Sampler::new(20, &"0.3".parse().unwrap());
     let draws = 4000u64;
-    let rejected = |sample: u64| {
-        let mut generator = generator(2, sample);
-        loop {
-            let mut pairs = Vec::new();
-            for j in 1..20 {
-                for i in 0..j {
-                    if below(&mut generator, &10u32.into()) < 3u32.into() {
-                        pairs.push((i, j));
-                    }
-                }
-            }
-            let (graph, _) = Graph::from_pairs(20, pairs).unwrap();
-            let mut parts = viewcert::graph::UnionFind::new(20);
-            let united = graph.edges().iter();
-            let united = united.filter(|(i, j)| parts.union(*i as usize, *j as usize));
-            if united.count() == 19 {
-                return graph;
-            }
-        }
-    };
     let triangles = |graph: &Graph| {
         let has = |a, b| graph.edge_number(a, b).is_some();
         let edges = graph.edges().iter();
@@ -167,7 +169,7 @@ fn agrees_with_rejection() {
     let ours: Vec<Graph> = (0..draws)
         .map(|k| sampler.draw(&mut generator(1, k)))
         .collect();
-    let theirs: Vec<Graph> = (0..draws).map(rejected).collect();
+    let theirs: Vec<Graph> = (0..draws).map(by_rejection).collect();
     let edges = |graph: &Graph| graph.edges().len() / 3;
     let triangles = |graph: &Graph| triangles(graph) / 6;
     for (name, value) in [
