@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
+use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{Format, NamedGraph, ReadOptions, read_graphs};
 
 /// What the graphs' files are, for those that do not show it.
@@ -24,6 +25,21 @@ pub(super) struct InputArguments {
     /// Variable of a MATLAB file [default: A, or the only square matrix].
     #[arg(long, value_name = "NAME")]
     variable: Option<String>,
+    /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
+    #[arg(long, value_enum)]
+    pipeline: Option<PipelineName>,
+    /// The least number of inliers of a pair of a COLMAP database [default: 15, as both mappers].
+    #[arg(long, value_name = "N")]
+    min_inliers: Option<u32>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PipelineName {
+    /// All pairs with enough inliers.
+    Incremental,
+    /// Of these, the configurations 2 to 6 (calibrated, uncalibrated, planar, panoramic), and pairs
+    /// with a stored relative pose.
+    Global,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -102,6 +118,11 @@ impl InputArguments {
                 FormatName::MatrixMarket => Format::MatrixMarket,
             }),
             variable: self.variable.clone(),
+            pipeline: self.pipeline.map(|pipeline| match pipeline {
+                PipelineName::Incremental => Pipeline::Incremental,
+                PipelineName::Global => Pipeline::Global,
+            }),
+            min_inliers: self.min_inliers,
         }
     }
 }

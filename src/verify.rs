@@ -22,7 +22,7 @@ use viewcert_formats::NamedGraph;
 #[derive(Args)]
 pub(super) struct VerifyArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, also compressed by gzip; `-` is standard input.
+    /// matrices, also compressed by gzip, and COLMAP's databases; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<String>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and

@@ -1,6 +1,7 @@
 //! One JSON object a line.
 
 use super::Report;
+use super::database::DatabaseLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -9,6 +10,8 @@ use viewcert::certificate::hex;
 struct Line<'a> {
     graph: GraphLine<'a>,
     notes: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    database: Option<DatabaseLine>,
     model: &'static str,
     verdict: &'static str,
     strength: &'static str,
@@ -59,6 +62,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             sha256: hex(&verdict.sha256),
         },
         notes: &input.notes,
+        database: input.database.as_deref().map(DatabaseLine::from),
         model: verdict.model.name(),
         verdict: verdict.value.name(),
         strength: verdict.strength.name(),

@@ -5,6 +5,7 @@ pub mod catalog_page;
 pub mod comparison;
 pub mod conditions;
 pub mod curves;
+pub mod database;
 pub mod json;
 pub mod layout;
 pub mod plot;

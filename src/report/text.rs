@@ -17,6 +17,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
+    if let Some(facts) = &input.database {
+        super::database::write(out, facts)?;
+    }
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::colmap::DatabaseError;
 use crate::inflate::{Damaged, Inflated};
 use crate::sparse6::Sparse6Error;
 use viewcert::graph::graph6::Graph6Error;
@@ -218,6 +219,9 @@ pub enum Problem {
     /// The file contradicts itself or its format.
     #[error("the file is corrupt: {0}")]
     Corrupt(String),
+    /// A database that gives no graph.
+    #[error(transparent)]
+    Database(#[from] DatabaseError),
     /// The variable asked for is not there.
     #[error("there is no such variable; the file holds {present}")]
     NoSuchVariable {
@@ -306,6 +310,7 @@ impl Problem {
             }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
+            Self::Database(error) => error.remedy(),
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
                 "name the adjacency matrix with --variable"
             }

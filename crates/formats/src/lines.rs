@@ -146,6 +146,7 @@ impl<R: Read> Iterator for Lines<R> {
                         notes,
                         matching: None,
                         cameras: None,
+                        database: None,
                     }));
                 }
                 // A graph without nodes is a graph of the format.

@@ -9,7 +9,7 @@ use crate::edge_list::fields::is_number;
 use crate::error::Problem;
 use crate::inflate;
 use crate::lines::{Encoding, trimmed};
-use crate::{matlab, matrix_market, sparse6};
+use crate::{colmap, matlab, matrix_market, sparse6};
 use viewcert::graph::graph6;
 
 /// How much of an input is looked at.
@@ -26,6 +26,8 @@ pub(super) enum Kind {
     Matlab,
     MatrixMarket,
     Gzip,
+    /// A database, which is COLMAP's or nothing that is read.
+    Sqlite,
     /// Text, which is an edge list or nothing that is read.
     Text,
 }
@@ -38,6 +40,9 @@ pub(super) enum Kind {
 pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     if head.starts_with(inflate::MAGIC) {
         return Ok(Kind::Gzip);
+    }
+    if head.starts_with(colmap::MAGIC) {
+        return Ok(Kind::Sqlite);
     }
     if matlab::is_matlab(head) {
         return Ok(Kind::Matlab);
@@ -136,12 +141,7 @@ macro_rules! networkx {
 }
 
 /// Files that begin with these bytes, whatever follows.
-const MAGIC: [(&[u8], &str, &str); 22] = [
-    (
-        b"SQLite format 3\0",
-        "an SQLite database (COLMAP's, perhaps)",
-        "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'",
-    ),
+const MAGIC: [(&[u8], &str, &str); 21] = [
     (
         b"PK\x03\x04",
         "a ZIP archive (an .npz file, perhaps)",

@@ -2,8 +2,10 @@
 
 use std::fs::File;
 use std::io::{Cursor, Read};
+use std::path::Path;
 use std::str::FromStr;
 
+use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
 use crate::edge_list::Reading;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
@@ -30,6 +32,8 @@ pub struct NamedGraph {
     pub matching: Option<Matching>,
     /// Of a camera-point graph: how many of its nodes, the first ones, are cameras.
     pub cameras: Option<u32>,
+    /// The summary of COLMAP's database, if the input is one.
+    pub database: Option<Box<DatabaseFacts>>,
 }
 
 /// The formats that are read.
@@ -75,6 +79,11 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// The variable of a MATLAB file; by default `A` or the only square matrix.
     pub variable: Option<String>,
+    /// Which mapper's pairs to take from a database; by default those of incremental mapping.
+    pub pipeline: Option<Pipeline>,
+    /// The least number of inliers of a database's pair; by default
+    /// [`DEFAULT_MIN_INLIERS`](colmap::DEFAULT_MIN_INLIERS).
+    pub min_inliers: Option<u32>,
 }
 
 /// The graphs of an input, or why there is none.
@@ -93,7 +102,7 @@ pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
     let open = move || match path.as_str() {
         "-" => graphs(path, std::io::stdin(), options),
         _ => match File::open(&path) {
-            Ok(file) => graphs(path, file, options),
+            Ok(file) => graphs_at(Some(Path::new(&path)), path.clone(), file, options),
             Err(error) => failed(&path, Place::Input.fault(Problem::Unreadable(error))),
         },
     };
@@ -102,10 +111,20 @@ pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
 
 /// Streams the graphs of `input`, which its graphs and errors call `name`.
 pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) -> Graphs {
+    graphs_at(None, name, input, options)
+}
+
+/// The same of an input that is the file at a path, for formats that are read there.
+fn graphs_at(
+    path: Option<&Path>,
+    name: String,
+    input: impl Read + 'static,
+    options: ReadOptions,
+) -> Graphs {
     match sampled(Box::new(input)) {
         Ok(sampled) if sampled.is_gzip() => {
             let inner = sampled_again(sampled);
-            let graphs = inner.map(|inner| of_sampled(name.clone(), inner, options));
+            let graphs = inner.map(|inner| of_sampled(None, name.clone(), inner, options));
             let graphs =
                 graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
             Box::new(graphs.map(|graph| {
@@ -115,7 +134,7 @@ pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) ->
                 })
             }))
         }
-        Ok(sampled) => of_sampled(name, sampled, options),
+        Ok(sampled) => of_sampled(path, name, sampled, options),
         Err(problem) => failed(&name, Place::Input.fault(problem)),
     }
 }
@@ -183,7 +202,7 @@ fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
     Ok(inner)
 }
 
-fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
     let kind = match options.format {
         Some(Format::Edges) => Ok(None),
         Some(Format::Graph6) => Ok(Some(Kind::Lines {
@@ -198,17 +217,19 @@ fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
-    let unused = (options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))))
-        .then(|| "--variable is ignored: this is no MATLAB file".to_owned());
+    let unused = ignored(&options, &kind);
     let one = match kind {
         Ok(Some(Kind::Lines { encoding, guessed })) => {
             let lines = Lines::new(name, encoding, guessed, sampled.into_input());
             return Box::new(lines.map(move |graph| {
                 graph.map(|mut graph| {
-                    graph.notes.extend(unused.clone());
+                    graph.notes.extend_from_slice(&unused);
                     graph
                 })
             }));
+        }
+        Ok(Some(Kind::Sqlite)) => {
+            return Box::new(std::iter::once(database(path, &name, &options, unused)));
         }
         Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
         Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
@@ -236,10 +257,43 @@ fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
                 notes,
                 matching: None,
                 cameras: None,
+                database: None,
             })))
         }
         Err(fault) => failed(&name, fault),
     }
+}
+
+/// Options that say nothing about a file of this kind, in words.
+fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
+    let mut notes = Vec::new();
+    if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
+        notes.push("--variable is ignored: this is no MATLAB file".to_owned());
+    }
+    if !matches!(kind, Ok(Some(Kind::Sqlite))) {
+        let given = [
+            ("--pipeline", options.pipeline.is_some()),
+            ("--min-inliers", options.min_inliers.is_some()),
+        ];
+        for (option, _) in given.iter().filter(|(_, given)| *given) {
+            notes.push(format!("{option} is ignored: this is no COLMAP database"));
+        }
+    }
+    notes
+}
+
+/// The graph of a database, which has to be a file.
+fn database(
+    path: Option<&Path>,
+    name: &str,
+    options: &ReadOptions,
+    unused: Vec<String>,
+) -> Result<NamedGraph, ReadError> {
+    let read = |path| colmap::read(name, path, options);
+    let graph = path.ok_or(DatabaseError::NoFile).and_then(read);
+    let mut graph = graph.map_err(|error| Place::Input.fault(error.into()).in_file(name))?;
+    graph.notes.extend(unused);
+    Ok(graph)
 }
 
 fn failed(name: &str, fault: Fault) -> Graphs {

@@ -424,9 +424,10 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 13] = [
+const REPORTED: [&str; 14] = [
     "graph",
     "notes",
+    "database",
     "model",
     "verdict",
     "strength",
