@@ -15,10 +15,12 @@ pub mod matrix_market;
 pub mod read;
 mod recognise;
 pub mod sparse6;
+pub mod tracks;
 
 pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
+pub use tracks::{TrackFacts, TrackOptions};
 
 /// A note about pairs that were merged, if any were.
 fn merged(count: usize) -> Option<String> {

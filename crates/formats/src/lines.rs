@@ -147,6 +147,7 @@ impl<R: Read> Iterator for Lines<R> {
                         matching: None,
                         cameras: None,
                         database: None,
+                        tracks: None,
                     }));
                 }
                 // A graph without nodes is a graph of the format.

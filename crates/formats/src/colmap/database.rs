@@ -8,49 +8,63 @@ use rusqlite::{Connection, Row};
 
 use super::facts::bins;
 use super::open::Opened;
+use super::tracks;
 use super::{ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
+use crate::error::{Fault, Place};
 use crate::{Matching, NamedGraph, OtherPair, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
 use viewcert::wording::counted;
 
 /// A pair's number is this times the smaller image's number, plus the larger one's.
-const PAIR_FACTOR: i64 = 2_147_483_647;
+pub(super) const PAIR_FACTOR: i64 = 2_147_483_647;
 
 /// The tables of verified pairs; the second is that of versions before 2018.
 const VERIFIED: [&str; 2] = ["two_view_geometries", "inlier_matches"];
 
-/// The graph of a database in a file, called `name`. O(images + pairs) and the sorting of both.
+/// The graph of a database in a file, called `name`: of its pairs, or of its tracks if options ask
+/// for them. O(images + pairs) and the sorting of both; tracks take the reading of all matches.
 ///
 /// # Errors
-/// See [`DatabaseError`].
-pub(crate) fn read(
-    name: &str,
-    path: &Path,
-    options: &ReadOptions,
-) -> Result<NamedGraph, DatabaseError> {
-    let opened = Opened::new(path)?;
-    let database = Tables::read(&opened.connection, options)?;
-    let note = opened.note.clone();
-    opened.finish()?;
-    let (graph, matching) = database.graph()?;
-    let facts = database.facts(&graph);
-    let mut notes = Vec::from_iter(note);
+/// See [`DatabaseError`]; tracks that no graph can hold.
+pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<NamedGraph, Fault> {
+    let input = |error: DatabaseError| Place::Input.fault(error.into());
+    let opened = Opened::new(path).map_err(input)?;
+    let database = Tables::read(&opened.connection, options).map_err(input)?;
+    let (pairs, matching) = database.graph().map_err(input)?;
+    let facts = database.facts(&pairs);
+    let mut notes = Vec::from_iter(opened.note.clone());
     notes.extend(database.notes(&facts));
-    Ok(NamedGraph {
-        name: name.to_owned(),
-        graph,
-        labels: Labels::Names(database.names),
-        notes,
-        matching: Some(matching),
-        cameras: None,
-        database: Some(Box::new(facts)),
-    })
+    let mut graph = match options.tracks {
+        None => NamedGraph {
+            name: String::new(),
+            graph: pairs,
+            labels: Labels::Names(database.names),
+            notes: Vec::new(),
+            matching: Some(matching),
+            cameras: None,
+            database: None,
+            tracks: None,
+        },
+        Some(tracks) => {
+            let (names, nodes) = (&database.names, &database.nodes);
+            let connection = &opened.connection;
+            tracks::read(connection, database.table, names, nodes, &pairs, tracks)?
+        }
+    };
+    opened.finish().map_err(input)?;
+    name.clone_into(&mut graph.name);
+    notes.append(&mut graph.notes);
+    graph.notes = notes;
+    graph.database = Some(Box::new(facts));
+    Ok(graph)
 }
 
 /// What the tables say, and the choice of pairs.
 struct Tables {
     /// The images by name.
     names: Vec<Box<str>>,
+    /// Their nodes by their numbers.
+    nodes: HashMap<i64, u32>,
     /// Pairs of known images, in the order of the table.
     pairs: Vec<Pair>,
     /// Matches before verification of pairs of known images, by the two nodes.
@@ -81,6 +95,7 @@ impl Tables {
         let (names, nodes) = images(connection)?;
         let mut tables = Self {
             names,
+            nodes,
             pairs: Vec::new(),
             matches: HashMap::new(),
             dangling: 0,
@@ -90,8 +105,8 @@ impl Tables {
             pipeline: options.pipeline.unwrap_or_default(),
             min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
         };
-        tables.read_pairs(connection, &nodes)?;
-        tables.read_matches(connection, &nodes)?;
+        tables.read_pairs(connection)?;
+        tables.read_matches(connection)?;
         if tables.pairs.is_empty() && tables.dangling == 0 {
             return Err(match tables.matches.len() {
                 0 => DatabaseError::NotMatched(tables.names.len()),
@@ -102,11 +117,7 @@ impl Tables {
     }
 
     /// The verified pairs. Of a row only numbers are read, not what was matched.
-    fn read_pairs(
-        &mut self,
-        connection: &Connection,
-        nodes: &HashMap<i64, u32>,
-    ) -> Result<(), DatabaseError> {
+    fn read_pairs(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
         let present = columns(connection, self.table)?;
         let has = |column: &str| present.iter().any(|name| name == column);
         let config = if has("config") { "config" } else { "0" };
@@ -121,7 +132,7 @@ impl Tables {
             let inliers = count(row, 1)?;
             let config: Option<i64> = row.get(2)?;
             let config = config.unwrap_or(0);
-            let Some(ends) = self.ends(row.get(0)?, nodes) else {
+            let Some(ends) = self.ends(row.get(0)?) else {
                 continue;
             };
             let used = inliers >= self.min_inliers
@@ -140,11 +151,7 @@ impl Tables {
     }
 
     /// How many matches there were before verification, where the table says so.
-    fn read_matches(
-        &mut self,
-        connection: &Connection,
-        nodes: &HashMap<i64, u32>,
-    ) -> Result<(), DatabaseError> {
+    fn read_matches(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
         let present = columns(connection, "matches")?;
         if !["pair_id", "rows"]
             .iter()
@@ -156,7 +163,7 @@ impl Tables {
         let mut rows = statement.query([])?;
         while let Some(row) = rows.next()? {
             let matches = count(row, 1)?;
-            if let Ok(ends) = ends(row.get(0)?, nodes)
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes)
                 && matches > 0
             {
                 self.matches.insert(ends, matches);
@@ -166,8 +173,8 @@ impl Tables {
     }
 
     /// The nodes of a pair; counts those that are none.
-    fn ends(&mut self, pair: i64, nodes: &HashMap<i64, u32>) -> Option<(u32, u32)> {
-        match ends(pair, nodes) {
+    fn ends(&mut self, pair: i64) -> Option<(u32, u32)> {
+        match ends(pair, &self.nodes) {
             Ok(ends) => return Some(ends),
             Err(NoPair::Loop) => self.loops += 1,
             Err(NoPair::Dangling) => self.dangling += 1,
@@ -339,7 +346,7 @@ fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError
 }
 
 /// The names of a table's columns; none if there is no such table.
-fn columns(connection: &Connection, table: &str) -> Result<Vec<String>, DatabaseError> {
+pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String>, DatabaseError> {
     let mut statement = connection.prepare("select name from pragma_table_info(?)")?;
     let names = statement.query_map([table], |row| row.get(0))?;
     Ok(names.collect::<Result<_, _>>()?)
@@ -384,13 +391,13 @@ fn rigs(connection: &Connection) -> Result<usize, DatabaseError> {
 }
 
 /// Why a number of a pair gives no edge.
-enum NoPair {
+pub(super) enum NoPair {
     Dangling,
     Loop,
 }
 
 /// The nodes of the two images of a pair's number.
-fn ends(pair: i64, nodes: &HashMap<i64, u32>) -> Result<(u32, u32), NoPair> {
+pub(super) fn ends(pair: i64, nodes: &HashMap<i64, u32>) -> Result<(u32, u32), NoPair> {
     let (first, second) = (pair.div_euclid(PAIR_FACTOR), pair.rem_euclid(PAIR_FACTOR));
     match (nodes.get(&first), nodes.get(&second)) {
         (Some(a), Some(b)) if a == b => Err(NoPair::Loop),

@@ -9,6 +9,7 @@ mod database;
 mod error;
 mod facts;
 mod open;
+mod tracks;
 
 pub use error::DatabaseError;
 pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};

@@ -13,6 +13,7 @@ use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
 use crate::recognise;
 use crate::recognise::Kind;
+use crate::tracks::{self, TrackFacts, TrackOptions};
 use crate::{edge_list, matlab, matrix_market};
 use viewcert::graph::{Graph, Labels};
 
@@ -34,6 +35,8 @@ pub struct NamedGraph {
     pub cameras: Option<u32>,
     /// The summary of COLMAP's database, if the input is one.
     pub database: Option<Box<DatabaseFacts>>,
+    /// How many tracks there are, if this is a camera-point graph.
+    pub tracks: Option<TrackFacts>,
 }
 
 /// The formats that are read.
@@ -84,6 +87,8 @@ pub struct ReadOptions {
     /// The least number of inliers of a database's pair; by default
     /// [`DEFAULT_MIN_INLIERS`](colmap::DEFAULT_MIN_INLIERS).
     pub min_inliers: Option<u32>,
+    /// Whether tracks are asked for instead of pairs, and which of them count.
+    pub tracks: Option<TrackOptions>,
 }
 
 /// The graphs of an input, or why there is none.
@@ -101,6 +106,7 @@ pub fn read_graphs(path: &str, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.to_owned(), options.clone());
     let open = move || match path.as_str() {
         "-" => graphs(path, std::io::stdin(), options),
+        _ if Path::new(&path).is_dir() => Box::new(std::iter::once(folder(&path, &options))),
         _ => match File::open(&path) {
             Ok(file) => graphs_at(Some(Path::new(&path)), path.clone(), file, options),
             Err(error) => failed(&path, Place::Input.fault(Problem::Unreadable(error))),
@@ -203,6 +209,12 @@ fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
 }
 
 fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+    if let Some(tracks) = options.tracks
+        && !sampled.head.starts_with(colmap::MAGIC)
+    {
+        let graph = tracks_of(path, &name, sampled, &options, tracks);
+        return Box::new(std::iter::once(graph));
+    }
     let kind = match options.format {
         Some(Format::Edges) => Ok(None),
         Some(Format::Graph6) => Ok(Some(Kind::Lines {
@@ -258,6 +270,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
                 matching: None,
                 cameras: None,
                 database: None,
+                tracks: None,
             })))
         }
         Err(fault) => failed(&name, fault),
@@ -289,10 +302,55 @@ fn database(
     options: &ReadOptions,
     unused: Vec<String>,
 ) -> Result<NamedGraph, ReadError> {
-    let read = |path| colmap::read(name, path, options);
-    let graph = path.ok_or(DatabaseError::NoFile).and_then(read);
-    let mut graph = graph.map_err(|error| Place::Input.fault(error.into()).in_file(name))?;
+    let no_file = || Place::Input.fault(DatabaseError::NoFile.into());
+    let graph = path.ok_or_else(no_file);
+    let graph = graph.and_then(|path| colmap::read(name, path, options));
+    let mut graph = graph.map_err(|fault| fault.in_file(name))?;
     graph.notes.extend(unused);
+    Ok(graph)
+}
+
+/// The camera-point graph of an input.
+fn tracks_of(
+    path: Option<&Path>,
+    name: &str,
+    sampled: Sampled,
+    options: &ReadOptions,
+    tracks: TrackOptions,
+) -> Result<NamedGraph, ReadError> {
+    let mut notes = ignored(options, &Ok(None));
+    if options.format.is_some() {
+        notes.push("--format is ignored: tracks are known by their content".to_owned());
+    }
+    let (head, whole) = (sampled.head.clone(), sampled.whole);
+    let graph = tracks::read(&head, whole, path, sampled.into_input(), tracks);
+    tracks_called(name, graph, notes)
+}
+
+/// What is in a folder.
+fn folder(name: &str, options: &ReadOptions) -> Result<NamedGraph, ReadError> {
+    let folder = Path::new(name);
+    match options.tracks {
+        Some(tracks) => {
+            let notes = ignored(options, &Ok(None));
+            tracks_called(name, tracks::read_folder(folder, tracks), notes)
+        }
+        None if tracks::is_model(folder) => Err(Place::Input.fault(Problem::Model).in_file(name)),
+        None => {
+            let error = std::io::ErrorKind::IsADirectory.into();
+            Err(Place::Input.fault(Problem::Unreadable(error)).in_file(name))
+        }
+    }
+}
+
+fn tracks_called(
+    name: &str,
+    graph: Result<NamedGraph, Fault>,
+    notes: Vec<String>,
+) -> Result<NamedGraph, ReadError> {
+    let mut graph = graph.map_err(|fault| fault.in_file(name))?;
+    name.clone_into(&mut graph.name);
+    graph.notes.extend(notes);
     Ok(graph)
 }
 
