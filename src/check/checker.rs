@@ -49,11 +49,17 @@ pub(super) fn check_for(
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let bytes = super::read(path)?;
+    // A folder may be a model.
+    let bytes = if path.is_dir() {
+        Vec::new()
+    } else {
+        super::read(path)?
+    };
     let own = match options {
         ReadOptions {
             format: None,
             variable: None,
+            tracks: None,
             ..
         } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
         _ => None,
@@ -77,7 +83,7 @@ fn converted(
     let name = path.display().to_string();
     let mut first = None;
     // Some formats are read from their place only.
-    let inputs = match path.to_str().filter(|_| path.is_file()) {
+    let inputs = match path.to_str().filter(|_| path.is_file() || path.is_dir()) {
         Some(path) => read_graphs(path, &options),
         None => graphs(name.clone(), Cursor::new(bytes), options),
     };

@@ -424,10 +424,11 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 14] = [
+const REPORTED: [&str; 15] = [
     "graph",
     "notes",
     "database",
+    "tracks",
     "model",
     "verdict",
     "strength",
