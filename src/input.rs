@@ -6,7 +6,8 @@ use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use viewcert_formats::{Format, NamedGraph, ReadOptions, read_graphs};
+use viewcert_formats::colmap::Pipeline;
+use viewcert_formats::{Format, NamedGraph, ReadOptions, TrackOptions, read_graphs};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -24,6 +25,21 @@ pub(super) struct InputArguments {
     /// Variable of a MATLAB file [default: A, or the only square matrix].
     #[arg(long, value_name = "NAME")]
     variable: Option<String>,
+    /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
+    #[arg(long, value_enum)]
+    pipeline: Option<PipelineName>,
+    /// The least number of inliers of a pair of a COLMAP database [default: 15, as both mappers].
+    #[arg(long, value_name = "N")]
+    min_inliers: Option<u32>,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum PipelineName {
+    /// All pairs with enough inliers.
+    Incremental,
+    /// Of these, the configurations 2 to 6 (calibrated, uncalibrated, planar, panoramic), and pairs
+    /// with a stored relative pose.
+    Global,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -41,6 +57,31 @@ enum FormatName {
     MatrixMarket,
 }
 
+/// Whether the graph is that of cameras and points.
+#[derive(Args)]
+pub(super) struct TrackArguments {
+    /// Decide the graph of cameras and points: are their positions determined by the tracks?
+    ///
+    /// Reads a COLMAP database (its inlier matches, joined to tracks) or model (the folder, or its
+    /// points3D file), Bundler's bundle.out, BAL, NVM, or OpenMVG's matches. Rotations are
+    /// taken for known, as global mapping has them: this implies --model calibrated.
+    #[arg(long)]
+    tracks: bool,
+    /// In how many images a track has to be seen to count [default: 3, as in global mapping].
+    #[arg(long, value_name = "N", requires = "tracks")]
+    min_views: Option<u32>,
+}
+
+impl TrackArguments {
+    /// Which tracks count, if tracks are asked for.
+    pub(super) fn options(&self) -> Option<TrackOptions> {
+        let default = TrackOptions::default();
+        self.tracks.then(|| TrackOptions {
+            min_views: self.min_views.unwrap_or(default.min_views),
+        })
+    }
+}
+
 impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
     /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
@@ -56,39 +97,9 @@ impl InputArguments {
         paths: &[PathBuf],
         single: Option<&Path>,
         out: &mut W,
-        mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
+        each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
-        let mut code = GOOD;
-        let options = self.read_options();
-        for path in paths {
-            let mut start = Instant::now();
-            running::reading(path);
-            let mut graphs = read_graphs(path, &options).peekable();
-            while let Some(input) = graphs.next() {
-                if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
-                    let several = format!("several in {}", path.display());
-                    return Err(anyhow!(certificates::too_many(file, &several)));
-                }
-                running::hide();
-                if let Ok(input) = &input {
-                    running::doing(format!("working on {}", input.name));
-                }
-                let done = input.map_err(Into::into);
-                let done = done.and_then(|input| each(out, &input, start));
-                code = code.max(match done {
-                    Ok(code) => code,
-                    Err(error) if ends_run(&error) => return Err(error),
-                    Err(error) => {
-                        writeln!(std::io::stderr(), "verify: {error:#}")?;
-                        exit_code(&error)
-                    }
-                });
-                out.flush().context("standard output")?;
-                running::reading(path);
-                start = Instant::now();
-            }
-        }
-        Ok(code)
+        for_each(&self.read_options(), paths, single, out, each)
     }
 
     /// The options of the readers.
@@ -102,6 +113,55 @@ impl InputArguments {
                 FormatName::MatrixMarket => Format::MatrixMarket,
             }),
             variable: self.variable.clone(),
+            pipeline: self.pipeline.map(|pipeline| match pipeline {
+                PipelineName::Incremental => Pipeline::Incremental,
+                PipelineName::Global => Pipeline::Global,
+            }),
+            min_inliers: self.min_inliers,
+            tracks: None,
         }
     }
+}
+
+/// As [`InputArguments::for_each`], with options of the caller.
+///
+/// # Errors
+/// As there.
+pub(super) fn for_each<W: Write>(
+    options: &ReadOptions,
+    paths: &[PathBuf],
+    single: Option<&Path>,
+    out: &mut W,
+    mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
+) -> Result<u8> {
+    let mut code = GOOD;
+    for path in paths {
+        let mut start = Instant::now();
+        running::reading(path);
+        let mut graphs = read_graphs(path, options).peekable();
+        while let Some(input) = graphs.next() {
+            if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
+                let several = format!("several in {}", path.display());
+                return Err(anyhow!(certificates::too_many(file, &several)));
+            }
+            running::hide();
+            if let Ok(input) = &input {
+                running::doing(format!("working on {}", input.name));
+            }
+            let done = input.map_err(Into::into);
+            let done = done.and_then(|input| each(out, &input, start));
+            code = code.max(match done {
+                Ok(code) => code,
+                Err(error) if ends_run(&error) => return Err(error),
+                Err(error) => {
+                    writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    exit_code(&error)
+                }
+            });
+            out.flush().context("standard output")?;
+            running::reading(path);
+            start = Instant::now();
+        }
+    }
+    Ok(code)
 }

@@ -2,7 +2,8 @@
 
 use super::bounds::BoundArguments;
 use super::certificates::Target;
-use super::input::InputArguments;
+use super::input;
+use super::input::{InputArguments, TrackArguments};
 use super::{GOOD, NOT, atomic, running};
 use crate::report;
 use crate::report::Report;
@@ -16,13 +17,14 @@ use viewcert::decide as verdict;
 use viewcert::decide::{Arithmetic, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, ReadOptions};
 
 /// Options of the verifier.
 #[derive(Args)]
 pub(super) struct VerifyArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, also compressed by gzip; `-` is standard input.
+    /// matrices, also compressed by gzip, and COLMAP's databases; with --tracks also models;
+    /// `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and
@@ -38,9 +40,9 @@ pub(super) struct VerifyArguments {
     rational: bool,
     #[command(flatten)]
     bounds: BoundArguments,
-    /// What is known of the cameras.
-    #[arg(long, value_enum, default_value_t = ModelName::Projective)]
-    model: ModelName,
+    /// What is known of the cameras [default: projective; with --tracks calibrated].
+    #[arg(long, value_enum)]
+    model: Option<ModelName>,
     /// Compute the Jacobian of the whole graph, as the paper does.
     #[arg(long)]
     no_contraction: bool,
@@ -52,6 +54,12 @@ pub(super) struct VerifyArguments {
     seed: u64,
     #[command(flatten)]
     input: InputArguments,
+    #[command(flatten)]
+    tracks: TrackArguments,
+    /// Write the graph that is decided to this file, as pairs of node numbers: what both checkers
+    /// read, whatever the graph came from.
+    #[arg(long, value_name = "FILE")]
+    write_graph: Option<PathBuf>,
     /// Write a certificate to this file, or for every graph to this folder (`-`: to standard
     /// output, and the report to standard error).
     #[arg(long, value_name = "PATH")]
@@ -76,11 +84,27 @@ enum ModelName {
 }
 
 impl VerifyArguments {
-    fn options(&self) -> Result<Options> {
+    /// The model that is given or implied.
+    fn model(&self) -> Result<Model> {
+        let tracks = self.tracks.options().is_some();
         ensure!(
-            !self.rational || matches!(self.model, ModelName::Projective),
+            !tracks || !matches!(self.model, Some(ModelName::Projective)),
+            "--tracks: observations are directions of known rotations, which only the calibrated \
+             model has; leave out --model projective"
+        );
+        Ok(match self.model {
+            Some(ModelName::Calibrated) => Model::Calibrated,
+            None if tracks => Model::Calibrated,
+            Some(ModelName::Projective) | None => Model::Projective,
+        })
+    }
+
+    fn options(&self) -> Result<Options> {
+        let model = self.model()?;
+        ensure!(
+            !self.rational || matches!(model, Model::Projective),
             "--rational: the calibrated model is decided modulo primes only; leave out --rational, or \
-             --model calibrated"
+             --model calibrated and --tracks"
         );
         let arithmetic = if self.rational {
             Arithmetic::Rational {
@@ -95,10 +119,6 @@ impl VerifyArguments {
             Some(prime) => {
                 Prime::Fixed(PrimeField::new(prime).with_context(|| format!("--prime={prime}"))?)
             }
-        };
-        let model = match self.model {
-            ModelName::Projective => Model::Projective,
-            ModelName::Calibrated => Model::Calibrated,
         };
         Ok(Options::default()
             .model(model)
@@ -123,7 +143,18 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         .as_ref()
         .and_then(Target::single)
         .map(Path::to_path_buf);
-    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let outputs = [
+        ("--certificate", arguments.certificate.as_deref()),
+        ("--write-graph", arguments.write_graph.as_deref()),
+    ];
+    let graphs = arguments.graphs.iter().map(Path::new);
+    atomic::ensure_apart(&outputs[1..], graphs)?;
+    // A folder of certificates is no file that could be the same.
+    if single.is_some() {
+        atomic::ensure_apart(&outputs, std::iter::empty())?;
+    }
+    let single = single.or_else(|| arguments.write_graph.clone());
+    let mut out = atomic::text(&outputs.map(|(_, path)| path));
     let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
@@ -131,9 +162,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             _ => GOOD,
         })
     };
-    let code = arguments
-        .input
-        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
+    let read = ReadOptions {
+        tracks: arguments.tracks.options(),
+        ..arguments.input.read_options()
+    };
+    let code = input::for_each(&read, &arguments.graphs, single.as_deref(), &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -152,6 +185,8 @@ fn decide(
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
+    let written = arguments.write_graph.as_deref();
+    let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
     let report = Report {
         input,
         verdict: &verdict,
@@ -166,6 +201,34 @@ fn decide(
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }
+        if let Some((path, unpaired)) = written.zip(unpaired) {
+            let how = match unpaired {
+                0 => "",
+                _ => " (read it with --format edges: nodes without pairs are lines of one number)",
+            };
+            writeln!(out, "  written     {}{how}", path.display())?;
+        }
     }
     Ok(verdict.value)
+}
+
+/// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns how
+/// many of these there are.
+fn write_graph(path: &Path, input: &NamedGraph) -> Result<usize> {
+    let graph = &input.graph;
+    let mut paired = vec![false; graph.nodes()];
+    for &(i, j) in graph.edges() {
+        paired[i as usize] = true;
+        paired[j as usize] = true;
+    }
+    atomic::write(path, |out| {
+        for &(i, j) in graph.edges() {
+            writeln!(out, "{i} {j}")?;
+        }
+        for (node, _) in paired.iter().enumerate().filter(|(_, paired)| !**paired) {
+            writeln!(out, "{node}")?;
+        }
+        Ok(())
+    })?;
+    Ok(paired.iter().filter(|paired| !**paired).count())
 }

@@ -469,7 +469,7 @@ mod edge_lists {
     fn read(text: &str, format: Option<Format>) -> Result<the_page::Listed, ReadError> {
         let options = ReadOptions {
             format,
-            variable: None,
+            ..ReadOptions::default()
         };
         let input = std::io::Cursor::new(text.as_bytes().to_vec());
         let mut graphs = graphs("in".to_owned(), input, options);

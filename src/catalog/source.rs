@@ -86,7 +86,7 @@ impl Source {
             Self::File { path } => {
                 let options = ReadOptions {
                     format: Some(Format::Graph6),
-                    variable: None,
+                    ..ReadOptions::default()
                 };
                 for input in read_graphs(path, &options) {
                     if !each(input.map(|input| input.graph).map_err(Error::from)) {

@@ -6,8 +6,8 @@ use std::path::Path;
 use viewcert::certificate::hex;
 use viewcert::graph::sha256;
 use viewcert_check::{Certificate, Failure, Graph, Verified};
-use viewcert_formats::ReadOptions;
 use viewcert_formats::read::graphs;
+use viewcert_formats::{ReadOptions, read_graphs};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -49,11 +49,18 @@ pub(super) fn check_for(
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let bytes = super::read(path)?;
+    // A folder may be a model.
+    let bytes = if path.is_dir() {
+        Vec::new()
+    } else {
+        super::read(path)?
+    };
     let own = match options {
         ReadOptions {
             format: None,
             variable: None,
+            tracks: None,
+            ..
         } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
         _ => None,
     };
@@ -75,7 +82,12 @@ fn converted(
 ) -> Result<Graph> {
     let name = path.display().to_string();
     let mut first = None;
-    for input in graphs(name.clone(), Cursor::new(bytes), options) {
+    // Some formats are read from their place only.
+    let inputs = match path.to_str().filter(|_| path.is_file() || path.is_dir()) {
+        Some(path) => read_graphs(path, &options),
+        None => graphs(name.clone(), Cursor::new(bytes), options),
+    };
+    for input in inputs {
         let graph = input?.graph;
         let wanted = hex(&sha256(&graph)) == certificate.graph_sha256();
         if wanted || first.is_none() {

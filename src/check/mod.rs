@@ -4,7 +4,7 @@ mod checker;
 mod folder;
 
 use self::folder::{Listing, name};
-use super::input::InputArguments;
+use super::input::{InputArguments, TrackArguments};
 use super::manifest::Contents;
 use super::{GOOD, NOT, TOO_LARGE};
 use crate::report::counted;
@@ -19,6 +19,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_check::Failure;
+use viewcert_formats::ReadOptions;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -35,6 +36,8 @@ pub(super) struct CheckArguments {
     graph: Option<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
+    #[command(flatten)]
+    tracks: TrackArguments,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -64,7 +67,14 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     let text = read(path)?;
     let outcome = match &arguments.graph {
         None => checker::check(&text),
-        Some(graph) => checker::check_for(&text, graph, arguments.input.read_options())?,
+        Some(graph) => {
+            let tracks = arguments.tracks.options();
+            let options = ReadOptions {
+                tracks,
+                ..arguments.input.read_options()
+            };
+            checker::check_for(&text, graph, options)?
+        }
     };
     let mut out = std::io::stdout().lock();
     let code = match outcome {

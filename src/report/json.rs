@@ -1,6 +1,9 @@
 //! One JSON object a line.
 
 use super::Report;
+use super::database::DatabaseLine;
+use super::tracks;
+use super::tracks::TrackLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -10,6 +13,10 @@ use viewcert::decide::Component;
 struct Line<'a> {
     graph: GraphLine<'a>,
     notes: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    database: Option<DatabaseLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tracks: Option<TrackLine>,
     model: &'static str,
     verdict: &'static str,
     strength: &'static str,
@@ -35,6 +42,11 @@ struct GraphLine<'a> {
 struct ComponentLine {
     nodes: usize,
     edges: usize,
+    /// Of a camera-point graph; the labels are those of the cameras then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cameras: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    points: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     labels: Option<Vec<String>>,
 }
@@ -46,13 +58,6 @@ struct ComponentLine {
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     let strength = verdict.value_claim().strength;
-    let labels = |component: &Component| {
-        let nodes = component.nodes();
-        nodes
-            .iter()
-            .map(|&v| input.labels.label(v).into_owned())
-            .collect()
-    };
     let line = Line {
         graph: GraphLine {
             name: &input.name,
@@ -61,6 +66,11 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             sha256: hex(&verdict.sha256),
         },
         notes: &input.notes,
+        database: input.database.as_deref().map(DatabaseLine::from),
+        tracks: input
+            .cameras
+            .zip(input.tracks.as_ref())
+            .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
         verdict: verdict.value.name(),
         strength: strength.name(),
@@ -68,19 +78,53 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         rank: verdict.rank,
         rank_required: verdict.required,
         rank_strength: verdict.rank_claim().strength.name(),
-        components: verdict
-            .components
-            .iter()
-            .map(|component| ComponentLine {
-                nodes: component.node_count(),
-                edges: component.edge_count(),
-                labels: report.list_components.then(|| labels(component)),
-            })
-            .collect(),
+        components: components(report),
         components_strength: verdict.components_claim().strength.name(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
     };
     serde_json::to_writer(&mut *out, &line)?;
     out.write_all(b"\n")
+}
+
+/// The components; of a camera-point graph with cameras and points, and behind them every camera
+/// that sees no point.
+fn components(report: &Report) -> Vec<ComponentLine> {
+    let labels = |nodes: Vec<u32>| -> Vec<String> {
+        let label = |v| report.input.labels.label(v).into_owned();
+        nodes.into_iter().map(label).collect()
+    };
+    let listed = report.list_components;
+    let components = report.verdict.components.iter();
+    let Some(cameras) = report.input.cameras else {
+        let line = |component: &Component| ComponentLine {
+            nodes: component.node_count(),
+            edges: component.edge_count(),
+            cameras: None,
+            points: None,
+            labels: listed.then(|| labels(component.nodes())),
+        };
+        return components.map(line).collect();
+    };
+    let alone = tracks::alone(report, cameras);
+    let alone = alone.into_iter().map(|camera| ComponentLine {
+        nodes: 1,
+        edges: 0,
+        cameras: Some(1),
+        points: Some(0),
+        labels: listed.then(|| labels(vec![camera])),
+    });
+    components
+        .map(|component| {
+            let (nodes, points) = tracks::members(component, cameras);
+            ComponentLine {
+                nodes: component.node_count(),
+                edges: component.edge_count(),
+                cameras: Some(nodes.len()),
+                points: Some(points),
+                labels: listed.then(|| labels(nodes)),
+            }
+        })
+        .chain(alone)
+        .collect()
 }

@@ -5,12 +5,14 @@ pub mod catalog_page;
 pub mod comparison;
 pub mod conditions;
 pub mod curves;
+pub mod database;
 pub mod json;
 pub mod layout;
 pub mod plot;
 pub mod svg;
 pub mod table;
 pub mod text;
+pub mod tracks;
 pub mod values;
 
 use std::time::Duration;
@@ -24,6 +26,20 @@ pub use viewcert::wording::counted;
 pub(crate) fn size(graph: &Graph) -> String {
     let (cameras, pairs) = (graph.nodes(), graph.edges().len());
     format!("{}, {}", counted(cameras, "camera"), counted(pairs, "pair"))
+}
+
+/// The same of a graph as it was read, with points and observations if it has them.
+pub(crate) fn size_of(input: &NamedGraph) -> String {
+    let Some(cameras) = input.cameras else {
+        return size(&input.graph);
+    };
+    let points = input.graph.nodes() - cameras as usize;
+    format!(
+        "{}, {}, {}",
+        counted(cameras as usize, "camera"),
+        counted(points, "point"),
+        counted(input.graph.edges().len(), "observation")
+    )
 }
 
 /// Everything a report says about one graph.

@@ -1,6 +1,6 @@
 //! A few lines a graph, for people.
 
-use super::{Report, counted, size};
+use super::{Report, counted, database, size_of, tracks};
 use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
@@ -17,11 +17,17 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
-    writeln!(out, "  graph       {}", size(&input.graph))?;
+    writeln!(out, "  graph       {}", size_of(input))?;
+    if let Some(facts) = &input.database {
+        database::write(out, facts)?;
+    }
+    if let Some(facts) = &input.tracks {
+        tracks::write(out, facts)?;
+    }
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
-    writeln!(out, "  verdict     {}", answer(verdict))?;
+    writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(report))?;
     writeln!(
         out,
@@ -30,6 +36,17 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         verdict.required,
         strength(verdict.rank_claim().strength)
     )?;
+    if let Some(cameras) = input.cameras {
+        let strength = strength(verdict.components_claim().strength);
+        tracks::write_components(out, report, cameras, &strength)?;
+    } else {
+        write_components(out, report)?;
+    }
+    writeln!(out, "  time        {}", seconds(report.time.as_micros()))
+}
+
+fn write_components(out: &mut impl Write, report: &Report) -> io::Result<()> {
+    let (input, verdict) = (report.input, report.verdict);
     writeln!(
         out,
         "  components  {} ({}){}",
@@ -46,11 +63,18 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             writeln!(out)?;
         }
     }
-    writeln!(out, "  time        {}", seconds(report.time.as_micros()))
+    Ok(())
 }
 
-fn answer(verdict: &Verdict) -> String {
+fn answer(report: &Report) -> String {
+    let verdict = report.verdict;
     let value = match (verdict.value, verdict.model) {
+        (Value::NotFiniteSolvable, _) if report.input.cameras.is_some() => {
+            "not solvable: infinitely many positions of the cameras and points"
+        }
+        _ if report.input.cameras.is_some() => {
+            "solvable: the positions of all cameras and points are unique"
+        }
         (Value::Solvable, _) => "solvable: the cameras are unique",
         (Value::FiniteSolvable, _) => "finite solvable: finitely many sets of cameras",
         (Value::NotFiniteSolvable, Model::Projective) => {

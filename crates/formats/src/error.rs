@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::colmap::DatabaseError;
 use crate::inflate::{Damaged, Inflated};
 use crate::sparse6::Sparse6Error;
 use viewcert::graph::graph6::Graph6Error;
@@ -218,6 +219,28 @@ pub enum Problem {
     /// The file contradicts itself or its format.
     #[error("the file is corrupt: {0}")]
     Corrupt(String),
+    /// A database that gives no graph.
+    #[error(transparent)]
+    Database(#[from] DatabaseError),
+    /// No tracks where they are asked for.
+    #[error("no tracks are found in this file")]
+    NoTracks,
+    /// A part of a model without its tracks.
+    #[error(
+        "there is no model here: points3D.bin or points3D.txt, which holds the tracks, is missing"
+    )]
+    NoModel,
+    /// A folder, where nobody has asked for tracks.
+    #[error("this is a folder with a model of COLMAP: cameras, images and points")]
+    Model,
+    /// Something wrong with another file than the one that was named.
+    #[error("{part}: {problem}")]
+    Within {
+        /// The other file, and the place in it.
+        part: String,
+        /// What is wrong there.
+        problem: Box<Problem>,
+    },
     /// The variable asked for is not there.
     #[error("there is no such variable; the file holds {present}")]
     NoSuchVariable {
@@ -267,6 +290,10 @@ pub enum Problem {
 const LENIENTLY: &str = "write one pair a line, separated by a blank, or read the first two fields of every line with \
      --format edges";
 
+/// What to do with tracks where pairs are read.
+pub(super) const TRACKS: &str =
+    "it holds tracks, not pairs of images: --tracks decides the graph of its cameras and points";
+
 impl Problem {
     /// What whoever gave the input can do about it.
     pub fn remedy(&self) -> &'static str {
@@ -306,6 +333,13 @@ impl Problem {
             }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
+            Self::Database(error) => error.remedy(),
+            Self::NoTracks => {
+                "they come from a COLMAP database or model, Bundler's bundle.out, BAL, NVM and OpenMVG's matches; leave out --tracks to decide a graph of pairs"
+            }
+            Self::NoModel => "name the folder that has all files of the model",
+            Self::Model => TRACKS,
+            Self::Within { problem, .. } => problem.remedy(),
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
                 "name the adjacency matrix with --variable"
             }
@@ -345,6 +379,7 @@ impl Problem {
             | Self::LineTooLarge { .. }
             | Self::Sparse6(Sparse6Error::TooLarge { .. }) => true,
             Self::Unlike { why, .. } => why.is_size(),
+            Self::Within { problem, .. } => problem.is_size(),
             _ => false,
         }
     }

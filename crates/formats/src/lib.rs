@@ -4,6 +4,7 @@
 //! merged, ignored or guessed ([`NamedGraph`]), or an error that says where and what to do
 //! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
 
+pub mod colmap;
 pub mod edge_list;
 pub mod error;
 mod inflate;
@@ -14,10 +15,12 @@ pub mod matrix_market;
 pub mod read;
 mod recognise;
 pub mod sparse6;
+pub mod tracks;
 
 pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
+pub use tracks::{TrackFacts, TrackOptions};
 
 /// A note about pairs that were merged, if any were.
 fn merged(count: usize) -> Option<String> {

@@ -146,6 +146,8 @@ impl<R: Read> Iterator for Lines<R> {
                         notes,
                         matching: None,
                         cameras: None,
+                        database: None,
+                        tracks: None,
                     }));
                 }
                 // A graph without nodes is a graph of the format.

@@ -6,10 +6,10 @@
 
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::is_number;
-use crate::error::Problem;
+use crate::error::{Problem, TRACKS};
 use crate::inflate;
 use crate::lines::{Encoding, trimmed};
-use crate::{matlab, matrix_market, sparse6};
+use crate::{colmap, matlab, matrix_market, sparse6, tracks};
 use viewcert::graph::graph6;
 
 /// How much of an input is looked at.
@@ -26,6 +26,8 @@ pub(super) enum Kind {
     Matlab,
     MatrixMarket,
     Gzip,
+    /// A database, which is COLMAP's or nothing that is read.
+    Sqlite,
     /// Text, which is an edge list or nothing that is read.
     Text,
 }
@@ -39,11 +41,19 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
     if head.starts_with(inflate::MAGIC) {
         return Ok(Kind::Gzip);
     }
+    if head.starts_with(colmap::MAGIC) {
+        return Ok(Kind::Sqlite);
+    }
     if matlab::is_matlab(head) {
         return Ok(Kind::Matlab);
     }
     if let Some(problem) = binary(head) {
         return Err(problem);
+    }
+    if head.contains(&0)
+        && let Some(model) = tracks::kind(head, whole)
+    {
+        return Err(foreign(model.name(), COLMAP));
     }
     let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
     if matrix_market::is_matrix_market(head) {
@@ -136,12 +146,7 @@ macro_rules! networkx {
 }
 
 /// Files that begin with these bytes, whatever follows.
-const MAGIC: [(&[u8], &str, &str); 22] = [
-    (
-        b"SQLite format 3\0",
-        "an SQLite database (COLMAP's, perhaps)",
-        "write its pairs: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'",
-    ),
+const MAGIC: [(&[u8], &str, &str); 21] = [
     (
         b"PK\x03\x04",
         "a ZIP archive (an .npz file, perhaps)",
@@ -259,11 +264,7 @@ const FIRST_WORDS: [(&str, &str, &str); 12] = [
     ("edge2", "a TORO pose graph", G2O),
     ("vertex3", "a TORO pose graph", G2O),
     ("edge3", "a TORO pose graph", G2O),
-    (
-        "nvm_v",
-        "an NVM file of VisualSFM",
-        "it holds cameras and points, not pairs of images; write the pairs that were matched",
-    ),
+    ("nvm_v", "an NVM file of VisualSFM", TRACKS),
     ("leda.graph", "a LEDA graph", PAIRS),
     ("@nodes", "a LEMON graph", PAIRS),
 ];
@@ -292,14 +293,11 @@ const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
         "COLMAP's rigs.txt",
         COLMAP,
     ),
-    (
-        "# Bundle file",
-        "a Bundler file",
-        "it holds cameras and points, not pairs of images; write the pairs that were matched",
-    ),
+    ("# Bundle file", "a Bundler file", TRACKS),
 ];
 
-const COLMAP: &str = "the pairs are in COLMAP's database: sqlite3 -separator ' ' database.db 'select pair_id / 2147483647, pair_id % 2147483647 from two_view_geometries where rows >= 15'";
+const COLMAP: &str =
+    "give COLMAP's database (`verify database.db`), or decide the tracks of the model: --tracks";
 
 /// Camera models of COLMAP, the second field of a line in cameras.txt.
 const CAMERA_MODELS: [&str; 13] = [
@@ -519,10 +517,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         && number(x)
         && number(y)
     {
-        return Some(foreign(
-            "a bundle adjustment problem (BAL)",
-            "it holds cameras and points, not pairs of images; write the pairs that were matched",
-        ));
+        return Some(foreign("a bundle adjustment problem (BAL)", TRACKS));
     }
     let all_integers = lines.iter().flatten().all(integer);
     if all_integers && let Some(problem) = integers(&lines, whole) {
@@ -565,7 +560,7 @@ fn integers(lines: &[Vec<&str>], whole: bool) -> Option<Problem> {
     {
         return Some(foreign(
             "a file of feature matches (OpenMVG)",
-            "write the two numbers of every pair of images, without counts and matches",
+            "write the two numbers of every pair of images, without counts and matches, or decide the tracks: --tracks",
         ));
     }
     if whole && (2..=4).contains(&first.len()) {

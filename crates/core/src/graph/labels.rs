@@ -15,6 +15,8 @@ pub enum Labels {
     Integers(Vec<u64>),
     /// Names, increasing bytewise.
     Names(Vec<Box<str>>),
+    /// Names of cameras, and behind them points, which are called `point 1`, `point 2` and so on.
+    CamerasAndPoints(Vec<Box<str>>),
 }
 
 impl Labels {
@@ -25,6 +27,9 @@ impl Labels {
     pub fn label(&self, node: u32) -> Cow<'_, str> {
         match self {
             Self::Names(names) => Cow::Borrowed(&names[node as usize]),
+            Self::CamerasAndPoints(names) if (node as usize) < names.len() => {
+                Cow::Borrowed(&names[node as usize])
+            }
             _ => Cow::Owned(self.display(node).to_string()),
         }
     }
@@ -52,6 +57,10 @@ impl fmt::Display for Label<'_> {
             Labels::Numbers { first } => (first + u64::from(self.node)).fmt(f),
             Labels::Integers(values) => values[self.node as usize].fmt(f),
             Labels::Names(names) => names[self.node as usize].fmt(f),
+            Labels::CamerasAndPoints(names) => match names.get(self.node as usize) {
+                Some(name) => name.fmt(f),
+                None => f.pad(&format!("point {}", self.node as usize - names.len() + 1)),
+            },
         }
     }
 }
@@ -66,6 +75,8 @@ mod tests {
             (Labels::Numbers { first: 1 }, "2"),
             (Labels::Integers(vec![5, 70]), "70"),
             (Labels::Names(vec!["a.jpg".into(), "b.jpg".into()]), "b.jpg"),
+            (Labels::CamerasAndPoints(vec!["a".into(), "b".into()]), "b"),
+            (Labels::CamerasAndPoints(vec!["a".into()]), "point 1"),
         ];
         for (labels, second) in labels {
             assert_eq!(labels.label(1), second);

@@ -15,6 +15,17 @@ impl UnionFind {
         }
     }
 
+    /// One set of one element more, and that element.
+    ///
+    /// # Panics
+    /// With 2^32 elements.
+    pub fn push(&mut self) -> usize {
+        let element = self.parent.len();
+        let parent = u32::try_from(element).expect("fewer than 2^32 elements");
+        self.parent.push(parent);
+        element
+    }
+
     /// The least element of the set of `k`.
     pub fn find(&mut self, mut k: usize) -> usize {
         while self.parent[k] as usize != k {

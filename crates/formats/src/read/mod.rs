@@ -6,6 +6,7 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 use std::str::FromStr;
 
+use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
 use crate::edge_list::Reading;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
@@ -13,6 +14,7 @@ use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
 use crate::recognise;
 use crate::recognise::Kind;
+use crate::tracks::{self, TrackFacts, TrackOptions};
 use crate::{edge_list, matlab, matrix_market};
 use viewcert::graph::{Graph, Labels};
 
@@ -32,6 +34,10 @@ pub struct NamedGraph {
     pub matching: Option<Matching>,
     /// Of a camera-point graph: how many of its nodes, the first ones, are cameras.
     pub cameras: Option<u32>,
+    /// The summary of COLMAP's database, if the input is one.
+    pub database: Option<Box<DatabaseFacts>>,
+    /// How many tracks there are, if this is a camera-point graph.
+    pub tracks: Option<TrackFacts>,
 }
 
 /// The formats that are read.
@@ -90,6 +96,13 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// The variable of a MATLAB file; by default `A` or the only square matrix.
     pub variable: Option<String>,
+    /// Which mapper's pairs to take from a database; by default those of incremental mapping.
+    pub pipeline: Option<Pipeline>,
+    /// The least number of inliers of a database's pair; by default
+    /// [`DEFAULT_MIN_INLIERS`](colmap::DEFAULT_MIN_INLIERS).
+    pub min_inliers: Option<u32>,
+    /// Whether tracks are asked for instead of pairs, and which of them count.
+    pub tracks: Option<TrackOptions>,
 }
 
 /// The graphs of an input, or why there is none.
@@ -108,8 +121,9 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let name = path.display().to_string();
     let open = move || match path.to_str() {
         Some("-") => graphs(name, std::io::stdin(), options),
+        _ if path.is_dir() => Box::new(std::iter::once(folder(&path, &options))),
         _ => match File::open(&path) {
-            Ok(file) => graphs(name, file, options),
+            Ok(file) => graphs_at(Some(&path), name, file, options),
             Err(error) => failed(&name, Place::Input.fault(Problem::Unreadable(error))),
         },
     };
@@ -118,10 +132,20 @@ pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
 
 /// Streams the graphs of `input`, which its graphs and errors call `name`.
 pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) -> Graphs {
+    graphs_at(None, name, input, options)
+}
+
+/// The same of an input that is the file at a path, for formats that are read there.
+fn graphs_at(
+    path: Option<&Path>,
+    name: String,
+    input: impl Read + 'static,
+    options: ReadOptions,
+) -> Graphs {
     match sampled(Box::new(input)) {
         Ok(sampled) if sampled.is_gzip() => {
             let inner = sampled_again(sampled);
-            let graphs = inner.map(|inner| of_sampled(name.clone(), inner, options));
+            let graphs = inner.map(|inner| of_sampled(None, name.clone(), inner, options));
             let graphs =
                 graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
             Box::new(graphs.map(|graph| {
@@ -131,7 +155,7 @@ pub fn graphs(name: String, input: impl Read + 'static, options: ReadOptions) ->
                 })
             }))
         }
-        Ok(sampled) => of_sampled(name, sampled, options),
+        Ok(sampled) => of_sampled(path, name, sampled, options),
         Err(problem) => failed(&name, Place::Input.fault(problem)),
     }
 }
@@ -199,7 +223,13 @@ fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
     Ok(inner)
 }
 
-fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
+    if let Some(tracks) = options.tracks
+        && !sampled.head.starts_with(colmap::MAGIC)
+    {
+        let graph = tracks_of(path, &name, sampled, &options, tracks);
+        return Box::new(std::iter::once(graph));
+    }
     let kind = match options.format {
         Some(Format::Edges) => Ok(None),
         Some(Format::Graph6) => Ok(Some(Kind::Lines {
@@ -214,17 +244,19 @@ fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
-    let unused = (options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))))
-        .then(|| "--variable is ignored: this is no MATLAB file".to_owned());
+    let unused = ignored(&options, &kind);
     let one = match kind {
         Ok(Some(Kind::Lines { encoding, guessed })) => {
             let lines = Lines::new(name, encoding, guessed, sampled.into_input());
             return Box::new(lines.map(move |graph| {
                 graph.map(|mut graph| {
-                    graph.notes.extend(unused.clone());
+                    graph.notes.extend_from_slice(&unused);
                     graph
                 })
             }));
+        }
+        Ok(Some(Kind::Sqlite)) => {
+            return Box::new(std::iter::once(database(path, &name, &options, unused)));
         }
         Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
         Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
@@ -252,10 +284,89 @@ fn of_sampled(name: String, sampled: Sampled, options: ReadOptions) -> Graphs {
                 notes,
                 matching: None,
                 cameras: None,
+                database: None,
+                tracks: None,
             })))
         }
         Err(fault) => failed(&name, fault),
     }
+}
+
+/// Options that say nothing about a file of this kind, in words.
+fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
+    let mut notes = Vec::new();
+    if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
+        notes.push("--variable is ignored: this is no MATLAB file".to_owned());
+    }
+    if !matches!(kind, Ok(Some(Kind::Sqlite))) {
+        let given = [
+            ("--pipeline", options.pipeline.is_some()),
+            ("--min-inliers", options.min_inliers.is_some()),
+        ];
+        for (option, _) in given.iter().filter(|(_, given)| *given) {
+            notes.push(format!("{option} is ignored: this is no COLMAP database"));
+        }
+    }
+    notes
+}
+
+/// The graph of a database, which has to be a file.
+fn database(
+    path: Option<&Path>,
+    name: &str,
+    options: &ReadOptions,
+    unused: Vec<String>,
+) -> Result<NamedGraph, ReadError> {
+    let no_file = || Place::Input.fault(DatabaseError::NoFile.into());
+    let graph = path.ok_or_else(no_file);
+    let graph = graph.and_then(|path| colmap::read(name, path, options));
+    let mut graph = graph.map_err(|fault| fault.in_file(name))?;
+    graph.notes.extend(unused);
+    Ok(graph)
+}
+
+/// The camera-point graph of an input.
+fn tracks_of(
+    path: Option<&Path>,
+    name: &str,
+    sampled: Sampled,
+    options: &ReadOptions,
+    tracks: TrackOptions,
+) -> Result<NamedGraph, ReadError> {
+    let mut notes = ignored(options, &Ok(None));
+    if options.format.is_some() {
+        notes.push("--format is ignored: tracks are known by their content".to_owned());
+    }
+    let (head, whole) = (sampled.head.clone(), sampled.whole);
+    let graph = tracks::read(&head, whole, path, sampled.into_input(), tracks);
+    tracks_called(name, graph, notes)
+}
+
+/// What is in a folder.
+fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError> {
+    let name = &folder.display().to_string();
+    match options.tracks {
+        Some(tracks) => {
+            let notes = ignored(options, &Ok(None));
+            tracks_called(name, tracks::read_folder(folder, tracks), notes)
+        }
+        None if tracks::is_model(folder) => Err(Place::Input.fault(Problem::Model).in_file(name)),
+        None => {
+            let error = std::io::ErrorKind::IsADirectory.into();
+            Err(Place::Input.fault(Problem::Unreadable(error)).in_file(name))
+        }
+    }
+}
+
+fn tracks_called(
+    name: &str,
+    graph: Result<NamedGraph, Fault>,
+    notes: Vec<String>,
+) -> Result<NamedGraph, ReadError> {
+    let mut graph = graph.map_err(|fault| fault.in_file(name))?;
+    name.clone_into(&mut graph.name);
+    graph.notes.extend(notes);
+    Ok(graph)
 }
 
 fn failed(name: &str, fault: Fault) -> Graphs {

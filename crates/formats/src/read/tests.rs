@@ -138,7 +138,7 @@ fn what_is_not_read_is_refused_with_advice() {
 fn a_format_that_is_asked_for_is_not_guessed() {
     let options = |format| ReadOptions {
         format: Some(format),
-        variable: None,
+        ..ReadOptions::default()
     };
     let items = with(b"A_\na b\n", options(Format::Edges));
     assert!(matches!(&items[..], [Ok(named)] if named.graph.nodes() == 3 && named.name == "in"));

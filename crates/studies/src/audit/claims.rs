@@ -309,9 +309,11 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 13] = [
+const REPORTED: [&str; 15] = [
     "graph",
     "notes",
+    "database",
+    "tracks",
     "model",
     "verdict",
     "strength",

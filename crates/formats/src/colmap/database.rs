@@ -1,0 +1,451 @@
+//! The tables of a database to a graph.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+
+use rusqlite::types::ValueRef;
+use rusqlite::{Connection, Row};
+
+use super::facts::bins;
+use super::open::Opened;
+use super::tracks;
+use super::{ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
+use crate::error::{Fault, Place};
+use crate::{Matching, NamedGraph, OtherPair, ReadOptions};
+use viewcert::graph::{Graph, Labels, UnionFind};
+use viewcert::wording::counted;
+
+/// A pair's number is this times the smaller image's number, plus the larger one's.
+pub(super) const PAIR_FACTOR: i64 = 2_147_483_647;
+
+/// The tables of verified pairs; the second is that of versions before 2018.
+const VERIFIED: [&str; 2] = ["two_view_geometries", "inlier_matches"];
+
+/// The graph of a database in a file, called `name`: of its pairs, or of its tracks if options ask
+/// for them. O(images + pairs) and the sorting of both; tracks take the reading of all matches.
+///
+/// # Errors
+/// See [`DatabaseError`]; tracks that no graph can hold.
+pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<NamedGraph, Fault> {
+    let input = |error: DatabaseError| Place::Input.fault(error.into());
+    let opened = Opened::new(path).map_err(input)?;
+    let database = Tables::read(&opened.connection, options).map_err(input)?;
+    let (pairs, matching) = database.graph().map_err(input)?;
+    let facts = database.facts(&pairs);
+    let mut notes = Vec::from_iter(opened.note.clone());
+    notes.extend(database.notes(&facts));
+    let mut graph = match options.tracks {
+        None => NamedGraph {
+            name: String::new(),
+            graph: pairs,
+            labels: Labels::Names(database.names),
+            notes: Vec::new(),
+            matching: Some(matching),
+            cameras: None,
+            database: None,
+            tracks: None,
+        },
+        Some(tracks) => {
+            let (names, nodes) = (&database.names, &database.nodes);
+            let connection = &opened.connection;
+            tracks::read(connection, database.table, names, nodes, &pairs, tracks)?
+        }
+    };
+    opened.finish().map_err(input)?;
+    name.clone_into(&mut graph.name);
+    notes.append(&mut graph.notes);
+    graph.notes = notes;
+    graph.database = Some(Box::new(facts));
+    Ok(graph)
+}
+
+/// What the tables say, and the choice of pairs.
+struct Tables {
+    /// The images by name.
+    names: Vec<Box<str>>,
+    /// Their nodes by their numbers.
+    nodes: HashMap<i64, u32>,
+    /// Pairs of known images, in the order of the table.
+    pairs: Vec<Pair>,
+    /// Matches before verification of pairs of known images, by the two nodes.
+    matches: HashMap<(u32, u32), u32>,
+    /// Pairs with an image that is not there.
+    dangling: usize,
+    /// Pairs of an image with itself.
+    loops: usize,
+    /// Rigs of several sensors.
+    rigs: usize,
+    table: &'static str,
+    pipeline: Pipeline,
+    min_inliers: u32,
+}
+
+/// A row of the table of verified pairs.
+struct Pair {
+    /// The smaller node first.
+    nodes: (u32, u32),
+    inliers: u32,
+    config: i64,
+    used: bool,
+}
+
+impl Tables {
+    fn read(connection: &Connection, options: &ReadOptions) -> Result<Self, DatabaseError> {
+        let table = verified_table(connection)?;
+        let (names, nodes) = images(connection)?;
+        let mut tables = Self {
+            names,
+            nodes,
+            pairs: Vec::new(),
+            matches: HashMap::new(),
+            dangling: 0,
+            loops: 0,
+            rigs: rigs(connection)?,
+            table,
+            pipeline: options.pipeline.unwrap_or_default(),
+            min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
+        };
+        tables.read_pairs(connection)?;
+        tables.read_matches(connection)?;
+        if tables.pairs.is_empty() && tables.dangling == 0 {
+            return Err(match tables.matches.len() {
+                0 => DatabaseError::NotMatched(tables.names.len()),
+                matched => DatabaseError::NotVerified(matched, table),
+            });
+        }
+        Ok(tables)
+    }
+
+    /// The verified pairs. Of a row only numbers are read, not what was matched.
+    fn read_pairs(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
+        let present = columns(connection, self.table)?;
+        let has = |column: &str| present.iter().any(|name| name == column);
+        let config = if has("config") { "config" } else { "0" };
+        // Poses stand behind the matches, and only one pipeline asks for them.
+        let posed = self.pipeline == Pipeline::Global && has("qvec") && has("tvec");
+        let pose = if posed { "qvec, tvec" } else { "null, null" };
+        let table = self.table;
+        let query = format!("select pair_id, rows, {config}, {pose} from {table}");
+        let mut statement = connection.prepare(&query)?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let inliers = count(row, 1)?;
+            let config: Option<i64> = row.get(2)?;
+            let config = config.unwrap_or(0);
+            let Some(ends) = self.ends(row.get(0)?) else {
+                continue;
+            };
+            let used = inliers >= self.min_inliers
+                && match self.pipeline {
+                    Pipeline::Incremental => true,
+                    Pipeline::Global => (2..=6).contains(&config) || has_pose(row)?,
+                };
+            self.pairs.push(Pair {
+                nodes: ends,
+                inliers,
+                config,
+                used,
+            });
+        }
+        Ok(())
+    }
+
+    /// How many matches there were before verification, where the table says so.
+    fn read_matches(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
+        let present = columns(connection, "matches")?;
+        if !["pair_id", "rows"]
+            .iter()
+            .all(|&column| present.iter().any(|name| name == column))
+        {
+            return Ok(());
+        }
+        let mut statement = connection.prepare("select pair_id, rows from matches")?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let matches = count(row, 1)?;
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes)
+                && matches > 0
+            {
+                self.matches.insert(ends, matches);
+            }
+        }
+        Ok(())
+    }
+
+    /// The nodes of a pair; counts those that are none.
+    fn ends(&mut self, pair: i64) -> Option<(u32, u32)> {
+        match ends(pair, &self.nodes) {
+            Ok(ends) => return Some(ends),
+            Err(NoPair::Loop) => self.loops += 1,
+            Err(NoPair::Dangling) => self.dangling += 1,
+        }
+        None
+    }
+
+    /// The graph of the pairs that are used, and what is known of all pairs.
+    fn graph(&self) -> Result<(Graph, Matching), DatabaseError> {
+        let nodes = u32::try_from(self.names.len())
+            .map_err(|_| DatabaseError::Other("it has more than 4294967295 images".into()))?;
+        let mut used: Vec<_> = self.pairs.iter().filter(|pair| pair.used).collect();
+        used.sort_unstable_by_key(|pair| pair.nodes);
+        let edges = used.iter().map(|pair| pair.nodes).collect();
+        // Rows are keyed by the pair, so no edge comes twice; loops and strangers are left out.
+        let (graph, merged) = Graph::from_pairs(nodes, edges)
+            .map_err(|error| DatabaseError::Damaged(error.to_string()))?;
+        if merged > 0 {
+            return Err(DatabaseError::Damaged(format!(
+                "{} has pairs twice",
+                self.table
+            )));
+        }
+        let mut others: BTreeMap<(u32, u32), OtherPair> = BTreeMap::new();
+        for pair in self.pairs.iter().filter(|pair| !pair.used) {
+            others.insert(
+                pair.nodes,
+                OtherPair {
+                    images: pair.nodes,
+                    inliers: pair.inliers,
+                    matches: None,
+                },
+            );
+        }
+        for (&images, &matches) in &self.matches {
+            if graph.edge_number(images.0, images.1).is_none() {
+                let other = others.entry(images).or_insert(OtherPair {
+                    images,
+                    inliers: 0,
+                    matches: None,
+                });
+                other.matches = Some(matches);
+            }
+        }
+        let matching = Matching {
+            inliers: used.iter().map(|pair| pair.inliers).collect(),
+            others: others.into_values().collect(),
+        };
+        Ok((graph, matching))
+    }
+
+    fn facts(&self, graph: &Graph) -> DatabaseFacts {
+        let mut configs: BTreeMap<i64, ConfigCount> = BTreeMap::new();
+        for pair in &self.pairs {
+            let config = pair.config;
+            let count = configs.entry(config).or_insert(ConfigCount {
+                config,
+                pairs: 0,
+                used: 0,
+            });
+            count.pairs += 1;
+            count.used += usize::from(pair.used);
+        }
+        let connected = connected(graph);
+        DatabaseFacts {
+            table: self.table,
+            pipeline: self.pipeline,
+            min_inliers: self.min_inliers,
+            images: self.names.len(),
+            images_without_pair: connected.iter().filter(|&&size| size == 1).count(),
+            pairs: self.pairs.len(),
+            pairs_used: graph.edges().len(),
+            configs: configs.into_values().collect(),
+            inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
+            rigs: self.rigs,
+            connected,
+        }
+    }
+
+    /// What was chosen and left out, in words.
+    fn notes(&self, facts: &DatabaseFacts) -> Vec<String> {
+        let mut notes = Vec::new();
+        let least = self.min_inliers;
+        let few = self
+            .pairs
+            .iter()
+            .filter(|pair| pair.inliers < least)
+            .count();
+        if few > 0 {
+            let pairs = counted(few, "verified pair");
+            let has = if few == 1 { "has" } else { "have" };
+            notes.push(format!(
+                "{pairs} of {} {has} fewer than {least} inliers and {} not used (--min-inliers)",
+                facts.pairs,
+                if few == 1 { "is" } else { "are" }
+            ));
+        }
+        let unfit = facts.pairs - few - facts.pairs_used;
+        if unfit > 0 {
+            notes.push(format!(
+                "{} with enough inliers left out: global mapping takes the configurations 2 to 6, and \
+                 pairs with a stored pose (--pipeline)",
+                counted(unfit, "verified pair")
+            ));
+        }
+        if let Some(zero) = facts.configs.iter().find(|count| count.config == 0)
+            && zero.used > 0
+        {
+            notes.push(format!(
+                "used although the database does not say how they were verified, if at all: {} of \
+                 undefined configuration (0)",
+                counted(zero.used, "pair")
+            ));
+        }
+        if self.dangling > 0 {
+            notes.push(format!(
+                "ignored: {} with an image that the database does not have",
+                counted(self.dangling, "verified pair")
+            ));
+        }
+        if self.loops > 0 {
+            notes.push(format!(
+                "ignored: {} of an image with itself",
+                counted(self.loops, "verified pair")
+            ));
+        }
+        if facts.images_without_pair > 0 {
+            let (these, they) = match facts.images_without_pair {
+                1 => ("is in no pair that is used", "it is a camera"),
+                _ => ("are in no pair that is used", "they are cameras"),
+            };
+            let images = counted(facts.images_without_pair, "image");
+            notes.push(format!("{images} {these}: {they} that nothing determines"));
+        }
+        if facts.rigs > 0 {
+            notes.push(format!(
+                "{} of several cameras in the database: poses that are known within a rig are not \
+                 used here",
+                counted(facts.rigs, "rig")
+            ));
+        }
+        notes
+    }
+}
+
+/// The table of verified pairs.
+fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
+    let needed = |table, needed: &[&str]| -> Result<Option<String>, DatabaseError> {
+        let present = columns(connection, table)?;
+        if present.is_empty() {
+            return Ok(Some(format!("it has no table `{table}`")));
+        }
+        let missing = needed
+            .iter()
+            .find(|&&name| !present.iter().any(|is| is == name));
+        Ok(missing.map(|name| format!("its table `{table}` has no column `{name}`")))
+    };
+    if let Some(missing) = needed("images", &["image_id", "name"])? {
+        return Err(DatabaseError::NotColmap(missing));
+    }
+    let mut first = None;
+    for table in VERIFIED {
+        match needed(table, &["pair_id", "rows"])? {
+            None => return Ok(table),
+            Some(missing) => first = first.or(Some(missing)),
+        }
+    }
+    Err(DatabaseError::NotColmap(first.unwrap_or_default()))
+}
+
+/// The names of a table's columns; none if there is no such table.
+pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String>, DatabaseError> {
+    let mut statement = connection.prepare("select name from pragma_table_info(?)")?;
+    let names = statement.query_map([table], |row| row.get(0))?;
+    Ok(names.collect::<Result<_, _>>()?)
+}
+
+/// The images: names in bytewise order, and the node of every number.
+fn images(connection: &Connection) -> Result<(Vec<Box<str>>, HashMap<i64, u32>), DatabaseError> {
+    let mut statement = connection.prepare("select image_id, name from images")?;
+    let mut rows = statement.query([])?;
+    let mut images: Vec<(Box<str>, i64)> = Vec::new();
+    while let Some(row) = rows.next()? {
+        let id = row.get(0)?;
+        let name = match row.get_ref(1)? {
+            ValueRef::Text(bytes) => std::str::from_utf8(bytes),
+            _ => return Err(DatabaseError::Damaged(format!("image {id} has no name"))),
+        };
+        images.push((name.map_err(|_| DatabaseError::NameNotUtf8(id))?.into(), id));
+    }
+    if images.is_empty() {
+        return Err(DatabaseError::NoImages);
+    }
+    images.sort_unstable();
+    if let Some(two) = images.windows(2).find(|two| two[0].0 == two[1].0) {
+        return Err(DatabaseError::NameTwice(two[0].0.to_string()));
+    }
+    let nodes = (0..).zip(&images).map(|(node, (_, id))| (*id, node));
+    let nodes = nodes.collect();
+    Ok((images.into_iter().map(|(name, _)| name).collect(), nodes))
+}
+
+/// How many rigs have sensors besides their reference sensor.
+fn rigs(connection: &Connection) -> Result<usize, DatabaseError> {
+    if !columns(connection, "rig_sensors")?
+        .iter()
+        .any(|name| name == "rig_id")
+    {
+        return Ok(0);
+    }
+    let query = "select count(distinct rig_id) from rig_sensors";
+    let count: i64 = connection.query_row(query, [], |row| row.get(0))?;
+    Ok(count.max(0) as usize)
+}
+
+/// Why a number of a pair gives no edge.
+pub(super) enum NoPair {
+    Dangling,
+    Loop,
+}
+
+/// The nodes of the two images of a pair's number.
+pub(super) fn ends(pair: i64, nodes: &HashMap<i64, u32>) -> Result<(u32, u32), NoPair> {
+    let (first, second) = (pair.div_euclid(PAIR_FACTOR), pair.rem_euclid(PAIR_FACTOR));
+    match (nodes.get(&first), nodes.get(&second)) {
+        (Some(a), Some(b)) if a == b => Err(NoPair::Loop),
+        (Some(&a), Some(&b)) => Ok((a.min(b), a.max(b))),
+        _ => Err(NoPair::Dangling),
+    }
+}
+
+/// A number of matches.
+fn count(row: &Row, column: usize) -> Result<u32, DatabaseError> {
+    let count: Option<i64> = row.get(column)?;
+    u32::try_from(count.unwrap_or(0))
+        .map_err(|_| DatabaseError::Damaged(format!("a pair has {} matches", count.unwrap_or(0))))
+}
+
+/// Whether a relative pose is stored: a quaternion that is not zero, and a translation.
+fn has_pose(row: &Row) -> Result<bool, DatabaseError> {
+    let blob = |column| -> Result<Option<Vec<u8>>, DatabaseError> {
+        Ok(row
+            .get_ref(column)?
+            .as_blob_or_null()
+            .map_err(|_| DatabaseError::Damaged("a relative pose is not stored as bytes".into()))?
+            .map(<[u8]>::to_vec))
+    };
+    // COLMAP 3.8 writes zeros, some of them negative, where there is no pose.
+    let zero = |bytes: &[u8]| {
+        let (numbers, _) = bytes.as_chunks();
+        numbers.iter().all(|&b| u64::from_le_bytes(b) << 1 == 0)
+    };
+    Ok(match (blob(3)?, blob(4)?) {
+        (Some(rotation), Some(translation)) => {
+            rotation.len() == 32 && translation.len() == 24 && !zero(&rotation)
+        }
+        _ => false,
+    })
+}
+
+/// The sizes of the connected parts, falling. O(nodes + edges).
+fn connected(graph: &Graph) -> Vec<usize> {
+    let mut parts = UnionFind::new(graph.nodes());
+    for &(i, j) in graph.edges() {
+        parts.union(i as usize, j as usize);
+    }
+    let mut sizes = vec![0; graph.nodes()];
+    for node in 0..graph.nodes() {
+        sizes[parts.find(node)] += 1;
+    }
+    sizes.retain(|&size| size > 0);
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}

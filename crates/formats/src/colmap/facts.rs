@@ -1,0 +1,90 @@
+//! What a database is, on one screen.
+
+use super::Pipeline;
+
+/// A summary of a database; images are those of its table of images, pairs the rows of its table of
+/// verified pairs between two such images.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DatabaseFacts {
+    /// The table that the verified pairs are from.
+    pub table: &'static str,
+    /// Which mapper the graph is for.
+    pub pipeline: Pipeline,
+    /// The least number of inliers of an edge.
+    pub min_inliers: u32,
+    /// How many images there are.
+    pub images: usize,
+    /// How many of them are in no pair that is used.
+    pub images_without_pair: usize,
+    /// How many verified pairs there are.
+    pub pairs: usize,
+    /// How many of them are used: the pairs of the viewing graph.
+    pub pairs_used: usize,
+    /// The pairs by the configuration of their geometry, increasing.
+    pub configs: Vec<ConfigCount>,
+    /// The pairs by their numbers of inliers; bins without pairs are left out.
+    pub inliers: Vec<Bin>,
+    /// How many rigs have more than one sensor.
+    pub rigs: usize,
+    /// The sizes of the connected parts of the viewing graph in images, falling; images without a
+    /// pair are parts of one.
+    pub connected: Vec<usize>,
+}
+
+/// How many pairs have a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConfigCount {
+    /// The number that the database has for it.
+    pub config: i64,
+    /// How many pairs have it.
+    pub pairs: usize,
+    /// How many of these are used.
+    pub used: usize,
+}
+
+/// How many pairs have so many inliers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bin {
+    /// The least number in the bin.
+    pub from: u32,
+    /// The largest, if there is one.
+    pub to: Option<u32>,
+    /// How many pairs there are.
+    pub pairs: usize,
+}
+
+/// Where bins begin; doubling from the mappers' threshold on.
+const BINS: [u32; 9] = [0, 1, 15, 30, 60, 120, 240, 480, 960];
+
+/// Numbers of inliers, counted. O(numbers).
+pub(super) fn bins(numbers: impl Iterator<Item = u32>) -> Vec<Bin> {
+    let mut pairs = [0; BINS.len()];
+    for number in numbers {
+        pairs[BINS.partition_point(|&from| from <= number) - 1] += 1;
+    }
+    (0..BINS.len())
+        .filter(|&k| pairs[k] > 0)
+        .map(|k| Bin {
+            from: BINS[k],
+            to: BINS.get(k + 1).map(|next| next - 1),
+            pairs: pairs[k],
+        })
+        .collect()
+}
+
+/// What COLMAP calls a configuration of two views (`TwoViewGeometry::ConfigurationType`).
+pub fn config_name(config: i64) -> &'static str {
+    match config {
+        0 => "undefined",
+        1 => "degenerate",
+        2 => "calibrated",
+        3 => "uncalibrated",
+        4 => "planar",
+        5 => "panoramic",
+        6 => "planar or panoramic",
+        7 => "watermark",
+        8 => "multiple",
+        9 => "calibrated rig",
+        _ => "unknown",
+    }
+}

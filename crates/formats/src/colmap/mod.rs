@@ -1,0 +1,55 @@
+//! COLMAP's database: images, and the pairs that were matched and verified.
+//!
+//! In: a path. Out: the graph of the pairs that a mapper takes (nodes are all images, by name),
+//! what the database knows of every pair ([`Matching`](crate::Matching)), and a summary
+//! ([`DatabaseFacts`]). With `--tracks` the matches are joined to tracks and the graph is that of
+//! cameras and points (docs/theory.md, section 12). The database is never written to.
+
+mod database;
+mod error;
+mod facts;
+mod open;
+mod tracks;
+
+pub use error::DatabaseError;
+pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
+
+pub(crate) use database::read;
+
+use std::fmt;
+
+/// What every SQLite database begins with.
+pub(crate) const MAGIC: &[u8] = b"SQLite format 3\0";
+
+/// The least number of inliers of a pair that both of COLMAP's mappers take by default
+/// (`min_num_matches`).
+pub const DEFAULT_MIN_INLIERS: u32 = 15;
+
+/// Which mapper the graph is for: it says which verified pairs are edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pipeline {
+    /// Every pair with enough inliers, whatever its configuration.
+    #[default]
+    Incremental,
+    /// Of these, the pairs of configuration 2 to 6 or with a stored relative pose.
+    Global,
+}
+
+impl Pipeline {
+    /// The word for it in options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Incremental => "incremental",
+            Self::Global => "global",
+        }
+    }
+}
+
+impl fmt::Display for Pipeline {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests;

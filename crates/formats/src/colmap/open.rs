@@ -1,0 +1,193 @@
+//! Opening a database without leaving a trace: no lock file, no `-shm`, no migration.
+//!
+//! SQLite's ways to read a database are these. A database with a rollback journal is read as it is:
+//! read-only connections take locks, and write nothing. A database in WAL mode whose `-wal` file is
+//! empty or missing holds all its data itself; as `immutable` it is read without its companions, and
+//! that nobody has written meanwhile is checked at the end. If there is data in the `-wal` file, a
+//! `-shm` file beside it belongs to a program that has the database open: it is used and not
+//! written to. If there is none, SQLite would make one; so a temporary copy is read.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use rusqlite::config::DbConfig;
+use rusqlite::{Connection, OpenFlags};
+
+use super::DatabaseError;
+
+/// How long a writer may keep a reader waiting.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Where the header says how the database is written: 2 stands for a write-ahead log.
+const WRITE_VERSION: usize = 18;
+
+/// A database that is open for reading.
+pub(super) struct Opened {
+    pub(super) connection: Connection,
+    /// What is to be said of the way it was opened.
+    pub(super) note: Option<String>,
+    /// The state of the files, if no lock keeps them as they are.
+    unlocked: Option<State>,
+    /// Holds the copy, if one is read; goes last.
+    _copy: Option<tempfile::TempDir>,
+}
+
+/// What tells whether somebody has written.
+struct State {
+    path: PathBuf,
+    modified: Option<SystemTime>,
+    size: u64,
+}
+
+impl State {
+    fn of(path: &Path) -> std::io::Result<Self> {
+        let metadata = fs::metadata(path)?;
+        Ok(Self {
+            path: path.to_owned(),
+            modified: metadata.modified().ok(),
+            size: metadata.len(),
+        })
+    }
+
+    /// Whether it is still the same.
+    fn holds(&self) -> bool {
+        let now = Self::of(&self.path);
+        now.is_ok_and(|now| (now.modified, now.size) == (self.modified, self.size))
+            && !has_data(&beside(&self.path, "-wal"))
+    }
+}
+
+impl Opened {
+    /// Opens a database.
+    ///
+    /// # Errors
+    /// If it cannot be opened; much of what is wrong with a database shows only when it is read.
+    pub(super) fn new(path: &Path) -> Result<Self, DatabaseError> {
+        let other = |error: std::io::Error| DatabaseError::Other(error.to_string());
+        // Companions stand beside the file itself, not beside a link to it.
+        let path = fs::canonicalize(path).map_err(other)?;
+        let (wal, shm) = (beside(&path, "-wal"), beside(&path, "-shm"));
+        if !is_wal(&path).map_err(other)? {
+            return Self::with(&path, "mode=ro", None);
+        }
+        if !has_data(&wal) {
+            let state = State::of(&path).map_err(other)?;
+            return Self::with(&path, "mode=ro&immutable=1", Some(state));
+        }
+        if shm.exists() {
+            return Self::with(&path, "mode=ro&readonly_shm=1", None);
+        }
+        Self::copied(&path, &wal)
+    }
+
+    fn with(path: &Path, how: &str, unlocked: Option<State>) -> Result<Self, DatabaseError> {
+        let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
+            | OpenFlags::SQLITE_OPEN_URI
+            | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        let connection = Connection::open_with_flags(uri(path, how)?, flags)?;
+        connection.busy_timeout(PATIENCE)?;
+        // The database comes from anywhere, and what it defines is not run.
+        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+        connection.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
+        let opened = Self {
+            connection,
+            note: None,
+            unlocked,
+            _copy: None,
+        };
+        // All that follows sees one state of the database.
+        match opened
+            .connection
+            .execute_batch("begin; select 1 from sqlite_schema limit 1")
+        {
+            Err(rusqlite::Error::SqliteFailure(code, text))
+                if code.code == rusqlite::ErrorCode::CannotOpen =>
+            {
+                Err(DatabaseError::Companions(
+                    text.unwrap_or_else(|| code.to_string()),
+                ))
+            }
+            Err(error) => Err(error.into()),
+            Ok(()) => Ok(opened),
+        }
+    }
+
+    /// A copy of the database and of its log, which nobody has open.
+    fn copied(path: &Path, wal: &Path) -> Result<Self, DatabaseError> {
+        let copy = || {
+            let folder = tempfile::Builder::new().prefix("verify-").tempdir()?;
+            let to = folder.path().join("database.db");
+            let states = [State::of(path)?, State::of(wal)?];
+            fs::copy(path, &to)?;
+            fs::copy(wal, beside(&to, "-wal"))?;
+            Ok((folder, to, states))
+        };
+        let (folder, to, states) = copy().map_err(DatabaseError::NoCopy)?;
+        let same = |state: &State| {
+            let now = State::of(&state.path);
+            now.is_ok_and(|now| (now.modified, now.size) == (state.modified, state.size))
+        };
+        if !states.iter().all(same) {
+            return Err(DatabaseError::Changed);
+        }
+        let to = fs::canonicalize(to).map_err(DatabaseError::NoCopy)?;
+        let mut opened = Self::with(&to, "mode=ro", None)?;
+        opened.note = Some(
+            "its last changes are in the -wal file beside it; a temporary copy of both was read"
+                .to_owned(),
+        );
+        opened._copy = Some(folder);
+        Ok(opened)
+    }
+
+    /// To be called after everything is read.
+    ///
+    /// # Errors
+    /// If somebody has written in between.
+    pub(super) fn finish(self) -> Result<(), DatabaseError> {
+        match &self.unlocked {
+            Some(state) if !state.holds() => Err(DatabaseError::Changed),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A file whose name goes on.
+fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+fn has_data(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|metadata| metadata.len() > 0)
+}
+
+/// Whether the header says that changes go to a log.
+fn is_wal(path: &Path) -> std::io::Result<bool> {
+    let mut head = Vec::new();
+    File::open(path)?
+        .take(WRITE_VERSION as u64 + 1)
+        .read_to_end(&mut head)?;
+    Ok(head.get(WRITE_VERSION) == Some(&2))
+}
+
+/// A path as SQLite takes it with parameters.
+fn uri(path: &Path, parameters: &str) -> Result<String, DatabaseError> {
+    let path = path.to_str().ok_or_else(|| {
+        DatabaseError::Other("its path is no UTF-8, which SQLite does not open".into())
+    })?;
+    let mut uri = String::from("file:");
+    for c in path.chars() {
+        match c {
+            '%' | '?' | '#' => uri.push_str(&format!("%{:02x}", c as u32)),
+            '\\' if cfg!(windows) => uri.push('/'),
+            _ => uri.push(c),
+        }
+    }
+    uri.push('?');
+    uri.push_str(parameters);
+    Ok(uri)
+}

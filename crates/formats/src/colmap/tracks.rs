@@ -1,0 +1,104 @@
+//! The matches of a database, joined to tracks.
+
+use std::collections::HashMap;
+
+use rusqlite::Connection;
+use rusqlite::types::ValueRef;
+
+use super::DatabaseError;
+use super::database::{NoPair, PAIR_FACTOR, columns, ends};
+use crate::NamedGraph;
+use crate::error::{Fault, Place, Problem};
+use crate::tracks::{Joined, TrackGraph, TrackOptions};
+use viewcert::graph::Graph;
+
+/// Bytes of a match: the numbers of two features.
+const MATCH: usize = 8;
+
+/// The camera-point graph of the pairs that are edges of `pairs`, whose nodes are the images
+/// `names`. Linear in the matches, but for nearly constant factors.
+///
+/// # Errors
+/// Lists of matches that are missing or damaged.
+pub(super) fn read(
+    connection: &Connection,
+    table: &str,
+    names: &[Box<str>],
+    nodes: &HashMap<i64, u32>,
+    pairs: &Graph,
+    options: TrackOptions,
+) -> Result<NamedGraph, Fault> {
+    let input = |problem: Problem| Place::Input.fault(problem);
+    let joined = join(connection, table, names, nodes, pairs).map_err(input)?;
+    let mut graph = TrackGraph::new(names.to_vec(), options)?;
+    let order: Vec<u32> = (0..names.len() as u32).collect();
+    joined.tracks(&order, &mut graph).map_err(input)?;
+    graph.finish()
+}
+
+/// Reads the lists of all pairs that are used.
+fn join(
+    connection: &Connection,
+    table: &str,
+    names: &[Box<str>],
+    nodes: &HashMap<i64, u32>,
+    pairs: &Graph,
+) -> Result<Joined, Problem> {
+    let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
+    if !columns(connection, table)?
+        .iter()
+        .any(|name| name == "data")
+    {
+        return Err(DatabaseError::NoLists(pairs.edges().len()).into());
+    }
+    let mut joined = Joined::new(names.len());
+    let mut without = 0;
+    let query = format!("select pair_id, rows, data from {table}");
+    let mut statement = connection.prepare(&query).map_err(sql)?;
+    let mut rows = statement.query([]).map_err(sql)?;
+    while let Some(row) = rows.next().map_err(sql)? {
+        let pair: i64 = row.get(0).map_err(sql)?;
+        let (a, b) = match ends(pair, nodes) {
+            Ok((a, b)) if pairs.edge_number(a, b).is_some() => (a, b),
+            Ok(_) | Err(NoPair::Dangling | NoPair::Loop) => continue,
+        };
+        // Columns are in the order of the images' numbers, nodes in that of their names.
+        let first = nodes.get(&pair.div_euclid(PAIR_FACTOR)).copied();
+        let (first, second) = if first == Some(a) { (a, b) } else { (b, a) };
+        let count: i64 = row.get(1).map_err(sql)?;
+        let list = match row.get_ref(2).map_err(sql)? {
+            ValueRef::Blob(list) => list,
+            _ => &[],
+        };
+        if list.is_empty() && count > 0 {
+            without += 1;
+            continue;
+        }
+        let damaged = |why: String| DatabaseError::Matches {
+            first: names[first as usize].to_string(),
+            second: names[second as usize].to_string(),
+            why,
+        };
+        if usize::try_from(count)
+            .ok()
+            .and_then(|count| count.checked_mul(MATCH))
+            != Some(list.len())
+        {
+            let bytes = list.len();
+            let why = format!("{count} matches of two features are not {bytes} bytes");
+            return Err(damaged(why).into());
+        }
+        let (matches, _) = list.as_chunks::<MATCH>();
+        for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
+            let a = u32::from_le_bytes([a0, a1, a2, a3]);
+            let b = u32::from_le_bytes([b0, b1, b2, b3]);
+            joined
+                .join((first, a), (second, b))
+                .map_err(|problem| damaged(problem.to_string()))?;
+        }
+    }
+    if without > 0 {
+        return Err(DatabaseError::NoLists(without).into());
+    }
+    Ok(joined)
+}

@@ -1,0 +1,45 @@
+//! Bundler's `bundle.out`, versions 0.1 to 0.4.
+//!
+//! A comment, `cameras points`, 15 numbers for every camera, and for every point its position and
+//! colour, the number of its views, and for each view `camera feature x y`. Cameras have no names
+//! there, only numbers from 0.
+
+use std::io::Read;
+
+use super::graph::{TrackGraph, TrackOptions, numbered};
+use super::words::Words;
+use crate::NamedGraph;
+use crate::error::{Fault, Place};
+
+/// Focal length, two coefficients of distortion, rotation, translation.
+const NUMBERS_OF_A_CAMERA: u64 = 15;
+
+pub(super) fn read<R: Read>(
+    mut words: Words<R>,
+    options: TrackOptions,
+) -> Result<NamedGraph, Fault> {
+    if !words.next_full_line()? {
+        return Err(words.truncated("the number of cameras"));
+    }
+    let most = u64::from(u32::MAX);
+    let cameras = words.number_below(most, "the number of cameras")?;
+    let points = words.number_below(most, "the number of points")?;
+    for _ in 0..cameras {
+        words.skip(NUMBERS_OF_A_CAMERA, "a camera")?;
+    }
+    let mut graph = TrackGraph::new(numbered(cameras), options)?;
+    let mut views = Vec::new();
+    for _ in 0..points {
+        words.skip(6, "the position or colour of a point")?;
+        let count = words.number("the number of a point's views")?;
+        views.clear();
+        for _ in 0..count {
+            views.push(words.number_below(cameras.into(), "the number of a camera")?);
+            words.skip(3, "a view of a point")?;
+        }
+        graph
+            .push(&views)
+            .map_err(|problem| Place::Input.fault(problem))?;
+    }
+    graph.finish()
+}

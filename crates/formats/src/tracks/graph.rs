@@ -1,0 +1,208 @@
+//! Tracks that count, as a graph of cameras and points.
+
+use crate::NamedGraph;
+use crate::error::{Fault, Place, Problem};
+use viewcert::graph::{Graph, Labels};
+use viewcert::wording::counted;
+
+/// Which tracks count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TrackOptions {
+    /// In how many images a track has to be seen.
+    pub min_views: u32,
+}
+
+impl Default for TrackOptions {
+    /// Three images, as COLMAP's global mapper has it.
+    fn default() -> Self {
+        Self { min_views: 3 }
+    }
+}
+
+/// How many tracks there are, and how many count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TrackFacts {
+    /// In how many images a track has to be seen.
+    pub min_views: u32,
+    /// How many tracks count: the points of the graph.
+    pub points: usize,
+    /// In how many images these are seen, counted with repetition: the edges of the graph.
+    pub observations: usize,
+    /// How many cameras see none of these points.
+    pub cameras_without_point: usize,
+    /// Tracks with two features in one image, which do not count.
+    pub inconsistent: usize,
+    /// Consistent tracks in fewer than `min_views` images, which do not count.
+    pub short: usize,
+}
+
+/// A camera-point graph that grows by tracks.
+pub(crate) struct TrackGraph {
+    facts: TrackFacts,
+    cameras: Vec<Box<str>>,
+    /// For every camera, the last track that saw it, counted from 1.
+    stamp: Vec<u32>,
+    track: u32,
+    /// How many points every camera sees.
+    degree: Vec<u32>,
+    /// The cameras of every point, one point after another.
+    views: Vec<u32>,
+    /// Where the cameras of every point end.
+    ends: Vec<usize>,
+}
+
+impl TrackGraph {
+    /// No points yet; the cameras in the order of the nodes.
+    ///
+    /// # Errors
+    /// No camera at all, or more than nodes can be numbered.
+    pub(crate) fn new(cameras: Vec<Box<str>>, options: TrackOptions) -> Result<Self, Fault> {
+        if cameras.is_empty() {
+            return Err(Place::Input.fault(Problem::Corrupt("it has no cameras".into())));
+        }
+        if u32::try_from(cameras.len()).is_err() {
+            return Err(Place::Input.fault(Problem::TooManyNodes));
+        }
+        Ok(Self {
+            facts: TrackFacts {
+                min_views: options.min_views,
+                ..TrackFacts::default()
+            },
+            stamp: vec![0; cameras.len()],
+            degree: vec![0; cameras.len()],
+            cameras,
+            track: 0,
+            views: Vec::new(),
+            ends: Vec::new(),
+        })
+    }
+
+    /// One track more, by the nodes of the cameras that see it, each feature once. O(views).
+    ///
+    /// # Errors
+    /// More nodes or edges than a graph can hold.
+    ///
+    /// # Panics
+    /// If a node is no camera.
+    pub(crate) fn push(&mut self, views: &[u32]) -> Result<(), Problem> {
+        self.track = self.track.checked_add(1).ok_or(Problem::TooManyNodes)?;
+        let mut twice = false;
+        for &camera in views {
+            twice |= std::mem::replace(&mut self.stamp[camera as usize], self.track) == self.track;
+        }
+        if twice {
+            self.facts.inconsistent += 1;
+        } else if views.len() < self.facts.min_views as usize {
+            self.facts.short += 1;
+        } else {
+            for &camera in views {
+                self.degree[camera as usize] += 1;
+            }
+            self.views.extend_from_slice(views);
+            self.ends.push(self.views.len());
+            if self.views.len() > i32::MAX as usize {
+                return Err(Problem::TooManyPairs);
+            }
+        }
+        Ok(())
+    }
+
+    /// The graph. O(cameras + observations).
+    ///
+    /// # Errors
+    /// No track at all, or more nodes than can be numbered.
+    pub(crate) fn finish(mut self) -> Result<NamedGraph, Fault> {
+        if self.track == 0 {
+            return Err(Place::Input.fault(Problem::Corrupt("it has no tracks".into())));
+        }
+        let cameras = self.cameras.len() as u32;
+        let nodes = u32::try_from(self.cameras.len() + self.ends.len())
+            .map_err(|_| Place::Input.fault(Problem::TooManyNodes))?;
+        self.facts.points = self.ends.len();
+        self.facts.observations = self.views.len();
+        let blind = self.degree.iter().filter(|&&degree| degree == 0);
+        self.facts.cameras_without_point = blind.count();
+        let notes = self.notes();
+        // By camera, then by point: the order of edges.
+        let mut next = Vec::with_capacity(self.degree.len());
+        let mut start = 0;
+        for &degree in &self.degree {
+            next.push(start);
+            start += degree as usize;
+        }
+        let mut edges = vec![(0, 0); self.views.len()];
+        let mut from = 0;
+        for (point, &end) in (cameras..).zip(&self.ends) {
+            for &camera in &self.views[from..end] {
+                let place = &mut next[camera as usize];
+                edges[*place] = (camera, point);
+                *place += 1;
+            }
+            from = end;
+        }
+        let (graph, _) = Graph::from_pairs(nodes, edges)
+            .map_err(|error| Place::Input.fault(Problem::Corrupt(error.to_string())))?;
+        Ok(NamedGraph {
+            name: String::new(),
+            graph,
+            labels: Labels::CamerasAndPoints(self.cameras),
+            notes,
+            matching: None,
+            cameras: Some(cameras),
+            database: None,
+            tracks: Some(self.facts),
+        })
+    }
+
+    /// What does not count, in words.
+    fn notes(&self) -> Vec<String> {
+        let facts = &self.facts;
+        let mut notes = Vec::new();
+        if facts.inconsistent > 0 {
+            notes.push(format!(
+                "dropped: {} with two features in one image",
+                counted(facts.inconsistent, "track")
+            ));
+        }
+        if facts.short > 0 {
+            notes.push(format!(
+                "not counted: {} in fewer than {} (--min-views)",
+                counted(facts.short, "track"),
+                counted(facts.min_views as usize, "image"),
+            ));
+        }
+        if facts.cameras_without_point > 0 {
+            let cameras = counted(facts.cameras_without_point, "camera");
+            let see = if facts.cameras_without_point == 1 {
+                "sees no track that counts: a component of its own"
+            } else {
+                "see no track that counts: components of their own"
+            };
+            notes.push(format!("{cameras} {see}"));
+        }
+        notes
+    }
+}
+
+/// Names in bytewise order, and the node of each by its place in `names`.
+///
+/// # Errors
+/// If two are the same.
+pub(super) fn sorted(names: Vec<Box<str>>) -> Result<(Vec<Box<str>>, Vec<u32>), Problem> {
+    let mut named: Vec<(Box<str>, u32)> = names.into_iter().zip(0..).collect();
+    named.sort_unstable();
+    if let Some(two) = named.windows(2).find(|two| two[0].0 == two[1].0) {
+        let name = &two[0].0;
+        return Err(Problem::Corrupt(format!("two cameras are called `{name}`")));
+    }
+    let mut nodes = vec![0; named.len()];
+    for (node, (_, place)) in (0..).zip(&named) {
+        nodes[*place as usize] = node;
+    }
+    Ok((named.into_iter().map(|(name, _)| name).collect(), nodes))
+}
+
+/// Cameras without names, called by their numbers from 0.
+pub(super) fn numbered(count: u32) -> Vec<Box<str>> {
+    (0..count).map(|k| k.to_string().into()).collect()
+}

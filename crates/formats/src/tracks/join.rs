@@ -1,0 +1,92 @@
+//! Matches of pairs of images, joined to tracks.
+
+use super::TrackGraph;
+use crate::error::Problem;
+use viewcert::graph::{Lists, UnionFind};
+
+/// The largest number of a feature in an image, against damaged numbers; COLMAP extracts 8192 by
+/// default.
+const MOST_FEATURES: u32 = 1 << 24;
+
+/// Features of images, and which of them are the same point.
+pub(crate) struct Joined {
+    /// For every image and feature its element, counted from 1; 0 for none.
+    features: Vec<Vec<u32>>,
+    sets: UnionFind,
+}
+
+impl Joined {
+    pub(crate) fn new(images: usize) -> Self {
+        Self {
+            features: vec![Vec::new(); images],
+            sets: UnionFind::new(0),
+        }
+    }
+
+    /// One more image without features.
+    pub(crate) fn push_image(&mut self) {
+        self.features.push(Vec::new());
+    }
+
+    /// The element of a feature.
+    fn element(&mut self, image: u32, feature: u32) -> Result<usize, Problem> {
+        if feature >= MOST_FEATURES {
+            return Err(Problem::Corrupt(format!(
+                "a feature has the number {feature}"
+            )));
+        }
+        let features = &mut self.features[image as usize];
+        let feature = feature as usize;
+        if features.len() <= feature {
+            features.resize(feature + 1, 0);
+        }
+        if features[feature] == 0 {
+            let element = self.sets.push();
+            features[feature] = u32::try_from(element + 1).map_err(|_| Problem::TooManyNodes)?;
+        }
+        Ok(features[feature] as usize - 1)
+    }
+
+    /// Two features are the same point. Nearly constant time.
+    ///
+    /// # Errors
+    /// A number of a feature that no image has.
+    ///
+    /// # Panics
+    /// If there is no such image.
+    pub(crate) fn join(&mut self, a: (u32, u32), b: (u32, u32)) -> Result<(), Problem> {
+        let (a, b) = (self.element(a.0, a.1)?, self.element(b.0, b.1)?);
+        self.sets.union(a, b);
+        Ok(())
+    }
+
+    /// Gives all tracks to a graph whose node `nodes[image]` is the camera of `image`; tracks in the
+    /// order of their first features, by node and feature. Linear in the features.
+    ///
+    /// # Errors
+    /// As of [`TrackGraph::push`].
+    pub(crate) fn tracks(mut self, nodes: &[u32], to: &mut TrackGraph) -> Result<(), Problem> {
+        let mut images: Vec<u32> = (0..nodes.len() as u32).collect();
+        images.sort_unstable_by_key(|&image| nodes[image as usize]);
+        // The track of every set, counted from 1.
+        let elements: usize = self.features.iter().flatten().filter(|&&e| e > 0).count();
+        let mut track = vec![0u32; elements];
+        let mut tracks = 0;
+        let mut views = Vec::with_capacity(elements);
+        for image in images {
+            for element in std::mem::take(&mut self.features[image as usize]) {
+                let Some(element) = element.checked_sub(1) else {
+                    continue;
+                };
+                let set = self.sets.find(element as usize);
+                if track[set] == 0 {
+                    tracks += 1;
+                    track[set] = tracks;
+                }
+                views.push((track[set] - 1, nodes[image as usize]));
+            }
+        }
+        let views = Lists::group(tracks as usize, views.iter().copied());
+        (0..views.len()).try_for_each(|track| to.push(views.of(track)))
+    }
+}

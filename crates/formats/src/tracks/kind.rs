@@ -1,0 +1,105 @@
+//! Which of the files with tracks an input is, by its beginning.
+
+use super::model::{Encoding, Part};
+use super::{model_binary, words};
+
+/// A file with tracks, or a part of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TrackFile {
+    /// A problem of bundle adjustment in the large.
+    Bal,
+    /// `bundle.out`.
+    Bundler,
+    /// A file of VisualSFM.
+    Nvm,
+    /// Matches of OpenMVG as text.
+    OpenMvgMatches,
+    /// A file of COLMAP's model.
+    Colmap { part: Part, encoding: Encoding },
+}
+
+impl TrackFile {
+    /// What it is called in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Bal => "a bundle adjustment problem (BAL)",
+            Self::Bundler => "a Bundler file",
+            Self::Nvm => "an NVM file of VisualSFM",
+            Self::OpenMvgMatches => "a file of feature matches (OpenMVG)",
+            Self::Colmap { part, encoding } => match (part, encoding) {
+                (Part::Cameras, Encoding::Binary) => "COLMAP's cameras.bin",
+                (Part::Images, Encoding::Binary) => "COLMAP's images.bin",
+                (Part::Points, Encoding::Binary) => "COLMAP's points3D.bin",
+                (Part::Cameras, Encoding::Text) => "COLMAP's cameras.txt",
+                (Part::Images, Encoding::Text) => "COLMAP's images.txt",
+                (Part::Points, Encoding::Text) => "COLMAP's points3D.txt",
+            },
+        }
+    }
+}
+
+/// Which file begins with `head`, which is all of it if `whole`.
+pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
+    if head.contains(&0) {
+        let part = model_binary::part(head, whole)?;
+        let encoding = Encoding::Binary;
+        return Some(TrackFile::Colmap { part, encoding });
+    }
+    let text = head.trim_ascii_start();
+    if text.starts_with(b"NVM_V") {
+        return Some(TrackFile::Nvm);
+    }
+    if text.starts_with(b"# Bundle file") {
+        return Some(TrackFile::Bundler);
+    }
+    let colmap = |part| {
+        let encoding = Encoding::Text;
+        Some(TrackFile::Colmap { part, encoding })
+    };
+    for (comment, part) in [
+        ("# 3D point list", Part::Points),
+        ("# Image list", Part::Images),
+        ("# Camera list", Part::Cameras),
+    ] {
+        if text.starts_with(comment.as_bytes()) {
+            return colmap(part);
+        }
+    }
+    let lines = words::first_lines(text, whole);
+    let lines: Vec<&[&[u8]]> = lines.iter().map(Vec::as_slice).collect();
+    let integers = |line: &[&[u8]]| line.iter().all(|word| words::integer(word).is_some());
+    let numbers = |line: &[&[u8]]| line.iter().all(|word| words::is_number(word));
+    match lines[..] {
+        [first @ [_, _, _], [camera, point, x, y], ..]
+            if integers(first) && integers(&[camera, point]) && numbers(&[x, y]) =>
+        {
+            Some(TrackFile::Bal)
+        }
+        [first @ [_, _], [count], third @ [_, _], ..]
+            if integers(first) && integers(&[count]) && integers(third) =>
+        {
+            Some(TrackFile::OpenMvgMatches)
+        }
+        [first, ..] if is_point(first) => colmap(Part::Points),
+        [first, ..]
+            if first.len() >= 10 && numbers(&first[..9]) && integers(&[first[0], first[8]]) =>
+        {
+            colmap(Part::Images)
+        }
+        _ => None,
+    }
+}
+
+/// Whether this is a line of points3D.txt: a number, three coordinates, a colour, an error, and
+/// pairs of numbers.
+fn is_point(line: &[&[u8]]) -> bool {
+    line.len() >= 10
+        && line.len() % 2 == 0
+        && line[..8].iter().all(|word| words::is_number(word))
+        && words::integer(line[0]).is_some()
+        && line[4..7]
+            .iter()
+            .all(|word| words::integer(word).is_some_and(|value| value < 256))
+        && line[8..].iter().all(|word| words::integer(word).is_some())
+        && line[1..4].iter().any(|word| word.contains(&b'.'))
+}

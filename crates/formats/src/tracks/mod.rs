@@ -1,0 +1,68 @@
+//! Tracks: points that are seen in several images.
+//!
+//! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, OpenMVG's matches, or the matches of a
+//! database ([`colmap`](crate::colmap)). Out: the camera-point graph (docs/theory.md, section 12):
+//! nodes are the cameras and behind them the points, edges the observations of every track that
+//! counts, and a summary of those that do not ([`TrackFacts`]). Which of the files it is, is told by
+//! its content (`kind`).
+
+mod bal;
+mod bundler;
+mod graph;
+mod join;
+mod kind;
+mod model;
+mod model_binary;
+mod model_text;
+mod nvm;
+mod openmvg;
+mod words;
+
+pub use graph::{TrackFacts, TrackOptions};
+
+pub(crate) use graph::TrackGraph;
+pub(crate) use join::Joined;
+pub(crate) use kind::{TrackFile, kind};
+pub(crate) use model::is_model;
+
+use std::io::Read;
+use std::path::Path;
+
+use crate::NamedGraph;
+use crate::error::{Fault, Place, Problem};
+use words::Words;
+
+/// The camera-point graph of an input that begins with `head`, which is all of it if `whole`.
+/// Other files of a model are looked for beside `path`, if there is one. Linear in the bytes.
+///
+/// # Errors
+/// An input without tracks, or whose tracks contradict it; where.
+pub(crate) fn read(
+    head: &[u8],
+    whole: bool,
+    path: Option<&Path>,
+    input: impl Read,
+    options: TrackOptions,
+) -> Result<NamedGraph, Fault> {
+    let Some(kind) = kind(head, whole) else {
+        return Err(Place::Input.fault(Problem::NoTracks));
+    };
+    match kind {
+        TrackFile::Bal => bal::read(Words::new(input), options),
+        TrackFile::Bundler => bundler::read(Words::new(input), options),
+        TrackFile::Nvm => nvm::read(Words::new(input), options),
+        TrackFile::OpenMvgMatches => openmvg::read(Words::new(input), options),
+        TrackFile::Colmap { part, encoding } => {
+            let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
+            model::beside(folder, part, encoding, input, options)
+        }
+    }
+}
+
+/// The camera-point graph of COLMAP's model in a folder.
+///
+/// # Errors
+/// As of [`read`].
+pub(crate) fn read_folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
+    model::folder(folder, options)
+}

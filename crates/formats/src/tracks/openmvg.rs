@@ -1,0 +1,70 @@
+//! OpenMVG's matches as text: `I J`, a number, and so many lines `k l`.
+//!
+//! Feature k of view I is feature l of view J. Views are called by their numbers, and a view
+//! without matches is not in the file. Every match counts: thresholds are those with which the file
+//! was made (its geometric filter).
+
+use std::collections::HashMap;
+use std::io::Read;
+
+use super::Joined;
+use super::graph::{TrackGraph, TrackOptions};
+use super::words::{Words, integer, shown};
+use crate::NamedGraph;
+use crate::error::{Fault, Place, Problem};
+
+pub(super) fn read<R: Read>(
+    mut words: Words<R>,
+    options: TrackOptions,
+) -> Result<NamedGraph, Fault> {
+    let mut views: Vec<u64> = Vec::new();
+    let mut places: HashMap<u64, u32> = HashMap::new();
+    let mut joined = Joined::new(0);
+    let mut place = |view, joined: &mut Joined| {
+        *places.entry(view).or_insert_with(|| {
+            joined.push_image();
+            views.push(view);
+            views.len() as u32 - 1
+        })
+    };
+    loop {
+        let first = match words.word()? {
+            None => break,
+            Some(word) => match integer(word) {
+                Some(first) => first,
+                None => {
+                    let word = shown(word);
+                    let why = format!("`{word}` stands where the number of a view is expected");
+                    return Err(words.corrupt(why));
+                }
+            },
+        };
+        let second = words.number("the number of a view")?;
+        if first == second {
+            return Err(words.corrupt(format!("view {first} is matched with itself")));
+        }
+        let (first, second) = (place(first, &mut joined), place(second, &mut joined));
+        let count = words.number("the number of matches")?;
+        for _ in 0..count {
+            let mut feature = || words.number_below(u64::from(u32::MAX), "the number of a feature");
+            let (a, b) = (feature()?, feature()?);
+            joined
+                .join((first, a), (second, b))
+                .map_err(|problem| Place::Input.fault(problem))?;
+        }
+    }
+    let mut order: Vec<u32> = (0..views.len() as u32).collect();
+    order.sort_unstable_by_key(|&view| views[view as usize]);
+    let mut nodes = vec![0; views.len()];
+    for (node, &view) in (0..).zip(&order) {
+        nodes[view as usize] = node;
+    }
+    let names = order
+        .iter()
+        .map(|&view| views[view as usize].to_string().into());
+    let mut graph = TrackGraph::new(names.collect(), options)?;
+    joined
+        .tracks(&nodes, &mut graph)
+        .map_err(|problem: Problem| Place::Input.fault(problem))?;
+    graph.finish()
+}

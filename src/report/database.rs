@@ -1,0 +1,132 @@
+//! A database of matches on a few lines, and the same in JSON.
+
+use super::counted;
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert_formats::colmap::{Bin, DatabaseFacts, config_name};
+
+/// How many connected parts are shown with their sizes.
+const SHOWN: usize = 8;
+
+/// The summary as `verify --json` prints it, in the member `database`.
+#[derive(Serialize)]
+pub struct DatabaseLine {
+    table: &'static str,
+    pipeline: &'static str,
+    min_inliers: u32,
+    images: usize,
+    images_without_pair: usize,
+    pairs: usize,
+    pairs_used: usize,
+    configs: Vec<ConfigLine>,
+    inliers: Vec<BinLine>,
+    rigs: usize,
+    connected: Vec<usize>,
+}
+
+#[derive(Serialize)]
+struct ConfigLine {
+    config: i64,
+    name: &'static str,
+    pairs: usize,
+    used: usize,
+}
+
+#[derive(Serialize)]
+struct BinLine {
+    from: u32,
+    /// Absent in the last bin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    to: Option<u32>,
+    pairs: usize,
+}
+
+impl From<&DatabaseFacts> for DatabaseLine {
+    fn from(facts: &DatabaseFacts) -> Self {
+        let configs = facts.configs.iter().map(|count| ConfigLine {
+            config: count.config,
+            name: config_name(count.config),
+            pairs: count.pairs,
+            used: count.used,
+        });
+        let inliers = facts.inliers.iter().map(|bin| BinLine {
+            from: bin.from,
+            to: bin.to,
+            pairs: bin.pairs,
+        });
+        Self {
+            table: facts.table,
+            pipeline: facts.pipeline.name(),
+            min_inliers: facts.min_inliers,
+            images: facts.images,
+            images_without_pair: facts.images_without_pair,
+            pairs: facts.pairs,
+            pairs_used: facts.pairs_used,
+            configs: configs.collect(),
+            inliers: inliers.collect(),
+            rigs: facts.rigs,
+            connected: facts.connected.clone(),
+        }
+    }
+}
+
+/// Writes the summary.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut impl Write, facts: &DatabaseFacts) -> io::Result<()> {
+    let without = match facts.images_without_pair {
+        0 => String::new(),
+        count => format!(" ({count} without a pair)"),
+    };
+    writeln!(
+        out,
+        "  database    {}{without}, {}, {} used ({} mapping, at least {})",
+        counted(facts.images, "image"),
+        counted(facts.pairs, "verified pair"),
+        facts.pairs_used,
+        facts.pipeline,
+        counted(facts.min_inliers as usize, "inlier"),
+    )?;
+    let configs = facts.configs.iter().map(|count| {
+        let used = match count.used == count.pairs {
+            true => String::new(),
+            false => format!(" ({} used)", count.used),
+        };
+        format!("{} {}{used}", count.pairs, config_name(count.config))
+    });
+    list(out, "pairs", configs)?;
+    list(out, "inliers", facts.inliers.iter().map(bin))?;
+    let parts = facts.connected.iter().filter(|&&size| size > 1);
+    let mut sizes: Vec<String> = parts.clone().take(SHOWN).map(usize::to_string).collect();
+    let count = parts.count();
+    if count > SHOWN {
+        sizes.push(format!("{} more", count - SHOWN));
+    }
+    match count {
+        0 => writeln!(out, "  connected   nothing"),
+        _ => writeln!(
+            out,
+            "  connected   {}: {} images",
+            counted(count, "part"),
+            sizes.join(", ")
+        ),
+    }
+}
+
+fn bin(bin: &Bin) -> String {
+    let range = match bin.to {
+        Some(to) if to == bin.from => to.to_string(),
+        Some(to) => format!("{}-{to}", bin.from),
+        None => format!("{} and more", bin.from),
+    };
+    format!("{} with {range}", counted(bin.pairs, "pair"))
+}
+
+fn list(out: &mut impl Write, title: &str, items: impl Iterator<Item = String>) -> io::Result<()> {
+    let items: Vec<String> = items.collect();
+    if items.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "  {title:<12}{}", items.join(", "))
+}

@@ -1,0 +1,135 @@
+//! Components of cameras in a camera-point graph, and its tracks, for people and programs.
+
+use super::{Report, counted};
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert::decide::Component;
+use viewcert_formats::TrackFacts;
+
+/// How many components are shown with their sizes.
+const SHOWN: usize = 8;
+
+/// The tracks as `verify --json` prints them, in the member `tracks`.
+#[derive(Serialize)]
+pub struct TrackLine {
+    min_views: u32,
+    cameras: u32,
+    points: usize,
+    observations: usize,
+    cameras_without_point: usize,
+    inconsistent: usize,
+    short: usize,
+}
+
+impl TrackLine {
+    /// The line of a camera-point graph.
+    pub fn new(cameras: u32, facts: &TrackFacts) -> Self {
+        Self {
+            min_views: facts.min_views,
+            cameras,
+            points: facts.points,
+            observations: facts.observations,
+            cameras_without_point: facts.cameras_without_point,
+            inconsistent: facts.inconsistent,
+            short: facts.short,
+        }
+    }
+}
+
+/// How many cameras and points a component has; the cameras are the first nodes of the graph.
+pub fn members(component: &Component, cameras: u32) -> (Vec<u32>, usize) {
+    let mut nodes = component.nodes();
+    let split = nodes.partition_point(|&node| node < cameras);
+    let points = nodes.len() - split;
+    nodes.truncate(split);
+    (nodes, points)
+}
+
+/// The cameras that see no point: each is a component of its own. O(cameras + edges).
+pub fn alone(report: &Report, cameras: u32) -> Vec<u32> {
+    let mut seeing = vec![false; cameras as usize];
+    for &(camera, _) in report.input.graph.edges() {
+        seeing[camera as usize] = true;
+    }
+    (0..cameras)
+        .filter(|&camera| !seeing[camera as usize])
+        .collect()
+}
+
+/// Writes what the tracks are and what the model takes for known.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
+    writeln!(
+        out,
+        "  tracks      {} in at least {}: {}",
+        counted(facts.points, "point"),
+        counted(facts.min_views as usize, "image"),
+        counted(facts.observations, "observation"),
+    )?;
+    writeln!(
+        out,
+        "  model       calibrated: rotations are known, and an observation is a direction"
+    )
+}
+
+/// Writes the components of cameras.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_components(
+    out: &mut impl Write,
+    report: &Report,
+    cameras: u32,
+    strength: &str,
+) -> io::Result<()> {
+    let components = report.verdict.components.iter();
+    let parts = components.map(|component| members(component, cameras));
+    let (parts, single): (Vec<_>, Vec<_>) = parts.partition(|(nodes, _)| nodes.len() > 1);
+    let alone = alone(report, cameras);
+    let mut text: Vec<String> = parts
+        .iter()
+        .take(SHOWN)
+        .map(|(nodes, points)| {
+            let (nodes, points) = (counted(nodes.len(), "camera"), counted(*points, "point"));
+            format!("{nodes} / {points}")
+        })
+        .collect();
+    if parts.len() > SHOWN {
+        text.push(format!("{} more", parts.len() - SHOWN));
+    }
+    if !single.is_empty() {
+        let single = single.len();
+        text.push(
+            counted(single, "observation")
+                + if single == 1 {
+                    " by itself"
+                } else {
+                    " by themselves"
+                },
+        );
+    }
+    if !alone.is_empty() {
+        text.push(counted(alone.len(), "camera") + " without a point");
+    }
+    let total = parts.len() + single.len() + alone.len();
+    let colon = if text.is_empty() { "" } else { ": " };
+    writeln!(
+        out,
+        "  components  {total} ({strength}){colon}{}",
+        text.join(", ")
+    )?;
+    if !report.list_components {
+        return Ok(());
+    }
+    let alone = alone.iter().map(|&camera| (vec![camera], 0));
+    for (k, (nodes, points)) in (1..).zip(parts.into_iter().chain(alone)) {
+        write!(out, "  component {k} ({}):", counted(points, "point"))?;
+        for node in nodes {
+            write!(out, " {}", report.input.labels.display(node))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
