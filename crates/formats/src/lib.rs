@@ -4,6 +4,7 @@
 //! merged, ignored or guessed ([`NamedGraph`]), or an error that says where and what to do
 //! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
 
+pub mod documents;
 pub mod edge_list;
 pub mod error;
 mod inflate;
