@@ -182,7 +182,9 @@ pub enum Problem {
         expected: usize,
     },
     /// Names of images with blanks in them that are in no quotes.
-    #[error("the line has {found} fields, and two of them end like names of images: names with blanks")]
+    #[error(
+        "the line has {found} fields, and two of them end like names of images: names with blanks"
+    )]
     Blanks {
         /// How many fields.
         found: usize,
@@ -272,6 +274,9 @@ pub enum Problem {
         /// The variables that are there, described.
         present: String,
     },
+    /// HDF5 that is damaged, or of a kind that is not read.
+    #[error("it cannot be read as HDF5: {0}")]
+    Hdf5(String),
     /// Cells, structures, text.
     #[error("a {0} is not a numeric matrix")]
     NotNumeric(&'static str),
@@ -357,6 +362,7 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
+            Self::Hdf5(_) => "copy the file again, or save it in MATLAB with -v7 or -v6",
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::documents::Parsed;
-use crate::edge_list::nodes::Index;
 use crate::edge_list::PAIR_LIMIT;
+use crate::edge_list::nodes::Index;
 use crate::error::{Fault, Place, Problem};
 use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
@@ -124,7 +124,9 @@ impl Collected {
         let only_in_pairs = listed.iter().filter(|listed| !**listed).count();
         if only_in_pairs > 0 && only_in_pairs < listed.len() {
             let (nodes, are) = (counted(only_in_pairs, "node"), are(only_in_pairs));
-            notes.push(format!("{nodes} {are} in pairs and not in the list of nodes"));
+            notes.push(format!(
+                "{nodes} {are} in pairs and not in the list of nodes"
+            ));
         }
         if listed_again > 0 {
             let (nodes, are) = (counted(listed_again, "node"), are(listed_again));
@@ -141,11 +143,16 @@ fn are(count: usize) -> &'static str {
 
 /// The first names of a set.
 fn names(set: &BTreeSet<String>) -> String {
-    let mut shown: Vec<String> = set.iter().take(MOST_NAMES).map(|name| short(name)).collect();
-    if let Some(more) = set.len().checked_sub(MOST_NAMES).filter(|more| *more > 0) {
-        shown.push(format!("and {more} more"));
+    let shown: Vec<String> = set
+        .iter()
+        .take(MOST_NAMES)
+        .map(|name| short(name))
+        .collect();
+    let shown = shown.join(", ");
+    match set.len().checked_sub(MOST_NAMES) {
+        None | Some(0) => shown,
+        Some(more) => format!("{shown} and {more} more"),
     }
-    shown.join(", ")
 }
 
 /// A name in a note: without control characters, and not long.

@@ -77,14 +77,20 @@ pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
         }
     }
     for (tag, count) in ignored.iter().take(MOST_TAGS) {
-        let (lines, are) = (counted(*count, "line"), if *count == 1 { "is" } else { "are" });
-        collected
-            .notes
-            .push(format!("{lines} {} {are} ignored: no poses, or unknown", shown(tag)));
+        let (lines, are) = (
+            counted(*count, "line"),
+            if *count == 1 { "is" } else { "are" },
+        );
+        collected.notes.push(format!(
+            "{lines} {} {are} ignored: no poses, or unknown",
+            shown(tag)
+        ));
     }
     if ignored.len() > MOST_TAGS {
         let more = counted(ignored.len() - MOST_TAGS, "tag");
-        collected.notes.push(format!("lines of {more} more are ignored"));
+        collected
+            .notes
+            .push(format!("lines of {more} more are ignored"));
     }
     collected.finish()
 }
@@ -131,5 +137,7 @@ fn is_tag(word: &str) -> bool {
 /// A word in a message.
 fn shown(word: &str) -> &str {
     const MOST: usize = 40;
-    word.char_indices().nth(MOST).map_or(word, |(end, _)| &word[..end])
+    word.char_indices()
+        .nth(MOST)
+        .map_or(word, |(end, _)| &word[..end])
 }

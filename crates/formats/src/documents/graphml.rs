@@ -123,7 +123,10 @@ impl Tree {
                 Element::Member
             }
             (Some(Element::Graph), "hyperedge") => {
-                return Err(malformed(FORMAT, "edges of more than two ends are not read"));
+                return Err(malformed(
+                    FORMAT,
+                    "edges of more than two ends are not read",
+                ));
             }
             (Some(Element::Member), "graph") => {
                 return Err(malformed(FORMAT, "graphs within nodes are not read"));

@@ -123,9 +123,8 @@ fn text(bytes: &[u8]) -> Result<&str, Fault> {
         };
         return Err(Place::Line(line_of(bytes, at)).fault(problem));
     }
-    std::str::from_utf8(bytes).map_err(|error| {
-        Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::NotUtf8)
-    })
+    std::str::from_utf8(bytes)
+        .map_err(|error| Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::NotUtf8))
 }
 
 /// The number of the line in which a byte stands, from 1.

@@ -69,7 +69,9 @@ pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
 /// An error of the parser, with its line.
 fn of_json(error: serde_json::Error) -> Fault {
     let text = error.to_string();
-    let what = text.rsplit_once(" at line ").map_or(&*text, |(what, _)| what);
+    let what = text
+        .rsplit_once(" at line ")
+        .map_or(&*text, |(what, _)| what);
     Place::Line(error.line().max(1) as u64).fault(malformed(FORMAT, what))
 }
 

@@ -48,7 +48,11 @@ impl Shape {
 
 /// Whether a text that begins like this may be read as stars unasked.
 pub(super) fn is_stars(head: &str, whole: bool) -> bool {
-    let end = if whole { Some(head.len()) } else { head.rfind('\n') };
+    let end = if whole {
+        Some(head.len())
+    } else {
+        head.rfind('\n')
+    };
     let mut shape = Shape::default();
     let mut fields = Vec::new();
     for line in head[..end.unwrap_or(0)].lines() {
@@ -81,8 +85,10 @@ pub(super) fn read(text: &str, asked: bool) -> Result<Parsed, Fault> {
             continue;
         };
         if !asked {
-            let numbers: Option<Vec<u64>> =
-                fields.iter().map(|field| integer(field.raw(line))).collect();
+            let numbers: Option<Vec<u64>> = fields
+                .iter()
+                .map(|field| integer(field.raw(line)))
+                .collect();
             if !numbers.is_some_and(|numbers| shape.line(&numbers)) {
                 return Err(fault(doubtful()));
             }

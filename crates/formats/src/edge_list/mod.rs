@@ -541,7 +541,10 @@ pub(super) fn may_be(text: &str) -> bool {
         }
         // The first line may be a head.
         let pair = a.text(line) != b.text(line) && further.iter().all(|f| f.is_number(line));
-        if columns.replace(found).is_some_and(|columns| columns != found || !pair) {
+        if columns
+            .replace(found)
+            .is_some_and(|columns| columns != found || !pair)
+        {
             return false;
         }
     }
@@ -563,7 +566,8 @@ fn names_with_blanks(line: &str, fields: &[Field]) -> bool {
             && IMAGES.iter().any(|end| {
                 let start = name.len().checked_sub(end.len());
                 start.is_some_and(|start| {
-                    name.get(start..).is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+                    name.get(start..)
+                        .is_some_and(|tail| tail.eq_ignore_ascii_case(end))
                 })
             })
     };

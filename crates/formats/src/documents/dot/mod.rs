@@ -26,9 +26,7 @@ const JOINED_LIMIT: usize = 1 << 26;
 pub(super) fn is_dot(head: &str) -> bool {
     let mut tokens = Tokens::new(head);
     let mut next = || tokens.next().ok();
-    let is = |token: &Option<Token>, keyword: &str| {
-        matches!(token, Some(Token::Word(word)) if word.eq_ignore_ascii_case(keyword))
-    };
+    let is = |token: &Option<Token>, keyword: &str| matches!(token, Some(Token::Word(word)) if word.eq_ignore_ascii_case(keyword));
     let mut token = next();
     if is(&token, "strict") {
         token = next();

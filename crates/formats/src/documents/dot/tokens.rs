@@ -76,9 +76,10 @@ impl<'t> Tokens<'t> {
         let rest = self.rest();
         let (token, count) = match rest {
             [] => return Ok(Token::End),
-            [sign @ (b'{' | b'}' | b'[' | b']' | b':' | b';' | b',' | b'='), ..] => {
-                (Token::Sign(*sign), 1)
-            }
+            [
+                sign @ (b'{' | b'}' | b'[' | b']' | b':' | b';' | b',' | b'='),
+                ..,
+            ] => (Token::Sign(*sign), 1),
             [b'-', b'-', ..] => (Token::Line, 2),
             [b'-', b'>', ..] => (Token::Arrow, 2),
             [b'"', ..] => return self.quoted(),
@@ -96,7 +97,9 @@ impl<'t> Tokens<'t> {
             }
             _ => {
                 let sign = self.text[self.at..].chars().next().unwrap_or_default();
-                return Err(format!("`{sign}` does not belong here: put names in quotes"));
+                return Err(format!(
+                    "`{sign}` does not belong here: put names in quotes"
+                ));
             }
         };
         self.skip(count);
@@ -172,7 +175,12 @@ fn in_word(byte: u8) -> bool {
 
 /// The length of the number at the start: `-?(.d+|d+(.d*)?)`; 0 if there is none.
 fn number(text: &[u8]) -> usize {
-    let digits = |from: usize| text[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let digits = |from: usize| {
+        text[from..]
+            .iter()
+            .take_while(|b| b.is_ascii_digit())
+            .count()
+    };
     let sign = usize::from(text[0] == b'-');
     let whole = digits(sign);
     let mut end = sign + whole;

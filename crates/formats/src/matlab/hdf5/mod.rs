@@ -168,7 +168,7 @@ pub(super) fn read(
 }
 
 fn damaged(error: hdf5_reader::error::Error) -> Problem {
-    Problem::Corrupt(format!("HDF5: {error}"))
+    Problem::Hdf5(error.to_string())
 }
 
 /// All variables at the root; MATLAB's own groups (`#refs#`) are none.
@@ -177,6 +177,12 @@ fn variables(bytes: &[u8], most: usize) -> Result<Vec<Variable>, Problem> {
         .with_max_read_bytes(most)
         .with_max_chunk_bytes(most);
     let file = Hdf5File::from_bytes_with_options(bytes, options).map_err(damaged)?;
+    let promised = file.superblock().eof_address;
+    if promised != u64::MAX && promised > bytes.len() as u64 {
+        let found = bytes.len();
+        let what = format!("{promised} bytes are promised, and {found} are there");
+        return Err(Problem::Truncated(what));
+    }
     let (groups, datasets) = file
         .root_group()
         .and_then(|root| root.members())
@@ -233,7 +239,9 @@ fn full(dataset: Dataset) -> Result<Variable, Problem> {
         shape.reverse();
     }
     let numeric = class.as_deref().is_none_or(|class| {
-        let integers = ["int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64"];
+        let integers = [
+            "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64",
+        ];
         ["double", "single", "logical"].contains(&class) || integers.contains(&class)
     });
     let empty = number(&attributes, "MATLAB_empty").is_some_and(|value| value != 0);
@@ -374,3 +382,6 @@ fn indices(dataset: &Dataset, most: usize) -> Result<Vec<u32>, Problem> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests;
