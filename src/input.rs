@@ -7,6 +7,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert_formats::colmap::Pipeline;
+use viewcert_formats::documents::Document;
 use viewcert_formats::{Format, NamedGraph, ReadOptions, TrackOptions, read_graphs};
 
 /// What the graphs' files are, for those that do not show it.
@@ -51,10 +52,32 @@ enum FormatName {
     Graph6,
     /// One graph a line, incremental ones among them.
     Sparse6,
-    /// Adjacency matrix, MATLAB 5.
+    /// Adjacency matrix, MATLAB 5 or 7.3 (HDF5).
     Matlab,
     /// Adjacency matrix, MatrixMarket coordinates.
     MatrixMarket,
+    /// Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc.
+    #[value(alias = "hloc-pairs")]
+    MatchList,
+    /// Relative poses of GLOMAP, 9 fields a line.
+    Glomap,
+    /// EGs.txt of 1DSfM, 14 fields a line; cameras are called by their numbers.
+    #[value(name = "1dsfm")]
+    OneDsfm,
+    /// The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists.
+    #[value(alias = "adjacency-list")]
+    OpenmvgPairs,
+    /// Pose graph of g2o.
+    G2o,
+    /// Node-link graph in JSON, of networkx or d3.
+    #[value(alias = "json")]
+    NodeLink,
+    /// Graph in XML.
+    #[value(name = "graphml")]
+    GraphMl,
+    /// Graph of Graphviz.
+    #[value(alias = "graphviz")]
+    Dot,
 }
 
 /// Whether the graph is that of cameras and points.
@@ -111,6 +134,14 @@ impl InputArguments {
                 FormatName::Sparse6 => Format::Sparse6,
                 FormatName::Matlab => Format::Matlab,
                 FormatName::MatrixMarket => Format::MatrixMarket,
+                FormatName::MatchList => Format::MatchList,
+                FormatName::Glomap => Format::Glomap,
+                FormatName::OneDsfm => Format::OneDsfm,
+                FormatName::OpenmvgPairs => Format::Document(Document::Stars),
+                FormatName::G2o => Format::Document(Document::G2o),
+                FormatName::NodeLink => Format::Document(Document::NodeLink),
+                FormatName::GraphMl => Format::Document(Document::GraphMl),
+                FormatName::Dot => Format::Document(Document::Dot),
             }),
             variable: self.variable.clone(),
             pipeline: self.pipeline.map(|pipeline| match pipeline {

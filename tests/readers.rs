@@ -623,3 +623,128 @@ mod two_readers {
         }
     }
 }
+
+/// What the checker and the program both read is one graph for both: a file of another format is
+/// never an edge list for the one and something else for the other.
+mod one_graph_for_both {
+    use super::*;
+    use proptest::prelude::*;
+    use std::cell::Cell;
+    use std::io::Cursor;
+    use viewcert::graph::sha256;
+    use viewcert_formats::NamedGraph;
+    use viewcert_formats::read::graphs;
+
+    /// The first graph that the program finds in these bytes, if both programs read them.
+    fn both(bytes: &[u8]) -> Option<(NamedGraph, viewcert_check::Graph)> {
+        let input = Cursor::new(bytes.to_vec());
+        let named = graphs("in".to_owned(), input, ReadOptions::default()).next()?;
+        let checked = viewcert_check::Graph::read(bytes, || None);
+        Some((named.ok()?, checked.ok()?))
+    }
+
+    #[test]
+    fn of_all_samples() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/foreign");
+        let mut alike = 0;
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if let Some((named, checked)) = both(&std::fs::read(&path).unwrap()) {
+                assert_eq!(checked.sha256(), sha256(&named.graph), "{}", path.display());
+                alike += 1;
+            }
+        }
+        assert!(alike >= 20, "{alike}");
+    }
+
+    /// Lines of words of all formats, whose columns are often as many as edge lists have.
+    fn text() -> impl Strategy<Value = String> {
+        let words = vec![
+            "strict",
+            "graph",
+            "digraph",
+            "graph{",
+            "{",
+            "}",
+            "{a--b",
+            "b--c}",
+            "{a->b",
+            "c->a}",
+            "a",
+            "b",
+            "c;",
+            "--",
+            "a--b",
+            "[x=1]",
+            "//",
+            "/*",
+            "*/x",
+            "\"a",
+            "b\"",
+            "\"c\"",
+            "#",
+            "EDGE_SE2",
+            "VERTEX_SE2",
+            "VERTEX_SE3:QUAT",
+            "EDGE_SE3:QUAT",
+            "FIX",
+            "PARAMS_X",
+            "0",
+            "1",
+            "2",
+            "3",
+            "4",
+            "7",
+            "0.5",
+            "<graphml>",
+            "{\"nodes\":",
+            "[]}",
+            "subgraph",
+        ];
+        let word = prop::sample::select(words);
+        let columns = prop::sample::select(vec![1usize, 2, 2, 2, 3, 3, 4, 6, 9, 13]);
+        let first = prop::sample::select(vec![
+            "strict graph",
+            "graph x{",
+            "digraph",
+            "EDGE_SE2 0",
+            "VERTEX_SE3:QUAT 1",
+            "0 1",
+            "0",
+            "",
+        ]);
+        let line = move |columns| prop::collection::vec(word.clone(), columns);
+        let lines = columns.prop_flat_map(move |columns| {
+            let one = prop_oneof![9 => line(columns), 1 => line(columns + 1)];
+            prop::collection::vec(one, 1..5)
+        });
+        (first, lines, prop::sample::select(vec!["\n", " ", ""])).prop_map(|(first, lines, end)| {
+            let lines: Vec<String> = lines.iter().map(|words| words.join(" ")).collect();
+            format!("{first}{end}{}\n", lines.join("\n"))
+        })
+    }
+
+    #[test]
+    fn of_texts_between_the_formats() {
+        let (read, alike) = (Cell::new(0), Cell::new(0));
+        let mut runner = proptest::test_runner::TestRunner::new(ProptestConfig::with_cases(60_000));
+        runner
+            .run(&text(), |text| {
+                let input = Cursor::new(text.clone().into_bytes());
+                let named = graphs("in".to_owned(), input, ReadOptions::default()).next();
+                read.set(read.get() + usize::from(named.is_some_and(|named| named.is_ok())));
+                if let Some((named, checked)) = both(text.as_bytes()) {
+                    prop_assert_eq!(checked.sha256(), sha256(&named.graph));
+                    alike.set(alike.get() + 1);
+                }
+                Ok(())
+            })
+            .unwrap();
+        // Some are read by the program alone, and some by both.
+        let (read, alike) = (read.get(), alike.get());
+        assert!(
+            alike > 100 && read > alike + 100,
+            "{read} read, {alike} by both"
+        );
+    }
+}

@@ -47,6 +47,10 @@ pub enum Place {
     Line(u64),
     /// A variable of a MATLAB file.
     Variable(String),
+    /// A place in a list of nodes, counted from 1.
+    Node(u64),
+    /// A place in a list of edges, counted from 1.
+    Edge(u64),
 }
 
 impl Place {
@@ -64,6 +68,8 @@ impl fmt::Display for Place {
             Self::Input => Ok(()),
             Self::Line(line) => write!(f, ":{line}"),
             Self::Variable(name) => write!(f, ": variable {name}"),
+            Self::Node(number) => write!(f, ": node {number} of the list"),
+            Self::Edge(number) => write!(f, ": edge {number} of the list"),
         }
     }
 }
@@ -148,6 +154,42 @@ pub enum Problem {
     /// A field that looks like a part of something else.
     #[error("`{}` is punctuated like another format", shown(.0))]
     Punctuated(String),
+    /// A name of nothing.
+    #[error("a camera has an empty name")]
+    EmptyLabel,
+    /// A name that would not stay on its line.
+    #[error("the name \"{}\" has a control character", shown(.0))]
+    ControlInLabel(String),
+    /// A text that is not as its format says.
+    #[error("{format}: {what}")]
+    Malformed {
+        /// The format's name.
+        format: &'static str,
+        /// What is wrong.
+        what: String,
+    },
+    /// Subgraphs that are joined as wholes, and are too large for that.
+    #[error("joined subgraphs make more than {limit} pairs")]
+    TooManyJoined {
+        /// How many are made.
+        limit: usize,
+    },
+    /// A line with another number of fields than the format that was asked for has.
+    #[error("the line has {found} field{}, and lines of this format have {expected}", if *.found == 1 {""} else {"s"})]
+    OtherColumns {
+        /// How many fields.
+        found: usize,
+        /// How many the format has.
+        expected: usize,
+    },
+    /// Names of images with blanks in them that are in no quotes.
+    #[error(
+        "the line has {found} fields, and two of them end like names of images: names with blanks"
+    )]
+    Blanks {
+        /// How many fields.
+        found: usize,
+    },
     /// A line with a number of fields that no edge list has.
     #[error("not an edge list: the line has {found} field{}, and lines of an edge list have 2, 3, 9 or 14", if *.found == 1 {""} else {"s"})]
     Columns {
@@ -255,9 +297,15 @@ pub enum Problem {
         /// The variables that are there, described.
         present: String,
     },
+    /// HDF5 that is damaged, or of a kind that is not read.
+    #[error("it cannot be read as HDF5: {0}")]
+    Hdf5(String),
     /// Cells, structures, text.
     #[error("a {0} is not a numeric matrix")]
     NotNumeric(&'static str),
+    /// The same in HDF5, whose types have names of their own.
+    #[error("a {0} is not a numeric matrix")]
+    NotNumericNamed(String),
     /// Complex numbers.
     #[error("the matrix is complex")]
     Complex,
@@ -288,7 +336,7 @@ pub enum Problem {
 }
 
 const LENIENTLY: &str = "write one pair a line, separated by a blank, or read the first two fields of every line with \
-     --format edges";
+     --format edges (the first one with each of the others: --format openmvg-pairs)";
 
 /// What to do with tracks where pairs are read.
 pub(super) const TRACKS: &str =
@@ -311,6 +359,16 @@ impl Problem {
                 "give an edge list, graph6, sparse6, MatrixMarket or a MATLAB file (save -v7)"
             }
             Self::InnerMark => "remove it; files with such marks cannot be joined byte by byte",
+            Self::EmptyLabel | Self::ControlInLabel(_) => "give it another name",
+            Self::Malformed { .. } => {
+                "mend the file, or write one pair a line: two names and nothing else"
+            }
+            Self::TooManyJoined { .. } => "write the pairs one by one",
+            Self::OtherColumns { .. } => "quote names with blanks, or name another format",
+            Self::Blanks { .. } => {
+                "put such names in quotes (`\"left wall.jpg\" roof.jpg`); COLMAP's lists of pairs \
+                 cannot hold them: rename the images"
+            }
             Self::EmptyField => "put a field on either side of every comma",
             Self::Quote(_) => "quote whole fields only, and double the quotes within them",
             Self::NoLabel(_) | Self::Columns { .. } | Self::ColumnsDiffer { .. } => LENIENTLY,
@@ -331,6 +389,7 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
+            Self::Hdf5(_) => "copy the file again, or save it in MATLAB with -v7 or -v6",
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::Database(error) => error.remedy(),
@@ -343,7 +402,7 @@ impl Problem {
             Self::NoSuchVariable { .. } | Self::ChooseVariable { .. } => {
                 "name the adjacency matrix with --variable"
             }
-            Self::NotNumeric(_) | Self::NotSquare(_) => {
+            Self::NotNumeric(_) | Self::NotNumericNamed(_) | Self::NotSquare(_) => {
                 "name a square numeric matrix with --variable"
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
@@ -376,6 +435,7 @@ impl Problem {
             | Self::TooManyNodes
             | Self::TooManyPairs
             | Self::TooManyIsolated { .. }
+            | Self::TooManyJoined { .. }
             | Self::LineTooLarge { .. }
             | Self::Sparse6(Sparse6Error::TooLarge { .. }) => true,
             Self::Unlike { why, .. } => why.is_size(),

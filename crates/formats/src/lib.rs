@@ -5,6 +5,7 @@
 //! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
 
 pub mod colmap;
+pub mod documents;
 pub mod edge_list;
 pub mod error;
 mod inflate;

@@ -4,6 +4,7 @@
 //! What is *certain* is refused at once, as it might pass for an edge list; what is *likely* only
 //! gives a name to a text that the grammar has refused.
 
+use crate::documents::Document;
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::is_number;
 use crate::error::{Problem, TRACKS};
@@ -28,6 +29,8 @@ pub(super) enum Kind {
     Gzip,
     /// A database, which is COLMAP's or nothing that is read.
     Sqlite,
+    /// Text that is read as a whole.
+    Document(Document),
     /// Text, which is an edge list or nothing that is read.
     Text,
 }
@@ -84,6 +87,9 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
         if every_line(head, whole, is) {
             return Ok(Kind::Lines { encoding, guessed });
         }
+    }
+    if let Some(document) = Document::of(head, whole) {
+        return Ok(Kind::Document(document));
     }
     Ok(Kind::Text)
 }
@@ -246,7 +252,7 @@ fn binary(head: &[u8]) -> Option<Problem> {
 }
 
 /// First words of texts that might pass for edge lists; the case of letters does not matter.
-const FIRST_WORDS: [(&str, &str, &str); 12] = [
+const FIRST_WORDS: [(&str, &str, &str); 10] = [
     (
         "*vertices",
         "a Pajek network",
@@ -258,18 +264,16 @@ const FIRST_WORDS: [(&str, &str, &str); 12] = [
         networkx!("networkx.Graph(networkx.read_pajek(FILE))"),
     ),
     ("*partition", "a Pajek partition", PAIRS),
-    ("vertex_", "a g2o pose graph", G2O),
-    ("edge_", "a g2o pose graph", G2O),
-    ("vertex2", "a TORO pose graph", G2O),
-    ("edge2", "a TORO pose graph", G2O),
-    ("vertex3", "a TORO pose graph", G2O),
-    ("edge3", "a TORO pose graph", G2O),
+    ("vertex2", "a TORO pose graph", TORO),
+    ("edge2", "a TORO pose graph", TORO),
+    ("vertex3", "a TORO pose graph", TORO),
+    ("edge3", "a TORO pose graph", TORO),
     ("nvm_v", "an NVM file of VisualSFM", TRACKS),
     ("leda.graph", "a LEDA graph", PAIRS),
     ("@nodes", "a LEMON graph", PAIRS),
 ];
 
-const G2O: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
+const TORO: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
 
 /// First comments of texts that might pass for edge lists.
 const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
@@ -380,10 +384,8 @@ fn markup(text: &str) -> Option<Problem> {
     let start = text.trim_start();
     let lower = start.to_ascii_lowercase();
     if start.starts_with('<') {
-        let graphml = foreign("GraphML", networkx!("networkx.read_graphml(FILE)"));
         let gexf = foreign("GEXF", networkx!("networkx.read_gexf(FILE)"));
         return Some(match () {
-            () if lower.contains("<graphml") => graphml,
             () if lower.contains("<gexf") => gexf,
             () if lower.contains("<html") || lower.contains("<!doctype html") => {
                 foreign("a web page (HTML)", "download the file itself")
@@ -397,29 +399,10 @@ fn markup(text: &str) -> Option<Problem> {
             || rest.starts_with(|c: char| c.is_ascii_digit())
     };
     if start.starts_with(['{', '[']) && json(start) {
-        return Some(
-            if lower.contains("\"links\"") || lower.contains("\"edges\"") {
-                foreign(
-                    "a node-link graph in JSON",
-                    networkx!("networkx.node_link_graph(json.load(open(FILE)))"),
-                )
-            } else {
-                foreign("JSON", PAIRS)
-            },
-        );
+        return Some(foreign("JSON", PAIRS));
     }
     let words: Vec<&str> = lower.split_whitespace().take(3).collect();
     let word = |k: usize| words.get(k).copied().unwrap_or_default();
-    let dot = ["strict", "graph", "digraph"].contains(&word(0))
-        || ["graph{", "digraph{"]
-            .iter()
-            .any(|start| lower.starts_with(start));
-    if dot && lower.contains('{') {
-        return Some(foreign(
-            "a graph in DOT (Graphviz)",
-            networkx!("networkx.Graph(networkx.nx_pydot.read_dot(FILE))"),
-        ));
-    }
     let gml = word(0) == "graph" && (word(1) == "[" || word(0).ends_with('['))
         || word(0) == "graph["
         || ["creator", "version"].contains(&word(0))

@@ -6,25 +6,25 @@ use crate::error::Problem;
 
 /// A field of a line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Field {
+pub(crate) struct Field {
     /// Where its text begins, behind a quote.
     start: usize,
     /// Where its text ends, before a quote.
     end: usize,
     /// Whether it stands in quotes.
-    pub(super) quoted: bool,
+    pub(crate) quoted: bool,
     /// Whether quotes within it are doubled.
     doubled: bool,
 }
 
 impl Field {
     /// What stands there, without the quotes around it.
-    pub(super) fn raw(self, line: &str) -> &str {
+    pub(crate) fn raw(self, line: &str) -> &str {
         &line[self.start..self.end]
     }
 
     /// What is meant: quotes within it are single again.
-    pub(super) fn text(self, line: &str) -> Cow<'_, str> {
+    pub(crate) fn text(self, line: &str) -> Cow<'_, str> {
         let raw = self.raw(line);
         if self.doubled {
             Cow::Owned(raw.replace("\"\"", "\""))
@@ -34,12 +34,12 @@ impl Field {
     }
 
     /// Whether it is a number (which is never quoted).
-    pub(super) fn is_number(self, line: &str) -> bool {
+    pub(crate) fn is_number(self, line: &str) -> bool {
         !self.quoted && is_number(self.raw(line).as_bytes())
     }
 
     /// Its value if it is an integer (which is never quoted).
-    pub(super) fn integer(self, line: &str) -> Option<u64> {
+    pub(crate) fn integer(self, line: &str) -> Option<u64> {
         if self.quoted {
             None
         } else {
@@ -52,7 +52,7 @@ impl Field {
 ///
 /// # Errors
 /// A comma without a field on either side, a quote where none belongs.
-pub(super) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
+pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
     let bytes = line.as_bytes();
     fields.clear();
     let mut at = 0;
@@ -140,7 +140,7 @@ pub(crate) fn is_number(field: &[u8]) -> bool {
 }
 
 /// The value of a decimal integer without sign and leading zeros, below 2^64.
-pub(super) fn integer(label: &str) -> Option<u64> {
+pub(crate) fn integer(label: &str) -> Option<u64> {
     let plain = label.bytes().all(|b| b.is_ascii_digit());
     if plain && (label == "0" || !label.starts_with('0')) {
         label.parse().ok()

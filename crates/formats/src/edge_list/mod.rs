@@ -22,7 +22,7 @@ use viewcert::wording::counted;
 
 mod doubts;
 pub(super) mod fields;
-mod nodes;
+pub(super) mod nodes;
 
 use doubts::Doubts;
 use fields::{Field, integer};
@@ -31,7 +31,7 @@ use nodes::{Index, number_integers};
 /// The longest line that is read, and the size of a read.
 const LINE_LIMIT: usize = 1 << 20;
 /// More pairs than that have no numbers in the program.
-const PAIR_LIMIT: usize = i32::MAX as usize;
+pub(super) const PAIR_LIMIT: usize = i32::MAX as usize;
 /// A text that begins like this says that it is UTF-8.
 pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// How many fields a line may have.
@@ -61,6 +61,9 @@ pub enum Reading {
     Strict,
     /// As an edge list: the first two fields of a line are a pair, a single one is a node.
     Lenient,
+    /// As lines of so many fields, a pair and numbers, without a head: the file is known to be
+    /// written so.
+    Columns(usize),
 }
 
 /// Reads an edge list: the graph, its labels, and notes about what was merged,
@@ -195,6 +198,7 @@ impl Collector {
                     Some((u64::from(more), rest))
                 });
             }
+            (_, Reading::Columns(columns)) => columns,
             (Some(first), Reading::Strict) if self.pairs.len() >= FIRST_LINES => first.columns,
             _ => return text,
         };
@@ -252,6 +256,7 @@ impl Collector {
             .and_then(|()| match self.reading {
                 Reading::Strict => self.strict_line(text, &fields),
                 Reading::Lenient => self.lenient_line(text, &fields),
+                Reading::Columns(columns) => self.line_of(columns, text, &fields),
             });
         self.fields = fields;
         done
@@ -274,6 +279,29 @@ impl Collector {
         }
     }
 
+    fn line_of(&mut self, columns: usize, text: &str, fields: &[Field]) -> Result<(), Fault> {
+        let fault = |problem| Err(Place::Line(self.line).fault(problem));
+        let found = fields.len();
+        match fields {
+            [] => Ok(()),
+            _ if names_with_blanks(text, fields) => fault(Problem::Blanks { found }),
+            [first, second, further @ ..] if found == columns => {
+                if let Some(at) = further.iter().position(|field| !field.is_number(text)) {
+                    return fault(Problem::NoNumber {
+                        field: further[at].text(text).into_owned(),
+                        column: at + 3,
+                    });
+                }
+                let [a, b] = self.nodes([&*first.text(text), &*second.text(text)])?;
+                self.pair(a, b)
+            }
+            _ => fault(Problem::OtherColumns {
+                found,
+                expected: columns,
+            }),
+        }
+    }
+
     fn strict_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
         let fault = |problem| Err(Place::Line(self.line).fault(problem));
         if fields.is_empty() {
@@ -281,6 +309,10 @@ impl Collector {
                 self.doubts.lone_hash(self.pairs.len());
             }
             return Ok(());
+        }
+        if names_with_blanks(text, fields) {
+            let found = fields.len();
+            return fault(Problem::Blanks { found });
         }
         for field in fields.iter().filter(|field| !field.quoted) {
             if let Some(problem) = unlike_a_field(field.raw(text)) {
@@ -417,13 +449,12 @@ impl Collector {
             }
             match first.columns {
                 3 => notes.push("the third column is ignored (weights)".to_owned()),
-                columns @ 4.. => notes.push(format!(
-                    "columns 3 to {columns} are ignored (relative poses)"
-                )),
+                columns @ 4.. => notes.push(ignored_columns(columns)),
                 _ => {}
             }
         }
         let Self {
+            reading,
             mut pairs,
             singles,
             names,
@@ -445,6 +476,9 @@ impl Collector {
             GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
         })?;
         notes.extend(crate::merged(merged));
+        if let Reading::Columns(columns @ 3..) = reading {
+            notes.push(ignored_columns(columns));
+        }
         if lines_with_more > 0 {
             let lines = counted(lines_with_more as usize, "line");
             notes.push(format!("fields behind the second are ignored on {lines}"));
@@ -479,6 +513,67 @@ impl Collector {
         self.doubts.no_head();
         Ok(None)
     }
+}
+
+fn ignored_columns(columns: usize) -> String {
+    format!("columns 3 to {columns} are ignored (relative poses)")
+}
+
+/// Whether a reader of edge lists may take a text for one. It does not if a line is such that the
+/// grammar excludes it, whatever else `verify` refuses on top of that.
+pub(super) fn may_be(text: &str) -> bool {
+    let mut fields = Vec::new();
+    let mut columns = None;
+    for line in text.lines() {
+        if fields::split(line, &mut fields).is_err() {
+            return false;
+        }
+        let [a, b, further @ ..] = &fields[..] else {
+            if fields.is_empty() {
+                continue;
+            }
+            return false;
+        };
+        let found = fields.len();
+        let mut plain = fields.iter().filter(|field| !field.quoted);
+        if !COLUMNS.contains(&found) || plain.any(|f| unlike_a_field(f.raw(line)).is_some()) {
+            return false;
+        }
+        // The first line may be a head.
+        let pair = a.text(line) != b.text(line) && further.iter().all(|f| f.is_number(line));
+        if columns
+            .replace(found)
+            .is_some_and(|columns| columns != found || !pair)
+        {
+            return false;
+        }
+    }
+    columns.is_some()
+}
+
+/// Endings of the names of images.
+const IMAGES: [&str; 12] = [
+    ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".ppm", ".pgm", ".webp", ".heic", ".dng",
+    ".exr",
+];
+
+/// Whether a line of more than two fields ends like the name of an image, as just one field
+/// before does: two names with blanks in them.
+fn names_with_blanks(line: &str, fields: &[Field]) -> bool {
+    let is_image = |field: &Field| {
+        let name = field.raw(line);
+        !field.quoted
+            && IMAGES.iter().any(|end| {
+                let start = name.len().checked_sub(end.len());
+                start.is_some_and(|start| {
+                    name.get(start..)
+                        .is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+                })
+            })
+    };
+    fields.len() > 2
+        && fields.last().is_some_and(is_image)
+        && fields.iter().filter(|field| is_image(field)).count() == 2
 }
 
 /// Bytes as text without control characters but tabs.

@@ -128,13 +128,13 @@ fn renumber(pairs: &mut [(u32, u32)], nodes: impl ExactSizeIterator<Item = u32>)
 
 /// Labels of any kind, numbered in the order in which they came.
 #[derive(Default)]
-pub(super) struct Index {
-    pub(super) nodes: HashMap<Box<str>, u32>,
+pub(crate) struct Index {
+    pub(crate) nodes: HashMap<Box<str>, u32>,
 }
 
 impl Index {
     /// The index of pairs of integers, which become node numbers.
-    pub(super) fn of_integers(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> Self {
+    pub(crate) fn of_integers(pairs: &mut [(u32, u32)], singles: &mut [u32]) -> Self {
         let nodes = number_as_met(pairs, singles);
         let mut text = String::new();
         let name = |(value, node): (u32, u32)| {
@@ -149,7 +149,7 @@ impl Index {
     }
 
     /// The node of a label, a new one if need be; `None` if there are too many.
-    pub(super) fn node(&mut self, label: &str) -> Option<u32> {
+    pub(crate) fn node(&mut self, label: &str) -> Option<u32> {
         if let Some(&node) = self.nodes.get(label) {
             return Some(node);
         }
@@ -159,14 +159,14 @@ impl Index {
     }
 
     /// The labels in the order of their nodes.
-    pub(super) fn labels(&self) -> Vec<Box<str>> {
+    pub(crate) fn labels(&self) -> Vec<Box<str>> {
         let mut labels: Vec<_> = self.nodes.iter().collect();
         labels.sort_unstable_by_key(|&(_, node)| node);
         labels.into_iter().map(|(label, _)| label.clone()).collect()
     }
 
     /// Renumbers the nodes by sorted labels. Returns the labels and their number.
-    pub(super) fn sort(self, pairs: &mut [(u32, u32)]) -> (Labels, usize) {
+    pub(crate) fn sort(self, pairs: &mut [(u32, u32)]) -> (Labels, usize) {
         let mut labels: Vec<(Box<str>, u32)> = self.nodes.into_iter().collect();
         let values: Option<Vec<u64>> = labels.iter().map(|(label, _)| integer(label)).collect();
         if values.is_some() {

@@ -1,4 +1,6 @@
-//! MATLAB 5 files (`save -v6`, `save -v7`): an adjacency matrix as a graph.
+//! MATLAB files (`save -v6`, `save -v7`, `save -v7.3`): an adjacency matrix as a graph.
+//!
+//! Version 7.3 is HDF5, in `hdf5`. The rest is of version 5.
 //!
 //! Format by The MathWorks, "MAT-File Format": a header of 128 bytes, then data
 //! elements, each a type, a length and that many bytes; a variable is an
@@ -19,6 +21,7 @@ use crate::error::{Fault, Place, Problem};
 use viewcert::graph::{Graph, GraphError};
 
 mod element;
+mod hdf5;
 mod matrix;
 
 use element::{COMPRESSED, Elements, MATRIX, Source, malformed};
@@ -86,12 +89,35 @@ fn is_version_four(head: &[u8]) -> bool {
     plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
 }
 
+/// A variable of a file that may be the one that is meant.
+trait Candidate {
+    fn name(&self) -> &str;
+    /// Name, shape and class, for a list of what a file holds.
+    fn describe(&self) -> String;
+    /// Whether it is a square numeric matrix; a single number is none.
+    fn could_be_adjacency(&self) -> bool;
+}
+
 /// One variable of a file, not yet read.
 struct Variable<'a> {
     header: Header,
     /// The element that holds it.
     kind: u32,
     content: &'a [u8],
+}
+
+impl Candidate for Variable<'_> {
+    fn name(&self) -> &str {
+        &self.header.name
+    }
+
+    fn describe(&self) -> String {
+        self.header.describe()
+    }
+
+    fn could_be_adjacency(&self) -> bool {
+        self.header.could_be_adjacency()
+    }
 }
 
 /// The graph of an adjacency matrix: of the variable named, else of `A`, else
@@ -112,20 +138,24 @@ pub(super) fn read_noting(
     bytes: &[u8],
     variable: Option<&str>,
 ) -> Result<(Graph, Option<String>), Fault> {
-    let (order, variables) = variables(bytes)?;
-    let chosen = choose(&variables, variable)?;
-    let name = &chosen.header.name;
+    let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
+        hdf5::read(bytes, variable)?
+    } else {
+        let (order, variables) = variables(bytes)?;
+        let chosen = choose(&variables, variable)?;
+        let name = chosen.header.name.clone();
+        let graph = pattern(chosen, order).and_then(|pattern| pattern.graph());
+        (name, graph)
+    };
     let note = (variable.is_none() && name != "A")
         .then(|| format!("the graph is the variable {name}, the only square matrix"));
-    let place = Place::Variable(name.clone());
-    pattern(chosen, order)
-        .and_then(|pattern| pattern.graph())
+    graph
         .map(|graph| (graph, note))
-        .map_err(|problem| place.fault(problem))
+        .map_err(|problem| Place::Variable(name).fault(problem))
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any
-/// shape, column by column; rows and columns count from 0, and integers beyond
+/// shape in a file of version 5, column by column; rows and columns count from 0, and integers beyond
 /// 2^53 are rounded. O(bytes).
 ///
 /// # Errors
@@ -179,15 +209,12 @@ fn variables(bytes: &[u8]) -> Result<(ByteOrder, Vec<Variable<'_>>), Fault> {
     Ok((order, variables))
 }
 
-fn choose<'v, 'a>(
-    variables: &'v [Variable<'a>],
-    asked: Option<&str>,
-) -> Result<&'v Variable<'a>, Fault> {
-    let named = |name| variables.iter().find(|v| v.header.name == name);
+fn choose<'v, V: Candidate>(variables: &'v [V], asked: Option<&str>) -> Result<&'v V, Fault> {
+    let named = |name| variables.iter().find(|v| v.name() == name);
     let present = || match variables {
         [] => "no variables".to_owned(),
         _ => {
-            let all: Vec<String> = variables.iter().map(|v| v.header.describe()).collect();
+            let all: Vec<String> = variables.iter().map(|v| v.describe()).collect();
             all.join(", ")
         }
     };
@@ -202,7 +229,7 @@ fn choose<'v, 'a>(
     }
     let candidates: Vec<_> = variables
         .iter()
-        .filter(|v| v.header.could_be_adjacency())
+        .filter(|v| v.could_be_adjacency())
         .collect();
     match candidates[..] {
         [variable] => Ok(variable),
@@ -236,9 +263,26 @@ struct Pattern {
 fn pattern(variable: &Variable, order: ByteOrder) -> Result<Pattern, Problem> {
     let header = &variable.header;
     let size = header.real_square()?;
-    let mut starts = vec![0];
-    let mut rows = Vec::new();
+    let mut pattern = Pattern::new();
     each_entry(variable, order, |row, column, value| {
+        pattern.entry(row, column, value)
+    })?;
+    pattern.complete(size);
+    Ok(pattern)
+}
+
+impl Pattern {
+    /// No entries so far.
+    fn new() -> Self {
+        Self {
+            starts: vec![0],
+            rows: Vec::new(),
+        }
+    }
+
+    /// Takes in an entry that is not zero, behind all in earlier columns, and in earlier rows of
+    /// its column.
+    fn entry(&mut self, row: u32, column: u32, value: f64) -> Result<(), Problem> {
         if value.is_nan() {
             let (row, column) = (row + 1, column + 1);
             return Err(Problem::NotANumber { row, column });
@@ -246,18 +290,18 @@ fn pattern(variable: &Variable, order: ByteOrder) -> Result<Pattern, Problem> {
         if row == column {
             return Err(Problem::Diagonal(row + 1));
         }
-        if starts.len() <= column as usize {
-            starts.resize(column as usize + 1, rows.len());
+        if self.starts.len() <= column as usize {
+            self.starts.resize(column as usize + 1, self.rows.len());
         }
-        rows.push(row);
+        self.rows.push(row);
         Ok(())
-    })?;
-    // As many as the file has columns: their data have just been read.
-    starts.resize(size as usize + 1, rows.len());
-    Ok(Pattern { starts, rows })
-}
+    }
 
-impl Pattern {
+    /// Ends the last column: there are as many as the file has, whose data have been read.
+    fn complete(&mut self, columns: u32) {
+        self.starts.resize(columns as usize + 1, self.rows.len());
+    }
+
     /// The graph whose adjacency has this pattern. O(m).
     fn graph(self) -> Result<Graph, Problem> {
         let Self { starts, rows } = self;

@@ -335,8 +335,8 @@ fn other_versions_are_refused_with_what_to_do() {
     hdf5.resize(600, 0);
     assert_eq!(
         refusal(&hdf5),
-        "f.mat: a MATLAB file of version 7.3 (HDF5) is not read here; \
-         save it in MATLAB with -v7 or -v6"
+        "f.mat: it cannot be read as HDF5: invalid HDF5 magic bytes; \
+         copy the file again, or save it in MATLAB with -v7 or -v6"
     );
     for writer in [LITTLE, BIG] {
         // Code, rows, columns, real, length of the name with its zero.

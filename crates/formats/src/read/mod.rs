@@ -7,6 +7,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
+use crate::documents::{self, Document};
 use crate::edge_list::Reading;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
@@ -50,10 +51,19 @@ pub enum Format {
     Graph6,
     /// One graph a line; see [`sparse6`](super::sparse6).
     Sparse6,
-    /// An adjacency matrix in a MATLAB 5 file; see [`matlab`].
+    /// An adjacency matrix in a MATLAB file, of version 5 or 7.3 (HDF5); see [`matlab`].
     Matlab,
     /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
     MatrixMarket,
+    /// Two names of images a line and nothing else, as COLMAP imports and hloc writes them.
+    MatchList,
+    /// Relative poses of GLOMAP: a pair, a quaternion, a translation.
+    Glomap,
+    /// `EGs.txt` of 1DSfM: a pair, a rotation, a translation. Cameras are called by their numbers;
+    /// their names in `list.txt` are not read: a graph is what one file says.
+    OneDsfm,
+    /// A whole text; see [`documents`].
+    Document(Document),
 }
 
 impl FromStr for Format {
@@ -66,6 +76,14 @@ impl FromStr for Format {
             "sparse6" => Ok(Self::Sparse6),
             "matlab" => Ok(Self::Matlab),
             "matrix-market" => Ok(Self::MatrixMarket),
+            "match-list" | "hloc-pairs" => Ok(Self::MatchList),
+            "glomap" => Ok(Self::Glomap),
+            "1dsfm" => Ok(Self::OneDsfm),
+            "openmvg-pairs" | "adjacency-list" => Ok(Self::Document(Document::Stars)),
+            "g2o" => Ok(Self::Document(Document::G2o)),
+            "node-link" | "json" => Ok(Self::Document(Document::NodeLink)),
+            "graphml" => Ok(Self::Document(Document::GraphMl)),
+            "dot" | "graphviz" => Ok(Self::Document(Document::Dot)),
             _ => Err(UnknownFormat),
         }
     }
@@ -73,7 +91,10 @@ impl FromStr for Format {
 
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the formats are edges, graph6, sparse6, matlab and matrix-market")]
+#[error(
+    "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
+     openmvg-pairs, g2o, node-link, graphml and dot"
+)]
 pub struct UnknownFormat;
 
 /// The name on the command line, which [`FromStr`] reads.
@@ -85,6 +106,14 @@ impl fmt::Display for Format {
             Self::Sparse6 => "sparse6",
             Self::Matlab => "matlab",
             Self::MatrixMarket => "matrix-market",
+            Self::MatchList => "match-list",
+            Self::Glomap => "glomap",
+            Self::OneDsfm => "1dsfm",
+            Self::Document(Document::Stars) => "openmvg-pairs",
+            Self::Document(Document::G2o) => "g2o",
+            Self::Document(Document::NodeLink) => "node-link",
+            Self::Document(Document::GraphMl) => "graphml",
+            Self::Document(Document::Dot) => "dot",
         })
     }
 }
@@ -230,8 +259,15 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         let graph = tracks_of(path, &name, sampled, &options, tracks);
         return Box::new(std::iter::once(graph));
     }
+    let edges = match options.format {
+        Some(Format::Edges) => Reading::Lenient,
+        Some(Format::MatchList) => Reading::Columns(2),
+        Some(Format::Glomap) => Reading::Columns(9),
+        Some(Format::OneDsfm) => Reading::Columns(14),
+        _ => Reading::Strict,
+    };
     let kind = match options.format {
-        Some(Format::Edges) => Ok(None),
+        Some(Format::Edges | Format::MatchList | Format::Glomap | Format::OneDsfm) => Ok(None),
         Some(Format::Graph6) => Ok(Some(Kind::Lines {
             encoding: Encoding::Graph6,
             guessed: false,
@@ -242,6 +278,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         })),
         Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
+        Some(Format::Document(document)) => Ok(Some(Kind::Document(document))),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
     let unused = ignored(&options, &kind);
@@ -263,7 +300,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
             .map(|(graph, notes)| (graph, Labels::Numbers { first: 1 }, notes)),
         Ok(Some(Kind::Text | Kind::Gzip)) => {
             let (head, whole) = (sampled.head.clone(), sampled.whole);
-            edge_list::read(sampled.into_input(), Reading::Strict).map_err(|fault| {
+            edge_list::read(sampled.into_input(), edges).map_err(|fault| {
                 // What is refused by the grammar may have a name.
                 match recognise::likely(&head, whole) {
                     Some(problem) if fault.problem.is_grammar() => Place::Input.fault(problem),
@@ -271,7 +308,10 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
                 }
             })
         }
-        Ok(None) => edge_list::read(sampled.into_input(), Reading::Lenient),
+        Ok(Some(Kind::Document(document))) => {
+            documents::read(document, sampled.into_input(), options.format.is_some())
+        }
+        Ok(None) => edge_list::read(sampled.into_input(), edges),
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {

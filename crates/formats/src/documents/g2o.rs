@@ -1,0 +1,143 @@
+//! Pose graphs of g2o: a tag a line, then ids and numbers.
+//!
+//! Tags by g2o's own types (slam2d, slam3d, sba, sim3): `VERTEX_...` of a pose is a node,
+//! `EDGE_...` between two poses a pair; numbers behind the ids (poses, measurements, information
+//! matrices) are of no concern. All other lines are ignored, and their tags named in a note:
+//! landmarks are no cameras, and their edges no pairs of cameras.
+
+use std::collections::BTreeMap;
+
+use crate::documents::collected::Collected;
+use crate::documents::{Parsed, malformed};
+use crate::edge_list::fields::integer;
+use crate::error::{Fault, Place, Problem};
+use viewcert::wording::counted;
+
+const FORMAT: &str = "g2o";
+
+/// Tags of poses, and how many numbers follow the id if that is certain.
+const POSES: [(&str, Option<usize>); 5] = [
+    ("VERTEX_SE2", Some(3)),
+    ("VERTEX_SE3:QUAT", Some(7)),
+    ("VERTEX_SE3:EXPMAP", None),
+    ("VERTEX_SIM3:EXPMAP", None),
+    ("VERTEX_CAM", None),
+];
+
+/// Tags of edges between two poses, and how many numbers follow the ids if that is certain: the
+/// measurement and the upper triangle of its information matrix.
+const PAIRS: [(&str, Option<usize>); 6] = [
+    ("EDGE_SE2", Some(3 + 6)),
+    ("EDGE_SE3:QUAT", Some(7 + 21)),
+    ("EDGE_SE3:EXPMAP", None),
+    ("EDGE_SIM3:EXPMAP", None),
+    ("EDGE_SE2_OFFSET", None),
+    ("EDGE_SE3_OFFSET", None),
+];
+
+/// Whether a text begins like a pose graph: names of images begin in any way, but one in capitals
+/// is a tag.
+pub(super) fn is_g2o(head: &str) -> bool {
+    let first = head.lines().map(str::trim_start);
+    let mut first = first.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    first.next().is_some_and(|line| {
+        ["VERTEX_", "EDGE_", "PARAMS_"]
+            .iter()
+            .any(|tag| line.starts_with(tag))
+    })
+}
+
+/// Reads a pose graph.
+pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
+    let mut collected = Collected::default();
+    let mut ignored: BTreeMap<&str, usize> = BTreeMap::new();
+    for (line, number) in text.lines().zip(1..) {
+        let fault = |problem| Place::Line(number).fault(problem);
+        let mut words = line.split_ascii_whitespace();
+        let Some(tag) = words.next().filter(|tag| !tag.starts_with('#')) else {
+            continue;
+        };
+        let known = |tags: &[(&str, Option<usize>)]| {
+            tags.iter()
+                .find_map(|&(known, numbers)| (known == tag).then_some(numbers))
+        };
+        if let Some(numbers) = known(&POSES) {
+            let [id] = ids(tag, &mut words, numbers).map_err(fault)?;
+            collected.list(id).map_err(fault)?;
+        } else if let Some(numbers) = known(&PAIRS) {
+            let [a, b] = ids(tag, &mut words, numbers).map_err(fault)?;
+            let a = collected.node(a).map_err(fault)?;
+            let b = collected.node(b).map_err(fault)?;
+            collected.pair(a, b).map_err(fault)?;
+        } else if is_tag(tag) {
+            *ignored.entry(tag).or_default() += 1;
+        } else {
+            let what = format!("the line begins with no tag: `{}`", shown(tag));
+            return Err(fault(malformed(FORMAT, what)));
+        }
+    }
+    for (tag, count) in ignored.iter().take(MOST_TAGS) {
+        let (lines, are) = (
+            counted(*count, "line"),
+            if *count == 1 { "is" } else { "are" },
+        );
+        collected.notes.push(format!(
+            "{lines} {} {are} ignored: no poses, or unknown",
+            shown(tag)
+        ));
+    }
+    if ignored.len() > MOST_TAGS {
+        let more = counted(ignored.len() - MOST_TAGS, "tag");
+        collected
+            .notes
+            .push(format!("lines of {more} more are ignored"));
+    }
+    collected.finish()
+}
+
+/// How many tags are named.
+const MOST_TAGS: usize = 10;
+
+/// The ids behind a tag, and no fewer or more numbers behind these than belong there.
+fn ids<'t, const N: usize>(
+    tag: &str,
+    words: &mut impl Iterator<Item = &'t str>,
+    numbers: Option<usize>,
+) -> Result<[&'t str; N], Problem> {
+    let mut ids = [""; N];
+    for id in &mut ids {
+        let Some(word) = words.next() else {
+            let what = format!("{tag} has {N} ids, and fewer are there");
+            return Err(malformed(FORMAT, what));
+        };
+        if integer(word).is_none() {
+            let what = format!("`{}` is no id, which is an integer", shown(word));
+            return Err(malformed(FORMAT, what));
+        }
+        *id = word;
+    }
+    let found = words.count();
+    match numbers {
+        Some(expected) if expected != found => Err(malformed(
+            FORMAT,
+            format!("{tag} has {expected} numbers behind its ids, and {found} are there"),
+        )),
+        _ => Ok(ids),
+    }
+}
+
+/// Whether a word may be the tag of a type that is not known here.
+fn is_tag(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_ascii_uppercase())
+        && word
+            .bytes()
+            .all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b':' | b'-'))
+}
+
+/// A word in a message.
+fn shown(word: &str) -> &str {
+    const MOST: usize = 40;
+    word.char_indices()
+        .nth(MOST)
+        .map_or(word, |(end, _)| &word[..end])
+}

@@ -1,0 +1,145 @@
+//! Graphs in texts that are read as a whole: DOT, g2o, GraphML, node-link JSON and stars.
+//!
+//! In: a text and which of these it is. Out: the graph with its labels, and notes about what was
+//! ignored, merged or guessed. Nodes are numbered by their sorted labels, as those of an edge list
+//! (docs/certificate.md, section 2), so the same pairs are the same graph in every format.
+//!
+//! A text that a reader of edge lists may take for one is refused unless its format was asked for:
+//! nobody then reads one file as two graphs.
+
+use std::io::Read;
+
+use crate::edge_list::{self, BYTE_ORDER_MARK};
+use crate::error::{Fault, Place, Problem};
+use viewcert::graph::{Graph, Labels};
+
+mod collected;
+mod dot;
+mod g2o;
+mod graphml;
+mod node_link;
+mod stars;
+
+/// A graph, what its nodes are called, and notes about how it was read.
+pub type Parsed = (Graph, Labels, Vec<String>);
+
+/// The formats of this folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Document {
+    /// The language of Graphviz.
+    Dot,
+    /// Pose graphs of g2o.
+    G2o,
+    /// Graphs in XML.
+    GraphMl,
+    /// Graphs in JSON as networkx writes them: lists of nodes and of edges (or links).
+    NodeLink,
+    /// A node and its neighbours a line: pairs of OpenMVG, adjacency lists of networkx.
+    Stars,
+}
+
+impl Document {
+    /// Which of them a text is that begins with `head`, which is all of it if `whole`.
+    pub(super) fn of(head: &[u8], whole: bool) -> Option<Self> {
+        let text = up_to_cut(head)?;
+        [
+            (Self::GraphMl, graphml::is_graphml(text)),
+            (Self::NodeLink, node_link::is_object(text)),
+            (Self::Dot, dot::is_dot(text)),
+            (Self::G2o, g2o::is_g2o(text)),
+            (Self::Stars, stars::is_stars(text, whole)),
+        ]
+        .into_iter()
+        .find_map(|(document, is)| is.then_some(document))
+    }
+
+    /// What to say of a text that may be an edge list as well.
+    fn doubt(self) -> Option<Problem> {
+        let (what, advice) = match self {
+            Self::Dot => (
+                "it could be an edge list as well as a graph in DOT",
+                "say --format dot or --format edges",
+            ),
+            Self::G2o => (
+                "it could be an edge list as well as a pose graph of g2o",
+                "say --format g2o or --format edges",
+            ),
+            // Texts that begin with a bracket are no edge lists, and stars are of uneven lines.
+            Self::GraphMl | Self::NodeLink | Self::Stars => return None,
+        };
+        Some(Problem::Doubtful { what, advice })
+    }
+}
+
+/// The beginning of a text, without a character that is cut at its end.
+fn up_to_cut(head: &[u8]) -> Option<&str> {
+    match std::str::from_utf8(head) {
+        Ok(text) => Some(text),
+        Err(error) if error.error_len().is_none() => {
+            std::str::from_utf8(&head[..error.valid_up_to()]).ok()
+        }
+        Err(_) => None,
+    }
+}
+
+/// Reads a graph; `asked` if the user has named the format, and nothing else can be meant.
+/// O(bytes + n log n + m log m), in memory a few times the size of the text.
+///
+/// # Errors
+/// With the number of the line where there is one: what is no text, or not of the format; a pair
+/// of a node with itself; no nodes. Without `asked`: a text that could be something else.
+pub fn read(document: Document, mut input: impl Read, asked: bool) -> Result<Parsed, Fault> {
+    let mut bytes = Vec::new();
+    input
+        .read_to_end(&mut bytes)
+        .map_err(|error| Place::Input.fault(error.into()))?;
+    let text = text(bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes))?;
+    if let Some(doubt) = document.doubt().filter(|_| !asked)
+        && edge_list::may_be(text)
+    {
+        return Err(Place::Input.fault(doubt));
+    }
+    match document {
+        Document::Dot => dot::read(text),
+        Document::G2o => g2o::read(text),
+        Document::GraphMl => graphml::read(text),
+        Document::NodeLink => node_link::read(text),
+        Document::Stars => stars::read(text, asked),
+    }
+}
+
+/// Bytes as text without control characters but tabs and the ends of lines.
+fn text(bytes: &[u8]) -> Result<&str, Fault> {
+    let odd = bytes.iter().enumerate().find(|&(at, byte)| match byte {
+        b'\t' | b'\n' => false,
+        b'\r' => bytes.get(at + 1) != Some(&b'\n'),
+        _ => byte.is_ascii_control(),
+    });
+    if let Some((at, byte)) = odd {
+        let problem = match byte {
+            0 => Problem::Nul,
+            b'\r' => Problem::CarriageReturn,
+            &byte => Problem::Control(byte),
+        };
+        return Err(Place::Line(line_of(bytes, at)).fault(problem));
+    }
+    std::str::from_utf8(bytes)
+        .map_err(|error| Place::Line(line_of(bytes, error.valid_up_to())).fault(Problem::NotUtf8))
+}
+
+/// The number of the line in which a byte stands, from 1.
+fn line_of(text: &[u8], at: usize) -> u64 {
+    let before = &text[..at.min(text.len())];
+    1 + before.iter().filter(|&&b| b == b'\n').count() as u64
+}
+
+/// What a format does not allow.
+fn malformed(format: &'static str, what: impl Into<String>) -> Problem {
+    Problem::Malformed {
+        format,
+        what: what.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

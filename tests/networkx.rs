@@ -1,0 +1,74 @@
+//! Files that networkx, pydot, SciPy and h5py write, read by this program: these know the graphs.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use viewcert_formats::{ReadOptions, read_graphs};
+
+/// Says that something is not installed; a failure where everything has to be there.
+fn skipped(reason: &str) {
+    let required = std::env::var("VIEWCERT_REQUIRE_DATA").is_ok_and(|value| value == "1");
+    assert!(!required, "{reason}");
+    eprintln!("SKIPPED: {reason}");
+}
+
+/// The labels in a list of JSON.
+fn labels(list: &Value) -> BTreeSet<String> {
+    let labels = list.as_array().unwrap().iter();
+    labels
+        .map(|label| label.as_str().unwrap().to_owned())
+        .collect()
+}
+
+/// VIEWCERT_PYTHON names an interpreter with the packages, if `python3` is not one.
+#[test]
+fn what_others_write_is_read_as_they_mean_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/networkx/write.py");
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let mut files = 0;
+    for seed in ["1", "2", "3"] {
+        let written = Command::new(&python)
+            .arg(&script)
+            .arg(folder.path())
+            .arg(seed)
+            .output();
+        let Ok(written) = written else {
+            return skipped(&format!("{python} is not installed"));
+        };
+        let said = String::from_utf8(written.stdout).unwrap();
+        if written.status.code() == Some(77) {
+            return skipped(&format!("a package of {python} is not installed: {said}"));
+        }
+        let errors = String::from_utf8_lossy(&written.stderr);
+        assert!(written.status.success(), "{errors}");
+        for line in said.lines() {
+            let meant: Value = serde_json::from_str(line).unwrap();
+            let path = folder.path().join(meant["file"].as_str().unwrap());
+            let mut graphs = read_graphs(path.to_str().unwrap(), &ReadOptions::default());
+            let named = graphs
+                .next()
+                .unwrap()
+                .unwrap_or_else(|error| panic!("{error}"));
+            assert!(graphs.next().is_none());
+            let label = |node: u32| named.labels.label(node).into_owned();
+            let nodes = (0..named.graph.nodes() as u32).map(label).collect();
+            assert_eq!(labels(&meant["nodes"]), nodes, "{line}");
+            let pairs: BTreeSet<BTreeSet<String>> = meant["pairs"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(labels)
+                .collect();
+            let edges = named.graph.edges().iter();
+            let found = edges
+                .map(|&(a, b)| BTreeSet::from([label(a), label(b)]))
+                .collect();
+            assert_eq!(pairs, found, "{line}");
+            files += 1;
+        }
+    }
+    assert_eq!(files, 3 * 12 * 12);
+}
