@@ -5,12 +5,14 @@
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. Every step is recorded, and the record is the proof.
 
-pub mod piece;
+pub(crate) mod piece;
 
 mod grow;
 mod merge;
 #[cfg(test)]
 mod tests;
+
+pub use piece::Members;
 
 use crate::graph::{Adjacency, Graph};
 

@@ -10,7 +10,7 @@ use crate::linalg::dense_lu::{Echelon, eliminate_mod};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::textbook::Pivots;
-use crate::watch::{Reservation, Stopped, Task, matrix_bytes, unwatched};
+use crate::watch::{Reservation, Stopped, Task, matrix_bytes};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -79,7 +79,7 @@ pub struct Factorisation {
 
 /// Why a matrix was not factorised.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unfinished {
+pub(crate) enum Unfinished {
     /// The part that has to be eliminated as a dense matrix has these many rows and columns: too
     /// many.
     TooLarge(usize, usize),
@@ -314,7 +314,7 @@ impl Factorisation {
     ///
     /// # Panics
     /// As [`Factorisation::new`].
-    pub fn within(
+    pub(crate) fn within(
         field: &PrimeField,
         rows: Vec<SparseRow>,
         cols: usize,
@@ -443,11 +443,12 @@ impl Factorisation {
 
     /// A basis of the vectors w with w A = 0, one row of the result for each free row: one
     /// at that row and zero at the other free rows.
-    pub fn left_kernel(&self) -> Matrix<u64> {
+    #[cfg(test)]
+    pub(crate) fn left_kernel(&self) -> Matrix<u64> {
         let free = self.free_rows.len();
         let unit = |i, k| if i == k { self.field.one() } else { 0 };
         let unit = Matrix::from_fn(free, free, unit);
-        unwatched(|task| self.left_combinations(&unit, task))
+        crate::watch::unwatched(|task| self.left_combinations(&unit, task))
     }
 
     /// Vectors w with w A = 0, one row of the result for each row of `coefficients`: its
@@ -460,7 +461,7 @@ impl Factorisation {
     ///
     /// # Panics
     /// If `coefficients` does not have a column for each free row.
-    pub fn left_combinations(
+    pub(crate) fn left_combinations(
         &self,
         coefficients: &Matrix<u64>,
         task: &Task,
@@ -654,7 +655,7 @@ mod tests {
     use super::super::samples::{known_rank, multiply};
     use super::super::{prime::DEFAULT_PRIME, textbook};
     use super::*;
-    use crate::watch::{Limits, Reason, Step, Watch};
+    use crate::watch::{Limits, Reason, Step, Watch, unwatched};
     use proptest::prelude::*;
     use rand::{Rng, SeedableRng};
 
