@@ -664,6 +664,7 @@ mod tests {
     proptest! {
         /// Theorem 3.2, at special positions too: centres on a coarse grid.
         #[test]
+        #[test]
         fn ranks_are_those_of_the_whole_matrix(
             grid in prop::collection::vec(prop::array::uniform3(0i64..4), 2..7),
             ends in prop::collection::vec((0usize..7, 0usize..7), 1..16),

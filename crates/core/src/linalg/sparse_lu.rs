@@ -10,6 +10,8 @@ use crate::linalg::dense_lu::{Echelon, eliminate_mod};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::textbook::Pivots;
+#[cfg(test)]
+use crate::watch::unwatched;
 use crate::watch::{Reservation, Stopped, Task, matrix_bytes};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -448,7 +450,7 @@ impl Factorisation {
         let free = self.free_rows.len();
         let unit = |i, k| if i == k { self.field.one() } else { 0 };
         let unit = Matrix::from_fn(free, free, unit);
-        crate::watch::unwatched(|task| self.left_combinations(&unit, task))
+        unwatched(|task| self.left_combinations(&unit, task))
     }
 
     /// Vectors w with w A = 0, one row of the result for each row of `coefficients`: its
@@ -536,8 +538,8 @@ impl Factorisation {
 
     /// Vectors x with A x = 0, one row of the result for each of the given free columns:
     /// one at that column and zero at the other free columns. Over all free columns this
-    /// is a basis. The cost is as for
-    /// [`left_combinations`](Self::left_combinations).
+    /// is a basis. Takes O(r^2) multiply-accumulates a vector, r the rank of the dense part, and
+    /// one pass over the sparse factors for every 8 vectors.
     ///
     /// # Panics
     /// If a column is not free.
@@ -655,7 +657,7 @@ mod tests {
     use super::super::samples::{known_rank, multiply};
     use super::super::{prime::DEFAULT_PRIME, textbook};
     use super::*;
-    use crate::watch::{Limits, Reason, Step, Watch, unwatched};
+    use crate::watch::{Limits, Reason, Step, Watch};
     use proptest::prelude::*;
     use rand::{Rng, SeedableRng};
 
