@@ -329,12 +329,12 @@ impl<'w> Task<'w> {
 
     /// The same, with so many units of other work expected after it; `None` if that is not known,
     /// or counted in other units.
-    pub fn followed_by(&self, later: Option<u64>) -> Self {
+    pub(crate) fn followed_by(&self, later: Option<u64>) -> Self {
         Self { later, ..*self }
     }
 
     /// A part of the work that is not worth telling; it can be stopped all the same.
-    pub fn untold(&self) -> Self {
+    pub(crate) fn untold(&self) -> Self {
         Self {
             told: false,
             ..*self
@@ -374,7 +374,7 @@ impl<'w> Task<'w> {
     ///
     /// # Errors
     /// If there are not as many left. `what` says what they are for.
-    pub fn reserve(&self, bytes: u64, what: fmt::Arguments) -> Result<Reservation, Stopped> {
+    pub(crate) fn reserve(&self, bytes: u64, what: fmt::Arguments) -> Result<Reservation, Stopped> {
         let mut reservation = Reservation {
             shared: self.watch.shared.clone(),
             bytes: 0,
@@ -429,7 +429,7 @@ impl<'w> Work<'w> {
     /// Whether what is being computed will be thrown away: for loops that cannot return an
     /// error, before a call of [`done`](Self::done) that will.
     #[inline]
-    pub fn is_stopped(&self) -> bool {
+    pub(crate) fn is_stopped(&self) -> bool {
         let shared = self.task.watch.shared.as_deref();
         shared.is_some_and(Shared::is_stopped)
     }
@@ -452,7 +452,7 @@ impl Drop for Work<'_> {
 
 /// Memory on the account of a watch.
 #[derive(Debug, Default)]
-pub struct Reservation {
+pub(crate) struct Reservation {
     shared: Option<Arc<Shared>>,
     bytes: u64,
 }
@@ -462,7 +462,12 @@ impl Reservation {
     ///
     /// # Errors
     /// If there are not as many left; nothing changes then.
-    pub fn resize(&mut self, bytes: u64, task: &Task, what: fmt::Arguments) -> Result<(), Stopped> {
+    pub(crate) fn resize(
+        &mut self,
+        bytes: u64,
+        task: &Task,
+        what: fmt::Arguments,
+    ) -> Result<(), Stopped> {
         let Some(shared) = &self.shared else {
             return Ok(());
         };
@@ -513,7 +518,7 @@ impl Drop for Reservation {
 }
 
 /// The bytes of a matrix of words.
-pub fn matrix_bytes(rows: usize, cols: usize) -> u64 {
+pub(crate) fn matrix_bytes(rows: usize, cols: usize) -> u64 {
     (rows as u64).saturating_mul(cols as u64).saturating_mul(8)
 }
 

@@ -2,11 +2,10 @@
 
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
-use crate::decide::counting::{Block, Counting, Hub};
 use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
-use crate::decide::{Claim, Verdict};
+use crate::decide::{Block, Claim, Counting, Hub, Verdict};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
 use crate::linalg::integer::Integer;

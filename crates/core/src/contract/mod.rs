@@ -6,7 +6,7 @@
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
 //! (rule 5 of Theorem 4.9). Every step is recorded, and the record is the proof.
 
-pub mod piece;
+pub(crate) mod piece;
 
 mod cycles;
 mod grow;
@@ -14,6 +14,8 @@ mod merge;
 mod seeds;
 #[cfg(test)]
 mod tests;
+
+pub use piece::Members;
 
 use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph};

@@ -28,7 +28,7 @@ impl Members {
     }
 
     /// The members of each class, classes in the order of their first members. Members
-    /// are counted bodies first, then edges, as in [`Core::owner`].
+    /// are counted bodies first, then edges, as in `Core::owner`.
     ///
     /// # Panics
     /// If a class is not named by a number below that of the members.

@@ -164,7 +164,7 @@ impl Draws {
     /// How many draws make the error at most 2^-120 for a core with `nodes` nodes, and the
     /// exponent of the error bound they reach; `None` for a core too large for the bound
     /// (2^32 nodes and more).
-    pub fn plan(nodes: usize) -> Option<(u64, i64)> {
+    pub(crate) fn plan(nodes: usize) -> Option<(u64, i64)> {
         let size = Model::Projective.required(nodes).checked_ilog2()? + 1;
         let each = 56u64.checked_sub(size.into()).filter(|&each| each >= 20)?;
         let count = 120u64.div_ceil(each);

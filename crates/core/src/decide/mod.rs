@@ -17,23 +17,24 @@
 //! ```
 //!
 //! Pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in
-//! [`motion_class`], bounds in [`counting`], the paper's own matrix (`--no-contraction`,
+//! `motion_class`, bounds in `counting`, the paper's own matrix (`--no-contraction`,
 //! `--rational`) in `whole_matrix`. What goes in is in `options`, what is found in [`evidence`],
 //! what comes out in `verdict`.
 
-pub mod counting;
 pub mod evidence;
-pub mod motion_class;
 
 mod claim;
+mod counting;
 mod drawn;
 mod error;
+mod motion_class;
 mod one_piece;
 mod options;
 mod verdict;
 mod whole_matrix;
 
 pub use claim::{Claim, Strength, UnknownStrength};
+pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
 pub use options::{Arithmetic, Options, Prime};
 pub use verdict::{Component, UnknownValue, Value, Verdict};

@@ -1,4 +1,5 @@
-//! Motion classes of a piece from one motion of its core (docs/theory.md, section 6).
+//! Motion classes of a piece from one motion of its core (docs/theory.md, Theorem 6.4 and
+//! Propositions 6.6 and 6.7).
 //!
 //! In a component every motion is one transformation, so edges that a motion
 //! transforms differently lie in different components; a random motion tells all of
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 /// Groups the members of a piece by the transformations of a motion: two members are in
 /// one class if some of their core edges are transformed alike. Classes come in a fixed
 /// order, that of their first members.
-pub fn classes<T: Ord>(part: &Members, core: &Core, transforms: &[T]) -> Vec<Members> {
+pub(crate) fn classes<T: Ord>(part: &Members, core: &Core, transforms: &[T]) -> Vec<Members> {
     let mut sets = UnionFind::new(part.len());
     let owners = core.owner.iter().map(|&owner| owner as usize);
     unite(&mut sets, transforms.iter().zip(owners));
@@ -21,7 +22,7 @@ pub fn classes<T: Ord>(part: &Members, core: &Core, transforms: &[T]) -> Vec<Mem
 }
 
 /// Unites the owners of equal transformations.
-pub fn unite<'a, T: Ord + 'a>(
+pub(crate) fn unite<'a, T: Ord + 'a>(
     sets: &mut UnionFind,
     transforms: impl Iterator<Item = (&'a T, usize)>,
 ) {

@@ -84,8 +84,6 @@ pub enum DrawError {
         /// The number of nodes.
         nodes: usize,
     },
-    /// A bound that leaves nothing to draw from.
-    Bound(u64),
     /// Bounds on rational entries out of range.
     RationalBounds,
 }
@@ -97,10 +95,6 @@ impl fmt::Display for DrawError {
                 f,
                 "{ATTEMPTS} draws in a row had coincident centres or a camera of rank below 3 for \
          {nodes} nodes: take a larger prime or larger bounds"
-            ),
-            Self::Bound(inner) => write!(
-                f,
-                "the bound {inner} is out of range: take one from 1 to 2^62 - 1"
             ),
             Self::RationalBounds => write!(
                 f,
@@ -193,14 +187,6 @@ fn symmetric(generator: &mut ChaCha20Rng, bound: u64) -> i64 {
     uniform(generator, 2 * bound + 1) as i64 - bound as i64
 }
 
-fn check_bound(bound: u64) -> Result<(), DrawError> {
-    if (1..1 << 62).contains(&bound) {
-        Ok(())
-    } else {
-        Err(DrawError::Bound(bound))
-    }
-}
-
 /// Distinct centres modulo p, as elements of `field`, one a node.
 ///
 /// # Errors
@@ -222,7 +208,7 @@ pub fn centres_mod(
 ///
 /// # Errors
 /// As [`centres_mod`]; never for less than 2^30 nodes.
-pub fn centres_mod_drawn_prime(
+pub(crate) fn centres_mod_drawn_prime(
     nodes: usize,
     key: &DrawKey,
 ) -> Result<(PrimeField, Vec<[u64; 3]>, u64), DrawError> {
@@ -313,20 +299,6 @@ pub fn cameras_rational(
         Some(centre)
     };
     key.draw(nodes, draw, centre)
-}
-
-/// Distinct centres with coordinates in `-bound..=bound`, one a node.
-///
-/// # Errors
-/// A bound of zero or above 2^62 - 1, or one too small for so many distinct centres.
-pub fn centres_integer(
-    nodes: usize,
-    bound: u64,
-    key: &DrawKey,
-) -> Result<Drawn<Vec<[i64; 3]>>, DrawError> {
-    check_bound(bound)?;
-    let draw = |generator: &mut ChaCha20Rng| std::array::from_fn(|_| symmetric(generator, bound));
-    key.draw(nodes, draw, |&centre: &[i64; 3]| Some(centre))
 }
 
 #[cfg(test)]
@@ -463,18 +435,7 @@ mod tests {
     }
 
     #[test]
-    fn golden_centres_integer() {
-        let drawn = centres_integer(3, 100, &key(u64::MAX, 5)).unwrap();
-        assert_eq!(drawn.values, [[-71, -62, 20], [8, 89, 3], [-27, 36, 28]]);
-    }
-
-    #[test]
     fn degenerate_draws_are_discarded_and_recorded() {
-        let drawn = centres_integer(8, 1, &key(14, 0)).unwrap();
-        assert_eq!(drawn.draw, 1);
-        assert_eq!(drawn.values[0], [0, 1, 0]);
-        assert_eq!(drawn.values[7], [1, -1, 1]);
-
         // Modulo 5 fourteen random cameras often share a centre or have rank below 3.
         let field = PrimeField::new(5).unwrap();
         let drawn = cameras_mod(&field, 14, &key(4, 0)).unwrap();
@@ -493,13 +454,6 @@ mod tests {
         let degenerate = |nodes| DrawError::Degenerate { nodes };
         assert_eq!(centres_mod(&field, 126, &key(0, 0)), Err(degenerate(126)));
         assert_eq!(cameras_mod(&field, 157, &key(0, 0)), Err(degenerate(157)));
-        assert_eq!(centres_integer(28, 1, &key(0, 0)), Err(degenerate(28)));
-        for bound in [0, 1 << 62] {
-            assert_eq!(
-                centres_integer(1, bound, &key(0, 0)),
-                Err(DrawError::Bound(bound))
-            );
-        }
         for (numerator, denominator) in [
             (0, 1),
             (MAX_NUMERATOR + 1, 1),

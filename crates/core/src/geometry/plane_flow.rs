@@ -81,7 +81,7 @@ fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
     [x, y, z, dot]
 }
 
-/// The edges outside a spanning forest, ascending: an edge is in the forest if it joins
+/// The edges outside a spanning forest, ascending, which hold the rank of Lambda (Lemma 3.4): an edge is in the forest if it joins
 /// parts that the edges before it do not.
 pub fn cotree(graph: &Graph) -> Vec<usize> {
     let mut forest = UnionFind::new(graph.nodes());
@@ -112,7 +112,7 @@ fn lambda_bytes(flows: usize, columns: usize) -> u64 {
 ///
 /// # Errors
 /// If there is not as much left.
-pub fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'w>, Stopped> {
+pub(crate) fn expect_lambda<'w>(graph: &Graph, task: &Task<'w>) -> Result<Task<'w>, Stopped> {
     let (edges, columns) = (graph.edges().len(), cotree(graph).len());
     // N has a kernel of dimension 4 at least: translations and the scale.
     let rank = (3 * graph.nodes()).saturating_sub(4);
@@ -166,7 +166,7 @@ impl PlaneFlowRank {
 
 /// A motion of the cameras that keeps the fundamental matrices up to scale.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Motion {
+pub(crate) struct Motion {
     /// `columns[k][3 v + r]` is entry (r, k) of dP_v.
     pub columns: [Vec<u64>; 4],
     /// For every edge the X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j,
@@ -177,7 +177,7 @@ pub struct Motion {
 impl Motion {
     /// The entries in the order of J_P's columns: `12 v + 3 c + r` for entry (r, c) of
     /// dP_v.
-    pub fn by_node(&self) -> Vec<u64> {
+    pub(crate) fn by_node(&self) -> Vec<u64> {
         let nodes = self.columns[0].len() / 3;
         (0..nodes)
             .flat_map(|v| {
@@ -220,7 +220,7 @@ impl<'a> PlaneFlows<'a> {
     }
 
     /// The pivots of N.
-    pub fn rigidity_pivots(&self) -> Pivots {
+    pub(crate) fn rigidity_pivots(&self) -> Pivots {
         self.rigidity.pivots()
     }
 
@@ -364,7 +364,7 @@ impl<'a> PlaneFlows<'a> {
         Ok(rows)
     }
 
-    /// The lower bound on rank J_P, with its pivots.
+    /// The lower bound on rank J_P, with its pivots (Theorem 3.2 and Corollary 3.3).
     pub fn rank(&self, lambda: &Lambda) -> PlaneFlowRank {
         let mut pivots = lambda.echelon.pivots();
         for col in &mut pivots.cols {
@@ -377,10 +377,14 @@ impl<'a> PlaneFlows<'a> {
         }
     }
 
-    /// A random element of ker J_P, uniform modulo the scales of the cameras; `None` if the
+    /// A random element of ker J_P (Lemma 3.1, Proposition 6.6), uniform modulo the scales of the cameras; `None` if the
     /// flows of `lambda` do not span all flows, which is unlikely but modulo a small prime.
     /// `random` gives uniform elements of the field.
-    pub fn motion(&self, lambda: &Lambda, mut random: impl FnMut() -> u64) -> Option<Motion> {
+    pub(crate) fn motion(
+        &self,
+        lambda: &Lambda,
+        mut random: impl FnMut() -> u64,
+    ) -> Option<Motion> {
         let scales = lambda.random_kernel_vector(self.field, self.graph.edges().len(), &mut random);
         let mut column = |k: usize| {
             let mut sides = Vec::with_capacity(2 * self.graph.edges().len());
@@ -424,7 +428,7 @@ impl<'a> PlaneFlows<'a> {
         Some(y)
     }
 
-    /// X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j: column k is
+    /// Equation (6.1): X_e with dP_i = P_i X_e and dP_j = P_j X_e + lambda_e P_j: column k is
     /// (u_k, w_k) with (c_j - c_i) w_k = y_i^k - y_j^k + lambda_e P_j e_k and
     /// u_k = y_i^k + w_k c_i.
     fn transform(&self, columns: &[Vec<u64>; 4], edge: usize, scale: u64) -> [u64; 16] {
@@ -460,9 +464,12 @@ impl<'a> PlaneFlows<'a> {
         x
     }
 
-    /// A random element of ker N (the calibrated model), with the scale and translation
+    /// A random element of ker N (the calibrated model, Theorem 6.8), with the scale and translation
     /// (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
-    pub fn calibrated_motion(&self, mut random: impl FnMut() -> u64) -> (Vec<u64>, Vec<[u64; 4]>) {
+    pub(crate) fn calibrated_motion(
+        &self,
+        mut random: impl FnMut() -> u64,
+    ) -> (Vec<u64>, Vec<[u64; 4]>) {
         let f = self.field;
         let y = self
             .solve(vec![0; 2 * self.graph.edges().len()], &mut random)
@@ -656,6 +663,7 @@ mod tests {
 
     proptest! {
         /// Theorem 3.2, at special positions too: centres on a coarse grid.
+        #[test]
         #[test]
         fn ranks_are_those_of_the_whole_matrix(
             grid in prop::collection::vec(prop::array::uniform3(0i64..4), 2..7),

@@ -233,7 +233,8 @@ impl Echelon {
     /// A basis of the left kernel, one row for each row in [`free_rows`](Self::free_rows):
     /// one at that row, zero at the other free rows.
     /// O(rank^2) multiply-accumulates a vector.
-    pub fn left_kernel(&self) -> Matrix<u64> {
+    #[cfg(test)]
+    pub(crate) fn left_kernel(&self) -> Matrix<u64> {
         let rank = self.rank();
         let free: Vec<usize> = (rank..self.order.len()).collect();
         let weights = self.left_weights(&free);
@@ -254,6 +255,7 @@ impl Echelon {
 
     /// For each of the given positions in factorised order, none of a pivot: the weights
     /// of the pivot rows, in pivot order, that make their sum with that row zero.
+    #[cfg(test)]
     pub(crate) fn left_weights(&self, positions: &[usize]) -> Matrix<u64> {
         let mut weights = Matrix::from_fn(positions.len(), self.rank(), |i, k| {
             self.factors[(positions[i], self.pivot_cols[k])]
@@ -288,7 +290,8 @@ impl Echelon {
         kernel
     }
 
-    /// As [`left_weights`](Self::left_weights) for linear combinations of the free rows:
+    /// For each of the given linear combinations of the free rows: the weights of the pivot rows,
+    /// in pivot order, that make their sum with it zero:
     /// `coefficients` has a row for each combination and a column for each free row, in
     /// factorised order. So many units of `work` are done as
     /// [`combination_products`](Self::combination_products) says.

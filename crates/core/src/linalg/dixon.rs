@@ -78,7 +78,7 @@ impl RankExact {
 ///
 /// # Panics
 /// If an entry lies beyond the last column.
-pub fn rank_at_least(
+fn rank_at_least(
     field: &PrimeField,
     rows: &[IntegerRow],
     cols: usize,

@@ -83,7 +83,7 @@ impl std::error::Error for ModulusError {}
 
 /// Whether `n` is a prime. Miller-Rabin with the first twelve primes as bases, which
 /// is exact for every 64-bit number (Sorenson and Webster, Math. Comp. 86, 2017).
-pub fn is_prime(n: u64) -> bool {
+pub(crate) fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if n < 2 {
         return false;
@@ -179,7 +179,7 @@ impl PrimeField {
         self.redc(u128::from(value % self.p) * u128::from(self.r2))
     }
 
-    /// The canonical residue, 0 <= r < p, of an element.
+    /// The least residue, 0 <= r < p, of an element.
     pub fn to_u64(&self, element: u64) -> u64 {
         self.redc(u128::from(element))
     }
@@ -199,7 +199,7 @@ impl PrimeField {
 
     /// Inverts every element in place with a single field inversion (Montgomery's
     /// trick): 3 multiplications an element. Zeros stay zero.
-    pub fn invert_all(&self, elements: &mut [u64]) {
+    pub(crate) fn invert_all(&self, elements: &mut [u64]) {
         let mut prefixes = Vec::with_capacity(elements.len());
         let mut product = self.one;
         for &x in elements.iter() {
@@ -342,7 +342,7 @@ impl PrimeField {
 
     /// `y[k] += a x[k]` for every k. The shorter slice counts.
     #[inline]
-    pub fn axpy(&self, y: &mut [u64], a: u64, x: &[u64]) {
+    pub(crate) fn axpy(&self, y: &mut [u64], a: u64, x: &[u64]) {
         for (y, &x) in y.iter_mut().zip(x) {
             *y = self.plus(*y, self.times(a, x));
         }

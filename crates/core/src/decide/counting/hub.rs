@@ -1,4 +1,5 @@
-//! The hub bound: parts that meet at a node, and too few plane flows between them.
+//! The hub bound (Theorem 5.2 of docs/theory.md): parts that meet at a node, and too few plane
+//! flows between them.
 
 use super::Search;
 use crate::contract::piece::{Assembly, Core, Members};
@@ -70,7 +71,7 @@ pub(super) fn search(
         let inflow = Inflow::new(by.field, &core.graph, &flows, &part_of_edge, v);
         for (set, _) in inflow.promising(by.field, &quiet)? {
             let split: Vec<u32> = set.iter().map(|&k| inflow.parts[k] as u32).collect();
-            let candidate = Split {
+            let candidate = Candidate {
                 assembly,
                 block,
                 core: &core,
@@ -192,7 +193,7 @@ impl Inflow {
 }
 
 /// A set of parts to be split off at a node.
-struct Split<'a> {
+struct Candidate<'a> {
     assembly: &'a Assembly,
     block: &'a Members,
     core: &'a Core,
@@ -203,8 +204,8 @@ struct Split<'a> {
     split: &'a [u32],
 }
 
-impl Split<'_> {
-    /// Counts what the split takes off; `None` if nothing.
+impl Candidate<'_> {
+    /// What the split takes off by Theorem 5.2; `None` if nothing.
     fn evaluate(&self, by: &mut Search) -> Result<Option<Hub>, Stopped> {
         let v = self.node;
         // The split core: copies of v come after all nodes, v itself is what remains.

@@ -49,7 +49,7 @@ pub struct Block {
 }
 
 impl Counting {
-    /// The partition bound of the given blocks.
+    /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8).
     fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
         Self {
             bound: blocks
@@ -75,7 +75,7 @@ impl Counting {
 }
 
 /// How a search draws, computes and can be stopped.
-pub struct Search<'a> {
+pub(crate) struct Search<'a> {
     /// The field of its matrices. Where to look is not a claim, so that any field does.
     pub field: &'a PrimeField,
     /// Gives uniform residues; the choice steers the search but not the validity of what it
@@ -99,7 +99,7 @@ impl Search<'_> {
 ///
 /// # Errors
 /// If the search was stopped.
-pub fn count(
+pub(crate) fn count(
     model: Model,
     assembly: &Assembly,
     piece: &Members,
@@ -143,7 +143,7 @@ pub fn count(
 }
 
 /// The parallel-rigid components of a part as blocks, each with a hub or else divided into
-/// the given components, whichever is better.
+/// the given components, whichever is better (Theorem 5.5).
 fn by_rigid_blocks(
     assembly: &Assembly,
     part: &Members,
@@ -168,7 +168,7 @@ fn by_rigid_blocks(
     Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
 }
 
-/// One block, with the best hub that the search finds.
+/// One block, with the best hub that the search finds (Theorem 5.2).
 fn with_hub(
     assembly: &Assembly,
     block: &Members,
@@ -189,7 +189,7 @@ fn with_hub(
     })
 }
 
-/// The components of the calibrated model: where N alone leaves no freedom.
+/// The components of the calibrated model, where N alone leaves no freedom (Theorem 6.8).
 fn parallel_rigid_components(
     assembly: &Assembly,
     piece: &Members,
