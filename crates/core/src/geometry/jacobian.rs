@@ -126,16 +126,17 @@ pub fn edge_rows<R: Ring>(
     let b = transfer(ring, p_i, |h, k| &f[k][h]);
     for (row, (r, c)) in VECH.into_iter().enumerate() {
         for (start, block) in [(0, &a), (12, &b)] {
-            for k in 0..3 {
-                if r == c {
-                    put(row, start + 3 * c + k, ring.add(&block[r][k], &block[r][k]));
-                } else {
-                    put(row, start + 3 * c + k, block[r][k].clone());
+            let mut put_column = |column: usize, entries: [R::Elem; 3]| {
+                for (place, entry) in (start + 3 * column..).zip(entries) {
+                    put(row, place, entry);
                 }
-            }
-            // r > c in the lower triangle, so the columns ascend.
-            for k in (0..3).filter(|_| r != c) {
-                put(row, start + 3 * r + k, block[c][k].clone());
+            };
+            if r == c {
+                put_column(c, block[r].each_ref().map(|entry| ring.add(entry, entry)));
+            } else {
+                // r > c in the lower triangle, so the columns ascend.
+                put_column(c, block[r].clone());
+                put_column(r, block[c].clone());
             }
         }
     }
