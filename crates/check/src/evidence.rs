@@ -1,5 +1,5 @@
-//! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification; items 2
-//! to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
+//! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification; items
+//! 2 to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
 
 use crate::counting::check_counting;
 use crate::document::{self, Evidence, Members, Model};
