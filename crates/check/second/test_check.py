@@ -110,6 +110,7 @@ class Notation(Case):
         for big in ('"011"', '"+11"', '"-0"', '" 11"', '"11.0"', '""', '"1_1"', '"\u0661\u0661"', "11"):
             self.text_rejected('"prime": "11"', f'"prime": {big}', "prime is not a big")
         self.text_rejected('"seed": "1"', '"seed": "18446744073709551616"', "seed is out of range")
+        self.text_rejected('"seed": "1"', f'"seed": "1{"0" * 30}"', "seed is out of range")
         self.text_rejected('"seed": "1"', '"seed": "-1"', "seed: -1 is below 0")
         self.text_rejected('"draw": 0', '"draw": -1', "draw: -1 is below 0")
 
@@ -575,6 +576,16 @@ class LowerBounds(Case):
         document["pieces"][0]["evidence"] += copy.deepcopy(more)
         return document
 
+    def test_no_kind(self):
+        self.rejects(self.with_evidence({}), "has no kind")
+
+    def test_numbers_that_are_too_large(self):
+        with self.assertRaisesRegex(check.TooLarge, "more than 100000 digits"):
+            self.verifies(self.with_evidence({**self.integer, "determinant": "1" * 100001}))
+        self.assertEqual(check.modulus_above([[2**80000]], ""), 2**86243 - 1)
+        with self.assertRaisesRegex(check.TooLarge, "numbers of 90003 bits"):
+            check.modulus_above([[2**90000]], "")
+
     def test_plane_flow(self):
         document = make.make(FINITE, use_bodies=False)
         self.verifies(document)
@@ -853,6 +864,20 @@ class ErrorBounds(Case):
         self.assertEqual(error, single + 1)
 
 
+class Gaps(Case):
+    """Section 8: a rank by draws that is above the lower bound."""
+
+    def test_the_rank_is_not_shown(self):
+        document = make.make(SQUARE, draws=True)
+        self.verifies(document)
+
+        def fewer(other):
+            flow = evidence(other, "plane-flow")
+            flow.update(rows=flow["rows"][:-1], cols=flow["cols"][:-1])
+
+        self.broken(document, fewer, "section 8: the rank is not shown")
+
+
 class Classes(Case):
     """Section 7, classes and kernel."""
 
@@ -878,6 +903,12 @@ class Classes(Case):
 
         self.broken(document, classes(merged), "neither evidence nor split")
 
+        def merged_with_evidence(found):
+            merged(found)
+            found[0]["evidence"] = [{}]
+
+        self.broken(document, classes(merged_with_evidence), "evidence without a kind")
+
         def merged_and_split(found):
             merged(found)
             found[0]["split"] = {"rigid": {"bodies": [], "edges": [[0, 1], [0, 3]]}, "pieces": []}
@@ -889,6 +920,7 @@ class Classes(Case):
         self.broken(document, kernel(vector=vector[:-1] + ["-1"]), "below 0")
         self.broken(document, kernel(vector=vector[:-1] + ["1"]), "no motion on the core edge")
         self.broken(document, kernel(seed="5"), "no motion on the core edge")
+        self.broken(document, kernel(prime="5", seed="14", vector=["0"] * 48), "two centres agree")
         self.broken(document, lambda d: d["pieces"][0]["evidence"].pop(2), "kernel without classes")
         self.broken(document, lambda d: d["pieces"][0]["evidence"].pop(3), "not separated")
         twice = evidence(document, "classes")
@@ -969,6 +1001,15 @@ class Calibrated(Case):
         self.broken(document, lambda d: d["pieces"][0]["evidence"].append(draws), "projective model only")
         minor = {"kind": "minor", "prime": "11", "seed": "1", "draw": 0, "rows": [], "cols": []}
         self.broken(document, lambda d: d["pieces"][0]["evidence"].append(minor), "projective model only")
+        integer = {"kind": "integer-minor"}
+        self.broken(document, lambda d: d["pieces"][0]["evidence"].append(integer), "projective model only")
+
+        def split(other):
+            found = evidence(other, "classes")["classes"]
+            found[0]["edges"] = sorted(found[0]["edges"] + found.pop(1)["edges"])
+            found[0]["split"] = {"rigid": {"bodies": [], "edges": found[0]["edges"]}, "pieces": []}
+
+        self.broken(document, split, "split is for the projective model only")
         vector = ["1"] + evidence(document, "kernel")["vector"][1:]
         self.broken(document, lambda d: evidence(d, "kernel").update(vector=vector), "no motion")
         self.broken(document, lambda d: d.update(model="projective"), "counting: the bound is")

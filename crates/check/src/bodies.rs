@@ -1,4 +1,5 @@
-//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1 and 4.9).
+//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1 and
+//! 4.9).
 
 use crate::document::{Body, Merge, Model, Source};
 use crate::graph::Graph;
@@ -55,7 +56,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A node with edges to two nodes of the body joins it.
+    /// A node with edges to two nodes of the body joins it (theory, rule 3 of Theorem 4.1).
     fn add(&self, nodes: &mut Nodes, v: u32, [a, b]: [u32; 2]) -> Checked<()> {
         ensure!(a != b, "the two nodes of the body are the same");
         for node in [a, b] {
@@ -67,7 +68,8 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Bodies on a cycle, of which neighbours share a node, become one.
+    /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
+    /// Theorem 4.1, and rule 5 of Theorem 4.9).
     fn merge(&mut self, nodes: &mut Nodes, step: &Merge) -> Checked<()> {
         let shared = self.around(step)?;
         let parts = step.with.iter().map(|&source| self.take(source));

@@ -1,6 +1,6 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
-use crate::document::{Claims, GraphName, Model};
+use crate::document::{Claims, ComponentsClaim, GraphName, Model, RankClaim, VerdictClaim};
 use crate::evidence::Piece;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::fmt::{self, Display};
@@ -70,35 +70,61 @@ pub struct Verified {
     pub notes: Vec<String>,
 }
 
-/// Compares the claim with what follows from the pieces.
+/// Compares the claim with what follows from the pieces: its verdict, its rank, and its components.
+/// Ranks add up over pieces (theory, Corollaries 4.6 and 4.12).
 pub(crate) fn verify(
     claims: &Claims,
     graph: &GraphName,
     model: Model,
     pieces: &[Piece],
 ) -> Checked<Verified> {
-    let (
-        required,
-        Claims {
-            verdict,
-            rank,
-            components,
-        },
-    ) = (model.required(graph.nodes), claims);
-    let (found, errors) =
-        decide(model, pieces, required, graph.nodes).within(|| "verdict".into())?;
-    let compared = compare(
-        (&verdict.value, found),
-        (&verdict.strength, verdict.error_log2),
-        Ok(errors),
+    let required = model.required(graph.nodes);
+    let verdict = check_verdict(
+        &claims.verdict,
+        model,
+        pieces,
+        [required, graph.nodes as i64],
     );
-    let verdict = compared.within(|| "verdict".into())?;
-
+    let verdict = verdict.within(|| "verdict".into())?;
     ensure!(
-        rank.required == required,
+        claims.rank.required == required,
         "rank.required is {required}, not {}",
-        rank.required
+        claims.rank.required
     );
+    let rank = check_rank(&claims.rank, pieces).within(|| "rank".into())?;
+    let components = check_components(&claims.components, pieces);
+    let components = components.within(|| "components".into())?;
+    let notes = pieces.iter().flat_map(|piece| piece.notes.clone());
+    Ok(Verified {
+        nodes: graph.nodes,
+        edges: graph.edges,
+        sha256: graph.sha256.clone(),
+        model,
+        verdict,
+        rank,
+        required,
+        components,
+        notes: notes.collect(),
+    })
+}
+
+/// The verdict (theory, Theorems 1.3 and 4.8, Corollary 4.2).
+fn check_verdict(
+    claim: &VerdictClaim,
+    model: Model,
+    pieces: &[Piece],
+    sizes: [i64; 2],
+) -> Checked<(Verdict, Strength)> {
+    let (found, errors) = decide(model, pieces, sizes)?;
+    compare(
+        (&claim.value, found),
+        (&claim.strength, claim.error_log2),
+        Ok(errors),
+    )
+}
+
+/// The rank, which rests on the draws of the pieces whose bounds leave a gap (theory, Theorem 7.2).
+fn check_rank(claim: &RankClaim, pieces: &[Piece]) -> Checked<(i64, Strength)> {
     let gaps = pieces
         .iter()
         .filter(|piece| piece.lower < piece.upper)
@@ -109,91 +135,62 @@ pub(crate) fn verify(
                 piece.lower, piece.upper
             ))),
         });
-    let found = pieces.iter().map(|piece| piece.lower).sum::<i64>();
-    let compared = compare(
-        (&rank.value, found),
-        (&rank.strength, rank.error_log2),
+    compare(
+        (&claim.value, pieces.iter().map(|piece| piece.lower).sum()),
+        (&claim.strength, claim.error_log2),
         gaps.collect(),
-    );
-    let rank = compared.within(|| "rank".into())?;
-
-    let errors = pieces
-        .iter()
-        .map(|piece| piece.separated.clone())
-        .collect::<Option<Vec<_>>>();
-    let errors = errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated"));
-    let found = pieces.iter().map(|piece| piece.components).sum::<usize>();
-    let by = (&*components.strength, components.error_log2);
-    let compared = compare(
-        (&components.value, found),
-        by,
-        errors.map(|errors| errors.concat()),
-    );
-    let components = compared.within(|| "components".into())?;
-
-    let notes = pieces
-        .iter()
-        .flat_map(|piece| piece.notes.clone())
-        .collect();
-    let GraphName {
-        nodes,
-        edges,
-        ref sha256,
-        ..
-    } = *graph;
-    Ok(Verified {
-        nodes,
-        edges,
-        sha256: sha256.clone(),
-        model,
-        verdict,
-        rank,
-        required,
-        components,
-        notes,
-    })
+    )
 }
 
-/// The verdict that the pieces give, with the errors on which it rests.
+/// The number of components, which rests on what separates the classes (theory, Proposition 6.5 and
+/// Theorem 6.8).
+fn check_components(claim: &ComponentsClaim, pieces: &[Piece]) -> Checked<(usize, Strength)> {
+    let errors = pieces.iter().map(|piece| piece.separated.clone());
+    let errors: Option<Vec<_>> = errors.collect();
+    let errors = errors.map(|errors| errors.concat());
+    compare(
+        (
+            &claim.value,
+            pieces.iter().map(|piece| piece.components).sum(),
+        ),
+        (&claim.strength, claim.error_log2),
+        errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated")),
+    )
+}
+
+/// The verdict that the pieces give, with the errors on which it rests; for a required rank and a
+/// number of nodes.
 fn decide(
     model: Model,
     pieces: &[Piece],
-    required: i64,
-    nodes: usize,
+    [required, nodes]: [i64; 2],
 ) -> Checked<(Verdict, Vec<i64>)> {
     if nodes == 1 {
         return Ok((Verdict::Solvable, Vec::new()));
     }
-    if matches!(pieces, [piece] if (piece.nodes, piece.lower) == (nodes, required)) {
-        let unique = pieces[0].is_rigid || model == Model::Calibrated;
-        return Ok((
-            if unique {
-                Verdict::Solvable
-            } else {
-                Verdict::FiniteSolvable
-            },
-            Vec::new(),
-        ));
+    if let [piece] = pieces
+        && (piece.nodes as i64, piece.lower) == (nodes, required)
+    {
+        let unique = piece.is_rigid || model == Model::Calibrated;
+        let verdict = match unique {
+            true => Verdict::Solvable,
+            false => Verdict::FiniteSolvable,
+        };
+        return Ok((verdict, Vec::new()));
     }
     let upper: i64 = pieces.iter().map(|piece| piece.upper).sum();
+    // What counting shows needs no draws.
     let by_draws = |piece: &Piece| {
-        piece
-            .drawn
-            .filter(|&(rank, _)| upper >= required && rank < piece.upper)
+        let drawn = piece.drawn;
+        drawn.filter(|&(rank, _)| upper >= required && rank < piece.upper)
     };
-    let at_draws: i64 = pieces
-        .iter()
-        .map(|piece| by_draws(piece).map_or(piece.upper, |(rank, _)| rank))
-        .sum();
-    ensure!(at_draws < required, "the evidence decides neither way");
-    Ok((
-        Verdict::NotFiniteSolvable,
-        pieces
-            .iter()
-            .filter_map(by_draws)
-            .map(|(_, error)| error)
-            .collect(),
-    ))
+    let at_draws = |piece: &Piece| by_draws(piece).map_or(piece.upper, |(rank, _)| rank);
+    ensure!(
+        pieces.iter().map(at_draws).sum::<i64>() < required,
+        "the evidence decides neither way"
+    );
+    let errors = pieces.iter().filter_map(by_draws).map(|(_, error)| error);
+    Ok((Verdict::NotFiniteSolvable, errors.collect()))
 }
 
 /// Compares a claimed with the found value, and the claimed strength with that of a statement that

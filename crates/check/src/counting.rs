@@ -6,7 +6,7 @@ use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::{Part, Structure, root, unite};
 
-/// Verifies `counting`; returns the bound on the rank of the piece.
+/// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1 and 5.5).
 pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Part) -> Checked<i64> {
     let (structure, blocks) = (setting.structure, &evidence.blocks);
     let list = blocks.iter().map(|block| (&block.bodies, &block.edges));
@@ -34,7 +34,7 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
     Ok(sum)
 }
 
-/// Verifies a hub; returns what it takes off.
+/// Verifies a hub; returns what it takes off (theory, Theorem 5.2).
 fn check_hub(hub: &Hub, structure: &Structure, block: &Part) -> Checked<i64> {
     ensure!(
         structure.nodes(block).binary_search(&hub.node).is_ok(),

@@ -263,72 +263,85 @@ any_members! {
     vector: Vec<Big<u64>>,
 }
 
+/// Takes a member that the kind has.
+macro_rules! own {
+    ($members:ident, $member:ident) => {
+        present($members.$member.take(), stringify!($member))?
+    };
+}
+
 impl AnyMembers {
     fn into_evidence<E: Error>(mut self) -> Result<Evidence, E> {
-        /// Takes a member that the kind has.
-        macro_rules! own {
-            ($member:ident) => {
-                present(self.$member.take(), stringify!($member))?
-            };
-        }
-        /// Takes the member `prime`, where it must not be `null`.
-        macro_rules! own_prime {
-            () => {
-                own!(prime).ok_or_else(|| E::custom("`prime` is null"))?.0
-            };
-        }
         let kind: String = present(self.kind.take(), "kind")?;
         let evidence = match kind.as_str() {
-            "minor" => Evidence::Minor(Minor {
-                prime: own_prime!(),
-                seed: own!(seed).0,
-                draw: own!(draw),
-                rows: own!(rows),
-                cols: own!(cols),
-            }),
-            "integer-minor" => Evidence::IntegerMinor(IntegerMinor {
-                numerator: own!(numerator),
-                denominator: own!(denominator),
-                seed: own!(seed).0,
-                draw: own!(draw),
-                rows: own!(rows),
-                cols: own!(cols),
-                determinant: own!(determinant),
-                prime: own!(prime).map(|Big(prime)| prime),
-                kernel: own!(kernel),
-            }),
-            "plane-flow" => Evidence::PlaneFlow(PlaneFlow {
-                prime: own_prime!(),
-                seed: own!(seed).0,
-                draw: own!(draw),
-                rows: own!(rows),
-                cols: own!(cols),
-                flows: own!(flows),
-                lambda_rows: own!(lambda_rows),
-                lambda_cols: own!(lambda_cols),
-            }),
+            "minor" => Evidence::Minor(self.minor()?),
+            "integer-minor" => Evidence::IntegerMinor(self.integer_minor()?),
+            "plane-flow" => Evidence::PlaneFlow(self.plane_flow()?),
             "counting" => Evidence::Counting(Counting {
-                blocks: own!(blocks),
-                bound: own!(bound),
+                blocks: own!(self, blocks),
+                bound: own!(self, bound),
             }),
             "draws" => Evidence::Draws(Draws {
-                seed: own!(seed).0,
-                count: own!(count),
-                rank: own!(rank),
+                seed: own!(self, seed).0,
+                count: own!(self, count),
+                rank: own!(self, rank),
             }),
             "classes" => Evidence::Classes(Classes {
-                classes: own!(classes),
+                classes: own!(self, classes),
             }),
             "kernel" => Evidence::Kernel(Kernel {
-                prime: own_prime!(),
-                seed: own!(seed).0,
-                draw: own!(draw),
-                vector: own!(vector),
+                prime: self.own_prime()?,
+                seed: own!(self, seed).0,
+                draw: own!(self, draw),
+                vector: own!(self, vector),
             }),
             other => return Err(E::custom(format!("`{other}` is no kind of evidence"))),
         };
         self.nothing_left()?;
         Ok(evidence)
+    }
+
+    /// Takes the member `prime`, where it must not be `null`.
+    fn own_prime<E: Error>(&mut self) -> Result<u64, E> {
+        let prime = own!(self, prime).ok_or_else(|| E::custom("`prime` is null"))?;
+        Ok(prime.0)
+    }
+
+    fn minor<E: Error>(&mut self) -> Result<Minor, E> {
+        Ok(Minor {
+            prime: self.own_prime()?,
+            seed: own!(self, seed).0,
+            draw: own!(self, draw),
+            rows: own!(self, rows),
+            cols: own!(self, cols),
+        })
+    }
+
+    fn integer_minor<E: Error>(&mut self) -> Result<IntegerMinor, E> {
+        Ok(IntegerMinor {
+            numerator: own!(self, numerator),
+            denominator: own!(self, denominator),
+            seed: own!(self, seed).0,
+            draw: own!(self, draw),
+            rows: own!(self, rows),
+            cols: own!(self, cols),
+            determinant: own!(self, determinant),
+            prime: own!(self, prime).map(|Big(prime)| prime),
+            kernel: own!(self, kernel),
+        })
+    }
+
+    fn plane_flow<E: Error>(&mut self) -> Result<PlaneFlow, E> {
+        Ok(PlaneFlow {
+            prime: self.own_prime()?,
+            seed: own!(self, seed).0,
+            draw: own!(self, draw),
+            rows: own!(self, rows),
+            cols: own!(self, cols),
+            flows: own!(self, flows),
+            lambda_rows: own!(self, lambda_rows),
+            lambda_cols: own!(self, lambda_cols),
+        })
     }
 }
 

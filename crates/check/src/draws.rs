@@ -20,7 +20,7 @@ pub(crate) struct Drawn {
     pub error: i64,
 }
 
-/// Verifies `draws`.
+/// Verifies `draws` (theory, Theorem 7.2).
 pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> Checked<Drawn> {
     ensure!(
         setting.model == Model::Projective,

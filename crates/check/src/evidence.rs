@@ -1,4 +1,5 @@
-//! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification).
+//! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification; items
+//! 2 to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
 
 use crate::counting::check_counting;
 use crate::document::{self, Evidence, Members, Model};
@@ -33,35 +34,48 @@ pub(crate) fn check_pieces(
     setting: &Setting,
     whole: &Part,
 ) -> Checked<Vec<Piece>> {
-    let structure = setting.structure;
-    let mut parts: Vec<Part> = Vec::new();
-    if !(rigid.bodies.is_empty() && rigid.edges.is_empty()) {
-        let members = structure.part(&rigid.bodies, &rigid.edges);
-        let members = members.within(|| "rigid".into())?;
-        parts.extend(members.into_iter().map(|member| vec![member]));
-    }
-    let singles = parts.len();
-    for (k, piece) in pieces.iter().enumerate() {
-        let part = structure.part(&piece.bodies, &piece.edges);
-        parts.push(part.within(|| format!("pieces[{k}]"))?);
-        ensure!(
-            parts[singles + k].len() >= 2,
-            "pieces[{k}] has fewer than two bodies and edges"
-        );
-    }
-    let in_pieces = || "pieces".into();
-    structure.owners(whole, &parts).within(in_pieces)?;
-    structure.check_acyclic(&parts).within(in_pieces)?;
-    let (singles, others) = parts.split_at(singles);
-    let mut found: Vec<Piece> = singles
-        .iter()
-        .map(|part| rigid_piece(setting, part))
-        .collect();
+    let singles = single_members(rigid, setting)?;
+    let others = parts_of_pieces(pieces, setting)?;
+    check_division(&[&singles[..], &others].concat(), setting, whole).within(|| "pieces".into())?;
+    let singles = singles.iter().map(|part| rigid_piece(setting, part));
+    let mut found: Vec<Piece> = singles.collect();
     for (k, (part, piece)) in others.iter().zip(pieces).enumerate() {
         let checked = check_piece(&piece.evidence, setting, part);
         found.push(checked.within(|| format!("pieces[{k}]"))?);
     }
     Ok(found)
+}
+
+/// The pieces of `rigid`, each of one member.
+fn single_members(rigid: &Members, setting: &Setting) -> Checked<Vec<Part>> {
+    if rigid.bodies.is_empty() && rigid.edges.is_empty() {
+        return Ok(Vec::new());
+    }
+    let members = setting.structure.part(&rigid.bodies, &rigid.edges);
+    let members = members.within(|| "rigid".into())?.into_iter();
+    Ok(members.map(|member| vec![member]).collect())
+}
+
+/// The members of each of `pieces`, of which there are two at least.
+fn parts_of_pieces(pieces: &[document::Piece], setting: &Setting) -> Checked<Vec<Part>> {
+    let mut parts = Vec::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        let part = setting.structure.part(&piece.bodies, &piece.edges);
+        let part = part.within(|| format!("pieces[{k}]"))?;
+        ensure!(
+            part.len() >= 2,
+            "pieces[{k}] has fewer than two bodies and edges"
+        );
+        parts.push(part);
+    }
+    Ok(parts)
+}
+
+/// Sees that pieces are a partition of the whole without a cycle, so that ranks add up over them
+/// and no component lies in two (theory, Lemma 4.7, Theorems 4.3 and 4.10).
+fn check_division(parts: &[Part], setting: &Setting, whole: &Part) -> Checked<()> {
+    setting.structure.owners(whole, parts)?;
+    setting.structure.check_acyclic(parts)
 }
 
 /// A piece that is a single member.
@@ -90,6 +104,20 @@ struct Classes {
     others: usize,
 }
 
+impl Classes {
+    /// The number of components, and the errors with which all classes are separated, given those
+    /// for the classes themselves (theory, Theorem 6.3).
+    fn components(self, own: Option<Vec<i64>>) -> (usize, Option<Vec<i64>>) {
+        let (mut components, mut separated) = (self.others, own);
+        for piece in self.inside {
+            components += piece.components;
+            let errors = separated.zip(piece.separated);
+            separated = errors.map(|(errors, inside)| [errors, inside].concat());
+        }
+        (components, separated)
+    }
+}
+
 /// All that the evidence of a piece shows.
 struct Shown {
     /// Lower bounds on the rank of the core.
@@ -102,30 +130,61 @@ struct Shown {
     apart: Vec<Place>,
 }
 
-/// Verifies all evidence of a piece.
+/// Verifies all evidence of a piece, and says what it amounts to.
 fn check_piece(evidence: &[Evidence], setting: &Setting, piece: &Part) -> Checked<Piece> {
     let core = setting.structure.core(piece)?;
     let nodes = setting.structure.nodes(piece).len();
-    let required = setting.model.required(nodes);
-    let mut shown = Shown {
-        bounds: Vec::new(),
-        upper: required,
-        drawn: None,
-        classes: None,
-        apart: Vec::new(),
+    let sizes = Sizes {
+        nodes,
+        required: setting.model.required(nodes),
+        core_required: setting.model.required(core.nodes),
     };
-    // Kernels need the classes and draws, which may come later.
-    let is_kernel = |one: &&(usize, &Evidence)| matches!(one.1, Evidence::Kernel(_));
-    let all = || evidence.iter().enumerate();
-    let others = all().filter(|one| !is_kernel(&one));
-    for (k, one) in others.chain(all().filter(|one| is_kernel(&one))) {
-        let checked = shown.add(one, setting, piece, &core);
-        checked.within(|| format!("evidence[{k}] ({})", one.kind()))?;
+    Shown::all(evidence, setting, piece, &core, &sizes)?.conclude(&sizes)
+}
+
+/// What relates a piece to its core.
+struct Sizes {
+    nodes: usize,
+    /// The rank at which the piece, and its core, are rigid.
+    required: i64,
+    core_required: i64,
+}
+
+impl Sizes {
+    /// The rank of the piece if that of the core is given: the same number is missing to what is
+    /// required (theory, Corollaries 4.5 and 4.12).
+    fn of_piece(&self, rank: i64) -> i64 {
+        self.required - (self.core_required - rank)
     }
-    shown.conclude(nodes, required, setting.model.required(core.nodes))
 }
 
 impl Shown {
+    /// Verifies each evidence, also what the claim does not rest on (section 7).
+    fn all(
+        evidence: &[Evidence],
+        setting: &Setting,
+        piece: &Part,
+        core: &Core,
+        sizes: &Sizes,
+    ) -> Checked<Shown> {
+        let mut shown = Shown {
+            bounds: Vec::new(),
+            upper: sizes.required,
+            drawn: None,
+            classes: None,
+            apart: Vec::new(),
+        };
+        // Kernels need the classes and draws, which may come later.
+        let is_kernel = |one: &&(usize, &Evidence)| matches!(one.1, Evidence::Kernel(_));
+        let all = || evidence.iter().enumerate();
+        let others = all().filter(|one| !is_kernel(&one));
+        for (k, one) in others.chain(all().filter(|one| is_kernel(&one))) {
+            let checked = shown.add(one, setting, piece, core);
+            checked.within(|| format!("evidence[{k}] ({})", one.kind()))?;
+        }
+        Ok(shown)
+    }
+
     /// Verifies one evidence.
     fn add(&mut self, one: &Evidence, setting: &Setting, piece: &Part, core: &Core) -> Checked<()> {
         match one {
@@ -145,50 +204,39 @@ impl Shown {
                 self.classes = Some(check_classes(list, setting, piece)?);
             }
             Evidence::Kernel(kernel) => {
-                let classes = self.classes.as_ref();
-                let classes = classes
-                    .ok_or_else(|| Failure::rejected("a kernel in a piece without `classes`"))?;
-                let classes = (&classes.owner[..], classes.count);
-                let drawn = self.drawn.as_ref();
-                self.apart
-                    .push(check_kernel(kernel, setting, core, classes, drawn)?);
+                let place = self.place(kernel, setting, core)?;
+                self.apart.push(place);
             }
         }
         Ok(())
     }
 
-    /// What follows for the piece, from its required rank and that of its core.
-    fn conclude(self, nodes: usize, required: i64, core_required: i64) -> Checked<Piece> {
-        let of_piece = |rank: i64| required - (core_required - rank);
-        let best = self.bounds.iter().map(|bound| of_piece(bound.rank)).max();
-        let lower = best.ok_or_else(|| Failure::rejected("no lower bound on the rank"))?;
-        let upper = self.upper;
-        ensure!(
-            lower <= upper,
-            "the lower bound {lower} contradicts the upper bound {upper}"
-        );
-        ensure!(
-            self.classes.is_some() || lower == required,
-            "rank {lower} is proved, but one component needs {required}"
-        );
+    /// Verifies a kernel vector; returns where it tells the classes apart.
+    fn place(&self, kernel: &document::Kernel, setting: &Setting, core: &Core) -> Checked<Place> {
+        let missing = || Failure::rejected("a kernel in a piece without `classes`");
+        let classes = self.classes.as_ref().ok_or_else(missing)?;
+        let classes = (&classes.owner[..], classes.count);
+        check_kernel(kernel, setting, core, classes, self.drawn.as_ref())
+    }
+
+    /// What follows for the piece.
+    fn conclude(self, sizes: &Sizes) -> Checked<Piece> {
+        let lower = self.lower(sizes)?;
+        self.check_consistent(lower)?;
+        self.check_one_component(lower, sizes)?;
         let drawn = self.drawn.as_ref();
-        let drawn = drawn.map(|drawn| (of_piece(drawn.rank), drawn.error));
-        let own_errors = self.separation(|bound| of_piece(bound.rank) == upper);
+        let drawn = drawn.map(|drawn| (sizes.of_piece(drawn.rank), drawn.error));
+        let own_errors = self.separation(|bound| sizes.of_piece(bound.rank) == self.upper);
+        let (components, separated) = match self.classes {
+            Some(classes) => classes.components(own_errors),
+            None => (1, own_errors),
+        };
         let notes = self.bounds.into_iter().filter_map(|bound| bound.note);
-        let (mut components, mut separated) = (1, own_errors);
-        if let Some(classes) = self.classes {
-            components = classes.others;
-            for piece in classes.inside {
-                components += piece.components;
-                let errors = separated.zip(piece.separated);
-                separated = errors.map(|(errors, inside)| [errors, inside].concat());
-            }
-        }
         Ok(Piece {
-            nodes,
+            nodes: sizes.nodes,
             is_rigid: false,
             lower,
-            upper,
+            upper: self.upper,
             drawn,
             components,
             separated,
@@ -196,9 +244,39 @@ impl Shown {
         })
     }
 
+    /// The best lower bound on the rank of the piece, of which there is one at least.
+    fn lower(&self, sizes: &Sizes) -> Checked<i64> {
+        let bounds = self.bounds.iter().map(|bound| sizes.of_piece(bound.rank));
+        bounds
+            .max()
+            .ok_or_else(|| Failure::rejected("no lower bound on the rank"))
+    }
+
+    /// No lower bound is above an upper one.
+    fn check_consistent(&self, lower: i64) -> Checked<()> {
+        ensure!(
+            lower <= self.upper,
+            "the lower bound {lower} contradicts the upper bound {}",
+            self.upper
+        );
+        Ok(())
+    }
+
+    /// A piece without `classes` is one component, so it has the rank of one (theory, Proposition
+    /// 6.5).
+    fn check_one_component(&self, lower: i64, sizes: &Sizes) -> Checked<()> {
+        ensure!(
+            self.classes.is_some() || lower == sizes.required,
+            "rank {lower} is proved, but one component needs {}",
+            sizes.required
+        );
+        Ok(())
+    }
+
     /// The errors with which the classes of the piece are separated: none if that is proved, by a
     /// motion at cameras where the rank is the generic one; that of the draws if there is a motion
-    /// at each of them; `None` otherwise (sections 7 and 9).
+    /// at each of them; `None` otherwise (sections 7 and 9; theory, Theorems 6.4 and 6.8,
+    /// Proposition 7.4).
     fn separation(&self, is_generic: impl Fn(&Lower) -> bool) -> Option<Vec<i64>> {
         let at_generic = |place: &Place| match place {
             Place::Named(at) => {
@@ -217,7 +295,7 @@ impl Shown {
     }
 }
 
-/// Verifies `classes`, all but their separation.
+/// Verifies `classes`, all but their separation (theory, Proposition 6.5).
 fn check_classes(
     evidence: &document::Classes,
     setting: &Setting,
@@ -254,16 +332,7 @@ fn check_class(
     let single = part.len() == 1;
     if let Some(split) = &class.split {
         ensure!(!single, "a class that is single is not split");
-        ensure!(
-            setting.model == Model::Projective,
-            "a split class in the calibrated model"
-        );
-        ensure!(
-            class.evidence.is_empty(),
-            "evidence for a class that is split"
-        );
-        let pieces = check_pieces(&split.rigid, &split.pieces, setting, part);
-        return pieces.within(|| "split".into()).map(Some);
+        return check_split(class, split, setting, part).map(Some);
     }
     if single {
         ensure!(
@@ -274,6 +343,25 @@ fn check_class(
         check_rigid_class(&class.evidence, setting, part)?;
     }
     Ok(None)
+}
+
+/// Verifies the pieces of a class that is not rigid by itself (theory, Theorem 6.3); in the
+/// calibrated model there is none (Theorem 6.8).
+fn check_split(
+    class: &document::Class,
+    split: &document::Split,
+    setting: &Setting,
+    part: &Part,
+) -> Checked<Vec<Piece>> {
+    ensure!(
+        setting.model == Model::Projective,
+        "a split class in the calibrated model"
+    );
+    ensure!(
+        class.evidence.is_empty(),
+        "evidence for a class that is split"
+    );
+    check_pieces(&split.rigid, &split.pieces, setting, part).within(|| "split".into())
 }
 
 /// Sees that a class is proved to be rigid by itself.

@@ -17,7 +17,8 @@ use crate::structure::Core;
 /// The primes modulo which integers are compared have at least this many bits behind the first.
 const PRIME_BITS: u64 = 61;
 
-/// Verifies `integer-minor`: an exact minor of the integer J_P, and kernel vectors.
+/// Verifies `integer-minor`: an exact minor of the integer J_P, and kernel vectors (theory, section
+/// 8).
 pub(crate) fn check_integer_minor(
     evidence: &IntegerMinor,
     setting: &Setting,

@@ -28,7 +28,7 @@ struct Centres {
 }
 
 /// Verifies `kernel`, for classes of which `owner` has that of each member; returns where it tells
-/// them apart.
+/// them apart (theory, Proposition 6.7 and Theorem 6.8).
 pub(crate) fn check_kernel(
     kernel: &Kernel,
     setting: &Setting,

@@ -5,19 +5,27 @@
 //! recomputes the claim from it, by the conditions of `docs/certificate.md` ("section" means its
 //! sections, "theory" `docs/theory.md`). What cannot be verified in full is rejected.
 //!
-//! In the order of reading:
+//! A certificate is verified by these obligations, in this order. Each is a function that names
+//! what it rests on:
 //!
-//! * [`check`] below;
-//! * `document`, the grammar (sections 1 and 3), by the strict reader in `json`;
-//! * `graph`, with the files that hold one (section 2);
-//! * `bodies` and `structure`: rigid bodies, what lies between them, and cores (sections 5 and 6);
-//! * `evidence`: pieces, what is shown of them, and classes (sections 6 and 7), with the kinds of
-//!   evidence: `lower` (and `pivots`), `integer_minor`, `plane_flow`, `counting`, `draws` (section
-//!   9) and `kernel`; `setting` has what they all refer to;
-//! * `claim` (section 8).
+//! | what must hold | section | theory | file |
+//! |---|---|---|---|
+//! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
+//! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
+//! | bodies come from merges | 5 | 4.1, 4.9 | `bodies` |
+//! | no edge is covered twice | 6 | 4.4 | `structure` |
+//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10 | `evidence` |
+//! | cores are formed | 6 | 4.4, 4.11 | `structure` |
+//! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
+//! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5 | `counting` |
+//! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
+//! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
+//! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8 | `kernel` |
+//! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12 | `claim` |
 //!
-//! `cameras` draws (section 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds
-//! what that may cost (section 11), `rejection` has the reasons.
+//! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
+//! 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds what that may cost (section
+//! 11), `rejection` has the reasons.
 
 mod algebra;
 mod bodies;

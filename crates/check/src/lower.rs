@@ -13,7 +13,8 @@ use crate::rejection::{Checked, Failure, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
 
-/// Verifies a lower bound.
+/// Verifies a lower bound: a rank at one point is one for the generic rank (theory, Proposition
+/// 1.4).
 pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -> Checked<Lower> {
     setting.charge_draw(core)?;
     let lower = match evidence {

@@ -11,11 +11,13 @@ use crate::pivots::{Pivots, eliminate};
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
+use std::ops::Range;
 
 /// Entries of the flows that are computed at the same time.
 const BATCH_ENTRIES: usize = 1 << 22;
 
-/// Verifies `plane-flow`: the ranks of N and of Lambda at centres modulo p.
+/// Verifies `plane-flow`: the ranks of N and of Lambda at centres modulo p (theory, Corollary 3.3;
+/// calibrated: Corollary 4.12).
 pub(crate) fn check_plane_flow(
     evidence: &PlaneFlow,
     setting: &Setting,
@@ -133,24 +135,10 @@ impl<'a> Flows<'a> {
         order.sort_unstable();
         let mut rest: &[(usize, usize)] = &order;
         let mut lambda = vec![Vec::new(); order.len()];
-        let height = self.n.len();
-        let batch = (BATCH_ENTRIES / height.max(1)).clamp(1, 256);
+        let batch = (BATCH_ENTRIES / self.n.len().max(1)).clamp(1, 256);
         for first in (0..*flows).step_by(batch) {
-            let mut all = Vec::new();
-            for number in first..(first + batch).min(*flows) {
-                let mut entries = vec![0; height];
-                for &row in &self.free {
-                    entries[row] = self.field.element(stream.below(self.field.p));
-                }
-                let own = rest.partition_point(|(row, _)| row / 4 == number);
-                let (wanted, after) = rest.split_at(own);
-                rest = after;
-                all.push(Flow {
-                    entries,
-                    wanted,
-                    rows: Ok(Vec::new()),
-                });
-            }
+            let numbers = first..(first + batch).min(*flows);
+            let mut all = self.next_flows(numbers, &mut stream, &mut rest);
             for_all(&mut all, |flows| {
                 for flow in flows {
                     flow.rows = self.rows_of_lambda(flow, lambda_cols);
@@ -164,6 +152,30 @@ impl<'a> Flows<'a> {
             }
         }
         Ok(lambda)
+    }
+
+    /// Flows with these numbers, so far with their prescribed entries, and what is wanted of them.
+    fn next_flows<'w>(
+        &self,
+        numbers: Range<usize>,
+        stream: &mut Stream,
+        rest: &mut &'w [(usize, usize)],
+    ) -> Vec<Flow<'w>> {
+        let flow = |number| {
+            let mut entries = vec![0; self.n.len()];
+            for &row in &self.free {
+                entries[row] = self.field.element(stream.below(self.field.p));
+            }
+            let own = rest.partition_point(|(row, _)| row / 4 == number);
+            let (wanted, after) = rest.split_at(own);
+            *rest = after;
+            Flow {
+                entries,
+                wanted,
+                rows: Ok(Vec::new()),
+            }
+        };
+        numbers.map(flow).collect()
     }
 
     /// Completes a flow and sees that it vanishes in all columns of N; returns what is wanted of

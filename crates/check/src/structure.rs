@@ -147,6 +147,7 @@ impl<'a> Structure<'a> {
         Ok((parts, owner))
     }
 
+    /// For each member of a whole the number of its part; rejects parts that are no partition.
     pub fn owners(&self, whole: &Part, parts: &[Part]) -> Checked<Vec<usize>> {
         let mut owner = vec![usize::MAX; whole.len()];
         for (k, &member) in parts
@@ -198,7 +199,7 @@ impl<'a> Structure<'a> {
         nodes
     }
 
-    /// Rejects a cycle of pieces.
+    /// Rejects a cycle of pieces (theory, Lemma 4.7).
     pub fn check_acyclic(&self, pieces: &[Part]) -> Checked<()> {
         let nodes = self.nodes(&pieces.concat());
         let mut forest: Vec<usize> = (0..nodes.len() + pieces.len()).collect();
@@ -215,7 +216,7 @@ impl<'a> Structure<'a> {
         Ok(())
     }
 
-    /// The core of a part (section 6).
+    /// The core of a part (section 6; theory, Theorems 4.4 and 4.11).
     pub fn core(&self, part: &Part) -> Checked<Core> {
         let nodes = self.core_nodes(part);
         self.meter.allow_core(nodes.len())?;

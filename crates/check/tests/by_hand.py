@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Writes the section of docs/certificate.md in which a certificate is checked by hand.
 
-    by_hand.py      rewrites the section in place (nothing changes if it is as it should be)
+    by_hand.py            rewrites the section in place (nothing changes if it is as it should be)
+    by_hand.py --check    changes nothing; exit code 1 if something would change
 
 All numbers are computed here, from the formulas of the page and the tools of draw.py, and every
 statement of the section about them is asserted before it is written.
 """
 import os
 import re
+import sys
 from itertools import combinations
 
 from draw import Core, Echelon, Stream, bearings, camera_at, graph6, graph_hash, jacobian, null_space, pivots
@@ -229,6 +231,8 @@ def main():
     before, rest = page.split("## 10. ", 1)
     after = re.search(r"\n## 11\. ", rest)
     text = before + section() + (rest[after.start():] if after else "")
+    if sys.argv[1:] == ["--check"]:
+        sys.exit("section 10 of docs/certificate.md is not what by_hand.py writes" if text != page else 0)
     with open(PAGE, "w", encoding="utf-8") as file:
         file.write(text)
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Fills in what a certificate has from its draws of cameras: pivots, determinants and kernel vectors.
 
-    draw.py CERTIFICATE...      rewrites each file in place
+    draw.py CERTIFICATE...            rewrites each file in place
+    draw.py --check CERTIFICATE...    changes nothing; exit code 1 if something would change
 
 Written from docs/certificate.md alone, without a line of the prover or of the checker, so that
 agreement of the three means something. Everything else in the file - graph, bodies, pieces,
@@ -493,12 +494,19 @@ def written(document):
 
 
 def main():
-    for path in sys.argv[1:]:
+    only_check, changed = sys.argv[1:2] == ["--check"], []
+    for path in sys.argv[2 if only_check else 1:]:
         with open(path, encoding="utf-8") as file:
-            document = json.load(file)
+            before = file.read()
+        document = json.loads(before)
         Filler(document)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(written(document))
+        text = written(document)
+        changed += [path] if text != before else []
+        if not only_check:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+    if only_check and changed:
+        sys.exit(f"not what draw.py writes: {', '.join(changed)}")
 
 
 if __name__ == "__main__":

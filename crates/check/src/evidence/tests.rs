@@ -14,8 +14,13 @@ fn a_contradiction_is_rejected() {
         classes: None,
         apart: Vec::new(),
     };
-    assert!(shown(29, 29).conclude(4, 29, 29).is_ok());
-    let failed = shown(29, 28).conclude(4, 29, 29).err().unwrap();
+    let sizes = Sizes {
+        nodes: 4,
+        required: 29,
+        core_required: 29,
+    };
+    assert!(shown(29, 29).conclude(&sizes).is_ok());
+    let failed = shown(29, 28).conclude(&sizes).err().unwrap();
     let wanted = "the lower bound 29 contradicts the upper bound 28";
     assert_eq!(failed.to_string(), wanted);
 }

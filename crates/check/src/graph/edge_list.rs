@@ -35,78 +35,108 @@ type Label<'t> = (Option<u64>, Cow<'t, [u8]>);
 
 /// Reads what can be nothing else.
 pub(super) fn strict(text: &[u8]) -> Result<Graph, Unreadable> {
-    let (mut list, mut shape) = (List::new(text), Shape::default());
-    // Two names that may be a head, if they are nowhere else, with their line.
-    let mut names: Option<[Cow<[u8]>; 2]> = None;
+    let mut table = Table {
+        list: List::new(text),
+        shape: Shape::default(),
+        names: None,
+    };
     let (mut rest, mut number, mut fields) = (text, 0, Vec::new());
     while !rest.is_empty() {
         number += 1;
-        if let Some(([(a, first), (b, second)], after)) = two_integers(rest)
-            && matches!(shape.width, 0 | 2)
+        if let Some((pair, after)) = two_integers(rest)
+            && matches!(table.shape.width, 0 | 2)
         {
-            shape.add_integers(a, b);
+            table.add_integers(number, pair)?;
             rest = after;
-            list.pair(
-                number,
-                (Some(a), Cow::Borrowed(first)),
-                (Some(b), Cow::Borrowed(second)),
-            )?;
             continue;
         }
-        let in_line = |reason: String| format!("line {number}: {reason}");
-        let line = next_line(&mut rest);
-        split(line, false, &mut fields).map_err(|reason| in_line(reason.into()))?;
-        let [first, second, values @ ..] = &fields[..] else {
-            ensure!(
-                fields.is_empty(),
-                "line {number}: one field is no pair; {SAY_SO}"
-            );
-            continue;
+        split(next_line(&mut rest), false, &mut fields)
+            .map_err(|reason| format!("line {number}: {reason}"))?;
+        if !fields.is_empty() {
+            table.add(number, &fields)?;
+        }
+    }
+    table.into_graph()
+}
+
+/// What the lines so far hold.
+struct Table<'t> {
+    list: List<'t>,
+    shape: Shape,
+    /// Two names that may be a head, if they are nowhere else.
+    names: Option<[Cow<'t, [u8]>; 2]>,
+}
+
+impl<'t> Table<'t> {
+    /// A line of two integers.
+    #[inline(always)]
+    fn add_integers(
+        &mut self,
+        number: usize,
+        [(a, first), (b, second)]: [Digits<'t>; 2],
+    ) -> Result<(), Unreadable> {
+        self.shape.add_integers(a, b);
+        let label = |value, digits| (Some(value), Cow::Borrowed(digits));
+        self.list.pair(number, label(a, first), label(b, second))
+    }
+
+    /// A line with fields.
+    fn add(&mut self, number: usize, fields: &[Field<'t>]) -> Result<(), Unreadable> {
+        let [first, second, values @ ..] = fields else {
+            return Err(format!("line {number}: one field is no pair; {SAY_SO}").into());
         };
-        let width = fields.len();
-        ensure!(
-            WIDTHS.contains(&width),
-            "line {number}: {width} fields, which are neither 2, 3, 9 nor 14; {SAY_SO}"
-        );
-        ensure!(
-            shape.width == 0 || shape.width == width,
-            "line {number}: {width} fields, but {} in the first line; {SAY_SO}",
-            shape.width
-        );
-        let is_first = shape.width == 0;
-        shape.add(&fields);
+        self.check_width(number, fields.len())?;
+        let is_first = self.shape.width == 0;
+        self.shape.add(fields);
         let wrong = values.iter().find(|field| !is_number(field));
         if is_first && wrong.is_some() {
-            continue;
+            return Ok(());
         }
         ensure!(
             wrong.is_none(),
             "line {number}: `{}` is no number; {SAY_SO}",
             String::from_utf8_lossy(wrong.map_or(b"", |field| &field.text))
         );
-        let lower = [first, second].map(|field| field.text.to_ascii_lowercase());
-        if is_first
-            && HEADS
-                .iter()
-                .any(|head| head == &[&lower[0][..], &lower[1][..]])
-        {
-            names = Some([first, second].map(|field| field.text.clone()));
-            continue;
+        if is_first && is_head(first, second) {
+            self.names = Some([first, second].map(|field| field.text.clone()));
+            return Ok(());
         }
-        list.pair(
-            number,
-            label(first.text.clone()),
-            label(second.text.clone()),
-        )?;
+        let [first, second] = [first, second].map(|field| label(field.text.clone()));
+        self.list.pair(number, first, second)
     }
-    if let Some([first, second]) = names
-        && (list.has(&first) || list.has(&second))
-    {
-        list.pair(1, label(first), label(second))?;
+
+    /// Each line has as many fields as the first one.
+    fn check_width(&self, number: usize, width: usize) -> Result<(), Unreadable> {
+        ensure!(
+            WIDTHS.contains(&width),
+            "line {number}: {width} fields, which are neither 2, 3, 9 nor 14; {SAY_SO}"
+        );
+        ensure!(
+            self.shape.width == 0 || self.shape.width == width,
+            "line {number}: {width} fields, but {} in the first line; {SAY_SO}",
+            self.shape.width
+        );
+        Ok(())
     }
-    ensure!(!list.pairs.is_empty(), "the file holds no pair");
-    shape.check(&list)?;
-    list.into_graph()
+
+    /// The graph, if the file can be nothing else.
+    fn into_graph(mut self) -> Result<Graph, Unreadable> {
+        if let Some([first, second]) = self.names.take()
+            && (self.list.has(&first) || self.list.has(&second))
+        {
+            self.list.pair(1, label(first), label(second))?;
+        }
+        ensure!(!self.list.pairs.is_empty(), "the file holds no pair");
+        self.shape.check(&self.list)?;
+        self.list.into_graph()
+    }
+}
+
+/// Whether two fields are one of the pairs of names that heads have.
+fn is_head(first: &Field, second: &Field) -> bool {
+    let lower = [first, second].map(|field| field.text.to_ascii_lowercase());
+    let lower = [&lower[0][..], &lower[1][..]];
+    HEADS.iter().any(|head| *head == lower)
 }
 
 /// Reads the first two fields of each line.
