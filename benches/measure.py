@@ -6,6 +6,7 @@
     python3 benches/measure.py rational
     python3 benches/measure.py cores    [--nodes 200 500 1000 3000] [--jacobian N] [--flint N]
     python3 benches/measure.py sequence [--nodes 1000000]
+    python3 benches/measure.py tracks
 
 Needs the programs of `cargo build --release --workspace --bins --examples`; `rational` and
 `cores` also FLINT (Debian: libflint-dev) and gcc, and `rational` takes in the GMP build if
@@ -97,9 +98,9 @@ def once(command, output):
         return Figures([run], 1024 * int(Path(report.name).read_text().split()[-1]))
 
 
-def generate(path, *arguments):
+def generate(path, *arguments, by="generate"):
     with open(path, "w") as out:
-        subprocess.run([EXAMPLES / "generate", *map(str, arguments)], stdout=out, check=True)
+        subprocess.run([EXAMPLES / by, *map(str, arguments)], stdout=out, check=True)
     return path
 
 
@@ -302,11 +303,40 @@ def sequence(arguments, folder):
             f"{its.cpu / read.cpu:.2f}", mib(its.peak))
 
 
+# Cameras, points and observations a point on average, along a path and in a city.
+TRACKS = [
+    ("path", 1000, 200_000, 5),
+    ("city", 1000, 200_000, 5),
+    ("path", 5000, 1_600_000, 5),
+    ("city", 5000, 1_600_000, 5),
+    ("path", 5000, 10_000, 3),
+    ("city", 5000, 10_000, 3),
+]
+
+
+def tracks(arguments, folder):
+    """Camera-point graphs: reading against verdict, components and certificate."""
+    graph, certificate = folder / "tracks.txt", folder / "certificate.json"
+    head("cameras", "points", "observations", "verdict", "components", "reading, CPU s", "everything, CPU s",
+         "ratio", "wall clock, s", "peak, MiB", "checker, CPU s")
+    for kind, cameras, points, length in TRACKS:
+        generate(graph, kind, cameras, points, length, 1, by="tracks")
+        model = ["--model", "calibrated"]
+        commands = [[EXAMPLES / "read_only", graph], [VERIFY, *model, "--certificate", certificate, graph],
+                    [CHECK, certificate, graph]]
+        read, all_, check = compare(commands, arguments.runs)
+        report = subprocess.run([VERIFY, *model, "--json", graph], capture_output=True, text=True)
+        answer = json.loads(report.stdout)
+        accepted = sec(check.cpu) if check.code == 0 else "rejected"
+        row(f"{cameras}, {kind}", points, size(graph)[1], answer["verdict"], len(answer["components"]),
+            sec(read.cpu), sec(all_.cpu), f"{all_.cpu / read.cpu:.2f}", sec(all_.wall), mib(all_.peak), accepted)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence")
+    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence | tracks")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
-                                 ("cores", cores, 3), ("sequence", sequence, 3)]:
+                                 ("cores", cores, 3), ("sequence", sequence, 3), ("tracks", tracks, 3)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
