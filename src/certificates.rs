@@ -53,9 +53,9 @@ impl Target {
         } else {
             bail!("{}", too_many(&self.path, "several graphs"));
         };
-        atomic::write(&path, |mut out| {
+        atomic::write(&path, |out| {
             let certificate = verdict.certificate(&input.graph).named(&input.name);
-            certificate.embed_graph(self.embed).write_to(&mut out)
+            certificate.embed_graph(self.embed).write_to(out)
         })?;
         Ok(path)
     }

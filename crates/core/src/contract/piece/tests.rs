@@ -22,7 +22,7 @@ fn a_pendant_edge_is_a_piece_by_itself() {
     let split = assembly.split(&assembly.all());
     assert_eq!(split.rigid, edges(&[(3, 4)]));
     let cycle = edges(&[(0, 1), (0, 3), (1, 2), (2, 3)]);
-    assert_eq!(split.pieces, [cycle.clone()]);
+    assert_eq!(split.pieces, std::slice::from_ref(&cycle));
     assert_eq!(assembly.count_nodes(&cycle), 4);
     assert_eq!(assembly.count_nodes(&assembly.all()), 5);
     // A part of it that is a path comes apart into edges.
