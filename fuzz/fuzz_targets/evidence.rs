@@ -15,9 +15,10 @@ fuzz_target!(|data: &[u8]| {
     let mut bytes = data.iter().copied().chain(std::iter::repeat(0));
     let mut below = |limit: usize| usize::from(bytes.next().unwrap_or(0)) % limit;
     let nodes = 2 + below(5);
+    let dense = 1 + below(3);
     let pairs: Vec<[usize; 2]> = (0..nodes)
         .flat_map(|i| (i + 1..nodes).map(move |j| [i, j]))
-        .filter(|_| below(4) > 0)
+        .filter(|_| below(4) < dense)
         .collect();
     if pairs.is_empty() {
         return;
@@ -133,44 +134,18 @@ fn bodies(
     below: &mut impl FnMut(usize) -> usize,
 ) -> Vec<(&'static str, Value)> {
     let (mut list, mut sets): (Vec<Value>, Vec<Option<Vec<usize>>>) = (Vec::new(), Vec::new());
-    for _ in 0..1 + below(4) {
+    for _ in 0..1 + below(3) {
         let seed = pairs[below(pairs.len())];
         let mut inside = seed.to_vec();
         let (mut add, mut merge) = (Vec::new(), Vec::new());
-        for _ in 0..below(4) {
+        for _ in 0..below(2) * below(4) {
             let (v, a, b) = (below(nodes), below(nodes), below(nodes));
             add.push(json!([v, a, b]));
             inside.push(v);
         }
-        for _ in 0..below(2) {
-            // What the merge goes around, beginning at the body: neighbours share a node.
-            let (mut with, mut around) = (Vec::new(), vec![inside.clone()]);
-            for _ in 0..1 + below(3) {
-                let (partner, nodes) = match list.len() {
-                    earlier if earlier > 0 && below(2) == 0 => {
-                        let body = below(earlier);
-                        (json!(body), sets[body].take().unwrap_or_default())
-                    }
-                    _ => {
-                        let pair = pairs[below(pairs.len())];
-                        (json!(pair), pair.to_vec())
-                    }
-                };
-                inside.extend(&nodes);
-                with.push(partner);
-                around.push(nodes);
-            }
-            let mut at: Vec<usize> = around
-                .iter()
-                .map(|part| match part.len() {
-                    size if size > 0 && below(4) > 0 => part[below(size)],
-                    _ => below(nodes),
-                })
-                .collect();
-            // Of three, the body and the last share the second.
-            if let [_, b, c] = &mut at[..] {
-                std::mem::swap(b, c);
-            }
+        for _ in 0..below(3) {
+            let (with, at, joined) = cycle(nodes, pairs, &inside, &mut sets, below);
+            inside.extend(joined);
             merge.push(json!({"with": with, "at": at}));
         }
         list.push(json!({"seed": seed, "add": add, "merge": merge}));
@@ -184,6 +159,58 @@ fn bodies(
     let last: Vec<usize> = (0..sets.len()).filter(|&k| sets[k].is_some()).collect();
     let rigid = json!({"bodies": last, "edges": loose});
     vec![("bodies", json!(list)), ("rigid", rigid)]
+}
+
+/// A merge around a cycle that begins at a body: partners, shared nodes, and what joins. Mostly a
+/// shared node is one of the part before, and of the partner behind it.
+fn cycle(
+    nodes: usize,
+    pairs: &[[usize; 2]],
+    inside: &[usize],
+    sets: &mut [Option<Vec<usize>>],
+    below: &mut impl FnMut(usize) -> usize,
+) -> (Vec<Value>, Vec<usize>, Vec<usize>) {
+    let (mut with, mut at, mut joined) = (Vec::new(), Vec::new(), Vec::new());
+    let mut last = inside.to_vec();
+    let mut shared = |part: &[usize], below: &mut dyn FnMut(usize) -> usize| {
+        let fresh = part.iter().copied().filter(|node| !at.contains(node));
+        let fresh: Vec<usize> = fresh.collect();
+        let node = match fresh.len() {
+            size if size > 0 && below(8) > 0 => fresh[below(size)],
+            _ => below(nodes),
+        };
+        at.push(node);
+        node
+    };
+    for _ in 0..1 + below(3) {
+        let node = shared(&last, below);
+        let bodies = (0..sets.len()).map(|k| (json!(k), sets[k].clone().unwrap_or_default()));
+        let edges = pairs.iter().map(|pair| (json!(pair), pair.to_vec()));
+        let mut fits: Vec<_> = bodies.chain(edges).collect();
+        if below(8) > 0 {
+            let leads_on = |part: &[usize]| part.iter().any(|other| !last.contains(other));
+            fits.retain(|(_, part)| part.contains(&node) && leads_on(part));
+        }
+        if fits.is_empty() {
+            break;
+        }
+        let (partner, part) = fits.swap_remove(below(fits.len()));
+        if let Some(body) = partner.as_u64() {
+            sets[body as usize] = None;
+        }
+        joined.extend(&part);
+        with.push(partner);
+        last = part;
+    }
+    if below(8) > 0 {
+        last.retain(|node| inside.contains(node));
+    }
+    shared(&last, below);
+    // Of three, the body and the last share the second.
+    if let [_, b, c] = &mut at[..] {
+        std::mem::swap(b, c);
+    }
+    (with, at, joined)
 }
 
 /// All edges in one piece, with the rank as its lower bound, and random blocks, some with a hub.

@@ -136,7 +136,7 @@ impl<'t> Table<'t> {
 fn is_head(first: &Field, second: &Field) -> bool {
     let lower = [first, second].map(|field| field.text.to_ascii_lowercase());
     let lower = [&lower[0][..], &lower[1][..]];
-    HEADS.iter().any(|head| *head == lower)
+    HEADS.contains(&lower)
 }
 
 /// Reads the first two fields of each line.
