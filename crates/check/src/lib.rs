@@ -45,6 +45,7 @@ mod lower;
 mod matrices;
 mod pivots;
 mod plane_flow;
+pub mod program;
 mod rejection;
 mod setting;
 mod structure;

@@ -79,7 +79,7 @@ def switch():
 
 def build():
     environment = {**os.environ, "CARGO_PROFILE_DEV_OPT_LEVEL": "1", "CARGO_TARGET_DIR": os.path.join(COPY, "target")}
-    run = subprocess.run(["cargo", "test", "-p", "viewcert-check", "--no-run", "--message-format=json"],
+    run = subprocess.run(["cargo", "test", "-p", "viewcert-check", "--features", "program", "--no-run", "--message-format=json"],
                          cwd=COPY, env=environment, stdout=subprocess.PIPE, check=True, text=True)
     messages = [json.loads(line) for line in run.stdout.splitlines() if line.startswith("{")]
     binaries = {message["target"]["name"]: message["executable"] for message in messages

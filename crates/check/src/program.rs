@@ -1,0 +1,351 @@
+//! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
+
+use crate::{Certificate, Failure, Graph, Limits, Model, Strength, Unreadable, Verdict, Verified};
+use lexopt::Arg::{Long, Short, Value};
+use lexopt::ValueExt;
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::process::ExitCode;
+use std::str::FromStr;
+use std::sync::LazyLock;
+
+const VERIFIED: u8 = 0;
+const NOT_VERIFIED: u8 = 1;
+const NO_ANSWER: u8 = 2;
+const TOO_LARGE: u8 = 3;
+
+/// What is printed for `--help`; the default limits are put in.
+fn help() -> String {
+    let Limits {
+        core,
+        flows,
+        bits,
+        operations,
+    } = Limits::default();
+    format!(
+        "Verifies a certificate.
+
+Usage: viewcert-check [OPTIONS] CERTIFICATE [GRAPH]
+
+CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or an edge list; without it
+the certificate must hold the graph.
+
+What the certificate must be about (verified, but something else: exit code 1):
+  --expect VERDICT     solvable, finite-solvable or not-finite-solvable
+  --model MODEL        projective or calibrated
+  --nodes N            the number of nodes
+  --edges M            the number of edges
+  --sha256 HEX         the hash of the graph
+  --proofs-only        proofs, no error bounds
+
+How GRAPH is read:
+  --format FORMAT      auto (what can be read in one way only; the default), or edges: the first
+                       two fields of each line are a pair, whatever else is there
+
+Limits (beyond them: exit code 3):
+  --max-bytes N        size of each file [{MAX_BYTES}]
+  --max-core N         nodes of a core [{core}]
+  --max-flows N        flows of a `plane-flow` [{flows}]
+  --max-bits N         bits of an integer of an `integer-minor` [{bits}]
+  --max-operations N   elementary operations in all [{operations}]
+
+  -h, --help           this text
+  -V, --version        the version
+
+Standard output has lines that begin with VERIFIED, or the word REJECTED, or nothing. Reasons are on
+standard error. Exit codes: 0 verified, 1 rejected or not as expected, 2 bad usage or a file that
+cannot be read, 3 too large for the limits.
+"
+    )
+}
+
+const MAX_BYTES: u64 = 1 << 31;
+
+/// What the command line asks for.
+enum Request {
+    Check(Box<Arguments>),
+    /// A text to be printed.
+    Say(String),
+}
+
+/// The files, and how to check them.
+struct Arguments {
+    certificate: OsString,
+    graph: Option<OsString>,
+    edges_only: bool,
+    max_bytes: u64,
+    limits: Limits,
+    expected: Expected,
+}
+
+/// What the certificate must be about.
+#[derive(Default)]
+struct Expected {
+    verdict: Option<Verdict>,
+    model: Option<Model>,
+    nodes: Option<usize>,
+    edges: Option<usize>,
+    sha256: Option<String>,
+    proofs_only: bool,
+}
+
+/// Why there is no answer about the certificate; with the exit code.
+struct Stop {
+    code: u8,
+    message: String,
+}
+
+impl Stop {
+    fn no_answer(message: impl ToString) -> Stop {
+        Stop {
+            code: NO_ANSWER,
+            message: message.to_string(),
+        }
+    }
+}
+
+/// The program, on the arguments of this process.
+pub fn run() -> ExitCode {
+    let done = arguments().and_then(|request| match request {
+        Request::Say(text) => print(&text).map(|()| VERIFIED),
+        Request::Check(arguments) => check(&arguments),
+    });
+    let code = done.unwrap_or_else(|Stop { code, message }| {
+        explain(&message);
+        code
+    });
+    ExitCode::from(code)
+}
+
+/// Nobody who reads the exit code only may take a lost answer for a good one.
+fn print(text: &str) -> Result<(), Stop> {
+    let mut out = io::stdout();
+    let done = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    done.map_err(|error| Stop::no_answer(format!("standard output: {error}")))
+}
+
+/// Says something on standard error, where it may get lost: the exit code says it too.
+fn explain(message: &str) {
+    let _ = writeln!(io::stderr(), "viewcert-check: {message}");
+}
+
+fn arguments() -> Result<Request, Stop> {
+    let usage = |error: lexopt::Error| Stop::no_answer(format!("{error}; see --help"));
+    parse(lexopt::Parser::from_env()).map_err(usage)
+}
+
+fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
+    let (mut files, mut edges_only, mut max_bytes) = (Vec::new(), false, MAX_BYTES);
+    let (mut limits, mut expected) = (Limits::default(), Expected::default());
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Short('h') | Long("help") => return Ok(Request::Say(help())),
+            Short('V') | Long("version") => {
+                let version = concat!("viewcert-check ", env!("CARGO_PKG_VERSION"), "\n");
+                return Ok(Request::Say(version.into()));
+            }
+            Long("expect") => expected.verdict = Some(parser.value()?.parse_with(verdict)?),
+            Long("model") => expected.model = Some(parser.value()?.parse_with(model)?),
+            Long("nodes") => expected.nodes = Some(number(&mut parser)?),
+            Long("edges") => expected.edges = Some(number(&mut parser)?),
+            Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
+            Long("proofs-only") => expected.proofs_only = true,
+            Long("format") => edges_only = parser.value()?.parse_with(is_edges)?,
+            Long("max-bytes") => max_bytes = number(&mut parser)?,
+            Long("max-core") => limits.core = number(&mut parser)?,
+            Long("max-flows") => limits.flows = number(&mut parser)?,
+            Long("max-bits") => limits.bits = number(&mut parser)?,
+            Long("max-operations") => limits.operations = number(&mut parser)?,
+            Value(file) if files.len() < 2 => files.push(file),
+            _ => return Err(argument.unexpected()),
+        }
+    }
+    let mut files = files.into_iter();
+    let certificate = files.next().ok_or("no certificate is given")?;
+    let graph = files.next();
+    if certificate == "-" && graph.as_ref().is_some_and(|graph| graph == "-") {
+        return Err("only one file can be standard input".into());
+    }
+    Ok(Request::Check(Box::new(Arguments {
+        certificate,
+        graph,
+        edges_only,
+        max_bytes,
+        limits,
+        expected,
+    })))
+}
+
+fn number<T: FromStr<Err: Into<Box<dyn std::error::Error + Send + Sync>>>>(
+    parser: &mut lexopt::Parser,
+) -> Result<T, lexopt::Error> {
+    parser.value()?.parse()
+}
+
+fn verdict(text: &str) -> Result<Verdict, &'static str> {
+    use Verdict::{FiniteSolvable, NotFiniteSolvable, Solvable};
+    let all = [Solvable, FiniteSolvable, NotFiniteSolvable];
+    let found = all.into_iter().find(|verdict| verdict.to_string() == text);
+    found.ok_or("it is solvable, finite-solvable or not-finite-solvable")
+}
+
+fn model(text: &str) -> Result<Model, &'static str> {
+    match text {
+        "projective" => Ok(Model::Projective),
+        "calibrated" => Ok(Model::Calibrated),
+        _ => Err("it is projective or calibrated"),
+    }
+}
+
+fn hash(text: &str) -> Result<String, &'static str> {
+    let fine = text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let digits = fine.then(|| text.to_ascii_lowercase());
+    digits.ok_or("it has 64 hexadecimal digits")
+}
+
+fn is_edges(text: &str) -> Result<bool, &'static str> {
+    match text {
+        "auto" => Ok(false),
+        "edges" => Ok(true),
+        _ => Err("it is auto or edges"),
+    }
+}
+
+/// Checks the files; returns the exit code.
+fn check(arguments: &Arguments) -> Result<u8, Stop> {
+    let text = read(&arguments.certificate, arguments.max_bytes)?;
+    let file = arguments.graph.as_ref();
+    let file = file.map(|path| Ok((path, read(path, arguments.max_bytes)?)));
+    let file = file.transpose()?;
+    let certificate = LazyLock::new(|| Certificate::parse(&text));
+    // Large files are read side by side; whoever needs the certificate waits for it.
+    let graph = std::thread::scope(|scope| {
+        let file = file.as_ref()?;
+        scope.spawn(|| LazyLock::force(&certificate));
+        Some((file.0, graph(&file.1, arguments.edges_only, &certificate)))
+    });
+    let graph = graph.map(|(path, graph)| {
+        graph.map_err(|error| Stop::no_answer(format!("{}: {error}", path.display())))
+    });
+    let graph = graph.transpose()?;
+    let checked = match &*certificate {
+        Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
+        Err(failure) => Err(failure.clone()),
+    };
+    match checked {
+        Ok(verified) => answer(&verified, &arguments.expected),
+        Err(Failure::Rejected(rejection)) => {
+            explain(&rejection.to_string());
+            print("REJECTED\n").map(|()| NOT_VERIFIED)
+        }
+        Err(Failure::TooLarge(limit)) => Err(Stop {
+            code: TOO_LARGE,
+            message: limit.to_string(),
+        }),
+    }
+}
+
+/// Reads the graph, of several the one that the certificate is about.
+fn graph(
+    file: &[u8],
+    edges_only: bool,
+    certificate: &LazyLock<
+        Result<Certificate, Failure>,
+        impl FnOnce() -> Result<Certificate, Failure>,
+    >,
+) -> Result<Graph, Unreadable> {
+    if edges_only {
+        return Graph::read_edges(file);
+    }
+    Graph::read(file, || {
+        let certificate = LazyLock::force(certificate).as_ref();
+        certificate.ok().map(Certificate::graph_sha256)
+    })
+}
+
+/// Says what was verified, if it is what was expected.
+fn answer(verified: &Verified, expected: &Expected) -> Result<u8, Stop> {
+    let found = differences(verified, expected);
+    if found.is_empty() {
+        let lines = verified.to_string();
+        let lines = lines.lines().map(|line| format!("VERIFIED {line}\n"));
+        return print(&lines.collect::<String>()).map(|()| VERIFIED);
+    }
+    explain(&format!("not what is expected: {}", found.join("; ")));
+    Ok(NOT_VERIFIED)
+}
+
+/// In what a verified certificate differs from what is expected.
+fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut see = |differs: bool, what: String| found.extend(differs.then_some(what));
+    let Expected {
+        verdict,
+        model,
+        nodes,
+        edges,
+        sha256,
+        proofs_only,
+    } = expected;
+    let verified_verdict = verified.verdict.0;
+    see(
+        verdict.is_some_and(|verdict| verdict != verified_verdict),
+        format!("the verdict is {verified_verdict}"),
+    );
+    see(
+        model.is_some_and(|model| model != verified.model),
+        format!("the model is {}", verified.model),
+    );
+    see(
+        nodes.is_some_and(|nodes| nodes != verified.nodes),
+        format!("the graph has {} nodes", verified.nodes),
+    );
+    see(
+        edges.is_some_and(|edges| edges != verified.edges),
+        format!("the graph has {} edges", verified.edges),
+    );
+    see(
+        sha256.as_ref().is_some_and(|hash| *hash != verified.sha256),
+        format!("the graph has the SHA-256 {}", verified.sha256),
+    );
+    for (name, strength) in [
+        ("verdict", verified.verdict.1),
+        ("rank", verified.rank.1),
+        ("number of components", verified.components.1),
+    ] {
+        see(
+            *proofs_only && strength != Strength::Proof,
+            format!("the {name} is not proved: {strength}"),
+        );
+    }
+    found
+}
+
+/// Reads a file, or standard input.
+fn read(path: &OsString, most: u64) -> Result<Vec<u8>, Stop> {
+    let mut bytes = Vec::new();
+    // One byte more than allowed tells a file that is too large from one that is not.
+    let done = if path == "-" {
+        let input = io::stdin().lock();
+        input.take(most.saturating_add(1)).read_to_end(&mut bytes)
+    } else {
+        File::open(path).and_then(|file| {
+            let size = file.metadata().map_or(0, |data| data.len());
+            bytes.reserve(size.min(most).saturating_add(1) as usize);
+            file.take(most.saturating_add(1)).read_to_end(&mut bytes)
+        })
+    };
+    done.map_err(|error| Stop::no_answer(format!("{}: {error}", path.display())))?;
+    if bytes.len() as u64 > most {
+        let name = path.display();
+        return Err(Stop {
+            code: TOO_LARGE,
+            message: format!(
+                "too large for the limits: {name} has more than {most} bytes; \
+                 raise it with --max-bytes"
+            ),
+        });
+    }
+    Ok(bytes)
+}
