@@ -274,34 +274,38 @@ fn heawood_is_rigid_without_a_body() {
     }
 }
 
-/// Few points on a path of cameras: tracks of three images among seven in a row. The rank is that
-/// of the whole matrix, and closure alone would stop short of a rigid graph now and then.
+/// Tracks of three images among nine in a row of fourteen, thinned until no two cameras see two
+/// common points: closure finds nothing. Some of these graphs are rigid and some are not; the rank
+/// is that of the whole matrix.
 #[test]
 fn thinned_tracks_against_the_whole_matrix() {
-    let mut stopped_short = 0;
     let mut rigid = 0;
-    for seed in 0..40 {
+    for seed in 0..30 {
         let mut random = ChaCha20Rng::seed_from_u64(seed);
         let mut seen = Observations::new();
-        for k in 0..18 {
+        let mut pairs = BTreeSet::new();
+        for k in 0..200 {
             let first = random.next_u32() % 6;
             let mut cameras = BTreeSet::new();
             while cameras.len() < 3 {
-                cameras.insert(first + random.next_u32() % 7);
+                cameras.insert(first + random.next_u32() % 9);
             }
-            seen.extend(cameras.into_iter().map(|camera| (camera, point(k))));
+            let cameras: Vec<u32> = cameras.into_iter().collect();
+            let its = [(0, 1), (0, 2), (1, 2)].map(|(a, b)| (cameras[a], cameras[b]));
+            if pairs.len() < 3 * 18 && its.iter().all(|pair| !pairs.contains(pair)) {
+                pairs.extend(its);
+                seen.extend(cameras.into_iter().map(|camera| (camera, point(k))));
+            }
         }
         let (line, certificate) = decided(&seen, &[]);
+        assert_eq!(certificate["bodies"], json!([]));
         let (whole, _) = decided(&seen, &["--no-contraction"]);
         for member in ["rank", "verdict", "components"] {
             assert_eq!(line[member], whole[member], "seed {seed}");
         }
-        if line["verdict"] == "solvable" {
-            rigid += 1;
-            stopped_short += usize::from(certificate["pieces"] != json!([]));
-        }
+        rigid += usize::from(line["verdict"] == "solvable");
     }
-    assert!(stopped_short > 0 && rigid < 40, "{stopped_short}, {rigid}");
+    assert!(0 < rigid && rigid < 30, "{rigid}");
 }
 
 /// The rank of N modulo 2^61 - 1 at these positions.
