@@ -13,7 +13,7 @@ use super::{GOOD, NOT, atomic, running};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide;

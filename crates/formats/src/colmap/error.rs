@@ -37,7 +37,7 @@ pub enum DatabaseError {
     #[error("the database has images, {0}, but no matches")]
     NotMatched(usize),
     /// Pairs were matched, and the verification was not run.
-    #[error("{} matched, but none is verified: {1} is empty", are(*.0, "pair"))]
+    #[error("{} matched, but none is verified: {} is empty", are(*.0, "pair"), .1)]
     NotVerified(usize, &'static str),
     /// A name that cannot be shown.
     #[error("the name of image {0} is no UTF-8")]
