@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
 
+/// The option that names the target.
+pub(super) const OPTION: &str = "--certificate";
+
 /// The target of `--certificate`.
 pub(super) struct Target {
     path: PathBuf,
@@ -27,7 +30,11 @@ impl Target {
         let folder = path.is_dir();
         if !folder {
             let count = inputs.len();
-            ensure!(count <= 1, "{}", too_many(path, &format!("{count} graphs")));
+            ensure!(
+                count <= 1,
+                "{}",
+                too_many(OPTION, path, &format!("{count} graphs"))
+            );
         }
         let inputs = inputs.iter().map(PathBuf::as_path);
         atomic::ensure_apart(&[("--certificate", Some(path))], inputs)?;
@@ -39,9 +46,9 @@ impl Target {
         })
     }
 
-    /// The file, if there is room for the certificate of one graph only.
-    pub(super) fn single(&self) -> Option<&Path> {
-        (!self.folder).then_some(&self.path)
+    /// The file, if there is room for the certificate of one graph only, behind its option.
+    pub(super) fn single(&self) -> Option<(&'static str, PathBuf)> {
+        (!self.folder).then(|| (OPTION, self.path.clone()))
     }
 
     /// Writes the certificate of one graph and returns the path.
@@ -51,7 +58,7 @@ impl Target {
         } else if self.taken.insert(String::new()) {
             self.path.clone()
         } else {
-            bail!("{}", too_many(&self.path, "several graphs"));
+            bail!("{}", too_many(OPTION, &self.path, "several graphs"));
         };
         atomic::write(&path, |out| {
             let certificate = verdict.certificate(&input.graph).named(&input.name);
@@ -104,11 +111,14 @@ impl Target {
     }
 }
 
-/// Why a file cannot be the target for many graphs.
-pub(super) fn too_many(file: &Path, what: &str) -> String {
+/// Why a file cannot be the target of an option for many graphs.
+pub(super) fn too_many(option: &str, file: &Path, what: &str) -> String {
+    let (holds, remedy) = match option {
+        OPTION => ("the certificate of one graph", "name an existing folder"),
+        _ => ("one graph", "decide them one by one"),
+    };
     format!(
-        "--certificate {}: a file holds the certificate of one graph, and there are {what}; name \
-         an existing folder",
+        "{option} {}: a file holds {holds}, and there are {what}; {remedy}",
         file.display()
     )
 }

@@ -109,7 +109,7 @@ impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
     /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
     ///
-    /// If there is a `single` file for what comes out, an input with a second graph is refused before
+    /// If there is a `single` file for what comes out, behind the option that names it, an input with a second graph is refused before
     /// `each` has seen the first.
     ///
     /// # Errors
@@ -118,7 +118,7 @@ impl InputArguments {
     pub(super) fn for_each<W: Write>(
         &self,
         paths: &[PathBuf],
-        single: Option<&Path>,
+        single: Option<(&str, &Path)>,
         out: &mut W,
         each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
@@ -161,7 +161,7 @@ impl InputArguments {
 pub(super) fn for_each<W: Write>(
     options: &ReadOptions,
     paths: &[PathBuf],
-    single: Option<&Path>,
+    single: Option<(&str, &Path)>,
     out: &mut W,
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
@@ -171,9 +171,9 @@ pub(super) fn for_each<W: Write>(
         running::reading(path);
         let mut graphs = read_graphs(path, options).peekable();
         while let Some(input) = graphs.next() {
-            if let Some(file) = single.filter(|_| graphs.peek().is_some()) {
+            if let Some((option, file)) = single.filter(|_| graphs.peek().is_some()) {
                 let several = format!("several in {}", path.display());
-                return Err(anyhow!(certificates::too_many(file, &several)));
+                return Err(anyhow!(certificates::too_many(option, file, &several)));
             }
             running::hide();
             if let Ok(input) = &input {

@@ -4,7 +4,7 @@ use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
-use super::{GOOD, NOT, atomic, running};
+use super::{GOOD, NOT, atomic, certificates, running};
 use crate::report;
 use crate::report::Report;
 use anyhow::{Context, Result, ensure};
@@ -18,6 +18,9 @@ use viewcert::decide::{Arithmetic, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
+
+/// The option that names the file for the graph.
+const WRITE_GRAPH: &str = "--write-graph";
 
 /// Options of the verifier.
 #[derive(Args)]
@@ -139,13 +142,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         .as_deref()
         .map(|path| Target::new(path, arguments.embed_graph, &arguments.graphs))
         .transpose()?;
-    let single = target
-        .as_ref()
-        .and_then(Target::single)
-        .map(Path::to_path_buf);
+    let single = target.as_ref().and_then(Target::single);
     let outputs = [
-        ("--certificate", arguments.certificate.as_deref()),
-        ("--write-graph", arguments.write_graph.as_deref()),
+        (certificates::OPTION, arguments.certificate.as_deref()),
+        (WRITE_GRAPH, arguments.write_graph.as_deref()),
     ];
     let graphs = arguments.graphs.iter().map(Path::new);
     atomic::ensure_apart(&outputs[1..], graphs)?;
@@ -153,7 +153,17 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if single.is_some() {
         atomic::ensure_apart(&outputs, std::iter::empty())?;
     }
-    let single = single.or_else(|| arguments.write_graph.clone());
+    let written = arguments
+        .write_graph
+        .clone()
+        .map(|path| (WRITE_GRAPH, path));
+    if let Some((option, path)) = &written {
+        let count = arguments.graphs.len();
+        let several = || certificates::too_many(option, path, &format!("{count} graphs"));
+        ensure!(count <= 1, "{}", several());
+    }
+    let single = single.or(written);
+    let single = single.as_ref().map(|(option, path)| (*option, &**path));
     let mut out = atomic::text(&outputs.map(|(_, path)| path));
     let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
@@ -166,7 +176,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         tracks: arguments.tracks.options(),
         ..arguments.input.read_options()
     };
-    let code = input::for_each(&read, &arguments.graphs, single.as_deref(), &mut out, each)?;
+    let code = input::for_each(&read, &arguments.graphs, single, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

@@ -23,10 +23,10 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
     let mut target = arguments.target(&[path.to_owned()])?;
-    if let Some(file) = target.as_ref().and_then(Target::single)
+    if let Some((option, file)) = target.as_ref().and_then(Target::single)
         && rows.len() > 1
     {
-        bail!(too_many(file, &counted(rows.len(), "claim")));
+        bail!(too_many(option, &file, &counted(rows.len(), "claim")));
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     // Confirmed, refuted, not decidable, bad.

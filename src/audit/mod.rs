@@ -13,7 +13,7 @@ use super::{GOOD, NOT, atomic, running};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::decide;
@@ -138,18 +138,18 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         return sweep::run(arguments);
     }
     let mut target = arguments.target(&arguments.graphs)?;
-    let single = target
-        .as_ref()
-        .and_then(Target::single)
-        .map(Path::to_path_buf);
+    let single = target.as_ref().and_then(Target::single);
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };
-    let code = arguments
-        .input
-        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
+    let code = arguments.input.for_each(
+        &arguments.graphs,
+        single.as_ref().map(|(option, path)| (*option, &**path)),
+        &mut out,
+        each,
+    )?;
     Ok(ExitCode::from(code))
 }
 

@@ -98,14 +98,21 @@ fn strength(strength: Strength) -> String {
 fn reason(report: &Report) -> String {
     let verdict = report.verdict;
     let nodes = report.input.graph.nodes();
+    let (members, single) = match report.input.cameras {
+        None => ("cameras", "single cameras"),
+        Some(_) => ("cameras and points", "single cameras or points"),
+    };
     if nodes == 1 {
         return "a single camera has nothing to be relative to".into();
     }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
         return match verdict.contraction.bodies.len() {
             0 => "a single pair determines its two cameras".into(),
-            1 => format!("one body grows from a triangle to all {nodes} cameras"),
-            merges => format!("{merges} bodies merge into one with all {nodes} cameras"),
+            1 => match report.input.cameras {
+                None => format!("one body grows from a triangle to all {nodes} cameras"),
+                Some(_) => format!("one body grows to all {nodes} {members}"),
+            },
+            merges => format!("{merges} bodies merge into one with all {nodes} {members}"),
         };
     }
     if verdict.value != Value::NotFiniteSolvable {
@@ -142,12 +149,15 @@ fn reason(report: &Report) -> String {
         Strength::ErrorBound(_) => "the rank falls short at random cameras".into(),
         Strength::Proof if parts == 0 => "there are no pairs".into(),
         Strength::Proof if parts > 1 => {
-            format!("{parts} parts hang together in single cameras, or not at all")
+            format!("{parts} parts hang together in {single}, or not at all")
         }
         Strength::Proof if covered < verdict.required => {
             format!("counting allows rank {covered} at most")
         }
-        Strength::Proof => "some cameras have no pairs".into(),
+        Strength::Proof => match report.input.cameras {
+            None => "some cameras have no pairs".into(),
+            Some(_) => "some cameras see no track that counts".into(),
+        },
     }
 }
 

@@ -1,6 +1,7 @@
 //! Why a database gives no graph.
 
 use rusqlite::{Error, ErrorCode, ffi};
+use viewcert::wording::counted;
 
 /// What is wrong with a database, or with reading it.
 #[derive(Debug, thiserror::Error)]
@@ -36,7 +37,7 @@ pub enum DatabaseError {
     #[error("the database has images, {0}, but no matches")]
     NotMatched(usize),
     /// Pairs were matched, and the verification was not run.
-    #[error("{0} pairs are matched, but none is verified: {1} is empty")]
+    #[error("{} matched, but none is verified: {} is empty", are(*.0, "pair"), .1)]
     NotVerified(usize, &'static str),
     /// A name that cannot be shown.
     #[error("the name of image {0} is no UTF-8")]
@@ -55,7 +56,7 @@ pub enum DatabaseError {
         why: String,
     },
     /// Matches were emptied.
-    #[error("{0} of the pairs that are used have a number of inliers, but no list of them")]
+    #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
     /// Something else, as SQLite says it.
     #[error("the SQLite database cannot be read: {0}")]
@@ -96,6 +97,12 @@ impl DatabaseError {
             Self::Other(_) => "check its path and permissions, or read a copy",
         }
     }
+}
+
+/// `1 pair is`, `2 pairs are`.
+fn are(count: usize, thing: &str) -> String {
+    let verb = if count == 1 { "is" } else { "are" };
+    format!("{} {verb}", counted(count, thing))
 }
 
 impl From<Error> for DatabaseError {

@@ -1,1 +1,84 @@
+use super::facts::bins;
+use super::*;
+use crate::{Matching, NamedGraph, OtherPair, ReadError, ReadOptions, read_graphs};
+use rusqlite::Connection;
+use viewcert::graph::Labels;
 
+/// A database with the images c, a, b (1, 2, 3) and the rows that are given.
+fn read(rows: &str) -> Result<NamedGraph, ReadError> {
+    let folder = tempfile::tempdir().unwrap();
+    // A name that has to be escaped for SQLite.
+    let path = folder.path().join("a %41?#.db");
+    let connection = Connection::open(&path).unwrap();
+    let tables = "
+        create table images (image_id integer primary key, name text);
+        insert into images values (1, 'c'), (2, 'a'), (3, 'b');
+        create table matches (pair_id integer primary key, rows integer);
+        create table two_view_geometries (pair_id integer primary key, rows integer,
+            cols integer, data blob, config integer);";
+    connection.execute_batch(tables).unwrap();
+    connection.execute_batch(rows).unwrap();
+    drop(connection);
+    let mut graphs = read_graphs(path.to_str().unwrap(), &ReadOptions::default());
+    let graph = graphs.next().unwrap();
+    assert!(graphs.next().is_none());
+    graph
+}
+
+#[test]
+fn pairs_that_are_no_edges_keep_what_is_known_of_them() {
+    let graph = read(
+        "insert into two_view_geometries values
+            (2147483647 * 1 + 2, 40, 2, null, 2), (2147483647 * 2 + 3, 7, 2, null, 2);
+         insert into matches values
+            (2147483647 * 1 + 2, 90), (2147483647 * 2 + 3, 50), (2147483647 * 1 + 3, 12);",
+    );
+    let graph = graph.unwrap();
+    assert_eq!(
+        graph.labels,
+        Labels::Names(["a", "b", "c"].map(Into::into).into())
+    );
+    // c and a are the nodes 2 and 0.
+    assert_eq!(graph.graph.edges(), [(0, 2)]);
+    let other = |images, inliers, matches| OtherPair {
+        images,
+        inliers,
+        matches: Some(matches),
+    };
+    let matching = Matching {
+        inliers: vec![40],
+        others: vec![other((0, 1), 7, 50), other((1, 2), 0, 12)],
+    };
+    assert_eq!(graph.matching, Some(matching));
+}
+
+#[test]
+fn a_pair_that_is_only_matched_is_not_verified() {
+    let error = read("insert into matches values (2147483647 * 1 + 2, 90)").unwrap_err();
+    let text = error.to_string();
+    assert!(
+        text.contains("1 pair is matched, but none is verified"),
+        "{text}"
+    );
+}
+
+#[test]
+fn bins_hold_every_number_once() {
+    let numbers = [0, 1, 14, 15, 29, 30, 959, 960, u32::MAX];
+    let found = bins(numbers.into_iter());
+    let found: Vec<_> = found
+        .iter()
+        .map(|bin| (bin.from, bin.to, bin.pairs))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (0, Some(0), 1),
+            (1, Some(14), 2),
+            (15, Some(29), 2),
+            (30, Some(59), 1),
+            (480, Some(959), 1),
+            (960, None, 2)
+        ]
+    );
+}

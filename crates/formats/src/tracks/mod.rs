@@ -66,3 +66,6 @@ pub(crate) fn read(
 pub(crate) fn read_folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
     model::folder(folder, options)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,1004 @@
+//! COLMAP's databases and tracks, as a user meets them: what the facts say of the samples, nothing
+//! left behind, and a message for everything that is wrong.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::{Run, verify, verify_with};
+use rusqlite::{Connection, params};
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+/// The folder with the samples, which is not part of the repository.
+fn samples() -> Option<PathBuf> {
+    let folder = common::data()?.join("colmap");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    eprintln!(
+        "SKIPPED: the samples of databases are not at {}",
+        folder.display()
+    );
+    None
+}
+
+/// What is known of the samples, by path; computed with networkx and another program.
+fn facts(folder: &Path) -> Vec<(PathBuf, Value)> {
+    let text = fs::read_to_string(folder.join("FACTS.json")).unwrap();
+    let facts: BTreeMap<String, Value> = serde_json::from_str(&text).unwrap();
+    assert!(facts.len() >= 20);
+    let path = |name: String| folder.join(format!("{name}.db"));
+    facts
+        .into_iter()
+        .map(|(name, fact)| (path(name), fact))
+        .collect()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// The one line of JSON that a run prints.
+fn line(run: &Run) -> Value {
+    let [line] = &run.json()[..] else {
+        panic!("{}{}", run.out, run.err);
+    };
+    assert_eq!(run.err, "");
+    let good = line["verdict"] != "not-finite-solvable";
+    assert_eq!(run.code, i32::from(!good));
+    line.clone()
+}
+
+fn json_of(path: &Path, options: &[&str]) -> Value {
+    line(&verify(&[&["--json", text(path)], options].concat()))
+}
+
+/// A refusal: exit code 2, one line, with what is wrong and what to do.
+fn refused(path: &Path, options: &[&str], phrases: &[&str]) {
+    let run = verify(&[options, &[text(path)]].concat());
+    is_refusal(&run, phrases);
+}
+
+fn is_refusal(run: &Run, phrases: &[&str]) {
+    assert_eq!((run.code, &*run.out), (2, ""), "{}", run.err);
+    assert_eq!(run.err.lines().count(), 1, "{}", run.err);
+    assert!(run.err.contains("; "), "{}", run.err);
+    for phrase in phrases {
+        assert!(run.err.contains(phrase), "{phrase}: {}", run.err);
+    }
+}
+
+fn notes(line: &Value) -> Vec<&str> {
+    let notes = line["notes"].as_array().unwrap();
+    notes.iter().map(|note| note.as_str().unwrap()).collect()
+}
+
+/// Sizes of components, falling.
+fn sizes(line: &Value) -> Vec<[u64; 2]> {
+    let parts = line["components"].as_array().unwrap().iter();
+    let number = |part: &Value, name: &str| part[name].as_u64().unwrap();
+    let mut sizes: Vec<_> = parts
+        .map(|part| [number(part, "nodes"), number(part, "edges")])
+        .collect();
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
+
+/// Names, sizes and hashes of all files below a folder.
+fn fingerprint(folder: &Path) -> BTreeMap<PathBuf, (u64, String)> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(fingerprint(&path));
+        } else {
+            let bytes = fs::read(&path).unwrap();
+            let hash = format!("{:x?}", Sha256::digest(&bytes).as_slice());
+            found.insert(path, (bytes.len() as u64, hash));
+        }
+    }
+    found
+}
+
+#[test]
+fn pairs_are_as_the_facts_say() {
+    let Some(folder) = samples() else { return };
+    let mut decided = 0;
+    for (path, fact) in facts(&folder) {
+        for model in ["projective", "calibrated"] {
+            let Some(expected) = fact.get(model) else {
+                continue;
+            };
+            let line = json_of(&path, &["--model", model]);
+            let context = format!("{} {model}", path.display());
+            assert_eq!(line["graph"]["nodes"], fact["images"], "{context}");
+            assert_eq!(line["graph"]["edges"], fact["pairs_rows_ge15"], "{context}");
+            assert_eq!(line["verdict"], expected["verdict"], "{context}");
+            assert_eq!(json!(sizes(&line)), expected["components"], "{context}");
+            let database = &line["database"];
+            assert_eq!(database["images"], fact["images"], "{context}");
+            assert_eq!(
+                database["images_without_pair"], fact["isolated"],
+                "{context}"
+            );
+            assert_eq!(database["pairs"], fact["pairs"], "{context}");
+            assert_eq!(database["connected"], fact["connected"], "{context}");
+            for (name, member) in [("config", "pairs"), ("config_rows_ge15", "used")] {
+                let counts = database["configs"].as_array().unwrap().iter();
+                let counts = counts.filter(|count| count[member] != 0);
+                let counts: BTreeMap<String, &Value> = counts
+                    .map(|count| (count["config"].to_string(), &count[member]))
+                    .collect();
+                assert_eq!(json!(counts), fact[name], "{context}");
+            }
+            let binned = database["inliers"].as_array().unwrap().iter();
+            let binned: u64 = binned.map(|bin| bin["pairs"].as_u64().unwrap()).sum();
+            assert_eq!(json!(binned), fact["pairs"], "{context}");
+            decided += 1;
+        }
+    }
+    assert!(decided >= 30);
+}
+
+/// None of the samples has a pose at a pair of another configuration than 2 to 6.
+#[test]
+fn global_mapping_takes_its_configurations() {
+    let Some(folder) = samples() else { return };
+    for (path, fact) in facts(&folder) {
+        if fact.get("projective").is_none() {
+            continue;
+        }
+        let configs = fact["config_rows_ge15"].as_object().unwrap().iter();
+        let configs = configs.filter(|(config, _)| ["2", "3", "4", "5", "6"].contains(&&***config));
+        let expected: u64 = configs.map(|(_, count)| count.as_u64().unwrap()).sum();
+        let line = json_of(&path, &["--pipeline", "global"]);
+        assert_eq!(line["graph"]["edges"], expected, "{}", path.display());
+        assert_eq!(line["database"]["pipeline"], "global");
+        let left_out = fact["pairs_rows_ge15"].as_u64().unwrap() - expected;
+        let note = "with enough inliers left out: global mapping";
+        let said = notes(&line).iter().any(|text| text.contains(note));
+        assert_eq!(said, left_out > 0, "{}", path.display());
+    }
+}
+
+#[test]
+fn tracks_are_as_the_facts_say() {
+    let Some(folder) = samples() else { return };
+    let mut decided = 0;
+    for (path, fact) in facts(&folder) {
+        for (name, least) in [("tracks_ge2", "2"), ("tracks_ge3", "3")] {
+            let Some(expected) = fact.get(name) else {
+                continue;
+            };
+            let line = json_of(&path, &["--tracks", "--min-views", least]);
+            let context = format!("{} {least}", path.display());
+            let tracks = &line["tracks"];
+            assert_eq!(tracks["cameras"], fact["images"], "{context}");
+            assert_eq!(tracks["points"], expected["tracks"], "{context}");
+            assert_eq!(
+                tracks["observations"], expected["observations"],
+                "{context}"
+            );
+            assert_eq!(line["verdict"], expected["verdict"], "{context}");
+            assert_eq!(line["model"], "calibrated", "{context}");
+            let parts = line["components"].as_array().unwrap().iter();
+            let cameras = parts.map(|part| part["cameras"].as_u64().unwrap());
+            let mut cameras: Vec<u64> = cameras.filter(|&count| count > 1).collect();
+            cameras.sort_unstable_by(|a, b| b.cmp(a));
+            assert_eq!(
+                json!(cameras),
+                expected["cameras_per_component"],
+                "{context}"
+            );
+            decided += 1;
+        }
+    }
+    assert!(decided >= 30);
+}
+
+#[test]
+fn what_is_wrong_with_a_sample_is_said() {
+    let Some(folder) = samples() else { return };
+    for (name, phrases) in [
+        ("empty", ["the database has no images", "feature_extractor"]),
+        (
+            "not_colmap",
+            ["an SQLite database, but not COLMAP's", "no table `images`"],
+        ),
+        (
+            "not_verified",
+            [
+                "28 pairs are matched, but none is verified",
+                "geometric_verifier",
+            ],
+        ),
+        (
+            "truncated",
+            ["damaged: database disk image is malformed", "copy it again"],
+        ),
+    ] {
+        for options in [&[][..], &["--tracks"]] {
+            refused(&folder.join(format!("{name}.db")), options, &phrases);
+        }
+    }
+    let said = |name: &str, note: &str| {
+        let line = json_of(&folder.join(name), &[]);
+        assert!(
+            notes(&line).iter().any(|text| text.contains(note)),
+            "{name}: {line}"
+        );
+    };
+    said("synthetic_rig.db", "2 rigs of several cameras");
+    said(
+        "unverified_config0.db",
+        "28 pairs of undefined configuration (0)",
+    );
+    said(
+        "all_configs.db",
+        "4 verified pairs of 31 have fewer than 15 inliers",
+    );
+    said("wal/copy.db", "a temporary copy of both was read");
+}
+
+/// Blanks, quotes and other scripts: listed as they are, bytewise in order.
+#[test]
+fn names_are_those_of_the_images() {
+    let Some(folder) = samples() else { return };
+    let path = folder.join("names.db");
+    let line = json_of(&path, &["--components"]);
+    let labels: Vec<String> =
+        serde_json::from_value(line["components"][0]["labels"].clone()).unwrap();
+    let uri = format!("file:{}?mode=ro&immutable=1", path.display());
+    let database = Connection::open_with_flags(
+        uri,
+        rusqlite::OpenFlags::SQLITE_OPEN_READ_ONLY | rusqlite::OpenFlags::SQLITE_OPEN_URI,
+    );
+    let database = database.unwrap();
+    let mut statement = database.prepare("select name from images").unwrap();
+    let names = statement.query_map([], |row| row.get(0)).unwrap();
+    let mut names: Vec<String> = names.map(Result::unwrap).collect();
+    names.sort();
+    assert_eq!(labels, names);
+    assert!(names.iter().any(|name| name.contains(' ')));
+}
+
+#[test]
+fn the_samples_stay_as_they_are() {
+    let Some(folder) = samples() else { return };
+    let before = fingerprint(&folder);
+    let files: Vec<&Path> = before.keys().map(PathBuf::as_path).collect();
+    let databases = files
+        .iter()
+        .filter(|path| path.extension().is_some_and(|is| is == "db"));
+    for database in databases {
+        for options in [&[][..], &["--tracks"], &["--pipeline", "global"]] {
+            assert!(verify(&[options, &[text(database)]].concat()).code <= 2);
+        }
+    }
+    assert_eq!(fingerprint(&folder), before);
+}
+
+/// A file system that cannot be written to.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_read_only_file_system() {
+    let Some(folder) = samples() else { return };
+    let place = tempfile::tempdir().unwrap();
+    let mount = |options: &[&str]| {
+        let mount = Command::new("mount")
+            .args(options)
+            .arg(place.path())
+            .output();
+        match mount {
+            Ok(mount) if mount.status.success() => true,
+            Ok(mount) => {
+                let reason = String::from_utf8_lossy(&mount.stderr);
+                eprintln!("skipped: no file system may be mounted: {}", reason.trim());
+                false
+            }
+            Err(error) => {
+                eprintln!("skipped: mount is not there: {error}");
+                false
+            }
+        }
+    };
+    if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
+        return;
+    }
+    fs::create_dir(place.path().join("wal")).unwrap();
+    for name in [
+        "names.db",
+        "clusters_one_edge_tracks.db",
+        "wal/copy.db",
+        "wal/copy.db-wal",
+    ] {
+        fs::copy(folder.join(name), place.path().join(name)).unwrap();
+    }
+    // One whose header says that it is written through a log, which is empty.
+    let logged = place.path().join("logged.db");
+    fs::copy(folder.join("names.db"), &logged).unwrap();
+    let database = Connection::open(&logged).unwrap();
+    database.pragma_update(None, "journal_mode", "wal").unwrap();
+    drop(database);
+    let sealed = mount(&["-o", "remount,ro"]);
+    let found = std::panic::catch_unwind(|| {
+        assert!(sealed);
+        assert!(fs::write(place.path().join("new"), "").is_err());
+        for (name, edges) in [("names.db", 21), ("wal/copy.db", 28), ("logged.db", 21)] {
+            let path = place.path().join(name);
+            assert_eq!(json_of(&path, &[])["graph"]["edges"], edges, "{name}");
+            assert_eq!(
+                json_of(&path, &["--tracks"])["verdict"],
+                "solvable",
+                "{name}"
+            );
+        }
+    });
+    let unmount = Command::new("umount").arg(place.path()).status();
+    assert!(unmount.unwrap().success());
+    found.unwrap();
+}
+
+/// A database of a folder of its own, with the tables of COLMAP 3.8 as far as they are read.
+struct Made {
+    folder: tempfile::TempDir,
+    connection: Connection,
+}
+
+const TABLES: &str = "
+    create table images (image_id integer primary key, name text not null unique);
+    create table matches (pair_id integer primary key, rows integer, cols integer, data blob);
+    create table two_view_geometries (pair_id integer primary key, rows integer, cols integer,
+        data blob, config integer, F blob, E blob, H blob, qvec blob, tvec blob);";
+
+impl Made {
+    fn new(tables: &str, images: &[(i64, &str)]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let connection = Connection::open(folder.path().join("database.db")).unwrap();
+        connection.execute_batch(tables).unwrap();
+        for (id, name) in images {
+            let insert = "insert into images values (?, ?)";
+            connection.execute(insert, params![id, name]).unwrap();
+        }
+        Self { folder, connection }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.path().join("database.db")
+    }
+
+    fn execute(&self, sql: &str) {
+        self.connection.execute_batch(sql).unwrap();
+    }
+
+    /// A verified pair with a list of matches.
+    fn pair(&self, a: i64, b: i64, matches: &[(u32, u32)], config: i64) {
+        let bytes: Vec<u8> = matches
+            .iter()
+            .flat_map(|&(k, l)| [k.to_le_bytes(), l.to_le_bytes()])
+            .flatten()
+            .collect();
+        let insert = "insert into two_view_geometries (pair_id, rows, cols, data, config)
+                      values (?, ?, 2, ?, ?)";
+        let pair = 2_147_483_647 * a + b;
+        let values = params![pair, matches.len() as i64, bytes, config];
+        self.connection.execute(insert, values).unwrap();
+    }
+
+    /// The files of the folder by name.
+    fn files(&self) -> Vec<String> {
+        let files = fs::read_dir(self.folder.path()).unwrap();
+        let name = |file: std::io::Result<fs::DirEntry>| file.unwrap().file_name();
+        let mut names: Vec<String> = files
+            .map(|file| name(file).into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+/// So many matches of the same features.
+fn same(count: u32) -> Vec<(u32, u32)> {
+    (0..count).map(|k| (k, k)).collect()
+}
+
+const THREE: [(i64, &str); 3] = [(1, "a.jpg"), (2, "b.jpg"), (3, "c.jpg")];
+
+#[test]
+fn the_threshold_and_what_is_left_out() {
+    let images = [(9, "a.jpg"), (2, "b.jpg"), (5, "c.jpg"), (7, "d.jpg")];
+    let made = Made::new(TABLES, &images);
+    made.pair(2, 9, &same(15), 2);
+    made.pair(2, 5, &same(14), 2);
+    made.pair(5, 9, &same(40), 3);
+    made.pair(5, 77, &same(40), 3);
+    made.pair(5, 5, &same(40), 3);
+    let line = json_of(&made.path(), &["--components"]);
+    assert_eq!(line["graph"]["nodes"], 4);
+    assert_eq!(sizes(&line), [[2, 1], [2, 1]]);
+    let parts = line["components"].as_array().unwrap().iter();
+    let parts: Vec<&Value> = parts.map(|part| &part["labels"]).collect();
+    assert_eq!(
+        json!(parts),
+        json!([["a.jpg", "b.jpg"], ["a.jpg", "c.jpg"]])
+    );
+    assert_eq!(
+        notes(&line),
+        [
+            "1 verified pair of 3 has fewer than 15 inliers and is not used (--min-inliers)",
+            "ignored: 1 verified pair with an image that the database does not have",
+            "ignored: 1 verified pair of an image with itself",
+            "1 image is in no pair that is used: it is a camera that nothing determines",
+        ]
+    );
+    assert_eq!(line["database"]["connected"], json!([3, 1]));
+    let line = json_of(&made.path(), &["--min-inliers", "14"]);
+    assert_eq!(
+        (&line["graph"]["edges"], sizes(&line)),
+        (&json!(3), vec![[3, 3]])
+    );
+    // Not solvable: d.jpg is a camera without a pair.
+    assert_eq!(line["verdict"], "not-finite-solvable");
+    let run = verify(&[text(&made.path())]);
+    assert!(run.out.contains(
+        "  database    4 images (1 without a pair), 3 verified pairs, 2 used (incremental mapping, at least 15 inliers)\n"
+    ), "{}", run.out);
+    assert!(
+        run.out
+            .contains("  pairs       2 calibrated (1 used), 1 uncalibrated\n"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains("  inliers     1 pair with 1-14, 1 pair with 15-29, 1 pair with 30-59\n"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out.contains("  connected   1 part: 3 images\n"),
+        "{}",
+        run.out
+    );
+}
+
+/// A stored pose makes up for a configuration; zeros, as COLMAP 3.8 writes them, are no pose.
+#[test]
+fn a_pose_counts_in_global_mapping() {
+    let made = Made::new(TABLES, &THREE);
+    for (a, b) in [(1, 2), (1, 3), (2, 3)] {
+        made.pair(a, b, &same(20), 1);
+    }
+    let edges = || json_of(&made.path(), &["--pipeline", "global"])["graph"]["edges"].clone();
+    assert_eq!(json_of(&made.path(), &[])["graph"]["edges"], 3);
+    assert_eq!(edges(), 0);
+    let set = "update two_view_geometries set qvec = ?, tvec = ? where pair_id = 2147483647 + 2";
+    let bytes =
+        |values: &[f64]| -> Vec<u8> { values.iter().flat_map(|v| v.to_le_bytes()).collect() };
+    let zero = bytes(&[0.0, -0.0, -0.0, -0.0]);
+    let translation = bytes(&[1.0, 0.0, 0.0]);
+    made.connection
+        .execute(set, params![zero, translation])
+        .unwrap();
+    assert_eq!(edges(), 0);
+    let turn = bytes(&[1.0, 0.0, 0.0, 0.0]);
+    made.connection
+        .execute(set, params![turn, translation])
+        .unwrap();
+    assert_eq!(edges(), 1);
+}
+
+/// Before 2018 the table had another name, and there were no poses.
+#[test]
+fn an_old_database() {
+    let tables = "
+        create table images (image_id integer primary key, name text);
+        create table inlier_matches (pair_id integer primary key, rows integer, cols integer,
+            data blob, config integer);";
+    let made = Made::new(tables, &THREE);
+    let insert = "insert into inlier_matches values (2147483647 * ? + ?, 30, 2, null, 2)";
+    for (a, b) in [(1, 2), (1, 3), (2, 3)] {
+        made.connection.execute(insert, [a, b]).unwrap();
+    }
+    for pipeline in ["incremental", "global"] {
+        let line = json_of(&made.path(), &["--pipeline", pipeline]);
+        assert_eq!(line["verdict"], "solvable");
+        assert_eq!(line["database"]["table"], "inlier_matches");
+    }
+    refused(
+        &made.path(),
+        &["--tracks"],
+        &["3 of the pairs", "no list", "without --tracks"],
+    );
+}
+
+#[test]
+fn a_message_for_everything_that_is_wrong() {
+    let none = Made::new(TABLES, &THREE);
+    refused(
+        &none.path(),
+        &[],
+        &["images, 3, but no matches", "exhaustive_matcher"],
+    );
+    let column = Made::new("create table images (image_id integer, title text)", &[]);
+    refused(
+        &column.path(),
+        &[],
+        &["not COLMAP's", "`images` has no column `name`"],
+    );
+    let table = Made::new("create table images (image_id integer, name text)", &[]);
+    refused(
+        &table.path(),
+        &[],
+        &["not COLMAP's", "no table `two_view_geometries`"],
+    );
+    let twice = Made::new(
+        &TABLES.replace("not null unique", ""),
+        &[(1, "a"), (2, "a")],
+    );
+    twice.pair(1, 2, &same(20), 2);
+    refused(&twice.path(), &[], &["two images are called `a`", "rename"]);
+    let bytes = Made::new(TABLES, &THREE);
+    bytes.pair(1, 2, &same(20), 2);
+    bytes.execute("update images set name = cast(x'ff41' as text) where image_id = 3");
+    refused(&bytes.path(), &[], &["the name of image 3 is no UTF-8"]);
+    bytes.execute("update images set name = 'c' || image_id");
+    bytes.execute("update two_view_geometries set rows = 21");
+    assert_eq!(json_of(&bytes.path(), &[])["graph"]["edges"], 1);
+    refused(
+        &bytes.path(),
+        &["--tracks"],
+        &["matches of the images c1 and c2 are damaged", "160 bytes"],
+    );
+    bytes.execute("update two_view_geometries set rows = 'many'");
+    refused(&bytes.path(), &[], &["damaged"]);
+
+    let path = none.path();
+    let raw = fs::read(&path).unwrap();
+    is_refusal(
+        &verify_with(&raw, &["-"]),
+        &["only from a file", "name the file"],
+    );
+    let missing = none.folder.path().join("missing.db");
+    refused(&missing, &[], &["cannot be read", "check its path"]);
+    refused(none.folder.path(), &[], &["directory"]);
+    refused(
+        none.folder.path(),
+        &["--tracks"],
+        &["there is no model here", "points3D.bin"],
+    );
+    let house = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/house.txt");
+    refused(
+        &house,
+        &["--tracks"],
+        &["no tracks are found", "leave out --tracks"],
+    );
+    refused(
+        &house,
+        &["--tracks", "--model", "projective"],
+        &["calibrated", "leave out --model"],
+    );
+    let line = json_of(&house, &["--min-inliers", "3", "--pipeline", "global"]);
+    assert_eq!(
+        notes(&line),
+        [
+            "--pipeline is ignored: this is no COLMAP database",
+            "--min-inliers is ignored: this is no COLMAP database"
+        ]
+    );
+}
+
+/// A program has the database open, and its last changes are in the log.
+#[test]
+fn a_database_that_is_open_elsewhere() {
+    let made = Made::new(TABLES, &THREE);
+    for (a, b) in [(1, 2), (1, 3), (2, 3)] {
+        made.pair(a, b, &same(20), 2);
+    }
+    made.execute("pragma journal_mode = wal");
+    let edges = || json_of(&made.path(), &[])["graph"]["edges"].clone();
+    assert_eq!(edges(), 3);
+    made.execute("delete from two_view_geometries where pair_id = 2147483647 + 2");
+    let files = ["database.db", "database.db-shm", "database.db-wal"];
+    assert_eq!(made.files(), files);
+    let before = fingerprint(made.folder.path());
+    assert_eq!(edges(), 2);
+    // What is not committed is not there.
+    made.execute("begin; delete from two_view_geometries");
+    assert_eq!(edges(), 2);
+    made.execute("rollback");
+    let after = fingerprint(made.folder.path());
+    for file in ["database.db", "database.db-wal"] {
+        let path = made.folder.path().join(file);
+        assert_eq!(before[&path], after[&path], "{file}");
+    }
+    // The writer goes on as before, and its log is not ours to remove.
+    made.execute("delete from two_view_geometries where pair_id = 2147483647 + 3");
+    assert_eq!(edges(), 1);
+    let Made { folder, connection } = made;
+    connection.close().unwrap();
+    let path = folder.path().join("database.db");
+    assert_eq!(json_of(&path, &[])["graph"]["edges"], 1);
+    assert_eq!(fingerprint(folder.path()).len(), 1);
+}
+
+#[test]
+fn a_database_that_is_locked() {
+    let made = Made::new(TABLES, &THREE);
+    made.pair(1, 2, &same(20), 2);
+    made.execute("begin exclusive");
+    refused(
+        &made.path(),
+        &[],
+        &["is locked by a program", "read a copy"],
+    );
+    made.execute("rollback");
+    assert_eq!(json_of(&made.path(), &[])["graph"]["edges"], 1);
+    // A writer that has not come to its end may be read beside.
+    made.execute("begin immediate; delete from two_view_geometries");
+    assert_eq!(json_of(&made.path(), &[])["graph"]["edges"], 1);
+}
+
+/// The power went off in the middle: pages are written, and the journal is still there.
+#[test]
+fn a_database_that_is_half_written() {
+    let made = Made::new(TABLES, &THREE);
+    made.pair(1, 2, &same(20), 2);
+    made.execute("create table much (data blob)");
+    made.execute("pragma cache_size = 1; pragma synchronous = full; begin");
+    for _ in 0..200 {
+        made.execute("insert into much values (randomblob(4000))");
+        made.execute("update two_view_geometries set rows = rows + 1");
+    }
+    let copy = tempfile::tempdir().unwrap();
+    let to = copy.path().join("database.db");
+    let journal = made.folder.path().join("database.db-journal");
+    assert!(fs::metadata(&journal).unwrap().len() > 512);
+    fs::copy(made.path(), &to).unwrap();
+    fs::copy(journal, copy.path().join("database.db-journal")).unwrap();
+    let before = fingerprint(copy.path());
+    refused(
+        &to,
+        &[],
+        &["stopped in the middle of writing", "open it once"],
+    );
+    assert_eq!(fingerprint(copy.path()), before);
+}
+
+/// Tracks by hand: feature k of every image is point k, except for a slip that makes two features of
+/// a.jpg one point.
+#[test]
+fn tracks_of_a_database() {
+    let made = Made::new(
+        TABLES,
+        &[(3, "a.jpg"), (1, "b.jpg"), (2, "c.jpg"), (4, "d.jpg")],
+    );
+    // Columns are in the order of the numbers: b, c, a.
+    made.pair(1, 2, &same(20), 2);
+    made.pair(1, 3, &[(0, 5), (1, 6), (2, 7), (3, 8), (19, 9)], 2);
+    made.pair(2, 3, &[(0, 5), (1, 6), (2, 7), (3, 18)], 2);
+    let options = ["--tracks", "--min-inliers", "4", "--components"];
+    let line = json_of(&made.path(), &options);
+    assert_eq!(
+        line["tracks"],
+        // Points 0, 1, 2 and 19 are seen from all three; 3 twice in a.jpg; 4 to 18 from two.
+        json!({ "min_views": 3, "cameras": 4, "points": 4, "observations": 12,
+                "cameras_without_point": 1, "inconsistent": 1, "short": 15 })
+    );
+    assert_eq!(line["verdict"], "not-finite-solvable");
+    let components = json!([
+        { "nodes": 7, "edges": 12, "cameras": 3, "points": 4, "labels": ["a.jpg", "b.jpg", "c.jpg"] },
+        { "nodes": 1, "edges": 0, "cameras": 1, "points": 0, "labels": ["d.jpg"] },
+    ]);
+    assert_eq!(line["components"], components);
+    for note in [
+        "dropped: 1 track with two features in one image",
+        "not counted: 15 tracks in fewer than 3 images (--min-views)",
+        "1 camera sees no track that counts: a component of its own",
+    ] {
+        assert!(notes(&line).contains(&note), "{line}");
+    }
+    let two = json_of(
+        &made.path(),
+        &[&options[..], &["--min-views", "2"]].concat(),
+    );
+    assert_eq!(two["tracks"]["points"], 19);
+    let run = verify(&[&options[..], &[text(&made.path())]].concat());
+    assert!(
+        run.out
+            .contains("  graph       4 cameras, 4 points, 12 observations\n"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains("3 cameras / 4 points, 1 camera without a point\n"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains("  component 1 (4 points): a.jpg b.jpg c.jpg\n"),
+        "{}",
+        run.out
+    );
+}
+
+/// Three cameras and four points, of which the last is seen from two cameras only.
+const VIEWS: [&[u32]; 4] = [&[0, 1, 2], &[0, 1, 2], &[2, 1, 0], &[0, 2]];
+
+fn doubles(bytes: &mut Vec<u8>, values: &[f64]) {
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+}
+
+/// COLMAP's model: image k + 1 is camera k.
+fn binary_model(folder: &Path) {
+    let mut points = 4u64.to_le_bytes().to_vec();
+    for (id, views) in (7u64..).zip(VIEWS) {
+        points.extend(id.to_le_bytes());
+        doubles(&mut points, &[0.5, -1.0, 4.0]);
+        points.extend([200, 10, 0]);
+        doubles(&mut points, &[0.75]);
+        points.extend((views.len() as u64).to_le_bytes());
+        for (feature, camera) in (0u32..).zip(views) {
+            points.extend((camera + 1).to_le_bytes());
+            points.extend(feature.to_le_bytes());
+        }
+    }
+    let mut images = 3u64.to_le_bytes().to_vec();
+    for (id, name) in [(3u32, "c c.jpg"), (1, "a.jpg"), (2, "b.jpg")] {
+        images.extend(id.to_le_bytes());
+        doubles(&mut images, &[1.0, 0.0, 0.0, 0.0, 3.0, 2.0, 1.0]);
+        images.extend(1u32.to_le_bytes());
+        images.extend(name.bytes());
+        images.push(0);
+        images.extend(2u64.to_le_bytes());
+        for point in [7u64, u64::MAX] {
+            doubles(&mut images, &[100.5, 20.25]);
+            images.extend(point.to_le_bytes());
+        }
+    }
+    let mut cameras = 1u64.to_le_bytes().to_vec();
+    cameras.extend([1u32.to_le_bytes(), 1u32.to_le_bytes()].concat());
+    cameras.extend([640u64.to_le_bytes(), 480u64.to_le_bytes()].concat());
+    doubles(&mut cameras, &[500.0, 500.0, 320.0, 240.0]);
+    for (name, bytes) in [
+        ("points3D", points),
+        ("images", images),
+        ("cameras", cameras),
+    ] {
+        fs::write(folder.join(name).with_extension("bin"), bytes).unwrap();
+    }
+}
+
+fn text_model(folder: &Path) {
+    let mut points = String::from("# 3D point list with one line of data per point:\n");
+    for (id, views) in (7..).zip(VIEWS) {
+        points += &format!("{id} 0.5 -1 4 200 10 0 0.75");
+        for (feature, camera) in (0..).zip(views) {
+            points += &format!(" {} {feature}", camera + 1);
+        }
+        points += "\n";
+    }
+    let images = "# Image list with two lines of data per image:\n\
+        3 1 0 0 0 3 2 1 1 c c.jpg\n100.5 20.25 7 1 1 -1\n\
+        1 1 0 0 0 3 2 1 1 a.jpg\n\n\
+        2 1 0 0 0 3 2 1 1 b.jpg\n100.5 20.25 7\n";
+    let cameras =
+        "# Camera list with one line of data per camera:\n1 PINHOLE 640 480 500 500 320 240\n";
+    for (name, text) in [
+        ("points3D", &*points),
+        ("images", images),
+        ("cameras", cameras),
+    ] {
+        fs::write(folder.join(name).with_extension("txt"), text).unwrap();
+    }
+}
+
+fn bal() -> String {
+    let mut text = String::from("3 4 11\n");
+    for (point, views) in VIEWS.iter().enumerate() {
+        for camera in *views {
+            text += &format!("{camera} {point}     -3.8e+02 2.5\n");
+        }
+    }
+    text + &"0.125\n".repeat(9 * 3 + 3 * 4)
+}
+
+fn bundler() -> String {
+    let mut text = String::from("# Bundle file v0.3\n3 4\n");
+    text += &"500 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 0\n".repeat(3);
+    for views in VIEWS {
+        text += &format!("0.5 -1 4\n200 10 0\n{}", views.len());
+        for camera in views {
+            text += &format!(" {camera} 12 0.5 -7.25");
+        }
+        text += "\n";
+    }
+    text
+}
+
+fn nvm() -> String {
+    let mut text = String::from("NVM_V3 \n\n3\n");
+    for name in ["c\"c.jpg", "a.jpg", "b.jpg"] {
+        text += &format!("{name}\t500 1 0 0 0 3 2 1 0 0\n");
+    }
+    text += "\n4\n";
+    for views in VIEWS {
+        text += &format!("0.5 -1 4 200 10 0 {}", views.len());
+        for camera in views {
+            // Camera k is the line before: c is the first.
+            text += &format!(" {} 12 0.5 -7.25", (camera + 1) % 3);
+        }
+        text += "\n";
+    }
+    text + "\n\n0\n#the last part\n0\n"
+}
+
+fn openmvg() -> String {
+    // Point k is feature k of every view.
+    let mut text = String::new();
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let both = |views: &&[u32]| views.contains(&i) && views.contains(&j);
+        let points: Vec<usize> = (0..4).filter(|&k| both(&VIEWS[k])).collect();
+        text += &format!("{i} {j}\n{}\n", points.len());
+        text += &points
+            .iter()
+            .map(|k| format!("{k} {k}\n"))
+            .collect::<String>();
+    }
+    text
+}
+
+/// Every format gives the same graph: three cameras that share three points are rigid with them
+/// (rank 14 of 14), and so is a point that two of them see.
+#[test]
+fn models_and_files_of_tracks() {
+    let folder = tempfile::tempdir().unwrap();
+    let named = ["a.jpg", "b.jpg", "c c.jpg"];
+    let numbered = ["0", "1", "2"];
+    let [binary, plain] = ["binary", "plain"].map(|name| folder.path().join(name));
+    for model in [&binary, &plain] {
+        fs::create_dir(model).unwrap();
+    }
+    binary_model(&binary);
+    text_model(&plain);
+    let mut cases = vec![(binary.clone(), named), (plain.clone(), named)];
+    for model in [&binary, &plain] {
+        let files = fs::read_dir(model).unwrap();
+        cases.extend(files.map(|file| (file.unwrap().path(), named)));
+    }
+    for (name, text, labels) in [
+        ("problem.txt", bal(), numbered),
+        ("bundle.out", bundler(), numbered),
+        ("model.nvm", nvm(), ["a.jpg", "b.jpg", "c c.jpg"]),
+        ("matches.f.txt", openmvg(), numbered),
+    ] {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        cases.push((path, labels));
+    }
+    assert_eq!(cases.len(), 12);
+    let mut hash = None;
+    for (path, labels) in &cases {
+        let context = path.display().to_string();
+        let line = json_of(path, &["--tracks", "--components"]);
+        assert_eq!(
+            (&line["rank"], &line["rank_required"]),
+            (&json!(14), &json!(14)),
+            "{context}"
+        );
+        assert_eq!(line["tracks"]["points"], 3, "{context}");
+        assert_eq!(
+            notes(&line),
+            ["not counted: 1 track in fewer than 3 images (--min-views)"]
+        );
+        assert_eq!(json!(labels), line["components"][0]["labels"], "{context}");
+        let line = json_of(path, &["--tracks", "--min-views", "2"]);
+        assert_eq!(
+            (&line["rank"], &line["verdict"]),
+            (&json!(17), &json!("solvable"))
+        );
+        assert_eq!(line["graph"]["edges"], 11, "{context}");
+        let sha = line["graph"]["sha256"].clone();
+        assert_eq!(*hash.get_or_insert(sha.clone()), sha, "{context}");
+        // Nobody takes them for pairs.
+        refused(path, &[], &["--tracks"]);
+    }
+    // Images without names, as they are called in points3D.
+    let alone = folder.path().join("points3D.bin");
+    fs::copy(binary.join("points3D.bin"), &alone).unwrap();
+    let line = json_of(&alone, &["--tracks", "--components"]);
+    assert_eq!(line["components"][0]["labels"], json!(["1", "2", "3"]));
+    assert!(
+        notes(&line)[0].starts_with("images.bin is not beside it"),
+        "{line}"
+    );
+    let bytes = fs::read(&alone).unwrap();
+    assert_eq!(line_of_input(&bytes)["tracks"]["points"], 3);
+    assert_eq!(line_of_input(bal().as_bytes())["tracks"]["points"], 3);
+    // And what is broken is said, with its place.
+    let bad = folder.path().join("bad");
+    fs::write(&bad, &bytes[..bytes.len() - 3]).unwrap();
+    refused(&bad, &["--tracks"], &["no tracks are found"]);
+    fs::write(&bad, bal().replace("2 1     -3", "3 1     -3")).unwrap();
+    refused(
+        &bad,
+        &["--tracks"],
+        &["bad:7: ", "the number of a camera is 3, and there are 3"],
+    );
+    fs::write(&bad, &bal()[..60]).unwrap();
+    refused(&bad, &["--tracks"], &["truncated"]);
+    fs::write(&bad, nvm().replace("a.jpg", "b.jpg")).unwrap();
+    refused(&bad, &["--tracks"], &["two cameras are called `b.jpg`"]);
+    fs::write(plain.join("images.txt"), "1 1 0 0 0 3 2 1 1 a.jpg\n\n").unwrap();
+    refused(
+        &plain,
+        &["--tracks"],
+        &["seen in image 2, which is not among the images"],
+    );
+    fs::write(plain.join("images.txt"), "1 1 0 0\n").unwrap();
+    refused(
+        &plain,
+        &["--tracks"],
+        &["plain: images.txt:1: ", "fewer than 10 fields"],
+    );
+}
+
+fn line_of_input(bytes: &[u8]) -> Value {
+    line(&verify_with(bytes, &["--json", "--tracks", "-"]))
+}
+
+/// What is decided can be handed on: the checker takes the certificate with the graph that was
+/// written, with the file that it came from, and refuses another.
+#[test]
+fn certificates_of_camera_point_graphs() {
+    let folder = tempfile::tempdir().unwrap();
+    let [input, certificate, graph] =
+        ["problem.txt", "certificate.json", "graph.txt"].map(|name| folder.path().join(name));
+    let check = |arguments: &[&str]| {
+        let run = verify(&[&["check", text(&certificate)], arguments].concat());
+        assert!(run.code != 2, "{}", run.err);
+        run.code
+    };
+    for (cameras, lenient, code) in [(3, &[][..], 0), (4, &["--format", "edges"], 1)] {
+        let problem = bal().replacen("3 4 11", &format!("{cameras} 4 11"), 1);
+        fs::write(&input, problem).unwrap();
+        let arguments = [
+            "--tracks",
+            "--certificate",
+            text(&certificate),
+            "--write-graph",
+            text(&graph),
+        ];
+        let run = verify(&[&arguments[..], &[text(&input)]].concat());
+        assert_eq!((run.code, &*run.err), (code, ""), "{}", run.out);
+        // A node without pairs is on a line of its own.
+        let lines = fs::read_to_string(&graph).unwrap();
+        assert_eq!(lines.lines().count(), 9 + cameras - 3);
+        assert_eq!(
+            run.out.contains("read it with --format edges"),
+            cameras == 4
+        );
+        assert_eq!(check(&[&[text(&graph)], lenient].concat()), 0);
+        assert_eq!(check(&[text(&input), "--tracks"]), 0);
+        assert_eq!(check(&[text(&input), "--tracks", "--min-views", "2"]), 1);
+    }
+    let run = verify(&["--write-graph", text(&graph), text(&graph)]);
+    is_refusal(&run, &["--write-graph", "this is the input"]);
+    let run = verify(&[
+        "--write-graph",
+        text(&certificate),
+        text(&graph),
+        text(&input),
+    ]);
+    is_refusal(&run, &["--write-graph", "there are 2 graphs"]);
+    let catalog = folder.path().join("two.g6");
+    fs::write(&catalog, "Bw\nC~\n").unwrap();
+    let run = verify(&["--write-graph", text(&graph), text(&catalog)]);
+    is_refusal(&run, &["a file holds one graph, and there are several"]);
+}
