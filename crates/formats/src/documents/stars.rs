@@ -3,7 +3,7 @@
 //!
 //! A line with one field is a node without neighbours behind it. Lines of integers are much that
 //! is no graph, so what is not asked for is read only if it looks like one line a node: lines of
-//! different lengths, increasing integers on each, and first ones that increase from line to line.
+//! different lengths, different integers on each, and first ones that increase from line to line.
 
 use crate::documents::Parsed;
 use crate::documents::collected::Collected;
@@ -27,7 +27,9 @@ impl Shape {
     /// Takes in a line; whether it still is one line a node.
     fn line(&mut self, numbers: &[u64]) -> bool {
         self.lines += 1;
-        let increasing = numbers.is_sorted_by(|a, b| a < b);
+        let mut sorted = numbers.to_vec();
+        sorted.sort_unstable();
+        let different = sorted.is_sorted_by(|a, b| a < b);
         let behind = self.last_start.is_none_or(|last| last < numbers[0]);
         // Matches of OpenMVG and Bundler have a count below their first pair of images.
         let count = self.lines == 2 && numbers.len() == 1;
@@ -36,7 +38,7 @@ impl Shape {
         }
         self.uneven |= numbers.len() != self.first.len();
         self.last_start = Some(numbers[0]);
-        increasing && behind && !count
+        different && behind && !count
     }
 
     /// Whether the lines, if these are all, are stars and not a count of lines with what follows.

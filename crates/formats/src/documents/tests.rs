@@ -128,7 +128,8 @@ fn dot_is_refused_with_the_line() {
             "graph { \"a\nb\" -- b }",
             "the name \"a\\nb\" has a control character",
         ),
-        ("graph { a.b -- c }", "in:1: DOT: `.b`"),
+        ("graph { a.b -- c }", "in:1: DOT: two words stand here"),
+        ("graph { a-1 -- c }", "in:1: DOT: two words stand here"),
         ("graph { a ! b }", "`!` does not belong here"),
         ("graph { }", "the graph is empty"),
         (
@@ -137,10 +138,7 @@ fn dot_is_refused_with_the_line() {
         ),
     ] {
         let error = refusal(Document::Dot, text);
-        assert!(
-            error.contains(phrase) || phrase.ends_with("`.b`"),
-            "{text}: {error}"
-        );
+        assert!(error.contains(phrase), "{text}: {error}");
     }
 }
 
@@ -174,7 +172,8 @@ fn formats_are_recognised_by_their_content() {
         // Even lines are edge lists or doubtful; what goes down is no list of nodes.
         ("0 1\n1 2\n", None),
         ("0 1 2\n1 2 3\n", None),
-        ("0 2 1\n1 2\n", None),
+        ("0 2 1\n1 2\n", Some(Document::Stars)),
+        ("0 2 2\n1 2\n", None),
         ("1 2\n0 1 2\n", None),
         ("0 1\n0 2 3\n", None),
         // METIS: 3 nodes, 2 edges.
