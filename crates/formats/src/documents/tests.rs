@@ -167,12 +167,14 @@ fn formats_are_recognised_by_their_content() {
         ("{\n \"nodes\"", Some(Document::NodeLink)),
         ("[[0, 1]]", None),
         ("{0, 1}", None),
-        ("0 1 2\n1 2\n2\n", Some(Document::Stars)),
-        ("0 1\n1 2 3\n", Some(Document::Stars)),
+        ("0 1 2 3\n1 2\n2\n", Some(Document::Stars)),
+        ("0 1\n1 2 3 4\n", Some(Document::Stars)),
         // Even lines are edge lists or doubtful; what goes down is no list of nodes.
         ("0 1\n1 2\n", None),
         ("0 1 2\n1 2 3\n", None),
-        ("0 2 1\n1 2\n", Some(Document::Stars)),
+        ("0 3 1 2\n1\n2 3\n", Some(Document::Stars)),
+        // Some pairs may have weights.
+        ("0 2 5\n1 2\n", None),
         ("0 2 2\n1 2\n", None),
         ("1 2\n0 1 2\n", None),
         ("0 1\n0 2 3\n", None),
@@ -188,10 +190,10 @@ fn formats_are_recognised_by_their_content() {
 
 #[test]
 fn stars_are_pairs_with_the_first() {
-    let text = "0 1 2 # c\n1 2\n3\n";
+    let text = "0 1 2 3 # c\n1 2\n3\n";
     let parsed = read(Document::Stars, text.as_bytes(), false).unwrap();
     let (pairs, nodes) = listed(&parsed);
-    assert_eq!(pairs.len(), 3);
+    assert_eq!(pairs.len(), 4);
     assert_eq!(nodes, ["0", "1", "2", "3"]);
     let text = "b a \"c d\"\nc b\n";
     assert_eq!(self::pairs(Document::Stars, text), ["a b", "b c", "b c d"]);
