@@ -37,7 +37,7 @@ struct Variable {
 }
 
 enum Content {
-    Full(Dataset),
+    Full(Box<Dataset>),
     /// `jc`, and `ir` and `data` if there are entries.
     Sparse(Box<(Dataset, Option<(Dataset, Dataset)>)>),
     Complex,
@@ -254,10 +254,10 @@ fn full(dataset: Dataset) -> Result<Variable, Problem> {
         Datatype::Compound { fields, .. } if is_complex(fields.iter().map(|f| &*f.name)) => {
             ("complex", Content::Complex)
         }
-        Datatype::FixedPoint { .. } => ("integers", Content::Full(dataset.clone())),
-        Datatype::FloatingPoint { .. } => ("numbers", Content::Full(dataset.clone())),
+        Datatype::FixedPoint { .. } => ("integers", Content::Full(Box::new(dataset.clone()))),
+        Datatype::FloatingPoint { .. } => ("numbers", Content::Full(Box::new(dataset.clone()))),
         // Truth values of NumPy.
-        Datatype::Enum { .. } => ("enumeration", Content::Full(dataset.clone())),
+        Datatype::Enum { .. } => ("enumeration", Content::Full(Box::new(dataset.clone()))),
         _ => ("data set", Content::Other),
     };
     let content = match content {
