@@ -41,7 +41,8 @@ pub enum Document {
 impl Document {
     /// Which of them a text is that begins with `head`, which is all of it if `whole`.
     pub(super) fn of(head: &[u8], whole: bool) -> Option<Self> {
-        let text = up_to_cut(head)?;
+        // What is no UTF-8 is refused by the reader, with the line.
+        let text = &*String::from_utf8_lossy(head);
         [
             (Self::GraphMl, graphml::is_graphml(text)),
             (Self::NodeLink, node_link::is_object(text)),
@@ -68,17 +69,6 @@ impl Document {
             Self::GraphMl | Self::NodeLink | Self::Stars => return None,
         };
         Some(Problem::Doubtful { what, advice })
-    }
-}
-
-/// The beginning of a text, without a character that is cut at its end.
-fn up_to_cut(head: &[u8]) -> Option<&str> {
-    match std::str::from_utf8(head) {
-        Ok(text) => Some(text),
-        Err(error) if error.error_len().is_none() => {
-            std::str::from_utf8(&head[..error.valid_up_to()]).ok()
-        }
-        Err(_) => None,
     }
 }
 

@@ -3,7 +3,8 @@
 //!
 //! A line with one field is a node without neighbours behind it. Lines of integers are much that
 //! is no graph, so what is not asked for is read only if it looks like one line a node: lines of
-//! different lengths, increasing integers on each, and first ones that increase from line to line.
+//! different lengths, one of them too long for a pair with a weight, different integers on each,
+//! and first ones that increase from line to line.
 
 use crate::documents::Parsed;
 use crate::documents::collected::Collected;
@@ -21,28 +22,33 @@ struct Shape {
     first: Vec<u64>,
     last_start: Option<u64>,
     uneven: bool,
+    /// Some line has more fields than a pair with a weight.
+    long: bool,
 }
 
 impl Shape {
     /// Takes in a line; whether it still is one line a node.
     fn line(&mut self, numbers: &[u64]) -> bool {
         self.lines += 1;
-        let increasing = numbers.is_sorted_by(|a, b| a < b);
+        let mut sorted = numbers.to_vec();
+        sorted.sort_unstable();
+        let different = sorted.is_sorted_by(|a, b| a < b);
         let behind = self.last_start.is_none_or(|last| last < numbers[0]);
         // Matches of OpenMVG and Bundler have a count below their first pair of images.
-        let count = self.lines == 2 && numbers.len() == 1;
+        let count = self.lines == 2 && numbers.len() == 1 && self.first.len() == 2;
         if self.lines == 1 {
             self.first = numbers.to_vec();
         }
         self.uneven |= numbers.len() != self.first.len();
+        self.long |= numbers.len() > 3;
         self.last_start = Some(numbers[0]);
-        increasing && behind && !count
+        different && behind && !count
     }
 
     /// Whether the lines, if these are all, are stars and not a count of lines with what follows.
     fn is_whole(&self) -> bool {
         let counts = (2..=4).contains(&self.first.len()) && self.first[0] == self.lines - 1;
-        self.uneven && !counts
+        self.uneven && self.long && !counts
     }
 }
 
@@ -66,7 +72,7 @@ pub(super) fn is_stars(head: &str, whole: bool) -> bool {
             _ => return false,
         }
     }
-    shape.uneven && (!whole || shape.is_whole())
+    shape.uneven && shape.long && (!whole || shape.is_whole())
 }
 
 /// Reads stars.

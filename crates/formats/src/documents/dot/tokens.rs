@@ -85,6 +85,10 @@ impl<'t> Tokens<'t> {
             [b'"', ..] => return self.quoted(),
             [b'<', ..] => return self.html(),
             [b'-' | b'.' | b'0'..=b'9', ..] => {
+                let before = self.at.checked_sub(1).map(|at| self.text.as_bytes()[at]);
+                if before.is_some_and(|b| in_word(b) || b == b'.') {
+                    return Err("two words stand here without a blank: put names in quotes".into());
+                }
                 let count = number(rest);
                 if count == 0 || rest.get(count).is_some_and(|&b| in_word(b)) {
                     return Err("a number goes on with letters: put the name in quotes".into());

@@ -37,9 +37,9 @@ struct Variable {
 }
 
 enum Content {
-    Full(Dataset),
+    Full(Box<Dataset>),
     /// `jc`, and `ir` and `data` if there are entries.
-    Sparse(Dataset, Option<(Dataset, Dataset)>),
+    Sparse(Box<(Dataset, Option<(Dataset, Dataset)>)>),
     Complex,
     /// An array without entries.
     Empty,
@@ -114,7 +114,8 @@ impl Variable {
                 }
                 pattern.complete(size);
             }
-            Content::Sparse(starts, entries) => {
+            Content::Sparse(parts) => {
+                let (starts, entries) = &**parts;
                 let size = self.square()?;
                 let starts = indices(starts, most)?;
                 let (rows, values) = match entries {
@@ -203,7 +204,10 @@ fn variables(bytes: &[u8], most: usize) -> Result<Vec<Variable>, Problem> {
                 let columns = starts.num_elements().map_err(damaged)?.saturating_sub(1);
                 // Without the attribute nothing says that it is not square.
                 let rows = rows.unwrap_or(columns);
-                (vec![rows, columns], Content::Sparse(starts, entries))
+                (
+                    vec![rows, columns],
+                    Content::Sparse(Box::new((starts, entries))),
+                )
             }
             _ => (vec![1, 1], Content::Other),
         };
@@ -250,10 +254,10 @@ fn full(dataset: Dataset) -> Result<Variable, Problem> {
         Datatype::Compound { fields, .. } if is_complex(fields.iter().map(|f| &*f.name)) => {
             ("complex", Content::Complex)
         }
-        Datatype::FixedPoint { .. } => ("integers", Content::Full(dataset.clone())),
-        Datatype::FloatingPoint { .. } => ("numbers", Content::Full(dataset.clone())),
+        Datatype::FixedPoint { .. } => ("integers", Content::Full(Box::new(dataset.clone()))),
+        Datatype::FloatingPoint { .. } => ("numbers", Content::Full(Box::new(dataset.clone()))),
         // Truth values of NumPy.
-        Datatype::Enum { .. } => ("enumeration", Content::Full(dataset.clone())),
+        Datatype::Enum { .. } => ("enumeration", Content::Full(Box::new(dataset.clone()))),
         _ => ("data set", Content::Other),
     };
     let content = match content {
