@@ -10,6 +10,7 @@ mod compare;
 mod conditions;
 mod experiment;
 mod input;
+mod man;
 mod manifest;
 mod progress;
 mod report;
@@ -61,6 +62,12 @@ enum Command {
     Compare(compare::CompareArguments),
     /// Check the necessary and sufficient conditions of the literature.
     Conditions(conditions::ConditionArguments),
+    /// Print the completion script of a shell.
+    #[command(hide = true)]
+    Completions(man::CompletionArguments),
+    /// Print a manual page.
+    #[command(hide = true)]
+    Manpage(man::ManpageArguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -73,6 +80,8 @@ fn main() -> ExitCode {
         Some(Command::Audit(arguments)) => audit::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Conditions(arguments)) => conditions::run(&arguments),
+        Some(Command::Completions(arguments)) => man::completions(&arguments),
+        Some(Command::Manpage(arguments)) => man::manpage(&arguments),
         None => verify::run(&arguments.verify),
     });
     running::hide();
