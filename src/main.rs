@@ -12,6 +12,7 @@ mod experiment;
 mod input;
 mod man;
 mod manifest;
+mod pages;
 mod progress;
 mod report;
 mod running;

@@ -3,7 +3,8 @@
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic, running};
+use super::pages::PageArguments;
+use super::{GOOD, NOT, atomic, certificates, running};
 use crate::report;
 use crate::report::Report;
 use anyhow::{Context, Result, ensure};
@@ -59,6 +60,8 @@ pub(super) struct VerifyArguments {
     /// Embed graphs of any size in their certificates.
     #[arg(long, requires = "certificate")]
     embed_graph: bool,
+    #[command(flatten)]
+    pages: PageArguments,
     /// Print one JSON object a graph.
     #[arg(long)]
     json: bool,
@@ -114,6 +117,11 @@ impl VerifyArguments {
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
+    arguments.pages.ensure_one(arguments.graphs.len())?;
+    let [html, svg] = arguments.pages.outputs();
+    let certificate = ("--certificate", arguments.certificate.as_deref());
+    let inputs = arguments.graphs.iter().map(Path::new);
+    atomic::ensure_apart(&[certificate, html, svg], inputs)?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -123,7 +131,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         .as_ref()
         .and_then(Target::single)
         .map(Path::to_path_buf);
-    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let too_many = |what: &str| match &single {
+        Some(file) => Some(certificates::too_many(file, what)),
+        None => arguments.pages.too_many(what),
+    };
+    let mut out = atomic::text(&[certificate.1, html.1, svg.1]);
     let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
@@ -133,7 +145,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
+        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -159,6 +171,7 @@ fn decide(
         list_components: arguments.components,
         time: start.elapsed(),
     };
+    arguments.pages.write(&report)?;
     if arguments.json {
         report::json::write(out, &report)?;
     } else {
@@ -166,6 +179,7 @@ fn decide(
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }
+        arguments.pages.say(out)?;
     }
     Ok(verdict.value)
 }

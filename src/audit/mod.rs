@@ -9,7 +9,7 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic, running};
+use super::{GOOD, NOT, atomic, certificates, running};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -141,6 +141,7 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         .as_ref()
         .and_then(Target::single)
         .map(Path::to_path_buf);
+    let too_many = |what: &str| Some(certificates::too_many(single.as_deref()?, what));
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(arguments, input, target.as_mut(), out)?;
@@ -148,7 +149,7 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, single.as_deref(), &mut out, each)?;
+        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

@@ -24,9 +24,10 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         add(arguments, input, &mut populations)?;
         Ok(GOOD)
     };
-    let code = arguments
-        .input
-        .for_each(&arguments.graphs, None, &mut std::io::sink(), each)?;
+    let code =
+        arguments
+            .input
+            .for_each(&arguments.graphs, &|_| None, &mut std::io::sink(), each)?;
     let sweep = populations.sweep();
     let share = |count: usize, of: &[f64]| count as f64 / of.len().max(1) as f64;
     let mut out = atomic::text(&[arguments.svg.as_deref()]);

@@ -70,7 +70,7 @@ fn strength(strength: Strength) -> String {
 }
 
 /// What the verdict rests on, in a line.
-fn reason(report: &Report) -> String {
+pub(super) fn reason(report: &Report) -> String {
     let verdict = report.verdict;
     let nodes = report.input.graph.nodes();
     if nodes == 1 {
