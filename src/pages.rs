@@ -67,12 +67,13 @@ impl PageArguments {
         }
         running::doing(format!("drawing {}", report.input.name));
         let picture = Picture::new(report.input, report.verdict);
+        let drawn = graph_picture::draw(&picture);
         if let Some(path) = &self.svg {
-            let text = graph_picture::draw(&picture, true);
+            let text = graph_picture::document(&picture, &drawn, true);
             atomic::write(path, |out| out.write_all(text.as_bytes()))?;
         }
         if let Some(path) = &self.html {
-            atomic::write(path, |out| page::write(out, report, &picture))?;
+            atomic::write(path, |out| page::write(out, report, &picture, &drawn))?;
         }
         Ok(())
     }

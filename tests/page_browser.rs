@@ -78,14 +78,27 @@ impl Browser {
     fn dump(&self, path: &Path, view: &str) -> (String, String) {
         let profile = tempfile::tempdir().unwrap();
         let output = Command::new(&self.0)
-            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"])
-            .args(["--enable-logging=stderr", "--dump-dom", "--window-size=1200,1600"])
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+            ])
+            .args([
+                "--enable-logging=stderr",
+                "--dump-dom",
+                "--window-size=1200,1600",
+            ])
             .arg(format!("--user-data-dir={}", profile.path().display()))
             .arg(format!("file://{}#{view}", path.display()))
             .stdin(Stdio::null())
             .output()
             .unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         let text = |bytes| String::from_utf8(bytes).unwrap();
         (text(output.stdout), text(output.stderr))
     }
@@ -144,7 +157,9 @@ fn agrees(page: &str, report: &Value) {
     for (from, value) in facts(page) {
         if from.starts_with('/') && from != "/seconds" {
             let expected = report.pointer(&from).unwrap();
-            let expected = expected.as_str().map_or(expected.to_string(), str::to_owned);
+            let expected = expected
+                .as_str()
+                .map_or(expected.to_string(), str::to_owned);
             assert_eq!(value, expected, "{from}");
             places += 1;
         }
@@ -179,7 +194,10 @@ fn the_numbers_on_the_page_are_those_of_the_json() {
     let cameras = rows(&opened, "cameras");
     assert_eq!(cameras.len(), 28);
     // Every camera's pairs are counted at both ends.
-    let ends: usize = cameras.iter().map(|row| row[1].parse::<usize>().unwrap()).sum();
+    let ends: usize = cameras
+        .iter()
+        .map(|row| row[1].parse::<usize>().unwrap())
+        .sum();
     assert_eq!(ends as u64, 2 * report["graph"]["edges"].as_u64().unwrap());
     assert_eq!(rows(&opened, "joints").len(), 8);
 }
@@ -206,7 +224,10 @@ fn tables_sort_and_filter() {
         ["c3", "c1", "c10", "c2", "c9"]
     );
     assert_eq!(names("cameras.filter=C1&cameras.sort=image"), ["c1", "c10"]);
-    assert_eq!(names("cameras.component=several&cameras.sort=image"), ["c3", "c10"]);
+    assert_eq!(
+        names("cameras.component=several&cameras.sort=image"),
+        ["c3", "c10"]
+    );
     assert_eq!(names("cameras.filter=nothing"), [""; 0]);
 }
 
@@ -264,9 +285,19 @@ fn further_parts_are_shown() {
     let start = r#"id="report">{"#;
     assert!(text.contains(start));
     let path = page.folder.path().join("more.html");
-    fs::write(&path, text.replace(start, &format!("{start}{joint},{weak},"))).unwrap();
-    let opened = browser.open(&path, "part-weak-found.sort=inliers&part-weak-found.order=descending");
-    assert_eq!(rows(&opened, "joints"), [["1, 2", "one pair", "a, b", "17", "1"]]);
+    fs::write(
+        &path,
+        text.replace(start, &format!("{start}{joint},{weak},")),
+    )
+    .unwrap();
+    let opened = browser.open(
+        &path,
+        "part-weak-found.sort=inliers&part-weak-found.order=descending",
+    );
+    assert_eq!(
+        rows(&opened, "joints"),
+        [["1, 2", "one pair", "a, b", "17", "1"]]
+    );
     assert!(opened.contains("Weak places"));
     let found = rows(&opened, "part-weak-found");
     assert_eq!(found, [["x-z", "12"], ["x-y", "3"]]);
@@ -323,7 +354,12 @@ fn one_graph_a_page_and_no_input_is_lost() {
         for arguments in [&[&graph[..], &graph][..], &[&list]] {
             let run = verify(&[arguments, &[option, &out]].concat());
             assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
-            assert!(run.err.contains(&format!("{option} {out}: one file shows one graph")), "{}", run.err);
+            assert!(
+                run.err
+                    .contains(&format!("{option} {out}: one file shows one graph")),
+                "{}",
+                run.err
+            );
             assert!(!Path::new(&out).exists());
         }
         let run = verify(&[&graph, option, &graph]);
@@ -334,15 +370,37 @@ fn one_graph_a_page_and_no_input_is_lost() {
         assert!(run.err.contains("was not written"), "{}", run.err);
         let run = verify(&[&graph, option, "-"]);
         assert_eq!(run.code, 1);
-        assert!(run.out.starts_with('<') && run.err.contains("verdict"), "{}", run.err);
+        assert!(
+            run.out.starts_with('<') && run.err.contains("verdict"),
+            "{}",
+            run.err
+        );
     }
     let run = verify(&[&graph, "--html", &out, "--svg", &out]);
-    assert!(run.err.contains("--html goes to the same file"), "{}", run.err);
+    assert!(
+        run.err.contains("--html goes to the same file"),
+        "{}",
+        run.err
+    );
     assert_eq!(fs::read_to_string(&graph).unwrap(), cycle(4));
 
     let run = verify(&[&graph, "--html", &at("a.html"), "--svg", &at("a.svg")]);
-    assert!(run.out.contains(&format!("  page        {}\n", at("a.html"))), "{}", run.out);
-    assert!(run.out.contains(&format!("  picture     {}\n", at("a.svg"))), "{}", run.out);
+    assert!(
+        run.out
+            .contains(&format!("  page        {}\n", at("a.html"))),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains(&format!("  picture     {}\n", at("a.svg"))),
+        "{}",
+        run.out
+    );
     let again = verify(&[&graph, "--svg", "-"]);
-    assert_eq!(fs::read_to_string(at("a.svg")).unwrap(), again.out, "the same each time");
+    assert_eq!(
+        fs::read_to_string(at("a.svg")).unwrap(),
+        again.out,
+        "the same each time"
+    );
 }

@@ -22,7 +22,7 @@ const MOST_DISCS: usize = 300;
 
 /// The marks that tell components apart: first by colours, then by shapes as well.
 const SHAPES: usize = 4;
-pub const MARKS: usize = SHAPES * COLOURS.len();
+const MARKS: usize = SHAPES * COLOURS.len();
 
 /// Grey of single pairs, in the middle between white and black grounds.
 const GREY: &str = "#8a929c";
@@ -214,13 +214,17 @@ fn shared(components_of: &Lists, i: u32, j: u32) -> Option<u32> {
     few.iter().copied().find(|k| many.binary_search(k).is_ok())
 }
 
-/// The picture, with a legend below for a paper; the page has its own.
-pub fn draw(picture: &Picture, with_legend: bool) -> String {
-    let drawn = if picture.is_detailed() {
+/// Draws the graph: node by node, or component by component.
+pub fn draw(picture: &Picture) -> Drawn {
+    if picture.is_detailed() {
         draw_nodes(picture)
     } else {
         draw_components(picture)
-    };
+    }
+}
+
+/// The picture as a document, with a legend below for a paper; the page has its own.
+pub fn document(picture: &Picture, drawn: &Drawn, with_legend: bool) -> String {
     let legend = if with_legend {
         legend(picture)
     } else {
@@ -261,31 +265,34 @@ pub fn draw(picture: &Picture, with_legend: bool) -> String {
     svg.finish()
 }
 
-/// Elements, and the room that they take.
-struct Drawn {
+/// What is drawn, and the room that it takes.
+pub struct Drawn {
     body: String,
     size: [f64; 2],
 }
 
-/// Radius of a node in pixels, and width of a line, by their numbers.
-fn weights(nodes: usize, edges: usize) -> (f64, f64) {
-    let radius = match nodes {
+/// Radius of a node in pixels.
+fn radius_for(nodes: usize) -> f64 {
+    match nodes {
         0..=60 => 6.0,
         61..=250 => 4.5,
         _ => 3.2,
-    };
-    let line = match edges {
-        0..=150 => 2.0,
-        151..=1500 => 1.0,
-        1501..=12_000 => 0.5,
-        _ => 0.25,
-    };
-    (radius, line)
+    }
+}
+
+/// Width of lines in pixels, and how opaque they are, so that many leave something to be seen.
+fn line_for(edges: usize) -> (f64, f64) {
+    match edges {
+        0..=150 => (2.0, 1.0),
+        151..=1500 => (1.0, 1.0),
+        1501..=12_000 => (0.5, 0.8),
+        _ => (0.3, 0.5),
+    }
 }
 
 fn draw_nodes(picture: &Picture) -> Drawn {
     let graph = &picture.input.graph;
-    let (radius, line) = weights(graph.nodes(), graph.edges().len());
+    let radius = radius_for(graph.nodes());
     let links: Vec<Link> = (0..)
         .zip(graph.edges())
         .map(|(k, &ends)| Link {
@@ -310,21 +317,24 @@ fn draw_nodes(picture: &Picture) -> Drawn {
         .map(|point| point.map(|x| MARGIN + scale * x))
         .collect();
     let mut body = String::new();
-    // The largest are drawn first, single pairs before all.
-    let mut by_component: BTreeMap<(usize, usize), String> = BTreeMap::new();
+    // The largest are drawn first, single pairs last: they must not be lost.
+    let mut lines = vec![String::new(); picture.sizes.len()];
     for (k, &(i, j)) in graph.edges().iter().enumerate() {
-        let component = picture.of_edge(k);
-        let first = usize::from(picture.mark(component) != Mark::Pair);
-        let path = by_component.entry((first, component)).or_default();
+        let path = &mut lines[picture.of_edge(k)];
         let ([a, b], [c, d]) = (points[i as usize], points[j as usize]);
         // Writing to a string does not fail.
         let _ = write!(path, "M{a:.1} {b:.1}L{c:.1} {d:.1}");
     }
-    for ((_, component), path) in by_component {
+    let single = picture.sizes.len() - picture.larger();
+    for (component, path) in lines.iter().enumerate() {
         let mark = picture.mark(component);
+        let (width, opacity) = line_for(picture.sizes[component].edges.max(match mark {
+            Mark::Pair => single,
+            _ => 0,
+        }));
         let _ = writeln!(
             body,
-            r#"<path data-component="{component}" d="{path}" fill="none" stroke="{}" stroke-width="{line}"{}/>"#,
+            r#"<path data-component="{component}" d="{path}" fill="none" stroke="{}" stroke-width="{width}" stroke-opacity="{opacity}"{}/>"#,
             mark.colour(),
             dashes(mark)
         );
@@ -549,11 +559,17 @@ fn draw_components(picture: &Picture) -> Drawn {
         let size = picture.sizes[k];
         let mut text = String::new();
         if radius > 12.0 {
-            let high = (radius * 0.5).clamp(9.0, 22.0);
+            let high = (radius * 0.45).clamp(8.0, 22.0);
+            // A triangle has its room below the middle.
+            let down = if mark.shape() == 2 {
+                0.25 * radius
+            } else {
+                0.0
+            };
             let _ = write!(
                 text,
                 r#"<text y="{:.1}" font-size="{high:.0}" text-anchor="middle" fill="{}">{}</text>"#,
-                high * 0.35,
+                high * 0.35 + down,
                 mark.text(),
                 size.cameras
             );

@@ -18,6 +18,10 @@ fn with_picture<T>(input: &NamedGraph, look: impl FnOnce(&Picture) -> T) -> T {
     look(&Picture::new(input, &verdict))
 }
 
+fn text(picture: &Picture, with_legend: bool) -> String {
+    document(picture, &draw(picture), with_legend)
+}
+
 /// A triangle 0, 1, 2; a pair 2, 3; a triangle 3, 4, 5; 6 alone.
 const CHAIN: [(u32, u32); 7] = [(0, 1), (0, 2), (1, 2), (2, 3), (3, 4), (3, 5), (4, 5)];
 
@@ -31,26 +35,25 @@ fn every_node_and_edge_is_drawn_in_the_colour_of_its_component() {
         let of = [0, 2, 3, 6].map(|v| picture.components_of(v).to_vec());
         assert_eq!(of, [vec![0], vec![0, 2], vec![1, 2], vec![]]);
 
-        let text = draw(picture, true);
-        assert_eq!(text.matches("data-node=").count(), 7);
-        let paths: Vec<&str> = text.matches("<path data-component=").collect();
+        let drawn = text(picture, true);
+        assert_eq!(drawn.matches("data-node=").count(), 7);
+        let paths: Vec<&str> = drawn.matches("<path data-component=").collect();
         assert_eq!(paths.len(), 3);
-        let lines = text.split("<path data-component=").skip(1);
+        let lines = drawn.split("<path data-component=").skip(1);
         let lines = lines.map(|path| path.split("/>").next().unwrap().matches('L').count());
-        // Pairs first, so that they lie below.
-        assert_eq!(lines.collect::<Vec<_>>(), [1, 3, 3]);
+        assert_eq!(lines.collect::<Vec<_>>(), [3, 3, 1]);
         // Two hinges and one in the legend.
-        assert_eq!(text.matches(r#"class="ink""#).count(), 3);
-        assert!(text.contains("<title>a &lt;graph&gt;: 7 cameras, 7 pairs, 3 components</title>"));
+        assert_eq!(drawn.matches(r#"class="ink""#).count(), 3);
+        assert!(drawn.contains("<title>a &lt;graph&gt;: 7 cameras, 7 pairs, 3 components</title>"));
         for said in [
             ">3 cameras, 3 pairs<",
             ">1 single pair<",
             ">2 cameras in several<",
             ">1 camera without pairs<",
         ] {
-            assert!(text.contains(said), "{said}: {text}");
+            assert!(drawn.contains(said), "{said}: {drawn}");
         }
-        assert!(!draw(picture, false).contains("in several"));
+        assert!(!text(picture, false).contains("in several"));
     });
 }
 
@@ -61,7 +64,7 @@ fn single_pairs_have_marks_where_there_is_nothing_else() {
     with_picture(&input, |picture| {
         assert_eq!((picture.larger(), picture.marked()), (0, 4));
         assert_eq!(picture.mark(3), Mark::Own(3));
-        assert!(!draw(picture, true).contains(GREY));
+        assert!(!text(picture, true).contains(GREY));
     });
 }
 
@@ -79,16 +82,19 @@ fn large_graphs_are_drawn_by_components() {
     let input = named(3 * 501, &pairs);
     with_picture(&input, |picture| {
         assert!(!picture.is_detailed());
-        let text = draw(picture, true);
-        assert_eq!(text.matches("<g data-component=").count(), MOST_DISCS);
-        assert_eq!(text.matches("<g data-node=").count(), 0);
-        assert_eq!(text.matches("<title>component").count(), MOST_DISCS);
+        let drawn = text(picture, true);
+        assert_eq!(drawn.matches("<g data-component=").count(), MOST_DISCS);
+        assert_eq!(drawn.matches("<g data-node=").count(), 0);
+        assert_eq!(drawn.matches("<title>component").count(), MOST_DISCS);
         // 299 of the 500 pairs join two of the first 300 triangles; with 201 triangles the other
         // 201 pairs are left out.
-        assert_eq!(text.matches(r##"stroke-width="1.0"/>"##).count(), 299);
-        assert!(text.contains("not drawn: 402 smaller components"), "{text}");
-        assert!(text.contains(">489 smaller components<"));
-        assert!(text.contains(">500 single pairs<"));
+        assert_eq!(drawn.matches(r##"stroke-width="1.0"/>"##).count(), 299);
+        assert!(
+            drawn.contains("not drawn: 402 smaller components"),
+            "{drawn}"
+        );
+        assert!(drawn.contains(">489 smaller components<"));
+        assert!(drawn.contains(">500 single pairs<"));
     });
 }
 
@@ -112,9 +118,9 @@ fn points_are_smaller_than_cameras() {
     let options = Options::default().model(viewcert::geometry::model::Model::Calibrated);
     let verdict = decide(&input.graph, &options).unwrap();
     let picture = Picture::new(&input, &verdict);
-    let text = draw(&picture, true);
-    assert!(text.contains(">2 cameras, 3 points<"), "{text}");
-    assert!(text.contains(">1 single observation<"), "{text}");
-    assert!(text.contains(">1 point in several<"), "{text}");
+    let drawn = text(&picture, true);
+    assert!(drawn.contains(">2 cameras, 3 points<"), "{drawn}");
+    assert!(drawn.contains(">1 single observation<"), "{drawn}");
+    assert!(drawn.contains(">1 point in several<"), "{drawn}");
     assert!(radius_of(&picture, 4, 6.0) < radius_of(&picture, 0, 6.0));
 }

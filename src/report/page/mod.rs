@@ -9,7 +9,7 @@
 
 mod adjacency;
 
-use super::graph_picture::{self, MARKS, Picture};
+use super::graph_picture::{Drawn, Picture, document};
 use super::svg::{COLOURS, escaped};
 use super::{Report, json, text};
 use adjacency::Adjacency;
@@ -51,7 +51,12 @@ struct Drawing<'a> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(out: &mut dyn Write, report: &Report, picture: &Picture) -> io::Result<()> {
+pub fn write(
+    out: &mut dyn Write,
+    report: &Report,
+    picture: &Picture,
+    drawn: &Drawn,
+) -> io::Result<()> {
     let mut numbers = Vec::new();
     let listing = Report {
         list_components: true,
@@ -72,7 +77,7 @@ pub fn write(out: &mut dyn Write, report: &Report, picture: &Picture) -> io::Res
             "script" => out.write_all(SCRIPT.as_bytes())?,
             "report" => embed(out, numbers.trim_ascii_end())?,
             "drawing" => embed(out, &drawing)?,
-            "picture" => out.write_all(graph_picture::draw(picture, false).as_bytes())?,
+            "picture" => out.write_all(document(picture, drawn, false).as_bytes())?,
             "adjacency" => {
                 if let Some(adjacency) = &adjacency {
                     write!(out, "data:image/png;base64,")?;
@@ -110,7 +115,7 @@ fn drawing<'a>(
         degrees,
         edges: picture.is_detailed().then(|| edges.collect()),
         colours: COLOURS,
-        marked: picture.marked().min(MARKS),
+        marked: picture.marked(),
         adjacency,
     }
 }

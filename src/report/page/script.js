@@ -170,7 +170,10 @@
     add("rank", report.rank, "/rank",
       `of ${grouped(report.rank_required)}; ${strengthWords(report.rank_strength)}`);
     add("model", report.model, "/model");
-    add("time", `${report.seconds.toPrecision(2)} s`, "/seconds");
+    const time = report.seconds < 1
+      ? `${(1000 * report.seconds).toPrecision(2)} ms`
+      : `${report.seconds.toPrecision(3)} s`;
+    add("time", time, "/seconds");
     add("SHA-256 of the graph", report.graph.sha256, "/graph/sha256", null, true);
     find("#summary").append(facts);
     if (report.notes.length > 0) {
