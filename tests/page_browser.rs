@@ -175,7 +175,7 @@ const GAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/courtyard-gaps
 fn the_numbers_on_the_page_are_those_of_the_json() {
     let page = Page::of(b"", &[GAPS, "--json", "--components"]);
     let report = page.report();
-    assert_eq!(page.run.json(), [report.clone()]);
+    assert_eq!(page.run.json(), std::slice::from_ref(&report));
     let Some(browser) = Browser::find() else {
         return;
     };

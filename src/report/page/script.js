@@ -480,7 +480,8 @@
       ? [["cameras", "cameras"], ["points", "points"], ["observations", "edges"]]
       : [["cameras", "nodes"], ["pairs", "edges"]];
     table(find("#components"),
-      "A component is a largest part that is determined by itself. Two components share one camera at most.",
+      "A component is a largest part that is determined by itself. Two components share one camera " +
+        `${tracks ? "or point " : ""}at most.`,
       [
         { title: "component", number: true, value: (c) => c.index + 1, show: (c) => componentButton(c.index) },
         ...sizes.map(([title, member]) => ({
