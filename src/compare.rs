@@ -83,7 +83,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, None, &mut out, each)?;
+        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

@@ -40,6 +40,6 @@ pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, None, &mut out, each)?;
+        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

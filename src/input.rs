@@ -1,10 +1,10 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{GOOD, certificates, ends_run, exit_code, running};
-use anyhow::{Context, Result, anyhow};
+use super::{GOOD, ends_run, exit_code, running};
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::documents::Document;
@@ -109,8 +109,8 @@ impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
     /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
     ///
-    /// If there is a `single` file for what comes out, behind the option that names it, an input with a second graph is refused before
-    /// `each` has seen the first.
+    /// Where `too_many` gives a reason, an input with a second graph is refused before `each` has seen
+    /// the first.
     ///
     /// # Errors
     /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit
@@ -118,11 +118,11 @@ impl InputArguments {
     pub(super) fn for_each<W: Write>(
         &self,
         paths: &[PathBuf],
-        single: Option<(&str, &Path)>,
+        too_many: &dyn Fn(&str) -> Option<String>,
         out: &mut W,
         each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
-        for_each(&self.read_options(), paths, single, out, each)
+        for_each(&self.read_options(), paths, too_many, out, each)
     }
 
     /// The options of the readers.
@@ -161,7 +161,7 @@ impl InputArguments {
 pub(super) fn for_each<W: Write>(
     options: &ReadOptions,
     paths: &[PathBuf],
-    single: Option<(&str, &Path)>,
+    too_many: &dyn Fn(&str) -> Option<String>,
     out: &mut W,
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
@@ -171,9 +171,10 @@ pub(super) fn for_each<W: Write>(
         running::reading(path);
         let mut graphs = read_graphs(path, options).peekable();
         while let Some(input) = graphs.next() {
-            if let Some((option, file)) = single.filter(|_| graphs.peek().is_some()) {
-                let several = format!("several in {}", path.display());
-                return Err(anyhow!(certificates::too_many(option, file, &several)));
+            if let Some(reason) = too_many(&format!("several in {}", path.display()))
+                && graphs.peek().is_some()
+            {
+                bail!(reason);
             }
             running::hide();
             if let Ok(input) = &input {

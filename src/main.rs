@@ -10,7 +10,9 @@ mod compare;
 mod conditions;
 mod experiment;
 mod input;
+mod man;
 mod manifest;
+mod pages;
 mod progress;
 mod report;
 mod running;
@@ -61,6 +63,12 @@ enum Command {
     Compare(compare::CompareArguments),
     /// Check the necessary and sufficient conditions of the literature.
     Conditions(conditions::ConditionArguments),
+    /// Print the completion script of a shell.
+    #[command(hide = true)]
+    Completions(man::CompletionArguments),
+    /// Print a manual page.
+    #[command(hide = true)]
+    Manpage(man::ManpageArguments),
 }
 
 /// Runs the program on the process's arguments.
@@ -73,6 +81,8 @@ fn main() -> ExitCode {
         Some(Command::Audit(arguments)) => audit::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Conditions(arguments)) => conditions::run(&arguments),
+        Some(Command::Completions(arguments)) => man::completions(&arguments),
+        Some(Command::Manpage(arguments)) => man::manpage(&arguments),
         None => verify::run(&arguments.verify),
     });
     running::hide();

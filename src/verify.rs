@@ -4,6 +4,7 @@ use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
+use super::pages::PageArguments;
 use super::{GOOD, NOT, atomic, certificates, running};
 use crate::report;
 use crate::report::Report;
@@ -70,6 +71,8 @@ pub(super) struct VerifyArguments {
     /// Embed graphs of any size in their certificates.
     #[arg(long, requires = "certificate")]
     embed_graph: bool,
+    #[command(flatten)]
+    pages: PageArguments,
     /// Print one JSON object a graph.
     #[arg(long)]
     json: bool,
@@ -137,34 +140,30 @@ impl VerifyArguments {
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
+    let [html, svg] = arguments.pages.outputs();
+    let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
+    let inputs = arguments.graphs.iter().map(PathBuf::as_path);
+    atomic::ensure_apart(&[written, html, svg], inputs)?;
     let mut target = arguments
         .certificate
         .as_deref()
         .map(|path| Target::new(path, arguments.embed_graph, &arguments.graphs))
         .transpose()?;
     let single = target.as_ref().and_then(Target::single);
-    let outputs = [
-        (certificates::OPTION, arguments.certificate.as_deref()),
-        (WRITE_GRAPH, arguments.write_graph.as_deref()),
-    ];
-    let graphs = arguments.graphs.iter().map(Path::new);
-    atomic::ensure_apart(&outputs[1..], graphs)?;
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        atomic::ensure_apart(&outputs, std::iter::empty())?;
+        let certificate = (certificates::OPTION, arguments.certificate.as_deref());
+        atomic::ensure_apart(&[certificate, written, html, svg], std::iter::empty())?;
     }
-    let written = arguments
-        .write_graph
-        .clone()
-        .map(|path| (WRITE_GRAPH, path));
-    if let Some((option, path)) = &written {
-        let count = arguments.graphs.len();
-        let several = || certificates::too_many(option, path, &format!("{count} graphs"));
-        ensure!(count <= 1, "{}", several());
+    let too_many = |what: &str| match (&single, written) {
+        (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
+        (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
+        (None, (_, None)) => arguments.pages.too_many(what),
+    };
+    if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
+        ensure!(arguments.graphs.len() <= 1, reason);
     }
-    let single = single.or(written);
-    let single = single.as_ref().map(|(option, path)| (*option, &**path));
-    let mut out = atomic::text(&outputs.map(|(_, path)| path));
+    let mut out = atomic::text(&[arguments.certificate.as_deref(), written.1, html.1, svg.1]);
     let each = |out: &mut _, input: &NamedGraph, start| {
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
@@ -176,7 +175,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         tracks: arguments.tracks.options(),
         ..arguments.input.read_options()
     };
-    let code = input::for_each(&read, &arguments.graphs, single, &mut out, each)?;
+    let code = input::for_each(&read, &arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -204,6 +203,7 @@ fn decide(
         list_components: arguments.components,
         time: start.elapsed(),
     };
+    arguments.pages.write(&report)?;
     if arguments.json {
         report::json::write(out, &report)?;
     } else {
@@ -218,6 +218,7 @@ fn decide(
             };
             writeln!(out, "  written     {}{how}", path.display())?;
         }
+        arguments.pages.say(out)?;
     }
     Ok(verdict.value)
 }

@@ -9,7 +9,7 @@ mod sweep;
 use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic, running};
+use super::{GOOD, NOT, atomic, certificates, running};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -139,17 +139,18 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     }
     let mut target = arguments.target(&arguments.graphs)?;
     let single = target.as_ref().and_then(Target::single);
+    let too_many = |what: &str| {
+        let (option, file) = single.as_ref()?;
+        Some(certificates::too_many(option, file, what))
+    };
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };
-    let code = arguments.input.for_each(
-        &arguments.graphs,
-        single.as_ref().map(|(option, path)| (*option, &**path)),
-        &mut out,
-        each,
-    )?;
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

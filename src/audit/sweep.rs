@@ -25,9 +25,10 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         add(arguments, input, &mut populations)?;
         Ok(GOOD)
     };
-    let code = arguments
-        .input
-        .for_each(&arguments.graphs, None, &mut std::io::sink(), each)?;
+    let code =
+        arguments
+            .input
+            .for_each(&arguments.graphs, &|_| None, &mut std::io::sink(), each)?;
     let mut out = atomic::text(&[arguments.svg.as_deref()]);
     write_table(&mut out, &populations, arguments.tolerance).context("standard output")?;
     if populations.undecided > 0 {

@@ -8,9 +8,28 @@ pub const COLOURS: [&str; 6] = [
     "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377",
 ];
 
+/// Text as it stands between tags, and in attributes with double quotes. XML has no way to write
+/// control characters; they are shown as unknown ones.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            c if c.is_control() => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
 /// A picture: elements on a white ground.
 pub struct Svg {
     body: String,
+    title: Option<String>,
     width: u32,
     height: u32,
 }
@@ -20,12 +39,21 @@ impl Svg {
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             body: String::new(),
+            title: None,
             width,
             height,
         }
     }
 
-    fn element(&mut self, element: impl Display) {
+    /// Says in words what the picture shows.
+    #[must_use]
+    pub fn titled(mut self, title: &str) -> Self {
+        self.title = Some(escaped(title));
+        self
+    }
+
+    /// An element of any kind, as it is written; names in it go through [`escaped`].
+    pub fn element(&mut self, element: impl Display) {
         // Writing to a string does not fail.
         let _ = writeln!(self.body, "{element}");
     }
@@ -66,10 +94,7 @@ impl Svg {
 
     /// Text whose anchor is `"start"`, `"middle"` or `"end"`.
     pub fn text(&mut self, [x, y]: [f64; 2], size: u32, anchor: &str, text: &str) {
-        let text = text
-            .replace('&', "&amp;")
-            .replace('<', "&lt;")
-            .replace('>', "&gt;");
+        let text = escaped(text);
         self.element(format_args!(
             r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}">{text}</text>"#
         ));
@@ -79,13 +104,15 @@ impl Svg {
     pub fn finish(self) -> String {
         let Self {
             body,
+            title,
             width,
             height,
         } = self;
+        let title = title.map_or_else(String::new, |title| format!("<title>{title}</title>\n"));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" fill=\"#222\">\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{body}</svg>\n"
+             {title}<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{body}</svg>\n"
         )
     }
 }
@@ -101,5 +128,11 @@ mod tests {
         let text = svg.finish();
         assert!(text.contains(">a&lt;b&amp;c</text>"), "{text}");
         assert!(text.contains("viewBox=\"0 0 10 20\""));
+        assert_eq!(escaped("\"\u{1}'\u{7f}\""), "&quot;\u{fffd}'\u{fffd}&quot;");
+        let titled = Svg::new(1, 1).titled("x & y").finish();
+        assert!(
+            titled.contains("<title>x &amp; y</title>\n<rect"),
+            "{titled}"
+        );
     }
 }

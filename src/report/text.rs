@@ -95,7 +95,7 @@ fn strength(strength: Strength) -> String {
 }
 
 /// What the verdict rests on, in a line.
-fn reason(report: &Report) -> String {
+pub(super) fn reason(report: &Report) -> String {
     let verdict = report.verdict;
     let nodes = report.input.graph.nodes();
     let (members, single) = match report.input.cameras {

@@ -1,0 +1,611 @@
+//! A graph with its components in colours: the picture of a paper (`--svg`), and of the page.
+//!
+//! An edge lies in one component and has its colour. A node may lie in several, a *hinge*: it is
+//! drawn as a disc cut into their colours. Components that are single pairs are grey, unless there
+//! are no others: they join larger ones. Graphs too large for that are drawn component by
+//! component.
+
+use super::counted;
+use super::force_layout::{Link, layout};
+use super::svg::{COLOURS, Svg, escaped};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use viewcert::decide::Verdict;
+use viewcert::graph::Lists;
+use viewcert_formats::NamedGraph;
+
+/// Most nodes, and most edges, that are drawn one by one.
+const MOST_NODES: usize = 1000;
+const MOST_EDGES: usize = 150_000;
+/// Most components drawn as discs.
+const MOST_DISCS: usize = 300;
+
+/// The marks that tell components apart: first by colours, then by shapes as well.
+const SHAPES: usize = 4;
+const MARKS: usize = SHAPES * COLOURS.len();
+
+/// Grey of single pairs, in the middle between white and black grounds.
+const GREY: &str = "#8a929c";
+/// Of components beyond the marks.
+const OTHER: &str = "#5b6470";
+
+/// Width of a whole picture in pixels, and the least.
+const WIDTH: f64 = 900.0;
+const LEAST_WIDTH: f64 = 460.0;
+const MARGIN: f64 = 14.0;
+const LEGEND_LINE: f64 = 20.0;
+const LEGEND_COLUMN: f64 = 215.0;
+/// Most components in the legend.
+const LISTED: usize = 12;
+
+/// How a component looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A colour and a shape of its own.
+    Own(usize),
+    /// Larger than a pair, but not among the largest.
+    Other,
+    /// A single pair among larger components.
+    Pair,
+}
+
+impl Mark {
+    /// The colour of its edges and nodes.
+    pub fn colour(self) -> &'static str {
+        match self {
+            Self::Own(k) => COLOURS[k % COLOURS.len()],
+            Self::Other => OTHER,
+            Self::Pair => GREY,
+        }
+    }
+
+    /// The number of its shape; lines have as many patterns.
+    fn shape(self) -> usize {
+        match self {
+            Self::Own(k) => k / COLOURS.len() % SHAPES,
+            _ => 0,
+        }
+    }
+
+    /// A colour for text on it.
+    fn text(self) -> &'static str {
+        const TEXT: [&str; COLOURS.len()] = ["#fff", "#111", "#fff", "#111", "#111", "#fff"];
+        match self {
+            Self::Own(k) => TEXT[k % COLOURS.len()],
+            _ => "#fff",
+        }
+    }
+}
+
+/// How large a component is. The nodes of a camera-point graph are cameras and points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Size {
+    cameras: usize,
+    points: usize,
+    edges: usize,
+}
+
+impl Size {
+    fn words(self) -> String {
+        let cameras = counted(self.cameras, "camera");
+        match self.points {
+            0 => format!("{cameras}, {}", counted(self.edges, "pair")),
+            points => format!("{cameras}, {}", counted(points, "point")),
+        }
+    }
+}
+
+/// What a picture shows of a graph and its verdict.
+pub struct Picture<'a> {
+    /// The graph.
+    pub input: &'a NamedGraph,
+    /// The sizes of the components.
+    sizes: Vec<Size>,
+    /// For every node its components, increasing.
+    components_of: Lists,
+    /// For every edge its component.
+    of_edge: Vec<u32>,
+}
+
+impl<'a> Picture<'a> {
+    /// Sorts out who lies where. O(n + m log n).
+    pub fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
+        let components = (0..).zip(&verdict.components);
+        let nodes: Vec<(u32, u32)> = components
+            .flat_map(|(k, component)| {
+                let nodes = component.nodes().into_iter();
+                nodes.map(move |v| (v, k))
+            })
+            .collect();
+        let components_of = Lists::group(input.graph.nodes(), nodes.iter().copied());
+        let edges = input.graph.edges().iter();
+        let of_edge = edges
+            .map(|&(i, j)| shared(&components_of, i, j).expect("an edge lies in a component"))
+            .collect();
+        let mut sizes: Vec<Size> = verdict
+            .components
+            .iter()
+            .map(|component| Size {
+                cameras: 0,
+                points: 0,
+                edges: component.edge_count(),
+            })
+            .collect();
+        let cameras = input.cameras.unwrap_or(u32::MAX);
+        for &(v, k) in &nodes {
+            let size = &mut sizes[k as usize];
+            *if v < cameras {
+                &mut size.cameras
+            } else {
+                &mut size.points
+            } += 1;
+        }
+        Self {
+            input,
+            sizes,
+            components_of,
+            of_edge,
+        }
+    }
+
+    /// How many of the nodes, the first ones, are cameras; the others are points.
+    pub fn cameras(&self) -> usize {
+        let nodes = self.input.graph.nodes();
+        self.input.cameras.map_or(nodes, |cameras| cameras as usize)
+    }
+
+    /// What an edge is.
+    fn edge_word(&self) -> &'static str {
+        match self.input.cameras {
+            None => "pair",
+            Some(_) => "observation",
+        }
+    }
+
+    /// Whether nodes and edges are drawn one by one.
+    pub fn is_detailed(&self) -> bool {
+        let graph = &self.input.graph;
+        graph.nodes() <= MOST_NODES && graph.edges().len() <= MOST_EDGES
+    }
+
+    /// How many components have more than one edge; they come first.
+    pub fn larger(&self) -> usize {
+        self.sizes.partition_point(|size| size.edges > 1)
+    }
+
+    /// How many components have a mark of their own; they come first.
+    pub fn marked(&self) -> usize {
+        match self.larger() {
+            0 => self.sizes.len().min(MARKS),
+            larger => larger.min(MARKS),
+        }
+    }
+
+    /// How a component looks.
+    pub fn mark(&self, component: usize) -> Mark {
+        if component < self.marked() {
+            Mark::Own(component)
+        } else if component < self.larger() {
+            Mark::Other
+        } else {
+            Mark::Pair
+        }
+    }
+
+    /// The components of a node, increasing.
+    pub fn components_of(&self, node: u32) -> &[u32] {
+        self.components_of.of(node as usize)
+    }
+
+    /// The component of an edge.
+    pub fn of_edge(&self, edge: usize) -> usize {
+        self.of_edge[edge] as usize
+    }
+
+    fn nodes(&self) -> impl Iterator<Item = u32> {
+        0..self.input.graph.nodes() as u32
+    }
+}
+
+/// The component that has both ends of an edge: two components share at most one node.
+fn shared(components_of: &Lists, i: u32, j: u32) -> Option<u32> {
+    let (a, b) = (components_of.of(i as usize), components_of.of(j as usize));
+    let (few, many) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    few.iter().copied().find(|k| many.binary_search(k).is_ok())
+}
+
+/// Draws the graph: node by node, or component by component.
+pub fn draw(picture: &Picture) -> Drawn {
+    if picture.is_detailed() {
+        draw_nodes(picture)
+    } else {
+        draw_components(picture)
+    }
+}
+
+/// The picture as a document, with a legend below for a paper; the page has its own.
+pub fn document(picture: &Picture, drawn: &Drawn, with_legend: bool) -> String {
+    let legend = if with_legend {
+        legend(picture)
+    } else {
+        Vec::new()
+    };
+    let width = drawn.size[0].max(if with_legend { LEAST_WIDTH } else { 0.0 });
+    let columns = ((width - 2.0 * MARGIN) / LEGEND_COLUMN).max(1.0) as usize;
+    let lines = legend.len().div_ceil(columns);
+    let below = lines as f64 * LEGEND_LINE + if lines > 0 { MARGIN } else { 0.0 };
+    let graph = &picture.input.graph;
+    let size = Size {
+        cameras: picture.cameras(),
+        points: graph.nodes() - picture.cameras(),
+        edges: graph.edges().len(),
+    };
+    let title = format!(
+        "{}: {}, {}",
+        picture.input.name,
+        size.words(),
+        counted(picture.sizes.len(), "component")
+    );
+    let height = drawn.size[1] + below;
+    let mut svg = Svg::new(width as u32, height as u32).titled(&title);
+    let shift = (width - drawn.size[0]) / 2.0;
+    svg.element(format_args!(
+        "<g transform=\"translate({shift:.0} 0)\">\n{}</g>",
+        drawn.body
+    ));
+    for (k, (symbol, text)) in legend.iter().enumerate() {
+        let x = MARGIN + (k / lines) as f64 * LEGEND_COLUMN;
+        let y = drawn.size[1] + (k % lines) as f64 * LEGEND_LINE + LEGEND_LINE / 2.0;
+        svg.element(format_args!(
+            "<g transform=\"translate({:.1} {y:.1})\">{symbol}</g>",
+            x + 7.0
+        ));
+        svg.text([x + 20.0, y + 4.5], 13, "start", text);
+    }
+    svg.finish()
+}
+
+/// What is drawn, and the room that it takes.
+pub struct Drawn {
+    body: String,
+    size: [f64; 2],
+}
+
+/// Radius of a node in pixels.
+fn radius_for(nodes: usize) -> f64 {
+    match nodes {
+        0..=60 => 6.0,
+        61..=250 => 4.5,
+        _ => 3.2,
+    }
+}
+
+/// Width of lines in pixels, and how opaque they are, so that many leave something to be seen.
+fn line_for(edges: usize) -> (f64, f64) {
+    match edges {
+        0..=150 => (2.0, 1.0),
+        151..=1500 => (1.0, 1.0),
+        1501..=12_000 => (0.5, 0.8),
+        _ => (0.3, 0.5),
+    }
+}
+
+fn draw_nodes(picture: &Picture) -> Drawn {
+    let graph = &picture.input.graph;
+    let radius = radius_for(graph.nodes());
+    let links: Vec<Link> = (0..)
+        .zip(graph.edges())
+        .map(|(k, &ends)| Link {
+            ends,
+            length: match picture.mark(picture.of_edge(k)) {
+                Mark::Pair => 70.0,
+                _ => 38.0,
+            },
+        })
+        .collect();
+    let radii: Vec<f64> = picture
+        .nodes()
+        .map(|v| radius_of(picture, v, radius))
+        .collect();
+    let found = layout(&radii, &links);
+    // As many pixels as it takes, but no wider than a page.
+    let inner = WIDTH - 2.0 * MARGIN;
+    let scale = (inner / found.size[0]).min(1.5);
+    let points: Vec<[f64; 2]> = found
+        .points
+        .iter()
+        .map(|point| point.map(|x| MARGIN + scale * x))
+        .collect();
+    let mut body = String::new();
+    // The largest are drawn first, single pairs last: they must not be lost.
+    let mut lines = vec![String::new(); picture.sizes.len()];
+    for (k, &(i, j)) in graph.edges().iter().enumerate() {
+        let path = &mut lines[picture.of_edge(k)];
+        let ([a, b], [c, d]) = (points[i as usize], points[j as usize]);
+        // Writing to a string does not fail.
+        let _ = write!(path, "M{a:.1} {b:.1}L{c:.1} {d:.1}");
+    }
+    let single = picture.sizes.len() - picture.larger();
+    for (component, path) in lines.iter().enumerate() {
+        let mark = picture.mark(component);
+        let (width, opacity) = line_for(picture.sizes[component].edges.max(match mark {
+            Mark::Pair => single,
+            _ => 0,
+        }));
+        let _ = writeln!(
+            body,
+            r#"<path data-component="{component}" d="{path}" fill="none" stroke="{}" stroke-width="{width}" stroke-opacity="{opacity}"{}/>"#,
+            mark.colour(),
+            dashes(mark)
+        );
+    }
+    let mut order: Vec<u32> = picture.nodes().collect();
+    order.sort_by_key(|&v| picture.components_of(v).len());
+    for v in order {
+        let [x, y] = points[v as usize];
+        let _ = writeln!(
+            body,
+            r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
+            escaped(&picture.input.labels.label(v)),
+            node_symbol(picture, v, radius)
+        );
+    }
+    Drawn {
+        body,
+        size: found.size.map(|x| scale * x + 2.0 * MARGIN),
+    }
+}
+
+/// Hinges are larger, points are smaller.
+fn radius_of(picture: &Picture, node: u32, radius: f64) -> f64 {
+    let hinge = picture.components_of(node).len() > 1;
+    let point = node as usize >= picture.cameras();
+    radius * if hinge { 1.45 } else { 1.0 } * if point { 0.5 } else { 1.0 }
+}
+
+fn node_symbol(picture: &Picture, node: u32, radius: f64) -> String {
+    let components = picture.components_of(node);
+    let mut marks: Vec<Mark> = Vec::new();
+    for &component in components {
+        let mark = picture.mark(component as usize);
+        if !marks.contains(&mark) {
+            marks.push(mark);
+        }
+    }
+    let radius = radius_of(picture, node, radius);
+    match (components.len(), marks.as_slice()) {
+        (0, _) => alone(radius),
+        (1, &[mark]) => symbol(mark, radius),
+        _ => hinge(&marks, radius),
+    }
+}
+
+/// A node without pairs: an empty circle.
+fn alone(radius: f64) -> String {
+    format!(
+        r##"<circle r="{:.1}" fill="#fff" class="ground" stroke="{OTHER}" stroke-width="1.2"/>"##,
+        radius - 0.6
+    )
+}
+
+/// A node of one component, in its colour and shape.
+fn symbol(mark: Mark, radius: f64) -> String {
+    let r = radius;
+    let points = match mark.shape() {
+        0 => {
+            return format!(
+                r##"<circle r="{r:.1}" fill="{}" stroke="#fff" stroke-width="0.8" class="edge-of-node"/>"##,
+                mark.colour()
+            );
+        }
+        1 => vec![[-0.88, -0.88], [0.88, -0.88], [0.88, 0.88], [-0.88, 0.88]],
+        2 => vec![[0.0, -1.2], [1.1, 0.75], [-1.1, 0.75]],
+        _ => vec![[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
+    };
+    let points: Vec<String> = points
+        .iter()
+        .map(|[x, y]| format!("{:.1},{:.1}", r * x, r * y))
+        .collect();
+    format!(
+        r##"<polygon points="{}" fill="{}" stroke="#fff" stroke-width="0.8" class="edge-of-node"/>"##,
+        points.join(" "),
+        mark.colour()
+    )
+}
+
+/// A node of several components: a disc cut into their colours, in a dark ring.
+fn hinge(marks: &[Mark], radius: f64) -> String {
+    let mut text = match marks {
+        [mark] => format!(r#"<circle r="{radius:.1}" fill="{}"/>"#, mark.colour()),
+        _ => String::new(),
+    };
+    if marks.len() > 1 {
+        let at = |k: usize| {
+            let turn = std::f64::consts::TAU * k as f64 / marks.len() as f64;
+            [radius * turn.sin(), -radius * turn.cos()]
+        };
+        for (k, mark) in marks.iter().enumerate() {
+            let ([a, b], [c, d]) = (at(k), at(k + 1));
+            let _ = write!(
+                text,
+                r#"<path d="M0 0L{a:.2} {b:.2}A{radius:.2} {radius:.2} 0 0 1 {c:.2} {d:.2}Z" fill="{}"/>"#,
+                mark.colour()
+            );
+        }
+    }
+    let _ = write!(
+        text,
+        r##"<circle r="{radius:.1}" fill="none" stroke="#222" stroke-width="1.4" class="ink"/>"##
+    );
+    text
+}
+
+/// The pattern of a component's lines; single pairs have short lines of their own.
+fn dashes(mark: Mark) -> &'static str {
+    match (mark, mark.shape()) {
+        (Mark::Pair, _) | (_, 0) => "",
+        (_, 1) => r#" stroke-dasharray="7 2""#,
+        (_, 2) => r#" stroke-dasharray="3 2""#,
+        _ => r#" stroke-dasharray="7 2 2 2""#,
+    }
+}
+
+/// What the symbols mean, and how many of each there are.
+fn legend(picture: &Picture) -> Vec<(String, String)> {
+    let (larger, count) = (picture.larger(), picture.sizes.len());
+    let listed = picture.marked().min(LISTED);
+    let mut entries: Vec<(String, String)> = (0..listed)
+        .map(|k| (symbol(picture.mark(k), 6.0), picture.sizes[k].words()))
+        .collect();
+    let pairs = if larger == 0 {
+        count - listed
+    } else {
+        count - larger
+    };
+    let more = count - listed - pairs;
+    if more > 0 {
+        entries.push((symbol(Mark::Other, 6.0), counted(more, "smaller component")));
+    }
+    if pairs > 0 {
+        let line = format!(r#"<path d="M-7 0H7" stroke="{GREY}" stroke-width="2"/>"#);
+        let word = format!("single {}", picture.edge_word());
+        entries.push((line, counted(pairs, &word)));
+    }
+    let hinges = picture
+        .nodes()
+        .filter(|&v| picture.components_of(v).len() > 1);
+    let (cameras, points): (Vec<u32>, Vec<u32>) =
+        hinges.partition(|&v| (v as usize) < picture.cameras());
+    for (nodes, word) in [(cameras, "camera"), (points, "point")] {
+        if !nodes.is_empty() {
+            let text = format!("{} in several", counted(nodes.len(), word));
+            entries.push((hinge(&[Mark::Own(0), Mark::Own(1)], 6.5), text));
+        }
+    }
+    let isolated = picture
+        .nodes()
+        .filter(|&v| picture.components_of(v).is_empty());
+    let isolated = isolated.count();
+    if isolated > 0 {
+        let what = format!("without {}s", picture.edge_word());
+        let text = format!("{} {what}", counted(isolated, "camera"));
+        entries.push((alone(6.0), text));
+    }
+    entries
+}
+
+/// Components as discs, their areas as their numbers of nodes; shared nodes as dots between them.
+fn draw_components(picture: &Picture) -> Drawn {
+    let candidates = match picture.larger() {
+        0 => picture.sizes.len(),
+        larger => larger,
+    };
+    let discs = candidates.min(MOST_DISCS);
+    let drawn = |v: u32| {
+        let of = picture.components_of(v).iter().map(|&k| k as usize);
+        of.take_while(|&k| k < discs).collect::<Vec<_>>()
+    };
+    let hinges: Vec<(u32, Vec<usize>)> = picture
+        .nodes()
+        .map(|v| (v, drawn(v)))
+        .filter(|(_, of)| of.len() > 1)
+        .collect();
+    // Single pairs between discs, those between the same two together.
+    let mut joined: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (k, &(i, j)) in picture.input.graph.edges().iter().enumerate() {
+        if picture.of_edge(k) >= discs
+            && let (Some(&a), Some(&b)) = (drawn(i).first(), drawn(j).first())
+            && a != b
+        {
+            *joined.entry((a.min(b), a.max(b))).or_default() += 1;
+        }
+    }
+    let cameras = || picture.sizes[..discs].iter().map(|size| size.cameras);
+    let most = cameras().max().unwrap_or(1).max(1) as f64;
+    let mut radii: Vec<f64> = cameras()
+        .map(|count| (80.0 * (count as f64 / most).sqrt()).max(5.0))
+        .collect();
+    radii.extend(hinges.iter().map(|_| 4.0));
+    let link = |a: usize, b: usize, apart: f64| Link {
+        ends: (a as u32, b as u32),
+        length: radii[a] + radii[b] + apart,
+    };
+    let dots = (discs..).zip(&hinges);
+    let dots = dots.flat_map(|(dot, (_, of))| of.iter().map(move |&disc| (disc, dot)));
+    let links: Vec<Link> = dots
+        .map(|(disc, dot)| link(disc, dot, 8.0))
+        .chain(joined.keys().map(|&(a, b)| link(a, b, 40.0)))
+        .collect();
+    let found = layout(&radii, &links);
+    let scale = ((WIDTH - 2.0 * MARGIN) / found.size[0]).min(1.0);
+    let at = |k: usize| found.points[k].map(|x| MARGIN + scale * x);
+    let mut body = String::new();
+    let mut line = |a: usize, b: usize, width: f64| {
+        let ([a, b], [c, d]) = (at(a), at(b));
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            body,
+            r#"<path d="M{a:.1} {b:.1}L{c:.1} {d:.1}" stroke="{GREY}" stroke-width="{width:.1}"/>"#
+        );
+    };
+    for (&(a, b), &count) in &joined {
+        line(a, b, 1.0 + (count as f64).log2());
+    }
+    for (dot, (_, of)) in (discs..).zip(&hinges) {
+        of.iter().for_each(|&disc| line(disc, dot, 1.5));
+    }
+    for (k, radius) in radii[..discs].iter().enumerate() {
+        let ([x, y], radius, mark) = (at(k), scale * radius, picture.mark(k));
+        let size = picture.sizes[k];
+        let mut text = String::new();
+        if radius > 12.0 {
+            let high = (radius * 0.45).clamp(8.0, 22.0);
+            // A triangle has its room below the middle.
+            let down = if mark.shape() == 2 {
+                0.25 * radius
+            } else {
+                0.0
+            };
+            let _ = write!(
+                text,
+                r#"<text y="{:.1}" font-size="{high:.0}" text-anchor="middle" fill="{}">{}</text>"#,
+                high * 0.35 + down,
+                mark.text(),
+                size.cameras
+            );
+        }
+        let _ = writeln!(
+            body,
+            r#"<g data-component="{k}" transform="translate({x:.1} {y:.1})"><title>component {}: {}</title>{}{text}</g>"#,
+            k + 1,
+            size.words(),
+            symbol(mark, radius)
+        );
+    }
+    for (dot, (v, of)) in (discs..).zip(&hinges) {
+        let [x, y] = at(dot);
+        let marks: Vec<Mark> = of.iter().map(|&k| picture.mark(k)).collect();
+        let _ = writeln!(
+            body,
+            r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
+            escaped(&picture.input.labels.label(*v)),
+            hinge(&marks, 4.5)
+        );
+    }
+    let mut size = found.size.map(|x| scale * x + 2.0 * MARGIN);
+    let joins: usize = joined.values().sum();
+    let hidden = picture.sizes.len() - discs - joins;
+    if hidden > 0 {
+        let what = counted(hidden, "smaller component");
+        let _ = writeln!(
+            body,
+            r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">not drawn: {what}</text>"##,
+            size[1] + 6.0
+        );
+        size = [size[0].max(LEAST_WIDTH / 2.0), size[1] + 16.0];
+    }
+    Drawn { body, size }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,406 @@
+//! `--html` and `--svg` through the binary; the page in a real browser without a window.
+
+mod common;
+
+use common::{Run, cycle, data, verify, verify_with};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// A page that the program has written, in a folder of its own.
+struct Page {
+    folder: tempfile::TempDir,
+    run: Run,
+}
+
+impl Page {
+    fn of(input: &[u8], arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.html");
+        let html = ["--html", path.to_str().unwrap()];
+        let run = verify_with(input, &[arguments, &html].concat());
+        assert!(run.code <= 1, "{}", run.err);
+        Self { folder, run }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.path().join("report.html")
+    }
+
+    fn text(&self) -> String {
+        fs::read_to_string(self.path()).unwrap()
+    }
+
+    /// The JSON that the page carries.
+    fn report(&self) -> Value {
+        let text = self.text();
+        let (_, rest) = text.split_once(r#"id="report">"#).unwrap();
+        serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+    }
+
+    /// The page as the browser has it, with this view in the address.
+    fn opened(&self, browser: &Browser, view: &str) -> String {
+        browser.open(&self.path(), view)
+    }
+}
+
+/// Chromium, or what goes by its name.
+struct Browser(String);
+
+impl Browser {
+    fn find() -> Option<Self> {
+        for name in ["chromium", "chromium-browser", "google-chrome", "chrome"] {
+            let found = Command::new(name)
+                .arg("--version")
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .status();
+            if found.is_ok_and(|status| status.success()) {
+                return Some(Self(name.into()));
+            }
+        }
+        let required = std::env::var_os("VIEWCERT_REQUIRE_DATA").is_some_and(|value| value == "1");
+        assert!(!required, "no Chromium is installed, and it is required");
+        eprintln!("SKIPPED: no Chromium is installed");
+        None
+    }
+
+    /// The elements of a page after its script has run. Nothing may have gone to the console.
+    fn open(&self, path: &Path, view: &str) -> String {
+        let (page, said) = self.dump(path, view);
+        assert!(!said.contains("CONSOLE"), "{said}");
+        assert!(page.contains(r#"role="alert" hidden"#), "{page}");
+        page
+    }
+
+    fn dump(&self, path: &Path, view: &str) -> (String, String) {
+        let profile = tempfile::tempdir().unwrap();
+        let output = Command::new(&self.0)
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+            ])
+            .args([
+                "--enable-logging=stderr",
+                "--dump-dom",
+                "--window-size=1200,1600",
+            ])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg(format!("file://{}#{view}", path.display()))
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (text(output.stdout), text(output.stderr))
+    }
+}
+
+/// The part of a page between the tags of the element with this id.
+fn section<'a>(page: &'a str, id: &str) -> &'a str {
+    let (_, rest) = page.split_once(&format!("<section id=\"{id}\"")).unwrap();
+    rest.split_once("</section>").unwrap().0
+}
+
+/// The text of an element's content.
+fn text_of(content: &str) -> String {
+    let mut text = String::new();
+    let mut inside = false;
+    for c in content.chars() {
+        match c {
+            '<' => inside = true,
+            '>' if inside => inside = false,
+            c if !inside => text.push(c),
+            _ => (),
+        }
+    }
+    let text = text.replace("&lt;", "<").replace("&gt;", ">");
+    text.replace("&nbsp;", "\u{a0}").replace("&amp;", "&")
+}
+
+/// The cells of the rows of a table's body.
+fn rows(page: &str, id: &str) -> Vec<Vec<String>> {
+    let (_, body) = section(page, id).split_once("<tbody>").unwrap();
+    let body = body.split_once("</tbody>").unwrap().0;
+    let row = |row: &str| {
+        let cells = row.split("<td").skip(1);
+        let cells = cells.map(|cell| text_of(cell.split_once('>').unwrap().1));
+        cells.collect()
+    };
+    body.split("<tr>").skip(1).map(row).collect()
+}
+
+/// What the page's facts say, by where they come from.
+fn facts(page: &str) -> BTreeMap<String, String> {
+    let value = |part: &str, name: &str| {
+        let (_, rest) = part.split_once(&format!("{name}=\"")).unwrap();
+        rest.split_once('"').unwrap().0.to_owned()
+    };
+    let facts = page.split("<dd data-from=").skip(1).map(|part| {
+        let part = format!("data-from={}", part.split_once('>').unwrap().0);
+        (value(&part, "data-from"), value(&part, "data-value"))
+    });
+    facts.collect()
+}
+
+/// Every fact that names a place in the report has the value that is there.
+fn agrees(page: &str, report: &Value) {
+    let mut places = 0;
+    for (from, value) in facts(page) {
+        if from.starts_with('/') && from != "/seconds" {
+            let expected = report.pointer(&from).unwrap();
+            let expected = expected
+                .as_str()
+                .map_or(expected.to_string(), str::to_owned);
+            assert_eq!(value, expected, "{from}");
+            places += 1;
+        }
+    }
+    assert!(places >= 5, "{places}");
+    let verdict = report["verdict"].as_str().unwrap();
+    assert!(page.contains(&format!("data-verdict=\"{verdict}\"")));
+}
+
+const GAPS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/courtyard-gaps.txt");
+
+#[test]
+fn the_numbers_on_the_page_are_those_of_the_json() {
+    let page = Page::of(b"", &[GAPS, "--json", "--components"]);
+    let report = page.report();
+    assert_eq!(page.run.json(), std::slice::from_ref(&report));
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let opened = page.opened(&browser, "");
+    agrees(&opened, &report);
+    // Four walls with one pair at every corner: 28 photographs, 8 of them at corners.
+    let facts = facts(&opened);
+    for (name, value) in [("components", "8"), ("hinges", "8"), ("/graph/nodes", "28")] {
+        assert_eq!(facts[name], value, "{name}");
+    }
+    let sizes = report["components"].as_array().unwrap().iter();
+    let sizes = sizes.map(|part| vec![part["nodes"].to_string(), part["edges"].to_string()]);
+    let shown = rows(&opened, "components");
+    let shown_sizes = shown.iter().map(|row| row[1..3].to_vec());
+    assert_eq!(shown_sizes.collect::<Vec<_>>(), sizes.collect::<Vec<_>>());
+    let cameras = rows(&opened, "cameras");
+    assert_eq!(cameras.len(), 28);
+    // Every camera's pairs are counted at both ends.
+    let ends: usize = cameras
+        .iter()
+        .map(|row| row[1].parse::<usize>().unwrap())
+        .sum();
+    assert_eq!(ends as u64, 2 * report["graph"]["edges"].as_u64().unwrap());
+    assert_eq!(rows(&opened, "joints").len(), 8);
+}
+
+#[test]
+fn tables_sort_and_filter() {
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    // A triangle with a long tail: c9 has one pair, c10 two; numbers sort as numbers.
+    let list = "c1 c2\nc1 c3\nc2 c3\nc3 c10\nc10 c9\n";
+    let page = Page::of(list.as_bytes(), &["-"]);
+    let names = |view: &str| -> Vec<String> {
+        let opened = page.opened(&browser, view);
+        let rows = rows(&opened, "cameras").into_iter();
+        rows.map(|row| row[0].clone()).collect()
+    };
+    assert_eq!(
+        names("cameras.sort=image&cameras.order=descending"),
+        ["c10", "c9", "c3", "c2", "c1"]
+    );
+    assert_eq!(
+        names("cameras.sort=pairs&cameras.order=descending"),
+        ["c3", "c1", "c10", "c2", "c9"]
+    );
+    assert_eq!(names("cameras.filter=C1&cameras.sort=image"), ["c1", "c10"]);
+    assert_eq!(
+        names("cameras.component=several&cameras.sort=image"),
+        ["c3", "c10"]
+    );
+    assert_eq!(names("cameras.filter=nothing"), [""; 0]);
+}
+
+/// A name is text, whatever it holds: with the page's policy, and without it.
+#[test]
+fn a_hostile_name_does_not_run() {
+    let names = [
+        "<script>document.title='taken'</script>",
+        "</script><script>document.title='taken'</script>",
+        "<img src=x onerror=document.title='taken'>",
+        "</title></svg><svg onload=document.title='taken'>",
+        "'-(document.title='taken')-'",
+        "<!--{{script}}",
+        "&lt;b&gt;",
+    ];
+    let pairs: String = names
+        .iter()
+        .map(|name| format!("\"{name}\" plain.jpg\n"))
+        .collect();
+    let page = Page::of(pairs.as_bytes(), &["-"]);
+    let labels = page.report()["components"].to_string();
+    assert!(labels.contains("</title></svg><svg onload"), "{labels}");
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let text = page.text();
+    let (before, rest) = text.split_once("<meta http-equiv").unwrap();
+    let (_, after) = rest.split_once('>').unwrap();
+    let lax = page.folder.path().join("lax.html");
+    fs::write(&lax, format!("{before}{after}")).unwrap();
+    for path in [page.path(), lax] {
+        let opened = browser.open(&path, "cameras.sort=image");
+        assert!(opened.contains("<title>-</title>"), "{}", path.display());
+        assert!(!opened.contains("<img src=\"x\""));
+        let shown: Vec<String> = rows(&opened, "cameras")
+            .into_iter()
+            .map(|row| row[0].clone())
+            .collect();
+        for name in names {
+            assert!(shown.contains(&name.to_owned()), "{name}: {shown:?}");
+        }
+    }
+}
+
+/// Parts that a report may have besides are shown as they stand in the JSON.
+#[test]
+fn further_parts_are_shown() {
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let page = Page::of(cycle(4).as_bytes(), &["-"]);
+    let joint = r#""joints":[{"between":[1,2],"how":"one pair","images":["a","b"],"inliers":17,"freedom":1}]"#;
+    let weak = r#""weak":{"asked":"pairs","found":[{"pair":"x-y","inliers":3},{"pair":"x-z","inliers":12}]}"#;
+    let text = page.text();
+    let start = r#"id="report">{"#;
+    assert!(text.contains(start));
+    let path = page.folder.path().join("more.html");
+    fs::write(
+        &path,
+        text.replace(start, &format!("{start}{joint},{weak},")),
+    )
+    .unwrap();
+    let opened = browser.open(
+        &path,
+        "part-weak-found.sort=inliers&part-weak-found.order=descending",
+    );
+    assert_eq!(
+        rows(&opened, "joints"),
+        [["1, 2", "one pair", "a, b", "17", "1"]]
+    );
+    assert!(opened.contains("Weak places"));
+    let found = rows(&opened, "part-weak-found");
+    assert_eq!(found, [["x-z", "12"], ["x-y", "3"]]);
+}
+
+/// Pages of graphs as they are: one by one, and drawn by components.
+#[test]
+fn real_graphs_have_pages() {
+    let Some(folder) = data() else {
+        return;
+    };
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    for (name, detailed) in [("Tower_of_London", true), ("Roman_Forum", false)] {
+        let path = folder.join(format!("table3/{name}.mat"));
+        let page = Page::of(b"", &[path.to_str().unwrap()]);
+        let report = page.report();
+        let nodes = report["graph"]["nodes"].as_u64().unwrap() as usize;
+        // Both fall into four components in the paper's Table 3.
+        assert_eq!(report["components"].as_array().unwrap().len(), 4, "{name}");
+        let opened = page.opened(&browser, "");
+        agrees(&opened, &report);
+        let drawn = opened.matches("<g data-node=").count();
+        assert_eq!(drawn == nodes, detailed, "{name}: {drawn} of {nodes}");
+        assert!(section(&opened, "adjacency").contains("data:image/png;base64,"));
+        assert!(fs::metadata(page.path()).unwrap().len() < 3 << 20, "{name}");
+    }
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere() {
+    let page = Page::of(cycle(5).as_bytes(), &["-"]);
+    let text = page.text();
+    assert!(text.contains("default-src 'none'"));
+    for word in ["https:", "src=\"http", "@import", "url("] {
+        assert!(!text.contains(word), "{word}");
+    }
+    // The only address is the name of a language.
+    let rest = text.replace("http://www.w3.org/2000/svg", "");
+    assert!(!rest.contains("http:"));
+}
+
+/// How outputs are written is tested with certificates; here, that pages and pictures go the same
+/// way.
+#[test]
+fn one_graph_a_page_and_no_input_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (graph, list, out) = (at("g.txt"), at("two.g6"), at("out"));
+    fs::write(&graph, cycle(4)).unwrap();
+    fs::write(&list, "C~\nBw\n").unwrap();
+    for option in ["--html", "--svg"] {
+        for arguments in [&[&graph[..], &graph][..], &[&list]] {
+            let run = verify(&[arguments, &[option, &out]].concat());
+            assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
+            assert!(
+                run.err
+                    .contains(&format!("{option} {out}: one file shows one graph")),
+                "{}",
+                run.err
+            );
+            assert!(!Path::new(&out).exists());
+        }
+        let run = verify(&[&graph, option, &graph]);
+        assert_eq!(run.code, 2);
+        assert!(run.err.contains("this is the input"), "{}", run.err);
+        let run = verify(&[&graph, option, &at("")]);
+        assert_eq!(run.code, 2, "a folder is no file");
+        assert!(run.err.contains("was not written"), "{}", run.err);
+        let run = verify(&[&graph, option, "-"]);
+        assert_eq!(run.code, 1);
+        assert!(
+            run.out.starts_with('<') && run.err.contains("verdict"),
+            "{}",
+            run.err
+        );
+    }
+    let run = verify(&[&graph, "--html", &out, "--svg", &out]);
+    assert!(
+        run.err.contains("--html goes to the same file"),
+        "{}",
+        run.err
+    );
+    assert_eq!(fs::read_to_string(&graph).unwrap(), cycle(4));
+
+    let run = verify(&[&graph, "--html", &at("a.html"), "--svg", &at("a.svg")]);
+    assert!(
+        run.out
+            .contains(&format!("  page        {}\n", at("a.html"))),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains(&format!("  picture     {}\n", at("a.svg"))),
+        "{}",
+        run.out
+    );
+    let again = verify(&[&graph, "--svg", "-"]);
+    assert_eq!(
+        fs::read_to_string(at("a.svg")).unwrap(),
+        again.out,
+        "the same each time"
+    );
+}
