@@ -1,5 +1,7 @@
 //! `verify GRAPH...`: decide, report, certify.
 
+use super::act;
+use super::act::ActArguments;
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input::InputArguments;
@@ -65,6 +67,8 @@ pub(super) struct VerifyArguments {
     /// List the members of every component.
     #[arg(long)]
     components: bool,
+    #[command(flatten)]
+    act: ActArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -114,6 +118,7 @@ impl VerifyArguments {
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
+    arguments.act.check(&arguments.graphs)?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -124,7 +129,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         .and_then(Target::single)
         .map(Path::to_path_buf);
     let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let mut is_first = true;
     let each = |out: &mut _, input: &NamedGraph, start| {
+        if !std::mem::take(&mut is_first) {
+            arguments.act.ensure_one()?;
+        }
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
             Value::NotFiniteSolvable => NOT,
@@ -152,17 +161,22 @@ fn decide(
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
+    let time = start.elapsed();
+    let acted = arguments.act.act(input, &verdict, options.seed)?;
+    running::hide();
     let report = Report {
         input,
         verdict: &verdict,
         rational: arguments.rational,
         list_components: arguments.components,
-        time: start.elapsed(),
+        time,
+        acted: &acted,
     };
     if arguments.json {
         report::json::write(out, &report)?;
     } else {
         report::text::write(out, &report)?;
+        act::write(out, &acted)?;
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }

@@ -1,6 +1,7 @@
 //! One JSON object a line.
 
 use super::Report;
+use crate::act::Acted;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -20,6 +21,8 @@ struct Line<'a> {
     components_strength: &'static str,
     mode: &'static str,
     seconds: f64,
+    #[serde(flatten)]
+    acted: &'a Acted,
 }
 
 #[derive(Serialize)]
@@ -78,6 +81,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         components_strength: verdict.components_strength.name(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
+        acted: report.acted,
     };
     serde_json::to_writer(&mut *out, &line)?;
     out.write_all(b"\n")

@@ -12,6 +12,7 @@ pub mod svg;
 pub mod table;
 pub mod text;
 
+use crate::act::Acted;
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
@@ -38,6 +39,8 @@ pub struct Report<'a> {
     pub list_components: bool,
     /// How long reading, deciding and certifying took.
     pub time: Duration,
+    /// What to do about it.
+    pub(crate) acted: &'a Acted,
 }
 
 #[cfg(test)]

@@ -424,7 +424,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 13] = [
+const REPORTED: [&str; 21] = [
     "graph",
     "notes",
     "model",
@@ -438,6 +438,14 @@ const REPORTED: [&str; 13] = [
     "components_strength",
     "mode",
     "seconds",
+    "joints",
+    "joints_complete",
+    "weak",
+    "suggestions",
+    "explain",
+    "sweep",
+    "margin",
+    "export",
 ];
 
 fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProblem> {
