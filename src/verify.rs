@@ -134,6 +134,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         if !std::mem::take(&mut is_first) {
             arguments.act.ensure_one()?;
         }
+        arguments.act.check_input(input)?;
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
             Value::NotFiniteSolvable => NOT,
@@ -162,8 +163,9 @@ fn decide(
         .map(|target| target.write(input, &verdict))
         .transpose()?;
     let time = start.elapsed();
-    let acted = arguments.act.act(input, &verdict, options.seed)?;
+    let acted = arguments.act.act(input, &verdict, options.seed);
     running::hide();
+    let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
         input,
         verdict: &verdict,

@@ -98,7 +98,10 @@ impl ActArguments {
     }
 
     /// Refuses what a graph has no answer to.
-    fn check_input(&self, input: &NamedGraph) -> Result<()> {
+    ///
+    /// # Errors
+    /// What is missing in it.
+    pub(super) fn check_input(&self, input: &NamedGraph) -> Result<()> {
         ensure!(
             self.sweep.is_empty() || input.matching.is_some(),
             "--sweep needs the number of inliers of every pair, which only a COLMAP database has; \
@@ -114,7 +117,6 @@ impl ActArguments {
 
     /// Does what is asked for; joints are always looked for.
     pub(super) fn act(&self, input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
-        self.check_input(input)?;
         let options = Options::default()
             .model(verdict.model)
             .seed(seed)

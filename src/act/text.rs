@@ -77,10 +77,10 @@ fn joints(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
     rest(out, count, "--json lists them")
 }
 
-fn rest(out: &mut impl Write, count: usize, where_: &str) -> io::Result<()> {
+fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
     match count.saturating_sub(SHOWN) {
         0 => Ok(()),
-        more => writeln!(out, "    and {more} more ({where_})"),
+        more => writeln!(out, "    and {more} more ({advice})"),
     }
 }
 

@@ -129,7 +129,9 @@ fn between_links(nodes: usize, parts: &Parts, most: usize) -> (Found, bool) {
 
 /// Joints of the larger components.
 fn between_parts(parts: &Parts, most: usize) -> (Found, bool) {
-    let considered = considered(parts, most);
+    let ends = parts.links.iter().flat_map(|&((a, b), _)| [a, b]);
+    let between: BTreeSet<u32> = ends.filter(|&v| parts.of(v).is_empty()).collect();
+    let considered = considered(parts, &between, most);
     let of = |v: u32| {
         let all = parts.of(v).iter().map(|&k| k as usize);
         all.take_while(|&k| k < considered).collect::<Vec<_>>()
@@ -146,7 +148,6 @@ fn between_parts(parts: &Parts, most: usize) -> (Found, bool) {
             }
         }
     }
-    let mut between = BTreeSet::new();
     for &((a, b), _) in &parts.links {
         for &one in &of(a) {
             for &other in &of(b) {
@@ -158,7 +159,6 @@ fn between_parts(parts: &Parts, most: usize) -> (Found, bool) {
                 found.entry(key).or_default().pairs.push(pair);
             }
         }
-        between.extend([a, b].into_iter().filter(|&v| parts.of(v).is_empty()));
     }
     for x in between {
         let mut ends: Vec<(usize, u32)> = Vec::new();
@@ -184,30 +184,36 @@ fn between_parts(parts: &Parts, most: usize) -> (Found, bool) {
     (found.collect(), complete)
 }
 
-/// How many parts, the largest ones, are looked at, so that about `4 most` joints are found.
-fn considered(parts: &Parts, most: usize) -> usize {
+/// How many parts, the largest ones, are looked at, so that about `4 most` joints are found;
+/// `between` are the nodes in no part.
+fn considered(parts: &Parts, between: &BTreeSet<u32>, most: usize) -> usize {
     let mut considered = parts.parts.len();
-    loop {
-        let count = |v: u32| parts.of(v).partition_point(|&k| (k as usize) < considered);
-        let mut places = 0;
-        let mut nodes: Vec<u32> = parts.parts[..considered]
-            .iter()
-            .flat_map(|part| part.nodes.iter().copied())
-            .filter(|&v| parts.of(v).len() > 1)
-            .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        places += nodes
-            .iter()
-            .map(|&v| count(v) * (count(v) - 1) / 2)
-            .sum::<usize>();
-        let ends = parts.links.iter();
-        places += ends.map(|&((a, b), _)| count(a) * count(b)).sum::<usize>();
-        if places <= 4 * most || considered <= 2 {
-            return considered;
-        }
+    while considered > 2 && places(parts, between, considered) > 4 * most {
         considered /= 2;
     }
+    considered
+}
+
+/// In how many places two of the first parts touch.
+fn places(parts: &Parts, between: &BTreeSet<u32>, considered: usize) -> usize {
+    let count = |v: u32| {
+        let of = parts.of(v);
+        of.partition_point(|&k| (k as usize) < considered)
+    };
+    let twos = |count: usize| count * count.saturating_sub(1) / 2;
+    let mut hinges: Vec<u32> = parts.parts[..considered]
+        .iter()
+        .flat_map(|part| part.nodes.iter().copied())
+        .filter(|&v| parts.of(v).len() > 1)
+        .collect();
+    hinges.sort_unstable();
+    hinges.dedup();
+    let shared: usize = hinges.into_iter().map(|v| twos(count(v))).sum();
+    let links = parts.links.iter();
+    let links: usize = links.map(|&((a, b), _)| count(a) * count(b)).sum();
+    let reached = |x: u32| parts.links_at(x).map(|(end, _)| count(end)).sum();
+    let through: usize = between.iter().map(|&x| twos(reached(x))).sum();
+    shared + links + through
 }
 
 fn two_of(list: &[usize]) -> impl Iterator<Item = (usize, usize)> {

@@ -93,8 +93,11 @@ pub fn suggest(
     sets.extend(search.unseen(known.others, wanted.at));
     dedup(&mut sets);
     let mut found = search.proved(sets, options)?;
-    let several = search.several(joints, &found, known.others, wanted.at, options)?;
-    found.extend(search.proved(several, options)?);
+    // A set for two parts is about none of their images.
+    if wanted.at.is_none() {
+        let several = search.several(joints, &found, known.others, options)?;
+        found.extend(search.proved(several, options)?);
+    }
     Ok(ranked(found, wanted.most))
 }
 
@@ -262,18 +265,11 @@ impl Search<'_> {
         joints: &[Joint],
         found: &[Suggestion],
         others: &[OtherPair],
-        at: Option<u32>,
         options: &Options,
     ) -> Result<Vec<Vec<Pair>>, VerdictError> {
         let joined = |[one, other]: [usize; 2]| {
             let mut found = found.iter();
             found.any(|found| found.components.contains(&one) && found.components.contains(&other))
-        };
-        let here = |components: &[usize; 2]| {
-            at.is_none_or(|v| {
-                let of = self.parts.components_of(v);
-                components.iter().any(|part| of.contains(part))
-            })
         };
         let open = joints
             .iter()
@@ -286,7 +282,6 @@ impl Search<'_> {
             .filter(|(components, _)| !joined(*components))
             .take(SETS)
             .chain(apart.take(SETS))
-            .filter(|(components, _)| here(components))
             .collect();
         let sets = open.par_iter();
         let sets = sets.map(|(components, how)| self.enough(*components, how, others, options));

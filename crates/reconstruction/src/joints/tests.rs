@@ -136,3 +136,21 @@ fn a_hub_of_many_parts_is_cut_short() {
     let all = joints(&graph, &verdict, &parts, &options(Model::Calibrated), 5000).unwrap();
     assert_eq!((all.joints.len(), all.complete), (4950, true));
 }
+
+/// An image with a pair to each of a hundred triangles: 4950 paths.
+#[test]
+fn so_is_an_image_that_leads_to_many() {
+    let triangles = (0..100).flat_map(|k| {
+        let v = 3 * k + 1;
+        [(0, v), (v, v + 1), (v, v + 2), (v + 1, v + 2)]
+    });
+    let graph = Graph::new(301, triangles).unwrap();
+    let (_, _, all) = found(&graph, Model::Projective);
+    assert_eq!((all.joints.len(), all.complete), (1000, false));
+    let by = |joint: &Joint| joint.how.through.iter().all(|by| by[1] == 0);
+    assert!(
+        all.joints
+            .iter()
+            .all(|joint| by(joint) && joint.freedom == 12)
+    );
+}
