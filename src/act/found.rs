@@ -138,6 +138,8 @@ pub(super) struct MarginOf {
     pub(super) component: usize,
     /// How many draws left it whole, for each of `missing`.
     pub(super) whole: [u32; MISSING.len()],
+    /// What percentage of its images stays in one component, on average and rounded down.
+    pub(super) together: [u64; MISSING.len()],
 }
 
 /// What was written.

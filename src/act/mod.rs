@@ -375,6 +375,9 @@ impl Task<'_> {
                 .map(|part| found::MarginOf {
                     component: number(part.component),
                     whole: part.whole,
+                    together: part
+                        .together
+                        .map(|sum| 100 * sum / (u64::from(draws) * part.images as u64)),
                 })
                 .collect(),
             left_out: self.parts.parts.len().saturating_sub(THINNED),

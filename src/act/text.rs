@@ -268,17 +268,14 @@ fn margin(out: &mut impl Write, found: &Margin) -> io::Result<()> {
         missing.join(" ")
     )?;
     for part in &found.components {
-        let whole: Vec<String> = part
-            .whole
-            .iter()
-            .map(|count| format!("{count:>6}"))
-            .collect();
+        let whole = part.whole.map(|count| format!("{count:>6}")).join(" ");
+        let together = part.together.map(|share| format!("{share:>4} %")).join(" ");
+        let number = part.component;
         writeln!(
             out,
-            "    component {:>4} whole in   {}  of {draws}",
-            part.component,
-            whole.join(" ")
+            "    component {number:>4} whole in   {whole}  of {draws}"
         )?;
+        writeln!(out, "      images that stay together {together}")?;
     }
     if found.left_out > 0 {
         writeln!(

@@ -33,6 +33,11 @@ pub struct Margin {
     /// For each share of [`MISSING`] how many of the draws left it whole: all its images (its
     /// cameras, in a camera-point graph) in one component.
     pub whole: [u32; MISSING.len()],
+    /// For each share how many of its images (cameras) lie in one component after a draw, at
+    /// most, summed over the draws.
+    pub together: [u64; MISSING.len()],
+    /// How many images (cameras) the component has.
+    pub images: usize,
 }
 
 /// Thins the largest parts. In a camera-point graph, of which the first `cameras` nodes are cameras,
@@ -54,20 +59,29 @@ pub fn margin(
     let of_part = largest.enumerate().map(|(number, (part, edges))| {
         let alone = Alone::new(&part.nodes, edges);
         let kept = cameras.map(|c| part.nodes.partition_point(|&v| v < c) as u32);
-        let mut whole = [0; MISSING.len()];
+        let images = kept.unwrap_or(part.nodes.len() as u32);
+        let mut found = Margin {
+            component: part.component,
+            whole: [0; MISSING.len()],
+            together: [0; MISSING.len()],
+            images: images as usize,
+        };
         for (k, &missing) in MISSING.iter().enumerate() {
             let draws = (0..thinning.draws).into_par_iter().map(|draw| {
                 let stream = [number as u64, u64::from(missing), u64::from(draw)];
                 let random = random(thinning.seed, stream);
-                let thinned = thinned(&alone.graph, kept, missing, random);
-                is_whole(&thinned, kept, options).map(u32::from)
+                most_together(
+                    &thinned(&alone.graph, kept, missing, random),
+                    images,
+                    options,
+                )
             });
-            whole[k] = draws.try_reduce(|| 0, |a, b| Ok(a + b))?;
+            for together in draws.collect::<Result<Vec<u32>, VerdictError>>()? {
+                found.whole[k] += u32::from(together == images);
+                found.together[k] += u64::from(together);
+            }
         }
-        Ok(Margin {
-            component: part.component,
-            whole,
-        })
+        Ok(found)
     });
     of_part.collect()
 }
@@ -93,15 +107,14 @@ fn thinned(graph: &Graph, cameras: Option<u32>, missing: u32, mut random: ChaCha
     Graph::new(number.len() as u32, edges).expect("edges of a graph")
 }
 
-/// Whether all nodes, or all cameras, are in one component.
-fn is_whole(graph: &Graph, cameras: Option<u32>, options: &Options) -> Result<bool, VerdictError> {
-    let cameras = cameras.unwrap_or(graph.nodes() as u32);
+/// How many of the first `images` nodes lie in one component, at most; one, if there is none.
+fn most_together(graph: &Graph, images: u32, options: &Options) -> Result<u32, VerdictError> {
     let verdict = decide(graph, options)?;
-    let holds_all = |component| {
+    let sizes = verdict.components.iter().map(|component| {
         let nodes = verdict.component_nodes(component);
-        nodes.partition_point(|&v| v < cameras) == cameras as usize
-    };
-    Ok(verdict.components.iter().any(holds_all))
+        nodes.partition_point(|&v| v < images) as u32
+    });
+    Ok(sizes.max().unwrap_or(1))
 }
 
 #[cfg(test)]

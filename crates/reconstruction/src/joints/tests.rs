@@ -2,6 +2,8 @@ use super::*;
 use crate::samples::{clusters, options, verdict};
 use viewcert::{Model, decide};
 
+type Pair = (u32, u32);
+
 fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
     let verdict = verdict(graph, model);
     let parts = Parts::new(graph, &verdict);
@@ -24,7 +26,7 @@ fn two(more: &[(u32, u32)]) -> Graph {
 /// 7 (2), an image seen from both 14 - 11 (4 - 3).
 #[test]
 fn freedom_by_hand() {
-    let cases: [(&[(u32, u32)], [Option<usize>; 2]); 4] = [
+    let cases: [(&[Pair], [Option<usize>; 2]); 4] = [
         (&[(0, 4)], [Some(8), Some(2)]),
         (&[(0, 4), (1, 5)], [Some(1), None]),
         (&[(0, 4), (1, 5), (2, 6)], [None, None]),

@@ -24,6 +24,14 @@ fn what_has_more_pairs_than_it_needs_stays_whole() {
     assert_eq!(found[0].whole[..3], [20, 20, 20]);
     assert_eq!(found[0].whole[4], 0);
     assert_eq!(found[1].whole, [0; 5]);
+    assert_eq!((found[0].images, found[1].images), (40, 41));
+    // A whole draw has all images together; of the rest a pair at least is left.
+    assert_eq!(found[0].together[..3], [800, 800, 800]);
+    assert!(
+        found
+            .iter()
+            .all(|part| part.together[4] < 800 && part.together[4] >= 20)
+    );
     assert_eq!(found, thinned_parts(&graph, None, Model::Projective, 1));
 }
 
