@@ -14,20 +14,23 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
-/// The temporary files that there are. Files are made, and take their names, while this is locked.
+/// The temporary files and folders that there are. They are made, and take their names, while this is locked.
 static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     PENDING.lock().unwrap_or_else(|broken| broken.into_inner())
 }
 
-/// Removes all temporary files: the program is about to end. While the result is kept no file
+/// Removes all temporary files and folders: the program is about to end. While the result is kept no file
 /// takes its name any more.
 pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     let mut pending = pending();
     for path in std::mem::take(&mut *pending) {
         // There is nobody left to tell.
-        let _ = std::fs::remove_file(path);
+        let _ = match path.is_dir() {
+            true => fs::remove_dir_all(path),
+            false => fs::remove_file(path),
+        };
     }
     pending
 }
@@ -111,6 +114,60 @@ fn replace(
     pending.remove(&temporary);
     written?.persist(path)?;
     Ok(())
+}
+
+/// Writes a folder: one beside it is filled by `fill` and takes its name when it is complete. What
+/// was there goes then; the caller has made sure that nothing is lost.
+///
+/// # Errors
+/// If the folder around it is not writable, the disk is full, or `fill` fails; everything is then
+/// as it was before.
+pub(super) fn folder(path: &Path, fill: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
+    let attempt = || -> Result<()> {
+        let new = temporary_folder(path)?;
+        let filled = fill(&new);
+        let mut pending = pending();
+        if let Err(error) = filled.and_then(|()| exchange(&new, path)) {
+            // What was made is given up; the first error is the one to tell.
+            let _ = fs::remove_dir_all(&new);
+            pending.remove(&new);
+            return Err(error);
+        }
+        pending.remove(&new);
+        Ok(())
+    };
+    attempt().with_context(|| format!("{} was not written", path.display()))
+}
+
+/// A folder beside a path, which is removed if the program ends.
+fn temporary_folder(path: &Path) -> Result<PathBuf> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(Permissions::from_mode(0o777));
+    }
+    let mut pending = pending();
+    let new = builder
+        .prefix(".viewcert-")
+        .tempdir_in(folder_of(path))?
+        .keep();
+    pending.insert(new.clone());
+    Ok(new)
+}
+
+/// Gives a folder another's name. If that fails the other is as it was.
+fn exchange(new: &Path, path: &Path) -> Result<()> {
+    if fs::symlink_metadata(path).is_err() {
+        return Ok(fs::rename(new, path)?);
+    }
+    let aside = new.with_extension("old");
+    fs::rename(path, &aside)?;
+    if let Err(error) = fs::rename(new, path) {
+        fs::rename(&aside, path)?;
+        return Err(error.into());
+    }
+    Ok(fs::remove_dir_all(&aside)?)
 }
 
 /// The folder that a path is in.

@@ -1,5 +1,6 @@
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 
+mod act;
 mod atomic;
 mod audit;
 mod bounds;

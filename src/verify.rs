@@ -1,5 +1,7 @@
 //! `verify GRAPH...`: decide, report, certify.
 
+use super::act;
+use super::act::ActArguments;
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::input;
@@ -79,6 +81,8 @@ pub(super) struct VerifyArguments {
     /// List the members of every component.
     #[arg(long)]
     components: bool,
+    #[command(flatten)]
+    act: ActArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -144,6 +148,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     atomic::ensure_apart(&[written, html, svg], inputs)?;
+    arguments.act.check()?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -158,13 +163,17 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
         (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
-        (None, (_, None)) => arguments.pages.too_many(what),
+        (None, (_, None)) => {
+            let act = arguments.act.too_many(what);
+            act.or_else(|| arguments.pages.too_many(what))
+        }
     };
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref(), written.1, html.1, svg.1]);
     let each = |out: &mut _, input: &NamedGraph, start| {
+        arguments.act.check_input(input)?;
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
         Ok(match decided? {
             Value::NotFiniteSolvable => NOT,
@@ -196,18 +205,24 @@ fn decide(
         .transpose()?;
     let written = arguments.write_graph.as_deref();
     let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
+    let time = start.elapsed();
+    let acted = arguments.act.act(input, &verdict, options.seed);
+    running::hide();
+    let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
         input,
         verdict: &verdict,
         rational: arguments.rational,
         list_components: arguments.components,
-        time: start.elapsed(),
+        time,
+        acted: &acted,
     };
     arguments.pages.write(&report)?;
     if arguments.json {
         report::json::write(out, &report)?;
     } else {
         report::text::write(out, &report)?;
+        act::write(out, &acted)?;
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }

@@ -4,6 +4,7 @@ use super::Report;
 use super::database::DatabaseLine;
 use super::tracks;
 use super::tracks::TrackLine;
+use crate::act::Acted;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -28,6 +29,8 @@ struct Line<'a> {
     components_strength: &'static str,
     mode: &'static str,
     seconds: f64,
+    #[serde(flatten)]
+    acted: &'a Acted,
 }
 
 #[derive(Serialize)]
@@ -82,6 +85,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         components_strength: verdict.components_claim().strength.name(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
+        acted: report.acted,
     };
     serde_json::to_writer(&mut *out, &line)?;
     out.write_all(b"\n")

@@ -18,6 +18,7 @@ pub mod text;
 pub mod tracks;
 pub mod values;
 
+use crate::act::Acted;
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
@@ -58,6 +59,8 @@ pub struct Report<'a> {
     pub list_components: bool,
     /// How long reading, deciding and certifying took.
     pub time: Duration,
+    /// What to do about it.
+    pub(crate) acted: &'a Acted,
 }
 
 #[cfg(test)]

@@ -2,4 +2,46 @@
 //!
 //! In: a graph and its verdict. Out: joints between components, pairs and images that everything
 //! hangs on, pairs that would join components, margins. Every statement is decided exactly by
-//! [`viewcert`], or says how often a random experiment came out.
+//! [`viewcert`], or says how often a random experiment came out; cores are those of
+//! docs/theory.md, section 4.
+
+pub mod explain;
+pub mod joints;
+pub mod margin;
+pub mod parts;
+pub mod suggest;
+pub mod sweep;
+pub mod weak;
+
+mod condensation;
+#[cfg(test)]
+mod samples;
+
+pub use explain::{Explanation, explain};
+pub use joints::{How, Joint, Joints, joints};
+pub use margin::{Margin, Thinning, margin};
+pub use parts::{Part, Parts};
+pub use suggest::{Suggestion, suggest};
+pub use sweep::{Row, sweep};
+pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
+
+/// A pair of images that is known and is no edge of the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OtherPair {
+    /// The two images, the smaller node first.
+    pub images: (u32, u32),
+    /// How many matches were verified.
+    pub inliers: u32,
+    /// How many there were before verification, if that is known.
+    pub matches: Option<u32>,
+}
+
+/// What is known of pairs besides the graph: nothing, if both lists are empty.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Known<'a> {
+    /// For every edge, in the order of the graph's edges, how many verified matches it has;
+    /// empty if that is not known.
+    pub inliers: &'a [u32],
+    /// Pairs that are known and are no edges.
+    pub others: &'a [OtherPair],
+}

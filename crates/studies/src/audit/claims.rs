@@ -309,7 +309,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 15] = [
+const REPORTED: [&str; 23] = [
     "graph",
     "notes",
     "database",
@@ -325,6 +325,14 @@ const REPORTED: [&str; 15] = [
     "components_strength",
     "mode",
     "seconds",
+    "joints",
+    "joints_complete",
+    "weak",
+    "suggestions",
+    "explain",
+    "sweep",
+    "margin",
+    "export",
 ];
 
 fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProblem> {

@@ -1,0 +1,159 @@
+//! The components of a verdict as parts of a reconstruction, and the pairs between them.
+
+use std::collections::HashMap;
+use viewcert::graph::Lists;
+use viewcert::{Graph, Verdict};
+
+/// A component that is more than a single pair.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Its place among the components of the verdict.
+    pub component: usize,
+    /// Its images, increasing.
+    pub nodes: Vec<u32>,
+}
+
+impl Part {
+    /// Whether an image is in the part. O(log n).
+    pub fn contains(&self, node: u32) -> bool {
+        self.nodes.binary_search(&node).is_ok()
+    }
+}
+
+/// The components that are more than a pair, and the pairs that are components by themselves.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// The larger components, in the order of the verdict: by falling number of pairs.
+    pub parts: Vec<Part>,
+    /// Pairs that are components by themselves, increasing, and which components they are.
+    pub links: Vec<((u32, u32), usize)>,
+    /// For every component of the verdict where it is.
+    places: Vec<Place>,
+    of_node: Lists,
+    links_of_node: Lists,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Part(usize),
+    Link((u32, u32)),
+}
+
+impl Parts {
+    /// Sorts the components of a verdict out. O(n + k) for k nodes of components together, up to
+    /// sorting.
+    pub fn new(graph: &Graph, verdict: &Verdict) -> Self {
+        let mut parts = Vec::new();
+        let mut links = Vec::new();
+        let mut places = Vec::with_capacity(verdict.components.len());
+        for (k, component) in verdict.components.iter().enumerate() {
+            let nodes = component.nodes();
+            match nodes[..] {
+                [a, b] => {
+                    places.push(Place::Link((a, b)));
+                    links.push(((a, b), k));
+                }
+                _ => {
+                    places.push(Place::Part(parts.len()));
+                    parts.push(Part {
+                        component: k,
+                        nodes,
+                    });
+                }
+            }
+        }
+        links.sort_unstable();
+        let of_node = (0..).zip(&parts).flat_map(|(k, part): (u32, &Part)| {
+            let nodes = part.nodes.iter();
+            nodes.map(move |&v| (v, k))
+        });
+        let ends = (0..)
+            .zip(&links)
+            .flat_map(|(k, &((a, b), _))| [(a, k), (b, k)]);
+        Self {
+            of_node: Lists::group(graph.nodes(), of_node),
+            links_of_node: Lists::group(graph.nodes(), ends),
+            parts,
+            links,
+            places,
+        }
+    }
+
+    /// The images of a component of the verdict, increasing.
+    ///
+    /// # Panics
+    /// If there is no such component.
+    pub fn nodes_of(&self, component: usize) -> Vec<u32> {
+        match self.places[component] {
+            Place::Part(k) => self.parts[k].nodes.clone(),
+            Place::Link((a, b)) => vec![a, b],
+        }
+    }
+
+    /// The parts that an image is in, as places in `parts`, increasing.
+    pub fn of(&self, node: u32) -> &[u32] {
+        self.of_node.of(node as usize)
+    }
+
+    /// The links at an image: the image at the other end, and the component that the link is.
+    pub fn links_at(&self, node: u32) -> impl Iterator<Item = (u32, usize)> {
+        self.links_of_node.of(node as usize).iter().map(move |&k| {
+            let ((a, b), component) = self.links[k as usize];
+            (a + b - node, component)
+        })
+    }
+
+    /// The part that holds both images; there is one at most. O(k) for k parts of one of them.
+    pub fn common(&self, a: u32, b: u32) -> Option<usize> {
+        let (few, many) = (self.of(a), self.of(b));
+        let (few, many) = if few.len() <= many.len() {
+            (few, many)
+        } else {
+            (many, few)
+        };
+        let found = few.iter().find(|k| many.binary_search(k).is_ok())?;
+        Some(*found as usize)
+    }
+
+    /// The pairs of every part, each list increasing. O(m log k).
+    pub fn edges(&self, graph: &Graph) -> Vec<Vec<(u32, u32)>> {
+        let mut edges = vec![Vec::new(); self.parts.len()];
+        for &(i, j) in graph.edges() {
+            if let Some(part) = self.common(i, j) {
+                edges[part].push((i, j));
+            }
+        }
+        edges
+    }
+
+    /// All components that an image is in, increasing.
+    pub fn components_of(&self, node: u32) -> Vec<usize> {
+        let parts = self.of(node).iter();
+        let parts = parts.map(|&k| self.parts[k as usize].component);
+        let links = self.links_at(node).map(|(_, component)| component);
+        let mut found: Vec<usize> = parts.chain(links).collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+/// A part as a graph of its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Alone {
+    /// The nodes of the whole graph, increasing.
+    pub nodes: Vec<u32>,
+    /// The part on the nodes `0..nodes.len()`.
+    pub graph: Graph,
+}
+
+impl Alone {
+    /// Some edges on some nodes, both increasing.
+    pub fn new(nodes: &[u32], edges: &[(u32, u32)]) -> Self {
+        let number: HashMap<u32, u32> = nodes.iter().copied().zip(0..).collect();
+        let edges = edges.iter().map(|(i, j)| (number[i], number[j]));
+        Self {
+            nodes: nodes.to_vec(),
+            graph: Graph::new(nodes.len() as u32, edges).expect("edges of a graph"),
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Small graphs for tests.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use viewcert::Graph;
+use viewcert::decide::Options;
+use viewcert::{Model, Verdict, decide};
+
+/// Random graphs of 4 to 9 nodes, sparse ones and dense ones.
+pub fn graphs(count: u64) -> impl Iterator<Item = Graph> {
+    (0..count).map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let nodes = random.random_range(4..10);
+        let percent = random.random_range(25..75);
+        let all = (0..nodes).flat_map(|i| (i + 1..nodes).map(move |j| (i, j)));
+        let pairs: Vec<_> = all
+            .filter(|_| random.random_range(0..100) < percent)
+            .collect();
+        Graph::new(nodes, pairs).unwrap()
+    })
+}
+
+/// Clusters of four or five nodes, each a complete graph, and random pairs besides.
+pub fn clusters(count: u64) -> impl Iterator<Item = Graph> {
+    (0..count).map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(1000 + seed);
+        let clusters = random.random_range(2..4);
+        let mut pairs = Vec::new();
+        let mut nodes = 0u32;
+        for _ in 0..clusters {
+            let size = random.random_range(4..6);
+            // Some clusters begin with a node of the one before.
+            let first = nodes - u32::from(nodes > 0 && random.random_range(0..3) == 0);
+            let all = first..first + size;
+            pairs.extend(
+                all.clone()
+                    .flat_map(|i| (i + 1..first + size).map(move |j| (i, j))),
+            );
+            nodes = first + size;
+        }
+        nodes += 2;
+        for _ in 0..random.random_range(1..6) {
+            let (i, j) = (random.random_range(0..nodes), random.random_range(0..nodes));
+            if i != j {
+                pairs.push((i, j));
+            }
+        }
+        Graph::new(nodes, pairs).unwrap()
+    })
+}
+
+/// The question in a model.
+pub fn options(model: Model) -> Options {
+    Options::default().model(model)
+}
+
+/// The verdict in a model.
+pub fn verdict(graph: &Graph, model: Model) -> Verdict {
+    decide(graph, &options(model)).unwrap()
+}
+
+/// Whether some nodes lie in one component.
+pub fn together(graph: &Graph, model: Model, nodes: &[u32]) -> bool {
+    let verdict = verdict(graph, model);
+    verdict.components.iter().any(|component| {
+        let all = component.nodes();
+        nodes.iter().all(|v| all.binary_search(v).is_ok())
+    })
+}

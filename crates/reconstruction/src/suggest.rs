@@ -1,0 +1,511 @@
+//! Pairs that, if they were matched, would join components.
+//!
+//! Each suggestion is proved: the graph with the pairs added is decided, on a condensation of its
+//! components. Which pairs are tried first is a guess: those that are known to have matches, else
+//! images near the joint.
+
+use crate::condensation::{Condensation, freedom, terminals, with};
+use crate::joints::{How, Joint};
+use crate::parts::Parts;
+use crate::{Known, OtherPair};
+use rayon::prelude::*;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use viewcert::decide::{Options, VerdictError, decide};
+use viewcert::graph::{Adjacency, UnionFind};
+use viewcert::{Graph, Verdict};
+
+/// Pairs that join components, if they are matched and verified.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Suggestion {
+    /// The pairs, with what is known of each. One, if one is enough; otherwise a set that is enough
+    /// and of which none can be left out, though a smaller set may exist.
+    pub pairs: Vec<((u32, u32), Option<OtherPair>)>,
+    /// The components that become one, or parts of one, increasing.
+    pub components: Vec<usize>,
+    /// How many images the new component has.
+    pub images: usize,
+    /// How many images that is more than the largest of the components has.
+    pub gain: usize,
+}
+
+impl Suggestion {
+    /// The least numbers of inliers and of matches over the pairs; 0 where they are not known.
+    pub fn evidence(&self) -> (u32, u32) {
+        let of = |known: Option<OtherPair>| {
+            known.map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
+        };
+        let all = self.pairs.iter().map(|&(_, known)| of(known));
+        all.min().unwrap_or((0, 0))
+    }
+}
+
+/// How many suggestions are wanted, and where.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Not more than these.
+    pub most: usize,
+    /// Only such with pairs at this image.
+    pub at: Option<u32>,
+}
+
+/// Most pairs with matches, joints, and hanging images that are tried.
+const TRIED: usize = 200;
+
+/// Most pairs of parts for which sets of several pairs are looked for.
+const SETS: usize = 20;
+
+/// Most suggestions that join the same components.
+const ALIKE: usize = 2;
+
+/// Suggests pairs: fewest pairs first, then by what is known of them, then by how many images they
+/// add to a component.
+///
+/// A decision of the condensed graph for each of some hundred candidates.
+///
+/// # Errors
+/// Those of [`decide`].
+pub fn suggest(
+    graph: &Graph,
+    parts: &Parts,
+    joints: &[Joint],
+    known: Known,
+    wanted: Wanted,
+    options: &Options,
+) -> Result<Vec<Suggestion>, VerdictError> {
+    let search = Search {
+        graph,
+        parts,
+        neighbours: Adjacency::new(graph),
+        known: known
+            .others
+            .iter()
+            .map(|pair| (pair.images, *pair))
+            .collect(),
+    };
+    let mut sets = search.known_pairs(known.others, wanted.at);
+    let near = search.near_joints(joints, wanted.at);
+    sets.extend(
+        near.into_iter()
+            .chain(search.hanging(wanted.at))
+            .map(|pair| vec![pair]),
+    );
+    sets.extend(search.unseen(known.others, wanted.at));
+    dedup(&mut sets);
+    let mut found = search.proved(sets, options)?;
+    // A set for two parts is about none of their images.
+    if wanted.at.is_none() {
+        let several = search.several(joints, &found, known.others, options)?;
+        found.extend(search.proved(several, options)?);
+    }
+    Ok(ranked(found, wanted.most))
+}
+
+type Pair = (u32, u32);
+
+fn ordered((a, b): Pair) -> Pair {
+    (a.min(b), a.max(b))
+}
+
+fn dedup(sets: &mut Vec<Vec<Pair>>) {
+    let mut seen = BTreeSet::new();
+    sets.retain(|set| seen.insert(set.clone()));
+}
+
+/// The best first, few of a kind.
+fn ranked(mut found: Vec<Suggestion>, most: usize) -> Vec<Suggestion> {
+    found.sort_by_key(|one| {
+        let pairs: Vec<Pair> = one.pairs.iter().map(|&(pair, _)| pair).collect();
+        (
+            pairs.len(),
+            Reverse(one.evidence()),
+            Reverse(one.gain),
+            pairs,
+        )
+    });
+    found.dedup_by(|one, other| one.pairs == other.pairs);
+    let mut alike: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    found.retain(|one| {
+        let count = alike.entry(one.components.clone()).or_default();
+        *count += 1;
+        *count <= ALIKE
+    });
+    found.truncate(most);
+    found
+}
+
+struct Search<'a> {
+    graph: &'a Graph,
+    parts: &'a Parts,
+    neighbours: Adjacency,
+    known: HashMap<Pair, OtherPair>,
+}
+
+impl Search<'_> {
+    /// Known pairs whose images are in no component together, those with most inliers first.
+    fn known_pairs(&self, others: &[OtherPair], at: Option<u32>) -> Vec<Vec<Pair>> {
+        let mut pairs: Vec<&OtherPair> = others
+            .iter()
+            .filter(|pair| self.is_candidate(pair.images, at))
+            .collect();
+        pairs.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
+        let best = pairs.into_iter().take(TRIED);
+        best.map(|pair| vec![pair.images]).collect()
+    }
+
+    /// Whether a pair could join anything, and is where it is wanted.
+    fn is_candidate(&self, (a, b): Pair, at: Option<u32>) -> bool {
+        a != b
+            && at.is_none_or(|v| v == a || v == b)
+            && self.parts.common(a, b).is_none()
+            && self.graph.edge_number(a, b).is_none()
+    }
+
+    /// A pair for every joint.
+    fn near_joints(&self, joints: &[Joint], at: Option<u32>) -> Vec<Pair> {
+        let here = |joint: &&Joint| {
+            at.is_none_or(|v| {
+                let of = self.parts.components_of(v);
+                joint.components.iter().any(|part| of.contains(part))
+            })
+        };
+        let joints = joints.iter().filter(here).take(TRIED);
+        joints.filter_map(|joint| self.near(joint, at)).collect()
+    }
+
+    /// A pair between the two components of a joint, of images near it.
+    fn near(&self, joint: &Joint, at: Option<u32>) -> Option<Pair> {
+        let [one, other] = [0, 1].map(|side| {
+            let nodes = self.parts.nodes_of(joint.components[side]);
+            let touched = touched(&joint.how, side);
+            match at.filter(|v| nodes.binary_search(v).is_ok() && !touched.contains(v)) {
+                Some(v) => vec![v],
+                None => self.ends(&nodes, &touched, CHOICE),
+            }
+        });
+        let pairs = one
+            .iter()
+            .flat_map(|&a| other.iter().map(move |&b| ordered((a, b))));
+        pairs.into_iter().find(|&pair| self.is_candidate(pair, at))
+    }
+
+    /// Images of a component: such that do not touch the other one first, near those that do before
+    /// others, of more pairs before fewer.
+    fn ends(&self, nodes: &[u32], touched: &[u32], count: usize) -> Vec<u32> {
+        let near = |v: u32| {
+            let mut near = touched.iter();
+            near.any(|&t| self.neighbours.neighbours(t).binary_search(&v).is_ok())
+        };
+        let key = |v: u32| {
+            let degree = self.neighbours.degree(v);
+            (touched.contains(&v), !near(v), Reverse(degree), v)
+        };
+        let mut keys: Vec<_> = nodes.iter().map(|&v| key(v)).collect();
+        if keys.len() > count {
+            keys.select_nth_unstable(count);
+            keys.truncate(count);
+        }
+        keys.sort_unstable();
+        keys.into_iter().map(|(.., v)| v).collect()
+    }
+
+    /// A second pair for images that hang on a part by one.
+    fn hanging(&self, at: Option<u32>) -> Vec<Pair> {
+        let mut found = Vec::new();
+        for &((a, b), _) in &self.parts.links {
+            for (x, y) in [(a, b), (b, a)] {
+                let wanted = at.is_none_or(|v| v == x);
+                let Some(&part) = self.parts.of(y).first().filter(|_| wanted) else {
+                    continue;
+                };
+                if self.parts.of(x).is_empty() {
+                    let nodes = &self.parts.parts[part as usize].nodes;
+                    let ends = self.ends(nodes, &[y], CHOICE);
+                    let pairs = ends.into_iter().map(|z| ordered((x, z)));
+                    found.extend(pairs.into_iter().find(|&pair| self.is_candidate(pair, at)));
+                }
+            }
+            if found.len() >= TRIED {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Two known pairs with one part for images that have no pair.
+    fn unseen(&self, others: &[OtherPair], at: Option<u32>) -> Vec<Vec<Pair>> {
+        let mut by_image: BTreeMap<(u32, u32), Vec<&OtherPair>> = BTreeMap::new();
+        for pair in others {
+            let (a, b) = pair.images;
+            for (x, y) in [(a, b), (b, a)] {
+                if self.neighbours.degree(x) == 0 && at.is_none_or(|v| v == x) {
+                    for &part in self.parts.of(y) {
+                        by_image.entry((x, part)).or_default().push(pair);
+                    }
+                }
+            }
+        }
+        let mut sets = Vec::new();
+        for (_, mut pairs) in by_image {
+            pairs.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
+            if let [one, other, ..] = pairs[..] {
+                let mut set = vec![one.images, other.images];
+                set.sort_unstable();
+                sets.push(((one.inliers.min(other.inliers)), set));
+            }
+        }
+        sets.sort_by_key(|(inliers, _)| Reverse(*inliers));
+        sets.into_iter().take(TRIED).map(|(_, set)| set).collect()
+    }
+
+    /// Sets of pairs for joints that no single pair closes, and for the largest part and parts that
+    /// are not connected with it.
+    fn several(
+        &self,
+        joints: &[Joint],
+        found: &[Suggestion],
+        others: &[OtherPair],
+        options: &Options,
+    ) -> Result<Vec<Vec<Pair>>, VerdictError> {
+        let joined = |[one, other]: [usize; 2]| {
+            let mut found = found.iter();
+            found.any(|found| found.components.contains(&one) && found.components.contains(&other))
+        };
+        let open = joints
+            .iter()
+            .map(|joint| (joint.components, joint.how.clone()));
+        let apart = self
+            .apart()
+            .into_iter()
+            .map(|parts| (parts, How::default()));
+        let open: Vec<([usize; 2], How)> = open
+            .filter(|(components, _)| !joined(*components))
+            .take(SETS)
+            .chain(apart.take(SETS))
+            .collect();
+        let sets = open.par_iter();
+        let sets = sets.map(|(components, how)| self.enough(*components, how, others, options));
+        let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
+        Ok(sets?.into_iter().flatten().collect())
+    }
+
+    /// The largest part with the largest of every other connected part of the graph.
+    fn apart(&self) -> Vec<[usize; 2]> {
+        let mut sets = UnionFind::new(self.graph.nodes());
+        for &(i, j) in self.graph.edges() {
+            sets.union(i as usize, j as usize);
+        }
+        let mut seen = BTreeSet::new();
+        let mut firsts = self.parts.parts.iter().filter(|part| {
+            let root = sets.find(part.nodes[0] as usize);
+            seen.insert(root)
+        });
+        let largest = firsts.next().map(|part| part.component);
+        let others: Vec<usize> = firsts.map(|part| part.component).collect();
+        let largest = largest.into_iter();
+        largest
+            .flat_map(|k| others.iter().map(move |&other| [k, other]))
+            .collect()
+    }
+
+    /// Pairs that make one of two parts, found greedily: each the one of the pool that takes most
+    /// freedom, then those left out that the others make superfluous. `None` if the pool is not
+    /// enough, or one pair is.
+    fn enough(
+        &self,
+        components: [usize; 2],
+        how: &How,
+        others: &[OtherPair],
+        options: &Options,
+    ) -> Result<Option<Vec<Pair>>, VerdictError> {
+        let nodes = components.map(|component| self.parts.nodes_of(component));
+        let pool = self.pool(&nodes, how, others);
+        let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
+        let links = how.pairs.iter().copied().chain(by);
+        let ends = links
+            .clone()
+            .chain(pool.iter().copied())
+            .flat_map(|(a, b)| [a, b]);
+        let parts = [&nodes[0][..], &nodes[1]];
+        let alone = pool.iter().flat_map(|&(a, b)| [a, b]);
+        let small = Condensation::new(terminals(&parts, ends), links, alone);
+        let free = |set: &[Pair]| {
+            let more = set.iter().map(|&pair| small.pair(pair));
+            Ok::<usize, VerdictError>(freedom(&with(&small.graph, more), options)?.0)
+        };
+        let mut chosen: Vec<Pair> = Vec::new();
+        let mut left = free(&chosen)?;
+        while left > 0 {
+            let mut best = None;
+            for &pair in pool.iter().filter(|pair| !chosen.contains(pair)) {
+                let then = free(&[&chosen[..], &[pair]].concat())?;
+                if then < best.map_or(left, |(then, _)| then) {
+                    best = Some((then, pair));
+                }
+            }
+            let Some((then, pair)) = best else {
+                return Ok(None);
+            };
+            left = then;
+            chosen.push(pair);
+        }
+        for k in (0..chosen.len()).rev() {
+            let mut fewer = chosen.clone();
+            fewer.remove(k);
+            if free(&fewer)? == 0 {
+                chosen = fewer;
+            }
+        }
+        chosen.sort_unstable();
+        Ok((chosen.len() > 1).then_some(chosen))
+    }
+
+    /// Pairs between two parts: the known ones with most inliers, then disjoint ones near the joint.
+    fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, others: &[OtherPair]) -> Vec<Pair> {
+        let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
+        let between = |(a, b): Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);
+        let mut known: Vec<&OtherPair> = others
+            .iter()
+            .filter(|pair| between(pair.images) && self.is_candidate(pair.images, None))
+            .collect();
+        known.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
+        let mut pool: Vec<Pair> = known.iter().take(CHOICE).map(|pair| pair.images).collect();
+        let [one, other] = [0, 1].map(|side| self.ends(&nodes[side], &touched(how, side), CHOICE));
+        for (&a, &b) in one.iter().zip(&other) {
+            let pair = ordered((a, b));
+            if self.is_candidate(pair, None) && !pool.contains(&pair) {
+                pool.push(pair);
+            }
+        }
+        pool
+    }
+
+    /// Which of some sets of pairs join components, and which.
+    fn proved(
+        &self,
+        sets: Vec<Vec<Pair>>,
+        options: &Options,
+    ) -> Result<Vec<Suggestion>, VerdictError> {
+        let nodes: Vec<&[u32]> = self
+            .parts
+            .parts
+            .iter()
+            .map(|part| &part.nodes[..])
+            .collect();
+        let links = self.parts.links.iter().map(|&(pair, _)| pair);
+        let ends = || sets.iter().flatten().flat_map(|&(a, b)| [a, b]);
+        let touched = links.clone().flat_map(|(a, b)| [a, b]).chain(ends());
+        let small = Condensation::new(terminals(&nodes, touched), links, ends());
+        let each = sets
+            .par_iter()
+            .map(|set| self.joined_by_no_less(&small, set, options));
+        let found: Result<Vec<Option<Suggestion>>, VerdictError> = each.collect();
+        Ok(found?.into_iter().flatten().collect())
+    }
+
+    /// What a set of pairs joins, if anything, without those of them that it does not take: other
+    /// components may help.
+    fn joined_by_no_less(
+        &self,
+        small: &Condensation,
+        set: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Suggestion>, VerdictError> {
+        let Some(mut found) = self.joined(small, set, options)? else {
+            return Ok(None);
+        };
+        let mut set = set.to_vec();
+        for k in (0..set.len()).rev() {
+            let mut fewer = set.clone();
+            fewer.remove(k);
+            if fewer.is_empty() {
+                break;
+            }
+            if let Some(same) = self.joined(small, &fewer, options)?
+                && same.images == found.images
+            {
+                (set, found) = (fewer, same);
+            }
+        }
+        Ok(Some(found))
+    }
+
+    /// What a set of pairs joins, if anything.
+    fn joined(
+        &self,
+        small: &Condensation,
+        set: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Suggestion>, VerdictError> {
+        let graph = with(&small.graph, set.iter().map(|&pair| small.pair(pair)));
+        let verdict: Verdict = decide(&graph, options)?;
+        let found = Parts::new(&graph, &verdict);
+        let mut together = set.iter().map(|&pair| {
+            let (a, b) = small.pair(pair);
+            found.common(a, b)
+        });
+        let Some(place) = together.next().flatten() else {
+            return Ok(None);
+        };
+        if together.any(|other| other != Some(place)) {
+            return Ok(None);
+        }
+        let part = &found.parts[place];
+        let mut components = Vec::new();
+        let mut images: Vec<u32> = part
+            .nodes
+            .iter()
+            .map(|&v| small.nodes[v as usize])
+            .collect();
+        let mut largest = 1;
+        for (k, terminals) in small.terminals.iter().enumerate() {
+            // Two components of one graph share a node at most, and this one is rigid.
+            if terminals
+                .iter()
+                .filter(|&&v| part.contains(v))
+                .nth(1)
+                .is_some()
+            {
+                components.push(self.parts.parts[k].component);
+                images.extend(&self.parts.parts[k].nodes);
+                largest = largest.max(self.parts.parts[k].nodes.len());
+            }
+        }
+        for &((a, b), component) in &self.parts.links {
+            if small
+                .number(a)
+                .zip(small.number(b))
+                .is_some_and(|(a, b)| part.contains(a) && part.contains(b))
+            {
+                components.push(component);
+                largest = largest.max(2);
+            }
+        }
+        images.sort_unstable();
+        images.dedup();
+        components.sort_unstable();
+        let gain = images.len() - largest;
+        let pairs = set
+            .iter()
+            .map(|&pair| (pair, self.known.get(&pair).copied()));
+        Ok((gain > 0).then(|| Suggestion {
+            pairs: pairs.collect(),
+            components,
+            images: images.len(),
+            gain,
+        }))
+    }
+}
+
+/// How many images of each part are choices for pairs between them.
+const CHOICE: usize = 6;
+
+/// The images of one of the two components of a joint that touch the other.
+fn touched(how: &How, side: usize) -> Vec<u32> {
+    let pairs = how.pairs.iter().map(|&(a, b)| [a, b][side]);
+    let through = how.through.iter().map(|by| by[2 * side]);
+    how.shared.into_iter().chain(pairs).chain(through).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,357 @@
+//! Components as files that COLMAP takes, tables of them, and the commands that come next.
+
+use super::super::atomic;
+use super::found::{Export, Joint};
+use super::{Task, number};
+use anyhow::{Context, Result, bail, ensure};
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+const COMPONENTS: &str = "components";
+const TABLES: [&str; 3] = ["components.tsv", "images.tsv", "joints.tsv"];
+const LISTS: [&str; 2] = ["images.txt", "pairs.txt"];
+
+/// The first line of components.tsv, by which an earlier export is known.
+const HEAD: [&str; 5] = ["component", "images", "points", "pairs", "folder"];
+
+/// Most names in a message.
+const NAMED: usize = 5;
+
+/// A component that has a folder.
+struct Exported {
+    /// Its place in the verdict.
+    component: usize,
+    images: Vec<u32>,
+    pairs: Vec<(u32, u32)>,
+}
+
+/// Refuses a folder that holds anything but an earlier export.
+///
+/// # Errors
+/// What is in the way.
+pub(super) fn check(folder: &Path) -> Result<()> {
+    let Ok(found) = fs::symlink_metadata(folder) else {
+        return Ok(());
+    };
+    let name = folder.display();
+    ensure!(
+        found.is_dir(),
+        "--export {name}: this is not a folder; name another place"
+    );
+    if let Some(foreign) = foreign(folder).with_context(|| format!("--export {name}"))? {
+        bail!(
+            "--export {name}: {} is there, which no export has written; name another folder",
+            foreign.display()
+        );
+    }
+    Ok(())
+}
+
+/// Something in a folder that an export does not write.
+fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
+    let entries: Vec<PathBuf> = paths(folder)?;
+    let table = fs::read_to_string(folder.join(TABLES[0])).unwrap_or_default();
+    if !entries.is_empty() && table.lines().next() != Some(&HEAD.join("\t")) {
+        return Ok(entries.into_iter().next());
+    }
+    let is = |path: &Path, names: &[&str]| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        name.is_some_and(|name| names.contains(&name))
+    };
+    for path in entries {
+        if is(&path, &TABLES) && path.is_file() {
+            continue;
+        }
+        if !is(&path, &[COMPONENTS]) || !path.is_dir() || path.is_symlink() {
+            return Ok(Some(path));
+        }
+        for part in paths(&path)? {
+            if !part.is_dir() || part.is_symlink() {
+                return Ok(Some(part));
+            }
+            let other = paths(&part)?
+                .into_iter()
+                .find(|file| !is(file, &LISTS) || !file.is_file());
+            if other.is_some() {
+                return Ok(other);
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// What is in a folder, in a fixed order.
+fn paths(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
+    let mut paths = entries.collect::<std::io::Result<Vec<_>>>()?;
+    paths.sort();
+    Ok(paths)
+}
+
+/// Writes the folder, whole or not at all.
+///
+/// # Errors
+/// If a name cannot be expressed, or the folder cannot be written.
+pub(super) fn write(folder: &Path, task: &Task, joints: &[Joint]) -> Result<Export> {
+    check(folder)?;
+    let exported = exported(task);
+    ensure_expressible(folder, task, &exported)?;
+    let digits = exported
+        .last()
+        .map_or(3, |last| number(last.component).to_string().len().max(3));
+    let place = |component: usize| format!("{COMPONENTS}/{:0digits$}", number(component));
+    atomic::folder(folder, |new| {
+        fs::create_dir(new.join(COMPONENTS))?;
+        for part in &exported {
+            write_part(&new.join(place(part.component)), task, part)?;
+        }
+        write_components(&new.join(TABLES[0]), task, &exported, place)?;
+        write_images(&new.join(TABLES[1]), task)?;
+        write_joints(&new.join(TABLES[2]), joints)
+    })?;
+    let mut seen = BTreeSet::new();
+    let mut shared = BTreeSet::new();
+    for &v in exported.iter().flat_map(|part| &part.images) {
+        if !seen.insert(v) {
+            shared.insert(v);
+        }
+    }
+    let parts = exported.iter().map(|part| {
+        let lists = folder.join(place(part.component));
+        commands(
+            task,
+            &lists,
+            &format!("{:0digits$}", number(part.component)),
+        )
+    });
+    Ok(Export {
+        folder: folder.display().to_string(),
+        components: exported.len(),
+        shared_images: shared.into_iter().map(|v| task.names.of(v)).collect(),
+        outside: task.names.images().len() - seen.len(),
+        commands: parts.collect(),
+    })
+}
+
+/// The components that are more than a pair, of a camera-point graph those with two cameras.
+fn exported(task: &Task) -> Vec<Exported> {
+    let images = task.names.images().end;
+    let edges = match task.input.cameras {
+        None => task.parts.edges(&task.input.graph),
+        // Pairs of cameras are not known here.
+        Some(_) => vec![Vec::new(); task.parts.parts.len()],
+    };
+    let parts = task.parts.parts.iter().zip(edges);
+    let parts = parts.map(|(part, pairs)| Exported {
+        component: part.component,
+        images: part.nodes.iter().copied().filter(|&v| v < images).collect(),
+        pairs,
+    });
+    parts.filter(|part| part.images.len() > 1).collect()
+}
+
+/// Refuses names that COLMAP's lists would read as something else.
+fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Result<()> {
+    let mut images: Vec<u32> = exported
+        .iter()
+        .flat_map(|part| part.images.clone())
+        .collect();
+    images.sort_unstable();
+    images.dedup();
+    let in_pairs = task.input.cameras.is_none();
+    let bad = |name: &str| {
+        let blank = if in_pairs {
+            name.contains(char::is_whitespace)
+        } else {
+            name.contains(['\n', '\r']) || name.trim() != name
+        };
+        blank || name.is_empty() || in_pairs && name.starts_with('#')
+    };
+    let names = images.iter().map(|&v| task.names.of(v));
+    let bad: Vec<String> = names.filter(|name| bad(name)).collect();
+    let shown: Vec<String> = bad
+        .iter()
+        .take(NAMED)
+        .map(|name| format!("{name:?}"))
+        .collect();
+    let more = match bad.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    ensure!(
+        bad.is_empty(),
+        "--export {}: COLMAP's lists cannot hold the names {}{more}: a list of pairs is split at \
+         blanks, and # begins a comment; rename these images",
+        folder.display(),
+        shown.join(", ")
+    );
+    Ok(())
+}
+
+fn file(path: &Path) -> Result<BufWriter<fs::File>> {
+    Ok(BufWriter::new(fs::File::create(path)?))
+}
+
+/// The lists of one component.
+fn write_part(folder: &Path, task: &Task, part: &Exported) -> Result<()> {
+    fs::create_dir(folder)?;
+    let labels = &task.input.labels;
+    let mut images = file(&folder.join(LISTS[0]))?;
+    for &v in &part.images {
+        writeln!(images, "{}", labels.display(v))?;
+    }
+    images.flush()?;
+    if task.input.cameras.is_none() {
+        let mut pairs = file(&folder.join(LISTS[1]))?;
+        for &(a, b) in &part.pairs {
+            writeln!(pairs, "{} {}", labels.display(a), labels.display(b))?;
+        }
+        pairs.flush()?;
+    }
+    Ok(())
+}
+
+fn table(path: &Path) -> Result<csv::Writer<fs::File>> {
+    Ok(csv::WriterBuilder::new().delimiter(b'\t').from_path(path)?)
+}
+
+fn write_components(
+    path: &Path,
+    task: &Task,
+    exported: &[Exported],
+    place: impl Fn(usize) -> String,
+) -> Result<()> {
+    let mut out = table(path)?;
+    out.write_record(HEAD)?;
+    let cameras = task.names.images().end;
+    let mut folders = exported.iter().peekable();
+    for (k, component) in task.verdict.components.iter().enumerate() {
+        let nodes = task.parts.nodes_of(k);
+        let images = nodes.partition_point(|&v| v < cameras);
+        let folder = folders.next_if(|part| part.component == k);
+        out.write_record([
+            number(k).to_string(),
+            images.to_string(),
+            (nodes.len() - images).to_string(),
+            component.edge_count().to_string(),
+            folder.map_or(String::new(), |part| place(part.component)),
+        ])?;
+    }
+    Ok(out.flush()?)
+}
+
+fn write_images(path: &Path, task: &Task) -> Result<()> {
+    let mut degree = vec![0usize; task.input.graph.nodes()];
+    for &(i, j) in task.input.graph.edges() {
+        degree[i as usize] += 1;
+        degree[j as usize] += 1;
+    }
+    let mut out = table(path)?;
+    out.write_record(["image", "pairs", "components", "single_pairs"])?;
+    for v in task.names.images() {
+        let parts = task.parts.of(v).iter();
+        let parts: Vec<String> = parts
+            .map(|&k| number(task.parts.parts[k as usize].component).to_string())
+            .collect();
+        out.write_record([
+            task.names.of(v),
+            degree[v as usize].to_string(),
+            parts.join(","),
+            task.parts.links_at(v).count().to_string(),
+        ])?;
+    }
+    Ok(out.flush()?)
+}
+
+fn write_joints(path: &Path, joints: &[Joint]) -> Result<()> {
+    let mut out = table(path)?;
+    let head = [
+        "component_1",
+        "component_2",
+        "how",
+        "images",
+        "crossing",
+        "inliers",
+        "freedom",
+    ];
+    out.write_record(head)?;
+    for joint in joints {
+        let inliers = joint.inliers.iter().flatten().map(u32::to_string);
+        out.write_record([
+            joint.between[0].to_string(),
+            joint.between[1].to_string(),
+            joint.how.clone(),
+            joint.images.join(","),
+            joint.crossing.to_string(),
+            inliers.collect::<Vec<_>>().join(","),
+            joint.freedom.to_string(),
+        ])?;
+    }
+    Ok(out.flush()?)
+}
+
+/// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap.
+fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
+    let is_database = task.input.matching.is_some() && task.input.name != "-";
+    let database = if is_database {
+        &task.input.name[..]
+    } else {
+        "database.db"
+    };
+    let images = lists.join(LISTS[0]).display().to_string();
+    let out = format!("sparse/{name}");
+    let mapper = |command: &str, list: &str| {
+        format!(
+            "mkdir -p {out} && colmap {command} --database_path {} --image_path images \
+             --output_path {out} --{list}.image_list_path {}",
+            shell(database),
+            shell(&images)
+        )
+    };
+    let script = format!(
+        "import pycolmap; options = pycolmap.IncrementalPipelineOptions(); \
+         options.image_names = open({}).read().splitlines(); \
+         pycolmap.incremental_mapping({}, 'images', '{out}', options)",
+        python(&images),
+        python(database)
+    );
+    vec![
+        mapper("mapper", "Mapper"),
+        mapper("global_mapper", "GlobalMapper"),
+        format!("mkdir -p {out} && python3 -c {}", shell(&script)),
+    ]
+}
+
+/// A word for a POSIX shell.
+fn shell(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// A string for Python, without single quotes, as it goes into a shell's.
+fn python(text: &str) -> String {
+    let escaped = text
+        .replace('\\', r"\\")
+        .replace('"', "\\\"")
+        .replace('\'', r"\x27");
+    format!("\"{escaped}\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_for_the_shell_and_for_python() {
+        assert_eq!(shell("out/components/001"), "out/components/001");
+        assert_eq!(shell("my photos"), "'my photos'");
+        assert_eq!(shell("it's"), r"'it'\''s'");
+        assert_eq!(python(r#"a "b" \ it's"#), r#""a \"b\" \\ it\x27s""#);
+    }
+}

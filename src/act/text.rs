@@ -1,0 +1,329 @@
+//! What was found, in a few lines for people.
+
+use super::found::{Acted, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak};
+use std::io::{self, Write};
+use viewcert::wording::counted;
+
+/// How many joints, and weak pairs, are shown.
+const SHOWN: usize = 8;
+
+/// Length of the longest bar of a plot.
+const BAR: usize = 40;
+
+/// Writes what was found.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
+    joints(out, acted)?;
+    if let Some(found) = &acted.weak {
+        weak(out, found)?;
+    }
+    if let Some(found) = &acted.suggestions {
+        writeln!(
+            out,
+            "  suggested   {}",
+            some(found.len(), "proved: these would join components")
+        )?;
+        suggestions(out, found)?;
+    }
+    if let Some(found) = &acted.explain {
+        explain(out, found)?;
+    }
+    if let Some(found) = &acted.sweep {
+        sweep(out, found)?;
+    }
+    if let Some(found) = &acted.margin {
+        margin(out, found)?;
+    }
+    if let Some(found) = &acted.export {
+        export(out, found)?;
+    }
+    Ok(())
+}
+
+fn some(count: usize, what: &str) -> String {
+    match count {
+        0 => "none found".to_owned(),
+        _ => format!("{count} ({what})"),
+    }
+}
+
+fn joints(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
+    if acted.joints.is_empty() || acted.single_pairs_only {
+        return Ok(());
+    }
+    let count = acted.joints.len();
+    let more = if acted.joints_complete {
+        ""
+    } else {
+        " and more"
+    };
+    writeln!(out, "  joints      {count}{more}")?;
+    for joint in acted.joints.iter().take(SHOWN) {
+        let [one, other] = joint.between;
+        writeln!(
+            out,
+            "    components {one} and {other}: {}; free: {}{}",
+            touching(joint),
+            joint.meaning,
+            if joint.strength == "proof" {
+                ""
+            } else {
+                " (error bound)"
+            },
+        )?;
+    }
+    rest(out, count, "--json lists them")
+}
+
+fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
+    match count.saturating_sub(SHOWN) {
+        0 => Ok(()),
+        more => writeln!(out, "    and {more} more ({advice})"),
+    }
+}
+
+/// How two components touch, and where.
+fn touching(joint: &Joint) -> String {
+    let at: Vec<String> = if joint.pairs.is_empty() {
+        let images = joint.images.iter();
+        images.take(SHOWN).cloned().collect()
+    } else {
+        let pairs = joint.pairs.iter().take(SHOWN);
+        pairs.map(|[a, b]| format!("{a} {b}")).collect()
+    };
+    let inliers = match joint.inliers.as_deref() {
+        None => String::new(),
+        Some(inliers) => format!(" (inliers: {})", list(inliers)),
+    };
+    format!("{}, {}{inliers}", joint.how, at.join(", "))
+}
+
+fn list(numbers: &[impl ToString]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+    numbers.join(", ")
+}
+
+fn weak(out: &mut impl Write, found: &Weak) -> io::Result<()> {
+    let what = format!(
+        "without any one of these {} a component falls apart",
+        found.of
+    );
+    writeln!(out, "  weak        {}", some(found.items.len(), &what))?;
+    for item in found.items.iter().take(SHOWN) {
+        let name = item.what.join(" ");
+        writeln!(
+            out,
+            "    {name} (component {}): {}",
+            item.component, item.why
+        )?;
+    }
+    rest(out, found.items.len(), "--json lists them")?;
+    if found.single_pairs > 0 {
+        let pairs = counted(found.single_pairs, "pair");
+        writeln!(
+            out,
+            "    not counted: {pairs} that are components by themselves"
+        )?;
+    }
+    Ok(())
+}
+
+fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
+    for one in found {
+        let pairs: Vec<String> = one.pairs.iter().map(|[a, b]| format!("{a} {b}")).collect();
+        let enough = match pairs.len() {
+            1 => "",
+            _ => " (all of them: enough, perhaps not the fewest)",
+        };
+        let inliers = one
+            .inliers
+            .as_deref()
+            .map(|known| format!("inliers now: {}", list(known)));
+        let matches = one
+            .matches
+            .as_deref()
+            .map(|known| format!("matches: {}", list(known)));
+        let known: Vec<String> = inliers.into_iter().chain(matches).collect();
+        let known = match known.len() {
+            0 => String::new(),
+            _ => format!(" [{}]", known.join("; ")),
+        };
+        writeln!(
+            out,
+            "    {}{enough}: {}, {} together{known}",
+            pairs.join(", "),
+            joins(one),
+            counted(one.images, "image"),
+        )?;
+    }
+    Ok(())
+}
+
+fn joins(one: &Suggestion) -> String {
+    let shown = list(&one.joins[..one.joins.len().min(SHOWN)]);
+    let parts = match one.joins.len() {
+        0 => String::new(),
+        1 => format!("component {shown}"),
+        count if count <= SHOWN => format!("components {shown}"),
+        count => format!("components {shown} and {} more", count - SHOWN),
+    };
+    let pairs = match one.single_pairs {
+        0 => String::new(),
+        count => counted(count, "single pair"),
+    };
+    let both: Vec<String> = [parts, pairs]
+        .into_iter()
+        .filter(|part| !part.is_empty())
+        .collect();
+    match (one.joins.len() + one.single_pairs, both.join(" and ")) {
+        (1, alone) => format!("adds {} to {alone}", counted(one.gain, "image")),
+        (_, both) => format!("joins {both}"),
+    }
+}
+
+fn explain(out: &mut impl Write, found: &Explain) -> io::Result<()> {
+    let outside = found.pairs_outside.len();
+    let place = match (&found.components[..], outside) {
+        ([], 0) => "has no pair".to_owned(),
+        ([], _) => "is in no component larger than a pair".to_owned(),
+        ([one], _) => format!("is in component {one}"),
+        (many, _) => format!("is in components {}, which it hinges", list(many)),
+    };
+    writeln!(out, "  image       {} {place}", found.image)?;
+    if found.pairs_inside > 0 {
+        let pairs = counted(found.pairs_inside, "pair");
+        writeln!(out, "    {pairs} inside")?;
+    }
+    for pair in found.pairs_outside.iter().take(SHOWN) {
+        let inliers = pair
+            .inliers
+            .map_or(String::new(), |count| format!(" ({count} inliers)"));
+        let reaches = match &pair.reaches[..] {
+            [] => "leads to an image in no larger component either".to_owned(),
+            parts => format!(
+                "leads to component {}, for which one pair is not enough",
+                list(parts)
+            ),
+        };
+        writeln!(
+            out,
+            "    pair with {}{inliers} is in no larger component: {reaches}",
+            pair.image
+        )?;
+    }
+    rest(out, outside, "--json lists them")?;
+    for pair in &found.unused {
+        let matches = pair
+            .matches
+            .map_or(String::new(), |count| format!(", {count} matches"));
+        writeln!(
+            out,
+            "    not used: {} with {} inliers{matches}",
+            pair.image, pair.inliers
+        )?;
+    }
+    if !found.suggestions.is_empty() {
+        writeln!(out, "    it would help to match:")?;
+        suggestions(out, &found.suggestions)?;
+    }
+    Ok(())
+}
+
+fn sweep(out: &mut impl Write, rows: &[SweepRow]) -> io::Result<()> {
+    writeln!(
+        out,
+        "  sweep       inliers   pairs  images  connected  components  single pairs  largest"
+    )?;
+    let most = rows.iter().map(|row| row.largest).max().unwrap_or(0).max(1);
+    for row in rows {
+        writeln!(
+            out,
+            "              {:>7} {:>7} {:>7} {:>10} {:>11} {:>13} {:>8}  {}",
+            row.threshold,
+            row.pairs,
+            row.images,
+            row.connected,
+            row.components,
+            row.single_pairs,
+            row.largest,
+            "#".repeat((row.largest * BAR).div_ceil(most)),
+        )?;
+    }
+    Ok(())
+}
+
+fn margin(out: &mut impl Write, found: &Margin) -> io::Result<()> {
+    let draws = found.draws;
+    let missing: Vec<String> = found
+        .missing
+        .iter()
+        .map(|share| format!("{share:>4} %"))
+        .collect();
+    writeln!(
+        out,
+        "  margin      {} left out:  {}",
+        found.of,
+        missing.join(" ")
+    )?;
+    for part in &found.components {
+        let whole = part.whole.map(|count| format!("{count:>6}")).join(" ");
+        let together = part.together.map(|share| format!("{share:>4} %")).join(" ");
+        let number = part.component;
+        writeln!(
+            out,
+            "    component {number:>4} whole in   {whole}  of {draws}"
+        )?;
+        writeln!(out, "      images that stay together {together}")?;
+    }
+    if found.left_out > 0 {
+        writeln!(
+            out,
+            "    {} were not thinned",
+            counted(found.left_out, "smaller component")
+        )?;
+    }
+    writeln!(
+        out,
+        "    A random experiment (seed {}), not a proof: it shows how many {} can be missing, not \
+         whether those that are there are right.",
+        found.seed, found.of
+    )
+}
+
+fn export(out: &mut impl Write, found: &Export) -> io::Result<()> {
+    let parts = counted(found.components, "component");
+    writeln!(out, "  exported    {parts} to {}", found.folder)?;
+    if !found.shared_images.is_empty() {
+        let shown = &found.shared_images[..found.shared_images.len().min(SHOWN)];
+        writeln!(
+            out,
+            "    {} in several components: {}{}",
+            counted(found.shared_images.len(), "image"),
+            shown.join(", "),
+            if shown.len() < found.shared_images.len() {
+                ", ..."
+            } else {
+                ""
+            },
+        )?;
+    }
+    if found.outside > 0 {
+        writeln!(
+            out,
+            "    {} in no component that is exported (images.tsv lists them)",
+            counted(found.outside, "image")
+        )?;
+    }
+    if let Some(commands) = found.commands.first() {
+        writeln!(
+            out,
+            "  next        for the first component (the others by their numbers):"
+        )?;
+        for command in commands {
+            writeln!(out, "    {command}")?;
+        }
+    }
+    Ok(())
+}

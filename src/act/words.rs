@@ -1,0 +1,58 @@
+//! What was found, in words.
+
+use super::found::Names;
+use viewcert::Model;
+use viewcert::wording::counted;
+use viewcert_reconstruction::{How, Why};
+
+/// How two components touch; the first `cameras` nodes of a camera-point graph are cameras.
+pub(super) fn how(how: &How, cameras: Option<u32>) -> String {
+    let mut words = Vec::new();
+    match (how.shared, cameras) {
+        (Some(_), None) => words.push("a shared image".to_owned()),
+        (Some(v), Some(c)) if v < c => words.push("a shared camera".to_owned()),
+        (Some(_), Some(_)) => words.push("a shared point".to_owned()),
+        (None, _) => {}
+    }
+    match (how.pairs.len(), cameras) {
+        (0, _) => {}
+        (1, None) => words.push("one pair".to_owned()),
+        (n, None) => words.push(format!("{n} pairs of different images")),
+        (n, Some(_)) => words.push(counted(n, "observation")),
+    }
+    let through = how.through.iter();
+    let points = cameras.map_or(0, |c| through.filter(|by| by[1] >= c).count());
+    if points > 0 {
+        words.push(counted(points, "track"));
+    }
+    let others = how.through.len() - points;
+    if others > 0 {
+        let thing = if cameras.is_some() { "camera" } else { "image" };
+        words.push(format!("{} with a pair to each", counted(others, thing)));
+    }
+    words.join(" and ")
+}
+
+/// What a joint leaves free.
+pub(super) fn meaning(model: Model, freedom: usize) -> String {
+    match (model, freedom) {
+        (Model::Calibrated, 1) => "relative scale".to_owned(),
+        (Model::Calibrated, 2) => "relative scale and one translation".to_owned(),
+        (Model::Calibrated, 3) => "relative scale and two translations".to_owned(),
+        (Model::Calibrated, _) => format!("{freedom} of 4 degrees of freedom"),
+        (Model::Projective, _) => {
+            format!("{freedom} of the 15 degrees of freedom between two projective frames")
+        }
+    }
+}
+
+/// Why something is weak.
+pub(super) fn why(why: Why, names: &Names) -> String {
+    match why {
+        Why::Hangs(image) => format!("{} would have one pair left", names.of(image)),
+        Why::Decided => "decided without it".to_owned(),
+        Why::Counted((a, b)) => {
+            format!("in the place of {} {} in a count", names.of(a), names.of(b))
+        }
+    }
+}

@@ -1,0 +1,389 @@
+//! What to do about a verdict, through the real binary: joints, weak pairs, suggestions, exports.
+
+mod common;
+
+use common::{Run, cycle, verify, verify_with};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// All pairs of some names, a line each.
+fn complete(names: &[&str]) -> String {
+    let mut text = String::new();
+    for (k, one) in names.iter().enumerate() {
+        for other in &names[k + 1..] {
+            text += &format!("{one} {other}\n");
+        }
+    }
+    text
+}
+
+const WEST: [&str; 6] = ["w0", "w1", "w2", "w3", "w4", "w5"];
+const EAST: [&str; 6] = ["e0", "e1", "e2", "e3", "e4", "e5"];
+
+/// Two groups of six images, and what joins them.
+fn two(more: &str) -> String {
+    complete(&WEST) + &complete(&EAST) + more
+}
+
+fn report(graph: &str, options: &[&str]) -> Value {
+    let run = verify_with(graph.as_bytes(), &[&["-", "--json"], options].concat());
+    assert!(run.code <= 1, "{}", run.err);
+    run.json().remove(0)
+}
+
+fn text(graph: &str, options: &[&str]) -> String {
+    let run = verify_with(graph.as_bytes(), &[&["-"], options].concat());
+    assert!(run.code <= 1, "{}", run.err);
+    run.out
+}
+
+fn refused(run: &Run, why: &str) {
+    assert_eq!(run.code, 2, "{}{}", run.out, run.err);
+    assert!(run.err.contains(why), "{}", run.err);
+}
+
+/// Frames differ by 15 degrees of freedom, places and sizes by 4; one pair takes 7, or 2.
+#[test]
+fn joints_say_how_and_what_is_free() {
+    let graph = two("w0 e0\n");
+    let line = report(&graph, &[]);
+    let joint = json!({
+        "between": [1, 2],
+        "how": "one pair",
+        "images": ["e0", "w0"],
+        "pairs": line["joints"][0]["pairs"],
+        "through": [],
+        "crossing": 1,
+        "inliers": null,
+        "freedom": 8,
+        "meaning": "8 of the 15 degrees of freedom between two projective frames",
+        "strength": "proof",
+    });
+    assert_eq!(line["joints"], json!([joint]));
+    assert_eq!(line["joints_complete"], true);
+    let out = text(&graph, &["--model", "calibrated"]);
+    let expected = "components 1 and 2: one pair, e0 w0; free: relative scale and one translation";
+    assert!(out.contains(expected), "{out}");
+    // A shared image; and an image that both groups see once.
+    let out = text(&two("w0 e0\nw0 e1\n"), &["--model", "calibrated"]);
+    assert!(
+        out.contains("a shared image, w0; free: relative scale\n"),
+        "{out}"
+    );
+    let out = text(&two("w0 x\nx e0\n"), &["--model", "calibrated"]);
+    let expected = "1 image with a pair to each, e0, w0, x; free: relative scale and two trans";
+    assert!(out.contains(expected), "{out}");
+    let out = text(&two("w0 e0\nw1 e1\n"), &[]);
+    assert!(out.contains("2 pairs of different images"), "{out}");
+    assert!(out.contains("free: 1 of the 15"), "{out}");
+}
+
+#[test]
+fn what_is_whole_has_no_joints() {
+    assert_eq!(report(&complete(&WEST), &[])["joints"], json!([]));
+    assert!(!text(&complete(&WEST), &[]).contains("joints"));
+    // Pairs that touch are joints for programs only.
+    assert_eq!(
+        report(&cycle(4), &[])["joints"].as_array().unwrap().len(),
+        4
+    );
+    assert!(!text(&cycle(4), &[]).contains("joints"));
+}
+
+fn weak(line: &Value) -> BTreeSet<Vec<String>> {
+    let items = line["weak"]["items"].as_array().unwrap().iter();
+    let names = |item: &Value| serde_json::from_value(item["images"].clone()).unwrap();
+    items.map(names).collect()
+}
+
+/// Three pairs of different images take 21 of 15 degrees of freedom; two leave one.
+#[test]
+fn the_pairs_of_a_joint_are_weak() {
+    let joint = [["e0", "w0"], ["e1", "w1"], ["e2", "w2"]];
+    let graph = two("w0 e0\nw1 e1\nw2 e2\n");
+    let line = report(&graph, &["--weak"]);
+    assert_eq!(line["verdict"], "finite-solvable");
+    let expected: BTreeSet<Vec<String>> = joint
+        .iter()
+        .map(|pair| pair.map(str::to_owned).to_vec())
+        .collect();
+    assert_eq!(weak(&line), expected);
+    let images = weak(&report(&graph, &["--weak=images"]));
+    let expected: BTreeSet<Vec<String>> = joint
+        .iter()
+        .flatten()
+        .map(|image| vec![image.to_string()])
+        .collect();
+    assert_eq!(images, expected);
+    // A fourth pair, and none is needed.
+    let graph = graph + "w3 e3\n";
+    assert_eq!(weak(&report(&graph, &["--weak"])), BTreeSet::new());
+    assert!(text(&graph, &["--weak"]).contains("weak        none found"));
+    // A pair on each side of an image that hangs on two.
+    let line = report(&(complete(&WEST) + "x w0\nx w1\nw5 y\n"), &["--weak"]);
+    let names: Vec<Vec<String>> = weak(&line).into_iter().collect();
+    assert_eq!(names, [["w0", "x"], ["w1", "x"]]);
+    assert_eq!(line["weak"]["single_pairs"], 1);
+}
+
+/// What is suggested is matched, and decided.
+#[test]
+fn suggestions_join_what_they_say() {
+    for (model, counts) in [("projective", [3, 2, 1]), ("calibrated", [2, 1, 0])] {
+        for (more, count) in ["", "w0 e0\n", "w0 e0\nw1 e1\n"].into_iter().zip(counts) {
+            let mut graph = two(more);
+            let line = report(&graph, &["--suggest", "--model", model]);
+            let Some(best) = line["suggestions"].get(0) else {
+                assert_eq!(count, 0);
+                continue;
+            };
+            assert_eq!(best["pairs"].as_array().unwrap().len(), count, "{best}");
+            assert_eq!((&best["images"], &best["gain"]), (&json!(12), &json!(6)));
+            for pair in best["pairs"].as_array().unwrap() {
+                let [one, other] = [0, 1].map(|k| pair[k].as_str().unwrap());
+                graph += &format!("{one} {other}\n");
+            }
+            let line = report(&graph, &["--model", model]);
+            assert_eq!(line["components"].as_array().unwrap().len(), 1);
+        }
+    }
+    let out = text(&two("w0 e0\n"), &["--suggest=1"]);
+    assert!(
+        out.contains("enough, perhaps not the fewest): joins components 1, 2"),
+        "{out}"
+    );
+}
+
+#[test]
+fn an_image_is_explained() {
+    let graph = two("w0 e0\nw0 e1\nw3 x\n");
+    let line = report(&graph, &["--explain", "x"]);
+    let explain = &line["explain"];
+    assert_eq!(explain["components"], json!([]));
+    assert_eq!(explain["pairs_outside"][0]["image"], "w3");
+    // A second pair with the group of w3 would do.
+    let pairs = explain["suggestions"][0]["pairs"].as_array().unwrap();
+    assert_eq!(pairs.len(), 1);
+    assert!(pairs[0].as_array().unwrap().contains(&json!("x")));
+    let out = text(&graph, &["--explain", "w0"]);
+    assert!(
+        out.contains("image       w0 is in components 1, 2, which it hinges"),
+        "{out}"
+    );
+    assert!(out.contains("7 pairs inside"), "{out}");
+    let run = verify_with(graph.as_bytes(), &["-", "--explain", "w9"]);
+    refused(&run, "--explain w9: no image has this name");
+}
+
+/// The same seed gives the same; another one is named.
+#[test]
+fn margins_are_repeatable_experiments() {
+    let graph = two("w0 e0\n");
+    let options = ["--margin=20", "--seed", "5"];
+    let [one, again] = [0, 1].map(|_| report(&graph, &options)["margin"].clone());
+    assert_eq!(one, again);
+    assert_eq!(
+        (&one["draws"], &one["seed"], &one["of"]),
+        (&json!(20), &json!(5), &json!("pairs"))
+    );
+    let whole = one["components"][0]["whole"].as_array().unwrap();
+    // Six images are not held together by one pair in twenty.
+    assert_eq!(whole[4], 0);
+    assert!(whole[0].as_u64() > Some(0));
+    let out = text(&graph, &["--margin"]);
+    assert!(
+        out.contains("A random experiment (seed 1), not a proof"),
+        "{out}"
+    );
+}
+
+#[test]
+fn a_sweep_needs_inliers() {
+    let run = verify_with(two("").as_bytes(), &["-", "--sweep", "10,20"]);
+    refused(&run, "only a COLMAP database has");
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Names in a folder.
+fn entries(folder: &Path) -> BTreeSet<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect()
+}
+
+#[test]
+fn components_are_exported() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, out] = ["graph.txt", "out"].map(|name| folder.path().join(name));
+    std::fs::write(
+        &graph,
+        complete(&WEST) + &complete(&["w0", "n1", "n2"]) + "w5 x\n",
+    )
+    .unwrap();
+    let [graph, to] = [&graph, &out].map(|path| path.to_str().unwrap());
+    let run = verify(&[graph, "--export", to]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(
+        run.out.contains("exported    2 components to"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out.contains("1 image in several components: w0"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out.contains("1 image in no component that is exported"),
+        "{}",
+        run.out
+    );
+    let list = format!("--Mapper.image_list_path {to}/components/001/images.txt");
+    assert!(run.out.contains(&list), "{}", run.out);
+    let names = |names: &[&str]| -> BTreeSet<String> {
+        names.iter().map(|name| name.to_string()).collect()
+    };
+    let tables = ["components", "components.tsv", "images.tsv", "joints.tsv"];
+    assert_eq!(entries(&out), names(&tables));
+    assert_eq!(entries(&out.join("components")), names(&["001", "002"]));
+    assert_eq!(
+        read(&out.join("components/001/images.txt")),
+        WEST.join("\n") + "\n"
+    );
+    assert_eq!(read(&out.join("components/002/images.txt")), "n1\nn2\nw0\n");
+    assert_eq!(
+        read(&out.join("components/002/pairs.txt")),
+        "n1 n2\nn1 w0\nn2 w0\n"
+    );
+    assert_eq!(
+        read(&out.join("components/001/pairs.txt")).lines().count(),
+        15
+    );
+    assert_eq!(
+        read(&out.join("components.tsv")),
+        "component\timages\tpoints\tpairs\tfolder\n\
+         1\t6\t0\t15\tcomponents/001\n\
+         2\t3\t0\t3\tcomponents/002\n\
+         3\t2\t0\t1\t\n"
+    );
+    let images = read(&out.join("images.tsv"));
+    assert!(images.contains("\nw0\t7\t1,2\t0\n"), "{images}");
+    assert!(images.contains("\nw5\t6\t1\t1\n"), "{images}");
+    assert!(images.contains("\nx\t1\t\t1\n"), "{images}");
+    assert_eq!(
+        read(&out.join("joints.tsv")).lines().nth(1),
+        Some("1\t2\ta shared image\tw0\t0\t\t4")
+    );
+    // An earlier export is replaced, and nothing is left beside it.
+    std::fs::write(graph, complete(&EAST)).unwrap();
+    let run = verify(&[graph, "--export", to, "--json"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(run.json()[0]["export"]["components"], 1);
+    assert_eq!(entries(&out.join("components")), names(&["001"]));
+    assert_eq!(
+        read(&out.join("components/001/images.txt")),
+        EAST.join("\n") + "\n"
+    );
+    assert_eq!(entries(folder.path()), names(&["graph.txt", "out"]));
+}
+
+#[test]
+fn nothing_of_others_is_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, out] = ["graph.txt", "out"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, complete(&WEST)).unwrap();
+    let [graph, to] = [&graph, &out].map(|path| path.to_str().unwrap());
+    refused(&verify(&[graph, "--export", graph]), "this is not a folder");
+    assert_eq!(verify(&[graph, "--export", to]).code, 0);
+    // Somebody's model, in a folder of an export, and a folder that was never one.
+    let model = out.join("components/001/sparse");
+    std::fs::create_dir(&model).unwrap();
+    refused(
+        &verify(&[graph, "--export", to]),
+        "which no export has written",
+    );
+    assert!(model.is_dir());
+    let other = folder.path().join("other");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::write(other.join("components.tsv"), "mine\n").unwrap();
+    refused(
+        &verify(&[graph, "--export", other.to_str().unwrap()]),
+        "name another folder",
+    );
+    assert_eq!(read(&other.join("components.tsv")), "mine\n");
+    // An empty folder is in nobody's way.
+    std::fs::remove_file(other.join("components.tsv")).unwrap();
+    assert_eq!(
+        verify(&[graph, "--export", other.to_str().unwrap()]).code,
+        0
+    );
+    assert!(other.join("components/001/pairs.txt").is_file());
+}
+
+#[test]
+fn one_graph_goes_to_one_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let to = out.to_str().unwrap();
+    let run = verify(&["examples/house.txt", "examples/psi.txt", "--export", to]);
+    refused(&run, "there are several");
+    assert!(!out.exists());
+    let run = verify(&["examples/minimal.g6", "--export", to]);
+    refused(&run, "there are several");
+}
+
+#[test]
+fn names_that_a_list_cannot_hold_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let graph = "\"IMG 1.jpg\" a\na b\nb \"IMG 1.jpg\"\n\"#2.jpg\" a\n\"#2.jpg\" b\n";
+    let run = verify_with(graph.as_bytes(), &["-", "--export", out.to_str().unwrap()]);
+    refused(&run, "cannot hold the names \"#2.jpg\", \"IMG 1.jpg\"");
+    assert!(!out.exists());
+    assert_eq!(entries(folder.path()), BTreeSet::new());
+}
+
+/// Hloc's Aachen day-night set in size: 4,328 images, 56,717 pairs, in clusters.
+#[test]
+fn a_large_list_is_exported_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let (images, pairs) = (4328u64, 56_717);
+    let mut all = BTreeSet::new();
+    let mut state = 1u64;
+    while all.len() < pairs {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let one = (state >> 33) % images;
+        let other = one / 400 * 400 + (state >> 13) % 400;
+        if one != other && other < images {
+            all.insert((one.min(other), one.max(other)));
+        }
+    }
+    let text: String = all
+        .iter()
+        .map(|(a, b)| format!("db/{a:04}.jpg db/{b:04}.jpg\n"))
+        .collect();
+    let graph = folder.path().join("pairs.txt");
+    std::fs::write(&graph, text).unwrap();
+    let run = verify(&[graph.to_str().unwrap(), "--export", out.to_str().unwrap()]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    // Eleven clusters, which share nothing.
+    let parts = entries(&out.join("components"));
+    assert_eq!(parts.len(), 11);
+    let lines = |name: &str| -> usize {
+        let lines = |part: &String| {
+            read(&out.join("components").join(part).join(name))
+                .lines()
+                .count()
+        };
+        parts.iter().map(lines).sum()
+    };
+    assert_eq!((lines("images.txt"), lines("pairs.txt")), (4328, pairs));
+}
