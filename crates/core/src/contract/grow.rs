@@ -5,14 +5,19 @@ use crate::graph::Adjacency;
 
 const NONE: u32 = u32::MAX;
 
-/// What the growth knows of every node, for the body at hand.
-pub(super) struct Growth {
-    /// The body at hand that the node has joined last.
-    joined: Vec<u32>,
-    /// The body at hand that has reached the node by one edge last...
-    reached: Vec<u32>,
-    /// ... and the node it was reached from.
-    reached_from: Vec<u32>,
+/// What the growth knows of every node, for the body at hand. All of it side by side: the
+/// neighbours of a node are anywhere in memory.
+pub(super) struct Growth(Vec<Visit>);
+
+#[derive(Clone, Copy)]
+struct Visit {
+    /// Twice the number of the last body whose edges have come to the node, and one more if the
+    /// node joined it.
+    stamp: u32,
+    /// The node of that body that the first of these edges came from.
+    from: u32,
+    /// How many they are.
+    edges: u32,
 }
 
 /// Grows bodies until the remaining edges contain no triangle, and removes the
@@ -98,11 +103,12 @@ pub(super) struct Grown {
 
 impl Growth {
     pub(super) fn new(nodes: usize) -> Self {
-        Self {
-            joined: vec![NONE; nodes],
-            reached: vec![NONE; nodes],
-            reached_from: vec![0; nodes],
-        }
+        let never = Visit {
+            stamp: NONE,
+            from: NONE,
+            edges: 0,
+        };
+        Self(vec![never; nodes])
     }
 
     /// Body number `k`, grown from the edge v-w.
@@ -135,9 +141,14 @@ impl Growth {
     ) -> Grown {
         let is_marked = |v: u32| marked.is_some_and(|marked| marked.node == v);
         let seen_by_marked = |x: u32| marked.filter(|marked| marked.sees(x));
+        let (reached, joined) = (2 * k, 2 * k + 1);
         let mut add = Vec::new();
         for &v in &nodes {
-            self.joined[v as usize] = k;
+            self.0[v as usize] = Visit {
+                stamp: joined,
+                from: NONE,
+                edges: u32::from(seen_by_marked(v).is_some()),
+            };
         }
         let mut next = 0;
         while let Some(&u) = nodes.get(next) {
@@ -146,31 +157,44 @@ impl Growth {
                 continue;
             }
             for &x in remaining.neighbours(u) {
-                let x_at = x as usize;
-                if self.joined[x_at] == k {
-                    continue;
-                }
-                let first = match seen_by_marked(x) {
-                    Some(marked) => Some(marked.node),
-                    None => (self.reached[x_at] == k).then(|| self.reached_from[x_at]),
-                };
-                if let Some(first) = first {
-                    self.joined[x_at] = k;
+                let visit = &mut self.0[x as usize];
+                if visit.stamp == joined {
+                    visit.edges += 1;
+                } else if visit.stamp == reached {
+                    visit.stamp = joined;
+                    visit.edges += 1;
                     nodes.push(x);
-                    add.push([x, first, u]);
+                    add.push([x, visit.from, u]);
+                } else if let Some(marked) = seen_by_marked(x) {
+                    *visit = Visit {
+                        stamp: joined,
+                        from: marked.node,
+                        edges: 2,
+                    };
+                    nodes.push(x);
+                    add.push([x, marked.node, u]);
                 } else {
-                    self.reached[x_at] = k;
-                    self.reached_from[x_at] = u;
+                    *visit = Visit {
+                        stamp: reached,
+                        from: u,
+                        edges: 1,
+                    };
                 }
             }
         }
+        // Every node of the body has been looked through by now, or is the marked one.
         let mut ends = 0;
         for &u in &nodes {
             ends += usize::from(seen_by_marked(u).is_some());
-            if !is_marked(u) {
-                ends += remaining.degree(u);
-                remaining.retain(u, |x| self.joined[x as usize] != k);
-                ends -= remaining.degree(u);
+            if is_marked(u) {
+                continue;
+            }
+            let inside = self.0[u as usize].edges as usize;
+            ends += inside;
+            if inside == remaining.degree(u) {
+                remaining.clear(u);
+            } else {
+                remaining.retain(u, |x| self.0[x as usize].stamp != joined);
             }
         }
         Grown {

@@ -50,6 +50,11 @@ impl Adjacency {
         self.0.retain(node as usize, keep);
     }
 
+    /// Forgets the neighbours of `node`; their lists stay as they are.
+    pub fn clear(&mut self, node: u32) {
+        self.0.clear(node as usize);
+    }
+
     /// Each edge `(i, j)`, `i < j`, that both its ends still list, in increasing order while the
     /// lists are.
     pub fn edges(&self) -> impl Iterator<Item = (u32, u32)> {

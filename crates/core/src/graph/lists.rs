@@ -65,6 +65,11 @@ impl Lists {
         self.len[key] = (kept - start) as u32;
     }
 
+    /// Empties one list.
+    pub fn clear(&mut self, key: usize) {
+        self.len[key] = 0;
+    }
+
     /// Puts other items in the place of a list. O(items).
     ///
     /// # Panics
