@@ -1,5 +1,4 @@
 use super::facts::bins;
-use super::*;
 use crate::{Matching, NamedGraph, OtherPair, ReadError, ReadOptions, read_graphs};
 use rusqlite::Connection;
 use viewcert::graph::Labels;
