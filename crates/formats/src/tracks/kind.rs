@@ -82,7 +82,10 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
         }
         [first, ..] if is_point(first) => colmap(Part::Points),
         [first, ..]
-            if first.len() >= 10 && numbers(&first[..9]) && integers(&[first[0], first[8]]) =>
+            if first.len() >= 10
+                && !numbers(first)
+                && numbers(&first[..9])
+                && integers(&[first[0], first[8]]) =>
         {
             colmap(Part::Images)
         }
