@@ -263,7 +263,7 @@ pub enum Problem {
     Corrupt(String),
     /// A database that gives no graph.
     #[error(transparent)]
-    Database(#[from] DatabaseError),
+    Database(Box<DatabaseError>),
     /// No tracks where they are asked for.
     #[error("no tracks are found in this file")]
     NoTracks,
@@ -442,6 +442,12 @@ impl Problem {
             Self::Within { problem, .. } => problem.is_size(),
             _ => false,
         }
+    }
+}
+
+impl From<DatabaseError> for Problem {
+    fn from(error: DatabaseError) -> Self {
+        Self::Database(Box::new(error))
     }
 }
 

@@ -353,7 +353,10 @@ pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String
 }
 
 /// The images: names in bytewise order, and the node of every number.
-fn images(connection: &Connection) -> Result<(Vec<Box<str>>, HashMap<i64, u32>), DatabaseError> {
+type Images = (Vec<Box<str>>, HashMap<i64, u32>);
+
+/// Reads the table of images.
+fn images(connection: &Connection) -> Result<Images, DatabaseError> {
     let mut statement = connection.prepare("select image_id, name from images")?;
     let mut rows = statement.query([])?;
     let mut images: Vec<(Box<str>, i64)> = Vec::new();

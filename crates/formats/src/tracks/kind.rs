@@ -97,7 +97,7 @@ pub(crate) fn kind(head: &[u8], whole: bool) -> Option<TrackFile> {
 /// pairs of numbers.
 fn is_point(line: &[&[u8]]) -> bool {
     line.len() >= 10
-        && line.len() % 2 == 0
+        && line.len().is_multiple_of(2)
         && line[..8].iter().all(|word| words::is_number(word))
         && words::integer(line[0]).is_some()
         && line[4..7]

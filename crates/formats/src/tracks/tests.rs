@@ -141,9 +141,12 @@ fn binary_files_hold_what_they_promise() {
     assert!(message(&nan).contains("no tracks are found"));
 }
 
+/// An image and a feature of it.
+type Feature = (u32, u32);
+
 /// Tracks by repeated merging of sets, without any thought of speed: sorted lists of (image, feature).
-fn slow(matches: &[((u32, u32), (u32, u32))]) -> Vec<Vec<(u32, u32)>> {
-    let mut sets: Vec<Vec<(u32, u32)>> = Vec::new();
+fn slow(matches: &[(Feature, Feature)]) -> Vec<Vec<Feature>> {
+    let mut sets: Vec<Vec<Feature>> = Vec::new();
     for &(a, b) in matches {
         let (touched, mut rest): (Vec<_>, Vec<_>) = sets
             .into_iter()
