@@ -331,7 +331,7 @@ fn one_graph_goes_to_one_folder() {
     let out = folder.path().join("out");
     let to = out.to_str().unwrap();
     let run = verify(&["examples/house.txt", "examples/psi.txt", "--export", to]);
-    refused(&run, "there are several");
+    refused(&run, "there are 2 graphs");
     assert!(!out.exists());
     let run = verify(&["examples/minimal.g6", "--export", to]);
     refused(&run, "there are several");
