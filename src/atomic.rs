@@ -14,15 +14,16 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
-/// The temporary files and folders that there are. They are made, and take their names, while this is locked.
+/// The temporary files and folders that there are. They are made, and take their names, while this
+/// is locked.
 static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     PENDING.lock().unwrap_or_else(|broken| broken.into_inner())
 }
 
-/// Removes all temporary files and folders: the program is about to end. While the result is kept no file
-/// takes its name any more.
+/// Removes all temporary files and folders: the program is about to end. While the result is kept
+/// no file takes its name any more.
 pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     let mut pending = pending();
     for path in std::mem::take(&mut *pending) {

@@ -64,7 +64,8 @@ enum FormatName {
     /// EGs.txt of 1DSfM, 14 fields a line; cameras are called by their numbers.
     #[value(name = "1dsfm")]
     OneDsfm,
-    /// The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency lists.
+    /// The first field of every line with each of the others: pairs and stars of OpenMVG, adjacency
+    /// lists.
     #[value(alias = "adjacency-list")]
     OpenmvgPairs,
     /// Pose graph of g2o.
@@ -106,11 +107,12 @@ impl TrackArguments {
 }
 
 impl InputArguments {
-    /// Calls `each` for every graph of the files in turn, with the time at which reading it began, and
-    /// flushes after it; a bad graph, or one with which `each` fails, is reported and does not stop the others. Returns the worst exit code.
+    /// Calls `each` for every graph of the files in turn, with the time at which reading it began,
+    /// and flushes after it; a bad graph, or one with which `each` fails, is reported and does not
+    /// stop the others. Returns the worst exit code.
     ///
-    /// Where `too_many` gives a reason, an input with a second graph is refused before `each` has seen
-    /// the first.
+    /// Where `too_many` gives a reason, an input with a second graph is refused before `each` has
+    /// seen the first.
     ///
     /// # Errors
     /// If the output is gone: nobody reads on, and the rest would be work for nothing. If a limit

@@ -238,8 +238,8 @@ fn decide(
     Ok(verdict.value)
 }
 
-/// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns how
-/// many of these there are.
+/// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns
+/// how many of these there are.
 fn write_graph(path: &Path, input: &NamedGraph) -> Result<usize> {
     let graph = &input.graph;
     let mut paired = vec![false; graph.nodes()];

@@ -126,8 +126,9 @@ fn collect_kinds(value: &Value, kinds: &mut std::collections::BTreeSet<String>) 
     }
 }
 
-/// Two circulant graphs with 300 nodes and no triangles, each of rank 11 * 300 - 15 (a small prime is
-/// enough to see it), and two more edges between them: 2 * 3285 + 2 * 7 is one less than 11 * 600 - 15.
+/// Two circulant graphs with 300 nodes and no triangles, each of rank 11 * 300 - 15 (a small prime
+/// is enough to see it), and two more edges between them: 2 * 3285 + 2 * 7 is one less than 11 *
+/// 600 - 15.
 #[test]
 fn large_cores_by_a_small_prime() {
     let circulant = |first: usize| {

@@ -669,8 +669,8 @@ fn a_database_that_is_half_written() {
     assert_eq!(fingerprint(copy.path()), before);
 }
 
-/// Tracks by hand: feature k of every image is point k, except for a slip that makes two features of
-/// a.jpg one point.
+/// Tracks by hand: feature k of every image is point k, except for a slip that makes two features
+/// of a.jpg one point.
 #[test]
 fn tracks_of_a_database() {
     let made = Made::new(

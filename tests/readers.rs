@@ -573,8 +573,9 @@ mod sparse6 {
     }
 }
 
-/// Two programs read edge lists, the prover and the checker, without a line in common. What the first accepts, the second
-/// must read as the same graph (the first refuses more: control characters, graphs without pairs).
+/// Two programs read edge lists, the prover and the checker, without a line in common. What the
+/// first accepts, the second must read as the same graph (the first refuses more: control
+/// characters, graphs without pairs).
 mod two_readers {
     use super::*;
     use proptest::prelude::*;

@@ -126,8 +126,9 @@ fn hub_refutation_by_hand() {
     assert_eq!(line["rank"], 83);
 }
 
-/// The graphs of docs/theory.md, Example 5.10: each is the union of two parts whose ranks are proved, over
-/// a part whose rank is proved as well, and submodularity leaves no more than the rank that is found.
+/// The graphs of docs/theory.md, Example 5.10: each is the union of two parts whose ranks are
+/// proved, over a part whose rank is proved as well, and submodularity leaves no more than the rank
+/// that is found.
 #[test]
 fn three_graphs_refuted_by_parts_that_overlap() {
     let graphs = [

@@ -1,5 +1,6 @@
-//! Any bytes as a certificate, with and without a graph: no panic. A valid certificate, changed by what the bytes say: rejected,
-//! or it verifies the same values about the same graph, for there is one truth about it.
+//! Any bytes as a certificate, with and without a graph: no panic. A valid certificate, changed by
+//! what the bytes say: rejected, or it verifies the same values about the same graph, for there is
+//! one truth about it.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -51,7 +52,8 @@ fuzz_target!(|data: &[u8]| {
     }
     if let Ok(verified) = check(changed.to_string().as_bytes(), Some(graph)) {
         let expected = check(valid.to_string().as_bytes(), None).unwrap();
-        // With another model it is another question, and a proof may take the place of an error bound.
+        // With another model it is another question, and a proof may take the place of an error
+        // bound.
         if verified.model == expected.model {
             assert_eq!(verified.rank.0, expected.rank.0);
             assert_eq!(verified.components.0, expected.components.0);

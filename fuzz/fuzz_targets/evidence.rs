@@ -287,8 +287,8 @@ fn pivots(nodes: usize, pairs: &[[usize; 2]]) -> Vec<(usize, usize)> {
     eliminated(pairs.iter().flat_map(|&pair| block(&cameras, pair)))
 }
 
-/// The rank of the calibrated model at random centres: d x (y_i - y_j) = 0 for each edge, where d is
-/// the difference of its centres.
+/// The rank of the calibrated model at random centres: d x (y_i - y_j) = 0 for each edge, where d
+/// is the difference of its centres.
 fn direction_rank(nodes: usize, pairs: &[[usize; 2]]) -> usize {
     let mut random = residues();
     let centres: Vec<[u128; 3]> = (0..nodes).map(|_| [(); 3].map(|()| random())).collect();
@@ -347,7 +347,8 @@ fn power(base: u128, exponent: u128) -> u128 {
     })
 }
 
-/// The ten rows of an edge: the derivative of S + S^T, S = P_j^T F P_i, by each entry of the cameras.
+/// The ten rows of an edge: the derivative of S + S^T, S = P_j^T F P_i, by each entry of the
+/// cameras.
 fn block(cameras: &[[[u128; 4]; 3]], [i, j]: [usize; 2]) -> Vec<Vec<u128>> {
     let mut f = [[0; 3]; 3];
     for (h, row) in f.iter_mut().enumerate() {

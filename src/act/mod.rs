@@ -1,7 +1,7 @@
 //! What to do about a verdict: options of `verify GRAPH`, and what they find.
 //!
-//! In: a graph as it was read, and its verdict. Out: joints, weak pairs, suggestions and the rest in
-//! the user's names, as JSON has them ([`Acted`]) and as text; folders for COLMAP. The
+//! In: a graph as it was read, and its verdict. Out: joints, weak pairs, suggestions and the rest
+//! in the user's names, as JSON has them ([`Acted`]) and as text; folders for COLMAP. The
 //! mathematics is in the crate viewcert-reconstruction; docs/reconstruction.md describes it all.
 
 mod export;

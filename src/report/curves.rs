@@ -9,8 +9,8 @@ pub struct Picture {
     pub title: String,
     /// The name of the axis.
     pub axis: String,
-    /// The populations, each with its name; zeros, and what rounding makes negative, stand at the left
-    /// edge.
+    /// The populations, each with its name; zeros, and what rounding makes negative, stand at the
+    /// left edge.
     pub populations: [(String, Vec<f64>); 2],
     /// Threshold and the share of wrong members of each population.
     pub errors: Vec<(f64, [f64; 2])>,

@@ -11,7 +11,8 @@ pub(super) const MAGIC: &[u8] = b"\x1f\x8b";
 const LIMIT: u64 = 64 << 30;
 /// So much is inflated whatever it was before.
 const ALWAYS: u64 = 256 << 20;
-/// Beyond [`ALWAYS`], at most this times its size: edge lists are 3 to 20 times as long as their gzip files.
+/// Beyond [`ALWAYS`], at most this times its size: edge lists are 3 to 20 times as long as their
+/// gzip files.
 const RATIO: u64 = 200;
 
 /// A compressed file that is too large, or suspiciously small.

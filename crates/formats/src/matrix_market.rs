@@ -46,9 +46,9 @@ enum Values {
 /// O(bytes + m log m).
 ///
 /// # Errors
-/// With the number of the line: what is not a coordinate matrix, pattern, integer or real, symmetric
-/// or general, square, with a zero diagonal; an entry out of range; NaN. Without: a pattern that is
-/// not symmetric, fewer or more entries than promised.
+/// With the number of the line: what is not a coordinate matrix, pattern, integer or real,
+/// symmetric or general, square, with a zero diagonal; an entry out of range; NaN. Without: a
+/// pattern that is not symmetric, fewer or more entries than promised.
 pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
     let mut input = BufReader::with_capacity(1 << 16, input);
     let mut line = Vec::new();

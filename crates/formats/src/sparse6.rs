@@ -3,8 +3,9 @@
 //! Format by B. D. McKay, `formats.txt` of nauty: a colon, the number of nodes n as in graph6, then
 //! a list of pairs (b, x) of one bit and as many bits as n - 1 has, six bits a character, to which
 //! 63 is added. A node v starts at 0; b = 1 adds one to it; then x > v sets v to x, and any other x
-//! is an edge between x and v. An incremental line begins with a semicolon in the place of the colon
-//! and the number of nodes, and lists the edges in which its graph differs from the previous one.
+//! is an edge between x and v. An incremental line begins with a semicolon in the place of the
+//! colon and the number of nodes, and lists the edges in which its graph differs from the previous
+//! one.
 
 use viewcert::graph::graph6;
 use viewcert::graph::graph6::Graph6Error;

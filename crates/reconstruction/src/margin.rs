@@ -40,8 +40,8 @@ pub struct Margin {
     pub images: usize,
 }
 
-/// Thins the largest parts. In a camera-point graph, of which the first `cameras` nodes are cameras,
-/// points go with all their observations; else pairs go, each by itself.
+/// Thins the largest parts. In a camera-point graph, of which the first `cameras` nodes are
+/// cameras, points go with all their observations; else pairs go, each by itself.
 ///
 /// `draws` decisions of a part for each of five rates.
 ///

@@ -360,7 +360,8 @@ impl Search<'_> {
         Ok((chosen.len() > 1).then_some(chosen))
     }
 
-    /// Pairs between two parts: the known ones with most inliers, then disjoint ones near the joint.
+    /// Pairs between two parts: the known ones with most inliers, then disjoint ones near the
+    /// joint.
     fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, others: &[OtherPair]) -> Vec<Pair> {
         let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
         let between = |(a, b): Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);

@@ -396,8 +396,8 @@ fn is_one_body(contraction: &Contraction, nodes: usize) -> bool {
     contraction.bodies[body as usize].nodes.len() == nodes
 }
 
-/// Those of some nodes, given and returned increasing, without which a graph does not pass a test, with the strength of that; the
-/// test says `None` if a graph holds together.
+/// Those of some nodes, given and returned increasing, without which a graph does not pass a test,
+/// with the strength of that; the test says `None` if a graph holds together.
 ///
 /// Nodes that are pairwise no edges are left out together: if the rest holds together, each of them
 /// is seen from two nodes of it, and so the graph without any one of them holds

@@ -2,9 +2,9 @@
 //!
 //! # What a seed means
 //!
-//! A draw is named by the SHA-256 of the graph and that of the core (32 bytes each), a seed and
-//! a draw number. Its generator is ChaCha with 20 rounds as in RFC 8439, with a 64-bit block counter from
-//! zero and a nonce of zero, under the key
+//! A draw is named by the SHA-256 of the graph and that of the core (32 bytes each), a seed and a
+//! draw number. Its generator is ChaCha with 20 rounds as in RFC 8439, with a 64-bit block counter
+//! from zero and a nonce of zero, under the key
 //!
 //! ```text
 //! SHA-256( "viewcert draw 2\n" || graph hash || core hash || seed, 8 bytes || draw number, 8 bytes )
@@ -306,9 +306,9 @@ mod tests {
     use super::*;
     use crate::linalg::prime::DEFAULT_PRIME;
 
-    /// The hashes of the golden vectors: bytes 0, 1, .., 31 and 32, 33, .., 63. All expected values were
-    /// computed by a separate program with its own ChaCha20, itself checked against the
-    /// first test vector of RFC 8439, appendix A.1.
+    /// The hashes of the golden vectors: bytes 0, 1, .., 31 and 32, 33, .., 63. All expected values
+    /// were computed by a separate program with its own ChaCha20, itself checked against the first
+    /// test vector of RFC 8439, appendix A.1.
     fn key(seed: u64, draw: u64) -> DrawKey {
         DrawKey {
             graph_sha256: std::array::from_fn(|k| k as u8),

@@ -81,8 +81,8 @@ fn right_side(field: &PrimeField, a: &[u64; 3], cj: &[u64; 3]) -> [u64; 4] {
     [x, y, z, dot]
 }
 
-/// The edges outside a spanning forest, ascending, which hold the rank of Lambda (Lemma 3.4): an edge is in the forest if it joins
-/// parts that the edges before it do not.
+/// The edges outside a spanning forest, ascending, which hold the rank of Lambda (Lemma 3.4): an
+/// edge is in the forest if it joins parts that the edges before it do not.
 pub fn cotree(graph: &Graph) -> Vec<usize> {
     let mut forest = UnionFind::new(graph.nodes());
     (0..)
@@ -377,9 +377,9 @@ impl<'a> PlaneFlows<'a> {
         }
     }
 
-    /// A random element of ker J_P (Lemma 3.1, Proposition 6.6), uniform modulo the scales of the cameras; `None` if the
-    /// flows of `lambda` do not span all flows, which is unlikely but modulo a small prime.
-    /// `random` gives uniform elements of the field.
+    /// A random element of ker J_P (Lemma 3.1, Proposition 6.6), uniform modulo the scales of the
+    /// cameras; `None` if the flows of `lambda` do not span all flows, which is unlikely but modulo
+    /// a small prime. `random` gives uniform elements of the field.
     pub(crate) fn motion(
         &self,
         lambda: &Lambda,
@@ -464,8 +464,8 @@ impl<'a> PlaneFlows<'a> {
         x
     }
 
-    /// A random element of ker N (the calibrated model, Theorem 6.8), with the scale and translation
-    /// (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
+    /// A random element of ker N (the calibrated model, Theorem 6.8), with the scale and
+    /// translation (s_e, t_e) of every edge: y_i = s_e c_i + t_e, y_j = s_e c_j + t_e.
     pub(crate) fn calibrated_motion(
         &self,
         mut random: impl FnMut() -> u64,

@@ -398,8 +398,8 @@ mod tests {
 
     /// The largest prime below 2^62.
     const LARGEST: u64 = 4_611_686_018_427_387_847;
-    /// Limits of the arithmetic: the smallest moduli, both sides of 2^29, both sides of the change of
-    /// accumulator length at 2^61, and the largest modulus.
+    /// Limits of the arithmetic: the smallest moduli, both sides of 2^29, both sides of the change
+    /// of accumulator length at 2^61, and the largest modulus.
     const MODULI: [u64; 8] = [
         5,
         7,

@@ -2,10 +2,10 @@
 //!
 //! SQLite's ways to read a database are these. A database with a rollback journal is read as it is:
 //! read-only connections take locks, and write nothing. A database in WAL mode whose `-wal` file is
-//! empty or missing holds all its data itself; as `immutable` it is read without its companions, and
-//! that nobody has written meanwhile is checked at the end. If there is data in the `-wal` file, a
-//! `-shm` file beside it belongs to a program that has the database open: it is used and not
-//! written to. If there is none, SQLite would make one; so a temporary copy is read.
+//! empty or missing holds all its data itself; as `immutable` it is read without its companions,
+//! and that nobody has written meanwhile is checked at the end. If there is data in the `-wal`
+//! file, a `-shm` file beside it belongs to a program that has the database open: it is used and
+//! not written to. If there is none, SQLite would make one; so a temporary copy is read.
 
 use std::fs::{self, File};
 use std::io::Read;

@@ -154,9 +154,9 @@ pub(super) fn read_noting(
         .map_err(|problem| Place::Variable(name).fault(problem))
 }
 
-/// The non-zero entries `(row, column, value)` of a numeric variable of any
-/// shape in a file of version 5, column by column; rows and columns count from 0, and integers beyond
-/// 2^53 are rounded. O(bytes).
+/// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
+/// version 5, column by column; rows and columns count from 0, and integers beyond 2^53 are
+/// rounded. O(bytes).
 ///
 /// # Errors
 /// As [`read`], but for what makes a matrix an adjacency.

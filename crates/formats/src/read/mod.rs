@@ -143,8 +143,8 @@ type Input = Box<dyn Read>;
 /// sparse6, else one. Nothing is read before the first item is asked for. What gzip has
 /// compressed is inflated.
 ///
-/// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or the options
-/// say that it is such a file; every other error ends the stream.
+/// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or
+/// the options say that it is such a file; every other error ends the stream.
 pub fn read_graphs(path: impl AsRef<Path>, options: &ReadOptions) -> Graphs {
     let (path, options) = (path.as_ref().to_owned(), options.clone());
     let name = path.display().to_string();

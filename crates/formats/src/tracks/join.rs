@@ -60,8 +60,8 @@ impl Joined {
         Ok(())
     }
 
-    /// Gives all tracks to a graph whose node `nodes[image]` is the camera of `image`; tracks in the
-    /// order of their first features, by node and feature. Linear in the features.
+    /// Gives all tracks to a graph whose node `nodes[image]` is the camera of `image`; tracks in
+    /// the order of their first features, by node and feature. Linear in the features.
     ///
     /// # Errors
     /// As of [`TrackGraph::push`].

@@ -3,8 +3,8 @@
 //! In: COLMAP's models, Bundler's `bundle.out`, BAL, NVM, OpenMVG's matches, or the matches of a
 //! database ([`colmap`](crate::colmap)). Out: the camera-point graph (docs/theory.md, section 12):
 //! nodes are the cameras and behind them the points, edges the observations of every track that
-//! counts, and a summary of those that do not ([`TrackFacts`]). Which of the files it is, is told by
-//! its content (`kind`).
+//! counts, and a summary of those that do not ([`TrackFacts`]). Which of the files it is, is told
+//! by its content (`kind`).
 
 mod bal;
 mod bundler;

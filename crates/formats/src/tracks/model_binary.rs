@@ -1,10 +1,10 @@
 //! COLMAP's models in binary files: little endian, without a magic number.
 //!
-//! Each begins with the number of its records (64 bits). A point: number (64), position (3 doubles),
-//! colour (3 bytes), error (double), length of the track (64), and of each view image and feature
-//! (32 each). An image: number (32), rotation (4 doubles), translation (3), camera (32), name with a
-//! zero byte at the end, number of features (64), of each position (2 doubles) and point (64). A camera:
-//! number (32), model (32), width and height (64 each), parameters (doubles).
+//! Each begins with the number of its records (64 bits). A point: number (64), position (3
+//! doubles), colour (3 bytes), error (double), length of the track (64), and of each view image and
+//! feature (32 each). An image: number (32), rotation (4 doubles), translation (3), camera (32),
+//! name with a zero byte at the end, number of features (64), of each position (2 doubles) and
+//! point (64). A camera: number (32), model (32), width and height (64 each), parameters (doubles).
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
 

@@ -1,8 +1,8 @@
 //! COLMAP's models as text.
 //!
 //! A line of points3D.txt: number, position (3), colour (3), error, and of each view image and
-//! feature. Two lines for every image in images.txt: number, rotation (4), translation (3), camera and
-//! name; then its features, which may be an empty line.
+//! feature. Two lines for every image in images.txt: number, rotation (4), translation (3), camera
+//! and name; then its features, which may be an empty line.
 
 use std::io::Read;
 

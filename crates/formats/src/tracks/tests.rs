@@ -144,7 +144,8 @@ fn binary_files_hold_what_they_promise() {
 /// An image and a feature of it.
 type Feature = (u32, u32);
 
-/// Tracks by repeated merging of sets, without any thought of speed: sorted lists of (image, feature).
+/// Tracks by repeated merging of sets, without any thought of speed: sorted lists of (image,
+/// feature).
 fn slow(matches: &[(Feature, Feature)]) -> Vec<Vec<Feature>> {
     let mut sets: Vec<Vec<Feature>> = Vec::new();
     for &(a, b) in matches {

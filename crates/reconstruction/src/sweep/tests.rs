@@ -3,7 +3,8 @@ use crate::OtherPair;
 use crate::samples::options;
 use viewcert::Model;
 
-/// A triangle of strong pairs, a second of weaker ones at its image 2, and pairs that were not used.
+/// A triangle of strong pairs, a second of weaker ones at its image 2, and pairs that were not
+/// used.
 #[test]
 fn components_by_threshold() {
     let graph = Graph::new(6, [(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)]).unwrap();

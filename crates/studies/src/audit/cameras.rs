@@ -45,7 +45,7 @@ pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
 }
 
 /// The fundamental matrix of
-/// [`jacobian::fundamental`](viewcert::geometry::jacobian::fundamental), scaled to norm 10.
+/// [`jacobian::fundamental`], scaled to norm 10.
 pub fn fundamental(p_i: &Camera, p_j: &Camera) -> [[f64; 3]; 3] {
     let mut f = jacobian::fundamental(&Doubles, p_i, p_j);
     normalise(&mut f);

@@ -126,8 +126,8 @@ fn is_known(column: &str) -> bool {
         .any(|prefix| column.starts_with(prefix))
 }
 
-/// Reads a table (see the module): JSON if it begins with `[` or `{`, comma-separated values with a head
-/// otherwise (cells may stand in double quotes, which are doubled within). Columns named in
+/// Reads a table (see the module): JSON if it begins with `[` or `{`, comma-separated values with a
+/// head otherwise (cells may stand in double quotes, which are doubled within). Columns named in
 /// `ignored` are left out.
 ///
 /// # Errors

@@ -13,8 +13,8 @@ use viewcert::graph::{Graph, sha256};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::rational::{Rational, Rationals};
 
-/// Largest matrix that is eliminated modulo p unless asked otherwise, rows times columns: a minute or
-/// two for all together, and 1 GiB for the dense part that sparse elimination may end in.
+/// Largest matrix that is eliminated modulo p unless asked otherwise, rows times columns: a minute
+/// or two for all together, and 1 GiB for the dense part that sparse elimination may end in.
 pub const MAX_RESIDUES: usize = 1 << 27;
 
 /// Largest matrix that is eliminated over Q unless asked otherwise, rows times columns: seconds for

@@ -123,8 +123,8 @@ impl Integer {
         Self(backend::gcd(&self.0, &other.0))
     }
 
-    /// The greatest common divisor of all, never negative; 0 of none. Stops at one: the greatest common
-    /// divisor of one and a long number takes long.
+    /// The greatest common divisor of all, never negative; 0 of none. Stops at one: the greatest
+    /// common divisor of one and a long number takes long.
     pub fn content<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut gcd = Self::zero();
         for x in all {
