@@ -124,7 +124,7 @@ fn weak(out: &mut impl Write, found: &Weak) -> io::Result<()> {
         let pairs = counted(found.single_pairs, "pair");
         writeln!(
             out,
-            "    not counted: {pairs} that are components by themselves"
+            "    not looked at: {pairs} outside of the larger components"
         )?;
     }
     Ok(())
