@@ -259,7 +259,7 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
     let mut next = Vec::new();
     // These are about one graph, and a path may hold several.
     let single = found.name == path.display().to_string();
-    if single {
+    if single && found.has_parts() {
         next.push(command(
             &decided,
             " --export DIR",

@@ -80,6 +80,8 @@ impl Wanted {
 pub struct Parts {
     /// Whether one component has all images that are wanted.
     pub whole: bool,
+    /// With how many images a component is a part.
+    least: usize,
     /// The images of each, falling.
     images: Vec<Vec<u32>>,
     /// Pairs that are components by themselves.
@@ -115,6 +117,7 @@ impl Parts {
         let outside = wanted.0.iter().filter(|v| inside.binary_search(v).is_err());
         Self {
             whole,
+            least,
             outside: outside.count(),
             images,
             single_pairs: pairs,
@@ -129,7 +132,7 @@ impl Parts {
             shown.push(format!("{} more", self.images.len() - SHOWN));
         }
         let mut words = match self.images.len() {
-            0 => "no part larger than a pair".to_owned(),
+            0 => format!("no part of {} images or more", self.least),
             count => format!("{} ({} images)", counted(count, "part"), shown.join(", ")),
         };
         if self.single_pairs > 0 {
@@ -167,6 +170,12 @@ impl Overview<'_> {
         parts.is_some_and(|parts| parts.whole)
     }
 
+    /// Whether there is a part at all in what decides.
+    pub fn has_parts(&self) -> bool {
+        let parts = self.by_tracks().or_else(|| self.averaging());
+        parts.is_some_and(|parts| !parts.images.is_empty())
+    }
+
     /// An image that is not in the largest part.
     pub fn outside(&self) -> Option<String> {
         let report = self.decisive()?;
@@ -183,6 +192,9 @@ impl Overview<'_> {
         let averaging = match self.averaging() {
             None => {
                 "of pairwise directions: tracks do not tell; it takes a list of pairs".to_owned()
+            }
+            Some(_) if self.wanted.0.is_empty() => {
+                "of pairwise directions: there are no pairs".into()
             }
             Some(parts) if parts.whole => {
                 format!("of pairwise directions: the pairs determine all {all}")
