@@ -234,7 +234,7 @@ fn samples_are_as_the_facts_say() {
                 .contains(words)
         };
         assert_eq!(said("silently misplaced"), !whole, "{}", screen.out);
-        assert_eq!(said("necessary"), true, "{}", screen.out);
+        assert!(said("necessary"), "{}", screen.out);
         let averages = format!("the pairs determine all {} images", calibrated[0]);
         assert_eq!(said(&averages), calibrated.len() == 1, "{}", screen.out);
         // The groups share one image, or nothing.
