@@ -54,7 +54,7 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Say on one screen what a database's pairs and tracks determine, and what follows for mapping.
+    /// Say on one screen what the pairs and tracks of a database determine, and what follows.
     Overview(overview::OverviewArguments),
     /// Verify a certificate with the independent checker.
     Check(check::CheckArguments),

@@ -1,7 +1,7 @@
 //! `verify overview`: what pairs and tracks determine, on one screen.
 //!
-//! In: a database, or whatever else `verify` reads. Out: the verdicts on its pairs (theory 4) and on
-//! its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
+//! In: a database, or whatever else `verify` reads. Out: the verdicts on its pairs (theory 4) and
+//! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
 //! first; tracks are read again from the same file, since each is a graph of its own.
 
 use super::act::{self, Acted, shell};

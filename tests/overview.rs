@@ -289,7 +289,7 @@ fn a_list_of_pairs_is_judged_by_directions() {
     assert!(run.out.contains("pairs alone do not tell"), "{}", run.out);
 }
 
-/// A problem of bundle adjustment has tracks and no pairs: two cameras that see the same two points.
+/// A problem of bundle adjustment has tracks and no pairs: two cameras that see the same points.
 #[test]
 fn tracks_without_pairs() {
     let folder = tempfile::tempdir().unwrap();

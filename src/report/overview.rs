@@ -164,7 +164,7 @@ impl Overview<'_> {
         Some(Parts::new(calibrated, &self.wanted))
     }
 
-    /// Whether the tracks, or without any the calibrated pairs, determine all images that are wanted.
+    /// Whether the tracks, or without any the calibrated pairs, determine all wanted images.
     pub fn determined(&self) -> bool {
         let parts = self.by_tracks().or_else(|| self.averaging());
         parts.is_some_and(|parts| parts.whole)
