@@ -4,11 +4,11 @@ use super::{GOOD, ends_run, exit_code, running};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::documents::Document;
-use viewcert_formats::{Format, NamedGraph, ReadOptions, TrackOptions, read_graphs};
+use viewcert_formats::{Format, NamedGraph, ReadError, ReadOptions, TrackOptions, read_graphs};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -167,6 +167,25 @@ pub(super) fn for_each<W: Write>(
     out: &mut W,
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
+    let read = |out: &mut W, _: &Path, input: Read, start| each(out, &input?, start);
+    for_each_read(options, paths, too_many, out, read)
+}
+
+/// A graph, or why there is none.
+pub(super) type Read = Result<NamedGraph, ReadError>;
+
+/// The same for callers who know what to do with some of the inputs that give no graph, and want to
+/// know the path.
+///
+/// # Errors
+/// As there.
+pub(super) fn for_each_read<W: Write>(
+    options: &ReadOptions,
+    paths: &[PathBuf],
+    too_many: &dyn Fn(&str) -> Option<String>,
+    out: &mut W,
+    mut each: impl FnMut(&mut W, &Path, Read, Instant) -> Result<u8>,
+) -> Result<u8> {
     let mut code = GOOD;
     for path in paths {
         let mut start = Instant::now();
@@ -182,9 +201,7 @@ pub(super) fn for_each<W: Write>(
             if let Ok(input) = &input {
                 running::doing(format!("working on {}", input.name));
             }
-            let done = input.map_err(Into::into);
-            let done = done.and_then(|input| each(out, &input, start));
-            code = code.max(match done {
+            code = code.max(match each(out, path, input, start) {
                 Ok(code) => code,
                 Err(error) if ends_run(&error) => return Err(error),
                 Err(error) => {

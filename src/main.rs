@@ -13,6 +13,7 @@ mod experiment;
 mod input;
 mod man;
 mod manifest;
+mod overview;
 mod pages;
 mod progress;
 mod report;
@@ -33,7 +34,8 @@ use viewcert_studies::formulation::compare::CompareError;
 /// finite, or infinite, and which maximal parts of it are determined?
 ///
 /// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
-/// compare: all agree; conditions: no necessary one fails), 1 some are not (check:
+/// compare: all agree; conditions: no necessary one fails; overview: all images with a pair are
+/// determined), 1 some are not (check:
 /// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input, 3 too
 /// large for the method or for the limits of time and memory (compare: nothing could be
 /// compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143 terminated. Of several
@@ -52,6 +54,8 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Say on one screen what the pairs and tracks of a database determine, and what follows.
+    Overview(overview::OverviewArguments),
     /// Verify a certificate with the independent checker.
     Check(check::CheckArguments),
     /// Enumerate candidates and decide them all.
@@ -76,6 +80,7 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let done = running::begin(&arguments.limits).and_then(|()| match arguments.command {
+        Some(Command::Overview(arguments)) => overview::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
         Some(Command::Catalog(arguments)) => catalog::run(&arguments),
         Some(Command::Experiment(arguments)) => experiment::run(&arguments),

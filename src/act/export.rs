@@ -325,7 +325,7 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
 }
 
 /// A word for a POSIX shell.
-fn shell(word: &str) -> String {
+pub(crate) fn shell(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

@@ -27,6 +27,13 @@ pub(crate) struct Acted {
     pub(super) export: Option<Export>,
 }
 
+impl Acted {
+    /// Whether no two components touch, as far as joints were looked for.
+    pub(crate) fn has_no_joints(&self) -> bool {
+        self.joints.is_empty() && self.joints_complete
+    }
+}
+
 /// Two components that touch.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Joint {

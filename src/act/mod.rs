@@ -9,7 +9,9 @@ mod found;
 mod text;
 mod words;
 
+pub(super) use export::shell;
 pub(crate) use found::Acted;
+pub(crate) use text::joints as write_joints;
 pub(super) use text::write;
 
 use super::running;
@@ -108,22 +110,8 @@ impl ActArguments {
 
     /// Does what is asked for; joints are always looked for.
     pub(super) fn act(&self, input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
-        let options = Options::default()
-            .model(verdict.model)
-            .seed(seed)
-            .watch(running::watch());
         let others: Vec<OtherPair> = input.matching.iter().flat_map(others).collect();
-        let task = Task {
-            input,
-            verdict,
-            parts: Parts::new(&input.graph, verdict),
-            known: Known {
-                inliers: input.matching.as_ref().map_or(&[], |known| &known.inliers),
-                others: &others,
-            },
-            names: Names::new(input),
-            options,
-        };
+        let task = Task::new(input, verdict, &others, seed);
         let (mut acted, joints) = task.joints()?;
         if let Some(what) = self.weak {
             acted.weak = Some(task.weak(what)?);
@@ -147,6 +135,14 @@ impl ActArguments {
     }
 }
 
+/// The joints alone.
+///
+/// # Errors
+/// Those of a decision.
+pub(super) fn joints(input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
+    Ok(Task::new(input, verdict, &[], seed).joints()?.0)
+}
+
 fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item = OtherPair> + '_ {
     known.others.iter().map(|pair| OtherPair {
         images: pair.images,
@@ -165,7 +161,29 @@ struct Task<'a> {
     options: Options,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    fn new(
+        input: &'a NamedGraph,
+        verdict: &'a Verdict,
+        others: &'a [OtherPair],
+        seed: u64,
+    ) -> Self {
+        Self {
+            input,
+            verdict,
+            parts: Parts::new(&input.graph, verdict),
+            known: Known {
+                inliers: input.matching.as_ref().map_or(&[], |known| &known.inliers),
+                others,
+            },
+            names: Names::new(input),
+            options: Options::default()
+                .model(verdict.model)
+                .seed(seed)
+                .watch(running::watch()),
+        }
+    }
+
     /// The joints, in the user's names and as they were found.
     fn joints(&self) -> Result<(Acted, Vec<reconstruction::Joint>)> {
         let graph = &self.input.graph;

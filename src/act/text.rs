@@ -49,7 +49,11 @@ fn some(count: usize, what: &str) -> String {
     }
 }
 
-fn joints(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
+/// Writes the joints.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn joints(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
     if acted.joints.is_empty() || acted.single_pairs_only {
         return Ok(());
     }

@@ -41,8 +41,9 @@ struct GraphLine<'a> {
     sha256: String,
 }
 
+/// A component, in numbers.
 #[derive(Serialize)]
-struct ComponentLine {
+pub(super) struct ComponentLine {
     nodes: usize,
     edges: usize,
     /// Of a camera-point graph; the labels are those of the cameras then.
@@ -93,7 +94,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
 
 /// The components; of a camera-point graph with cameras and points, and behind them every camera
 /// that sees no point.
-fn components(report: &Report) -> Vec<ComponentLine> {
+pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
     let labels = |nodes: Vec<u32>| -> Vec<String> {
         let label = |v| report.input.labels.label(v).into_owned();
         nodes.into_iter().map(label).collect()

@@ -10,6 +10,7 @@ pub mod force_layout;
 pub mod graph_picture;
 pub mod json;
 pub mod layout;
+pub mod overview;
 pub mod page;
 pub mod plot;
 pub mod svg;

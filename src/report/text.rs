@@ -36,22 +36,24 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         verdict.required,
         strength(verdict.rank_claim().strength)
     )?;
-    if let Some(cameras) = input.cameras {
-        let strength = strength(verdict.components_claim().strength);
-        tracks::write_components(out, report, cameras, &strength)?;
-    } else {
-        write_components(out, report)?;
-    }
+    write_components(out, report)?;
     writeln!(out, "  time        {}", seconds(report.time.as_micros()))
 }
 
-fn write_components(out: &mut impl Write, report: &Report) -> io::Result<()> {
+/// Writes the components of a verdict.
+///
+/// # Errors
+/// Those of the writer.
+pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
+    let strength = strength(verdict.components_claim().strength);
+    if let Some(cameras) = input.cameras {
+        return tracks::write_components(out, report, cameras, &strength);
+    }
     writeln!(
         out,
-        "  components  {} ({}){}",
+        "  components  {} ({strength}){}",
         verdict.components.len(),
-        strength(verdict.components_claim().strength),
         sizes(verdict)
     )?;
     if report.list_components {
@@ -66,7 +68,8 @@ fn write_components(out: &mut impl Write, report: &Report) -> io::Result<()> {
     Ok(())
 }
 
-fn answer(report: &Report) -> String {
+/// The verdict and how strong it is.
+pub(super) fn answer(report: &Report) -> String {
     let verdict = report.verdict;
     let value = match (verdict.value, verdict.model) {
         (Value::NotFiniteSolvable, _) if report.input.cameras.is_some() => {
@@ -181,7 +184,8 @@ fn sizes(verdict: &Verdict) -> String {
     format!(": {}", text.join(", "))
 }
 
-fn seconds(micros: u128) -> String {
+/// A time for people.
+pub(super) fn seconds(micros: u128) -> String {
     match micros {
         0..10_000 => format!("{}.{} ms", micros / 1000, micros % 1000 / 100),
         10_000..10_000_000 => format!("{} ms", micros / 1000),

@@ -61,16 +61,24 @@ pub fn alone(report: &Report, cameras: u32) -> Vec<u32> {
 /// # Errors
 /// Those of the writer.
 pub fn write(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
+    write_size(out, facts)?;
+    writeln!(
+        out,
+        "  model       calibrated: rotations are known, and an observation is a direction"
+    )
+}
+
+/// Writes what the tracks are.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_size(out: &mut impl Write, facts: &TrackFacts) -> io::Result<()> {
     writeln!(
         out,
         "  tracks      {} in at least {}: {}",
         counted(facts.points, "point"),
         counted(facts.min_views as usize, "image"),
         counted(facts.observations, "observation"),
-    )?;
-    writeln!(
-        out,
-        "  model       calibrated: rotations are known, and an observation is a direction"
     )
 }
 

@@ -412,6 +412,11 @@ impl Problem {
         }
     }
 
+    /// Whether it is refused where pairs are read since it holds tracks.
+    pub fn holds_tracks(&self) -> bool {
+        self.remedy() == TRACKS
+    }
+
     /// Whether a text is refused for its form, which may be that of another format.
     pub(super) fn is_grammar(&self) -> bool {
         matches!(

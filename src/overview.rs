@@ -1,0 +1,303 @@
+//! `verify overview`: what pairs and tracks determine, on one screen.
+//!
+//! In: a database, or whatever else `verify` reads. Out: the verdicts on its pairs (theory 4) and
+//! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
+//! first; tracks are read again from the same file, since each is a graph of its own.
+
+use super::act::{self, Acted, shell};
+use super::input::{self, InputArguments, Read};
+use super::{GOOD, NOT, atomic, running};
+use crate::report::Report;
+use crate::report::overview::{Next, Overview, Wanted};
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use clap::Args;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use viewcert::decide::{Options, decide};
+use viewcert::geometry::model::Model;
+use viewcert::wording::counted;
+use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
+use viewcert_formats::error::Problem;
+use viewcert_formats::{NamedGraph, ReadOptions, TrackOptions, read_graphs};
+
+/// Options of the overview.
+#[derive(Args)]
+pub(super) struct OverviewArguments {
+    /// COLMAP databases, or any other input of `verify`, models and other files of tracks included.
+    #[arg(required = true, value_name = "DATABASE")]
+    inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// In how many images a track has to be seen to count [default: 3, as in global mapping].
+    #[arg(long, value_name = "N")]
+    min_views: Option<u32>,
+    /// Print one JSON object an input.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What an input holds.
+struct Source {
+    /// Its pairs, unless it has tracks alone.
+    pairs: Option<NamedGraph>,
+    /// Its cameras and points, or why there are none.
+    tracks: Result<NamedGraph, String>,
+}
+
+/// Says what every input determines; a bad one is reported and does not stop the others.
+pub(super) fn run(arguments: &OverviewArguments) -> Result<ExitCode> {
+    let mut out = atomic::text(&[]);
+    let each = |out: &mut _, path: &Path, read: Read, start| {
+        let source = source(arguments, path, read)?;
+        overview(arguments, path, &source, start, out)
+    };
+    let options = arguments.input.read_options();
+    let code = input::for_each_read(&options, &arguments.inputs, &|_| None, &mut out, each)?;
+    Ok(ExitCode::from(code))
+}
+
+/// Reads the tracks that belong to what was read.
+fn source(arguments: &OverviewArguments, path: &Path, read: Read) -> Result<Source> {
+    let pairs = match read {
+        Ok(pairs) => pairs,
+        Err(error) if error.problem.holds_tracks() => {
+            ensure!(
+                path != Path::new("-"),
+                "{}: {}; standard input can be read only once: name the file",
+                error.file,
+                error.problem
+            );
+            let tracks = read_tracks(arguments, path)?.map_err(|reason| anyhow!(reason))?;
+            return Ok(Source {
+                pairs: None,
+                tracks: Ok(tracks),
+            });
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let tracks = match &pairs.database {
+        None => Err("this input has pairs alone".to_owned()),
+        Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
+        Some(_) => read_tracks(arguments, path)?,
+    };
+    if let Ok(tracks) = &tracks {
+        ensure!(
+            tracks.database == pairs.database,
+            "{}: the database was written to between the reading of its pairs and of its tracks; try \
+             again when that is done",
+            path.display()
+        );
+    }
+    Ok(Source {
+        pairs: Some(pairs),
+        tracks,
+    })
+}
+
+/// The cameras and points of a file, or why there are none in a database that has pairs.
+fn read_tracks(arguments: &OverviewArguments, path: &Path) -> Result<Result<NamedGraph, String>> {
+    let default = TrackOptions::default();
+    let options = ReadOptions {
+        tracks: Some(TrackOptions {
+            min_views: arguments.min_views.unwrap_or(default.min_views),
+        }),
+        ..arguments.input.read_options()
+    };
+    running::reading(path);
+    let read = read_graphs(path, &options).next();
+    running::hide();
+    match read {
+        None => bail!("{}: no graph", path.display()),
+        Some(Ok(tracks)) => Ok(Ok(tracks)),
+        Some(Err(error)) => match &error.problem {
+            Problem::Database(why) if matches!(**why, DatabaseError::NoLists(_)) => {
+                Ok(Err(why.to_string()))
+            }
+            _ => Err(error.into()),
+        },
+    }
+}
+
+/// Decides everything about one input that has been read since `start`, and reports.
+fn overview(
+    arguments: &OverviewArguments,
+    path: &Path,
+    source: &Source,
+    start: Instant,
+    out: &mut impl Write,
+) -> Result<u8> {
+    let decided = |input: &NamedGraph, model: Model| {
+        let options = Options::default().model(model);
+        let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
+        running::hide();
+        verdict.with_context(|| input.name.clone())
+    };
+    let pairs = source.pairs.as_ref().map(|input| -> Result<_> {
+        let projective = decided(input, Model::Projective)?;
+        Ok((input, [projective, decided(input, Model::Calibrated)?]))
+    });
+    let pairs = pairs.transpose()?;
+    let tracks = source
+        .tracks
+        .as_ref()
+        .ok()
+        .map(|input| -> Result<_> { Ok((input, decided(input, Model::Calibrated)?)) });
+    let tracks = tracks.transpose()?;
+    let (input, verdict) = match (&tracks, &pairs) {
+        (Some((input, verdict)), _) => (*input, verdict),
+        (None, Some((input, [_, calibrated]))) => (*input, calibrated),
+        (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
+    };
+    let joints = act::joints(input, verdict, Options::default().seed);
+    running::hide();
+    let joints = joints.with_context(|| input.name.clone())?;
+    let no_joints = Acted::default();
+    let report = |input, verdict, acted| Report {
+        input,
+        verdict,
+        rational: false,
+        list_components: false,
+        time: Duration::ZERO,
+        acted,
+    };
+    let mut found = Overview {
+        name: &input.name,
+        notes: notes(arguments, source),
+        pairs: pairs
+            .as_ref()
+            .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),
+        tracks: tracks
+            .as_ref()
+            .map(|(input, verdict)| report(*input, verdict, &joints)),
+        no_tracks: source.tracks.as_ref().err().map(String::as_str),
+        joints: &joints,
+        wanted: Wanted::of(source.pairs.as_ref().unwrap_or(input)),
+        next: Vec::new(),
+        time: Duration::ZERO,
+    };
+    found.next = next(arguments, path, &found);
+    found.time = start.elapsed();
+    if arguments.json {
+        found.write_json(out)?;
+    } else {
+        found.write(out)?;
+    }
+    Ok(if found.determined() { GOOD } else { NOT })
+}
+
+/// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
+fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
+    let mut notes = Vec::new();
+    let inputs = source.pairs.iter().chain(&source.tracks);
+    for note in inputs.flat_map(|input| &input.notes) {
+        if !notes.contains(note) {
+            notes.push(note.clone());
+        }
+    }
+    let pairs = source.pairs.as_ref();
+    notes.extend(
+        pairs
+            .and_then(|input| input.database.as_ref())
+            .and_then(|facts| other_mapper(facts)),
+    );
+    if arguments.min_views.is_some() && source.tracks.is_err() {
+        notes.push("--min-views is ignored: there are no tracks".to_owned());
+    }
+    notes
+}
+
+/// What the mapper that was not named does otherwise with some of the pairs.
+fn other_mapper(facts: &DatabaseFacts) -> Option<String> {
+    let others = facts.configs.iter();
+    let others = others.filter(|count| !(2..=6).contains(&count.config));
+    match facts.pipeline {
+        Pipeline::Incremental => match others.map(|count| count.used).sum() {
+            0 => None,
+            used => Some(format!(
+                "{} of another configuration than 2 to 6: global mapping takes these only with a \
+                 stored relative pose (--pipeline global)",
+                counted(used, "used pair")
+            )),
+        },
+        Pipeline::Global => match others.map(|count| count.pairs - count.used).sum() {
+            0 => None,
+            unused => Some(format!(
+                "{} of another configuration than 2 to 6: incremental mapping takes those that have \
+                 enough inliers (--pipeline incremental)",
+                counted(unused, "unused pair")
+            )),
+        },
+    }
+}
+
+/// Commands that lead on from here.
+fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Next> {
+    let with_tracks = found.tracks.is_some();
+    let graph = match with_tracks {
+        true => " --tracks",
+        false => " --model calibrated",
+    };
+    let min_views = arguments.min_views.filter(|_| with_tracks);
+    let min_views = min_views.map_or(String::new(), |count| format!(" --min-views {count}"));
+    let read = options_of(&arguments.input.read_options());
+    let file = shell(&path.display().to_string());
+    let command = |graph: &str, what: &str, purpose: &'static str| Next {
+        command: format!("verify {file}{graph}{read}{what}"),
+        purpose,
+    };
+    let decided = format!("{graph}{min_views}");
+    let margin = match with_tracks {
+        true => "how many tracks can be missing before parts fall apart",
+        false => "how many pairs can be missing before parts fall apart",
+    };
+    let margin = command(&decided, " --margin", margin);
+    if found.determined() {
+        return vec![margin];
+    }
+    let mut next = Vec::new();
+    // These are about one graph, and a path may hold several.
+    let single = found.name == path.display().to_string();
+    if single && found.has_parts() {
+        next.push(command(
+            &decided,
+            " --export DIR",
+            "the images of every part, as lists for the mappers",
+        ));
+    }
+    if found.averaging().is_some_and(|parts| !parts.whole) {
+        next.push(command(
+            " --model calibrated",
+            " --suggest",
+            "pairs to match that would join parts of the pairs",
+        ));
+    }
+    if let Some(image) = found.outside().filter(|_| single) {
+        next.push(command(
+            &decided,
+            &format!(" --explain {}", shell(&image)),
+            "an image outside the largest part, and what it would need",
+        ));
+    }
+    next.push(margin);
+    next
+}
+
+/// The options by which graphs were read, as they are written.
+fn options_of(read: &ReadOptions) -> String {
+    let mut text = String::new();
+    if let Some(format) = read.format {
+        text += &format!(" --format {format}");
+    }
+    if let Some(variable) = &read.variable {
+        text += &format!(" --variable {}", shell(variable));
+    }
+    if let Some(pipeline) = read.pipeline {
+        text += &format!(" --pipeline {pipeline}");
+    }
+    if let Some(count) = read.min_inliers {
+        text += &format!(" --min-inliers {count}");
+    }
+    text
+}

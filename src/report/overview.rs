@@ -1,0 +1,456 @@
+//! What pairs and tracks of one input determine, on one screen, and the same in JSON.
+//!
+//! In: reports about the graphs of an input. Out: their verdicts side by side, and what follows for
+//! mapping (docs/reconstruction.md, 'Overview'): no more than theory 4 and 12 prove, and what was
+//! seen of COLMAP's mappers.
+
+use super::database::DatabaseLine;
+use super::json::ComponentLine;
+use super::tracks::TrackLine;
+use super::{Report, counted, database, json, size_of, text, tracks};
+use crate::act::{Acted, write_joints};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+use viewcert_formats::{NamedGraph, TrackOptions};
+
+/// How many parts are shown with their sizes.
+const SHOWN: usize = 8;
+
+/// Where words begin, and where lines end.
+const MARGIN: usize = 14;
+const WIDTH: usize = 100;
+
+/// Everything that is found about one input; at least one of `pairs` and `tracks` is there.
+pub struct Overview<'a> {
+    /// The input.
+    pub name: &'a str,
+    /// What was merged, ignored or guessed.
+    pub notes: Vec<String>,
+    /// The pairs in the projective and in the calibrated model, unless the input has tracks alone.
+    pub pairs: Option<[Report<'a>; 2]>,
+    /// The cameras and points.
+    pub tracks: Option<Report<'a>>,
+    /// Why there are no tracks, if there are none.
+    pub no_tracks: Option<&'a str>,
+    /// The joints of the parts of `tracks`, or of the calibrated pairs.
+    pub(crate) joints: &'a Acted,
+    /// The images that are to be determined.
+    pub wanted: Wanted,
+    /// Commands that lead on from here.
+    pub next: Vec<Next>,
+    /// How long it took.
+    pub time: Duration,
+}
+
+/// The images that are to be determined, increasing: those that have a pair, or, where only tracks
+/// are known, all.
+pub struct Wanted(Vec<u32>);
+
+/// A command, and what it tells.
+#[derive(Serialize)]
+pub struct Next {
+    /// For a POSIX shell.
+    pub command: String,
+    /// What it tells.
+    pub purpose: &'static str,
+}
+
+impl Wanted {
+    /// Those of a graph. O(nodes + edges).
+    pub fn of(input: &NamedGraph) -> Self {
+        if let Some(cameras) = input.cameras {
+            return Self((0..cameras).collect());
+        }
+        let mut paired = vec![false; input.graph.nodes()];
+        for &(i, j) in input.graph.edges() {
+            paired[i as usize] = true;
+            paired[j as usize] = true;
+        }
+        let nodes = (0..).zip(paired);
+        Self(
+            nodes
+                .filter_map(|(v, paired)| paired.then_some(v))
+                .collect(),
+        )
+    }
+}
+
+/// The parts of a graph: its components of two cameras with their points, or of three images.
+pub struct Parts {
+    /// Whether one component has all images that are wanted.
+    pub whole: bool,
+    /// With how many images a component is a part.
+    least: usize,
+    /// The images of each, falling.
+    images: Vec<Vec<u32>>,
+    /// Pairs that are components by themselves.
+    single_pairs: usize,
+    /// How many of the wanted images are in no part.
+    outside: usize,
+}
+
+impl Parts {
+    fn new(report: &Report, wanted: &Wanted) -> Self {
+        let components = &report.verdict.components;
+        let all: Vec<Vec<u32>> = match report.input.cameras {
+            None => components.iter().map(|part| part.nodes()).collect(),
+            Some(cameras) => components
+                .iter()
+                .map(|part| tracks::members(part, cameras).0)
+                .collect(),
+        };
+        let holds = |images: &Vec<u32>| {
+            let mut wanted = wanted.0.iter();
+            !wanted.as_slice().is_empty() && wanted.all(|v| images.binary_search(v).is_ok())
+        };
+        let whole = all.iter().any(holds);
+        let (least, pairs) = match report.input.cameras {
+            None => (3, all.iter().filter(|images| images.len() == 2).count()),
+            Some(_) => (2, 0),
+        };
+        let mut images: Vec<Vec<u32>> =
+            all.into_iter().filter(|part| part.len() >= least).collect();
+        images.sort_by_key(|part| std::cmp::Reverse(part.len()));
+        let mut inside: Vec<u32> = images.iter().flatten().copied().collect();
+        inside.sort_unstable();
+        let outside = wanted.0.iter().filter(|v| inside.binary_search(v).is_err());
+        Self {
+            whole,
+            least,
+            outside: outside.count(),
+            images,
+            single_pairs: pairs,
+        }
+    }
+
+    /// "2 parts (6, 6 images)", and what is in none of them.
+    fn words(&self) -> String {
+        let sizes = self.images.iter().map(Vec::len);
+        let mut shown: Vec<String> = sizes.take(SHOWN).map(|size| size.to_string()).collect();
+        if self.images.len() > SHOWN {
+            shown.push(format!("{} more", self.images.len() - SHOWN));
+        }
+        let mut words = match self.images.len() {
+            0 => format!("no part of {} images or more", self.least),
+            count => format!("{} ({} images)", counted(count, "part"), shown.join(", ")),
+        };
+        if self.single_pairs > 0 {
+            words += &format!(", {}", counted(self.single_pairs, "single pair"));
+        }
+        if self.outside > 0 {
+            words += &format!(", {} in no part", counted(self.outside, "image"));
+        }
+        words
+    }
+}
+
+impl Overview<'_> {
+    /// The report that decides: of the tracks, or without any of the calibrated pairs.
+    fn decisive(&self) -> Option<&Report<'_>> {
+        let calibrated = || self.pairs.as_ref().map(|[_, calibrated]| calibrated);
+        self.tracks.as_ref().or_else(calibrated)
+    }
+
+    /// What tracks determine, if there are any.
+    fn by_tracks(&self) -> Option<Parts> {
+        let report = self.tracks.as_ref()?;
+        Some(Parts::new(report, &self.wanted))
+    }
+
+    /// What pairwise directions determine, if there are pairs.
+    pub fn averaging(&self) -> Option<Parts> {
+        let [_, calibrated] = self.pairs.as_ref()?;
+        Some(Parts::new(calibrated, &self.wanted))
+    }
+
+    /// Whether the tracks, or without any the calibrated pairs, determine all wanted images.
+    pub fn determined(&self) -> bool {
+        let parts = self.by_tracks().or_else(|| self.averaging());
+        parts.is_some_and(|parts| parts.whole)
+    }
+
+    /// Whether there is a part at all in what decides.
+    pub fn has_parts(&self) -> bool {
+        let parts = self.by_tracks().or_else(|| self.averaging());
+        parts.is_some_and(|parts| !parts.images.is_empty())
+    }
+
+    /// An image that is not in the largest part.
+    pub fn outside(&self) -> Option<String> {
+        let report = self.decisive()?;
+        let parts = Parts::new(report, &self.wanted);
+        let largest = parts.images.first().map_or(&[][..], Vec::as_slice);
+        let mut wanted = self.wanted.0.iter();
+        let image = wanted.find(|v| largest.binary_search(v).is_err())?;
+        Some(report.input.labels.label(*image).into_owned())
+    }
+
+    /// What follows for each kind of mapping, in words.
+    fn follows(&self) -> Follows {
+        let all = counted(self.wanted.0.len(), "image");
+        let averaging = match self.averaging() {
+            None => {
+                "of pairwise directions: tracks do not tell; it takes a list of pairs".to_owned()
+            }
+            Some(_) if self.wanted.0.is_empty() => {
+                "of pairwise directions: there are no pairs".into()
+            }
+            Some(parts) if parts.whole => {
+                format!("of pairwise directions: the pairs determine all {all}")
+            }
+            Some(parts) => format!(
+                "of pairwise directions: the pairs determine {}, and not how these lie against each \
+                 other",
+                parts.words()
+            ),
+        };
+        let [global, incremental] = match self.by_tracks() {
+            None => [
+                "solves for the positions of cameras and points from tracks, which are not here: \
+                 pairs alone do not tell"
+                    .to_owned(),
+                "starts a new model where it cannot go on; pairs alone do not tell where".to_owned(),
+            ],
+            Some(parts) if parts.whole => [
+                format!(
+                    "the tracks determine all {all} against each other; real photographs with few, \
+                     noisy tracks need a margin as well (--tracks --margin)"
+                ),
+                format!(
+                    "starts a new model where it cannot go on; that the tracks determine all {all} is \
+                     necessary for one model, not sufficient"
+                ),
+            ],
+            Some(parts) => [
+                format!(
+                    "can place right against each other only what is in one part: {}; it may return one model \
+                     in which different parts are silently misplaced (seen on synthetic clusters, \
+                     COLMAP 4.2)",
+                    parts.words()
+                ),
+                "starts a new model where it cannot go on; that tracks determine a part is necessary \
+                 there, not sufficient"
+                    .to_owned(),
+            ],
+        };
+        Follows {
+            global: global + &self.other_least(),
+            incremental,
+            averaging,
+        }
+    }
+
+    /// Where tracks count that global mapping does not take, or the other way round.
+    fn other_least(&self) -> String {
+        let usual = TrackOptions::default().min_views;
+        let facts = self.tracks.as_ref().and_then(|report| report.input.tracks);
+        match facts {
+            Some(facts) if facts.min_views != usual => format!(
+                "; COLMAP's takes tracks of {usual} images and more, and these are of {} and more",
+                facts.min_views
+            ),
+            _ => String::new(),
+        }
+    }
+
+    /// Writes the screen.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(out, "{}", self.name)?;
+        if let Some([projective, calibrated]) = &self.pairs {
+            match &projective.input.database {
+                Some(facts) => database::write(out, facts)?,
+                None => writeln!(out, "  graph       {}", size_of(projective.input))?,
+            }
+            self.write_notes(out)?;
+            for (model, report) in [("projective", projective), ("calibrated", calibrated)] {
+                writeln!(out, "  {model}  pairs alone: {}", text::answer(report))?;
+                text::write_components(out, report)?;
+            }
+        }
+        match (&self.tracks, self.no_tracks) {
+            (Some(report), _) => {
+                if let Some(facts) = &report.input.tracks {
+                    tracks::write_size(out, facts)?;
+                }
+                if self.pairs.is_none() {
+                    self.write_notes(out)?;
+                }
+                writeln!(out, "  positions   {}", text::answer(report))?;
+                text::write_components(out, report)?;
+            }
+            (None, Some(reason)) => writeln!(out, "  tracks      none: {reason}")?,
+            (None, None) => {}
+        }
+        self.write_joints(out)?;
+        let follows = self.follows();
+        wrapped(out, "global", &follows.global)?;
+        wrapped(out, "incremental", &follows.incremental)?;
+        wrapped(out, "averaging", &follows.averaging)?;
+        for (k, next) in self.next.iter().enumerate() {
+            let title = if k == 0 { "next" } else { "" };
+            writeln!(out, "  {title:<12}{}", next.command)?;
+            writeln!(out, "                # {}", next.purpose)?;
+        }
+        writeln!(
+            out,
+            "  time        {}",
+            text::seconds(self.time.as_micros())
+        )
+    }
+
+    fn write_notes(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut notes = self.notes.iter();
+        notes.try_for_each(|note| writeln!(out, "  note        {note}"))
+    }
+
+    fn write_joints(&self, out: &mut impl Write) -> io::Result<()> {
+        let parts = self.by_tracks().or_else(|| self.averaging());
+        let several = parts.is_some_and(|parts| parts.images.len() > 1);
+        if several && self.joints.has_no_joints() {
+            return writeln!(out, "  joints      none: no two parts touch");
+        }
+        write_joints(out, self.joints)
+    }
+
+    /// Writes everything as one line of JSON.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
+        let pairs = self.pairs.as_ref().map(|[projective, calibrated]| {
+            let graph = &projective.input.graph;
+            PairLine {
+                images: graph.nodes(),
+                images_with_pair: self.wanted.0.len(),
+                pairs: graph.edges().len(),
+                projective: AnswerLine::from(projective),
+                calibrated: AnswerLine::from(calibrated),
+            }
+        });
+        let tracks = self.tracks.as_ref().and_then(|report| {
+            let (cameras, facts) = report.input.cameras.zip(report.input.tracks.as_ref())?;
+            Some(PositionLine {
+                facts: TrackLine::new(cameras, facts),
+                positions: AnswerLine::from(report),
+            })
+        });
+        let database = self.pairs.as_ref().and_then(|[report, _]| {
+            let facts = report.input.database.as_deref()?;
+            Some(DatabaseLine::from(facts))
+        });
+        let line = Line {
+            name: self.name,
+            notes: &self.notes,
+            database,
+            pairs,
+            tracks,
+            no_tracks: self.no_tracks,
+            joints: self.joints,
+            determined: self.determined(),
+            determined_by: if self.tracks.is_some() {
+                "tracks"
+            } else {
+                "pairs"
+            },
+            images: self.wanted.0.len(),
+            follows: self.follows(),
+            next: &self.next,
+            seconds: self.time.as_secs_f64(),
+        };
+        serde_json::to_writer(&mut *out, &line)?;
+        out.write_all(b"\n")
+    }
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    name: &'a str,
+    notes: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    database: Option<DatabaseLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pairs: Option<PairLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tracks: Option<PositionLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_tracks: Option<&'a str>,
+    #[serde(flatten)]
+    joints: &'a Acted,
+    determined: bool,
+    determined_by: &'static str,
+    images: usize,
+    follows: Follows,
+    next: &'a [Next],
+    seconds: f64,
+}
+
+/// What follows, in words.
+#[derive(Serialize)]
+struct Follows {
+    global: String,
+    incremental: String,
+    averaging: String,
+}
+
+#[derive(Serialize)]
+struct PairLine {
+    images: usize,
+    images_with_pair: usize,
+    pairs: usize,
+    projective: AnswerLine,
+    calibrated: AnswerLine,
+}
+
+#[derive(Serialize)]
+struct PositionLine {
+    #[serde(flatten)]
+    facts: TrackLine,
+    positions: AnswerLine,
+}
+
+#[derive(Serialize)]
+struct AnswerLine {
+    verdict: &'static str,
+    strength: &'static str,
+    error_log2: Option<i64>,
+    rank: usize,
+    rank_required: usize,
+    rank_strength: &'static str,
+    components: Vec<ComponentLine>,
+    components_strength: &'static str,
+}
+
+impl From<&Report<'_>> for AnswerLine {
+    fn from(report: &Report) -> Self {
+        let verdict = report.verdict;
+        let strength = verdict.value_claim().strength;
+        Self {
+            verdict: verdict.value.name(),
+            strength: strength.name(),
+            error_log2: strength.error_log2(),
+            rank: verdict.rank,
+            rank_required: verdict.required,
+            rank_strength: verdict.rank_claim().strength.name(),
+            components: json::components(report),
+            components_strength: verdict.components_claim().strength.name(),
+        }
+    }
+}
+
+/// Writes words in lines of limited width.
+fn wrapped(out: &mut impl Write, title: &str, words: &str) -> io::Result<()> {
+    let mut line = format!("  {title:<11}");
+    for word in words.split(' ') {
+        if line.len() > MARGIN && line.len() + 1 + word.len() > WIDTH {
+            writeln!(out, "{line}")?;
+            line = " ".repeat(MARGIN - 1);
+        }
+        line += " ";
+        line += word;
+    }
+    writeln!(out, "{line}")
+}

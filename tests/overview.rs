@@ -1,0 +1,311 @@
+//! `verify overview` against what is known of the samples, and the schema of all JSON lines.
+
+mod common;
+
+use common::{Run, data, verify, verify_with};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// The folder with the samples of databases, which is not part of the repository.
+fn samples() -> Option<PathBuf> {
+    let folder = data()?.join("colmap");
+    if !folder.is_dir() {
+        common::absent(&format!(
+            "no samples of databases are at {}",
+            folder.display()
+        ));
+        return None;
+    }
+    Some(folder)
+}
+
+fn schema() -> jsonschema::Validator {
+    let schema = include_str!("../docs/report.schema.json");
+    let schema: Value = serde_json::from_str(schema).unwrap();
+    assert!(jsonschema::meta::is_valid(&schema));
+    jsonschema::validator_for(&schema).unwrap()
+}
+
+/// Holds every line of a run against the schema; there has to be one.
+fn valid(schema: &jsonschema::Validator, run: &Run) -> Vec<Value> {
+    assert!(run.code <= 1, "{}", run.err);
+    let lines = run.json();
+    assert!(!lines.is_empty());
+    for line in &lines {
+        let found: Vec<String> = schema.iter_errors(line).map(|e| e.to_string()).collect();
+        assert!(found.is_empty(), "{found:?}: {line}");
+    }
+    lines
+}
+
+/// Places of all objects and leaves in a value, as JSON pointers.
+fn places(value: &Value, at: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Object(members) => {
+            found.push(at.to_owned());
+            for (name, member) in members {
+                places(member, &format!("{at}/{name}"), found);
+            }
+        }
+        Value::Array(items) => {
+            for (k, item) in items.iter().enumerate() {
+                places(item, &format!("{at}/{k}"), found);
+            }
+        }
+        _ => found.push(at.to_owned()),
+    }
+}
+
+/// A member more in any object, another type in any leaf, and the lack of a member are refused.
+fn mutilations_are_refused(schema: &jsonschema::Validator, line: &Value, required: &[&str]) {
+    let mut found = Vec::new();
+    places(line, "", &mut found);
+    assert!(found.len() > 20);
+    for place in found {
+        let mut other = line.clone();
+        match other.pointer_mut(&place).unwrap() {
+            Value::Object(members) => {
+                members.insert("surplus".into(), Value::Null);
+            }
+            leaf => *leaf = json!({"another": "type"}),
+        }
+        assert!(!schema.is_valid(&other), "{place}: {other}");
+    }
+    for name in required {
+        let mut other = line.clone();
+        assert!(other.as_object_mut().unwrap().remove(*name).is_some());
+        assert!(!schema.is_valid(&other), "without {name}");
+    }
+}
+
+/// Two groups of four images, all pairs in each, and a pair between them.
+const TWO: &str = "a b\na c\na d\nb c\nb d\nc d\ne f\ne g\ne h\nf g\nf h\ng h\na e\n";
+
+#[test]
+fn every_option_keeps_to_the_schema() {
+    let schema = schema();
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let act = [
+        "-",
+        "--json",
+        "--components",
+        "--weak",
+        "--suggest",
+        "--explain",
+        "a",
+        "--margin",
+        "--export",
+        out.to_str().unwrap(),
+    ];
+    for model in ["projective", "calibrated"] {
+        let options = [&act[..], &["--model", model]].concat();
+        let line = valid(&schema, &verify_with(TWO.as_bytes(), &options)).remove(0);
+        let asked = [
+            "weak",
+            "suggestions",
+            "explain",
+            "margin",
+            "export",
+            "joints",
+        ];
+        assert!(asked.iter().all(|name| !line[*name].is_null()), "{line}");
+        mutilations_are_refused(&schema, &line, &["graph", "verdict", "joints", "seconds"]);
+    }
+    valid(
+        &schema,
+        &verify_with(TWO.as_bytes(), &["-", "--json", "--weak=images"]),
+    );
+    for options in [
+        &[][..],
+        &["--rational"],
+        &["--no-counting"],
+        &["--model", "calibrated"],
+    ] {
+        for graph in ["house.txt", "psi.txt", "minimal.g6", "facade.txt"] {
+            let path = format!("examples/{graph}");
+            valid(
+                &schema,
+                &verify(&[&["--json", path.as_str()], options].concat()),
+            );
+        }
+    }
+    for graph in [
+        "house.txt",
+        "minimal.g6",
+        "courtyard.txt",
+        "courtyard-gaps.txt",
+    ] {
+        let path = format!("examples/{graph}");
+        valid(&schema, &verify(&["overview", "--json", path.as_str()]));
+    }
+}
+
+#[test]
+fn databases_keep_to_the_schema() {
+    let Some(folder) = samples() else { return };
+    let schema = schema();
+    let mut count = 0;
+    let entries = std::fs::read_dir(&folder).unwrap();
+    for path in entries.map(|entry| entry.unwrap().path()) {
+        let path = path.to_str().unwrap();
+        if !path.ends_with(".db") {
+            continue;
+        }
+        let pairs = verify(&["--json", "--sweep", "10,30", path]);
+        if pairs.code == 2 {
+            // What is no database of verified pairs has no overview either.
+            assert_eq!(verify(&["overview", "--json", path]).code, 2, "{path}");
+            continue;
+        }
+        count += 1;
+        valid(&schema, &pairs);
+        valid(
+            &schema,
+            &verify(&["--json", "--tracks", "--components", "--margin=2", path]),
+        );
+        let line = valid(&schema, &verify(&["overview", "--json", path])).remove(0);
+        mutilations_are_refused(
+            &schema,
+            &line,
+            &["name", "tracks", "joints", "follows", "next"],
+        );
+        // One screen.
+        let run = verify(&["overview", path]);
+        assert!(run.out.lines().count() <= 40, "{}", run.out);
+    }
+    assert!(count >= 14, "{count} databases");
+}
+
+/// By falling size: images of the components of pairs, or cameras of those of tracks.
+fn sizes(answer: &Value, member: &str) -> Vec<u64> {
+    let components = answer["components"].as_array().unwrap().iter();
+    let mut sizes: Vec<u64> = components
+        .map(|part| part[member].as_u64().unwrap())
+        .collect();
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
+
+/// What FACTS.md says, found with other programs: images of the components in the projective and in
+/// the calibrated model, cameras of those of tracks in three images and more.
+#[test]
+fn samples_are_as_the_facts_say() {
+    let Some(folder) = samples() else { return };
+    let cases: [(&str, &[u64], &[u64], &[u64]); 5] = [
+        ("clusters_one_edge_private", &[6, 6, 2], &[6, 6, 2], &[6, 6]),
+        ("clusters_one_edge_tracks", &[6, 6, 2], &[6, 6, 2], &[12]),
+        ("clusters_two_edges", &[6, 6, 2, 2], &[12], &[6, 6]),
+        ("clusters_shared_image", &[6, 6], &[6, 6], &[6, 6]),
+        ("real_sceaux_421", &[11], &[11], &[11]),
+    ];
+    for (name, projective, calibrated, tracks) in cases {
+        let path = folder.join(format!("{name}.db"));
+        let path = path.to_str().unwrap();
+        let run = verify(&["overview", "--json", path]);
+        let line = run.json().remove(0);
+        assert_eq!(
+            sizes(&line["pairs"]["projective"], "nodes"),
+            projective,
+            "{name}"
+        );
+        assert_eq!(
+            sizes(&line["pairs"]["calibrated"], "nodes"),
+            calibrated,
+            "{name}"
+        );
+        assert_eq!(
+            sizes(&line["tracks"]["positions"], "cameras"),
+            tracks,
+            "{name}"
+        );
+        let whole = tracks.len() == 1;
+        assert_eq!(line["determined"], whole, "{name}");
+        assert_eq!(line["determined_by"], "tracks", "{name}");
+        assert_eq!(run.code, i32::from(!whole), "{name}");
+        let screen = verify(&["overview", path]);
+        assert_eq!(screen.code, run.code);
+        let said = |words: &str| {
+            screen
+                .out
+                .split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" ")
+                .contains(words)
+        };
+        assert_eq!(said("silently misplaced"), !whole, "{}", screen.out);
+        assert!(said("necessary"), "{}", screen.out);
+        let averages = format!("the pairs determine all {} images", calibrated[0]);
+        assert_eq!(said(&averages), calibrated.len() == 1, "{}", screen.out);
+        // The groups share one image, or nothing.
+        let joints = line["joints"].as_array().unwrap().len();
+        assert_eq!(
+            joints,
+            usize::from(name == "clusters_shared_image"),
+            "{name}"
+        );
+        let untouched = !whole && joints == 0;
+        assert_eq!(said("no two parts touch"), untouched, "{}", screen.out);
+        // Every command that is named runs.
+        let exported = tempfile::tempdir().unwrap();
+        let exported = exported.path().join("parts");
+        for next in line["next"].as_array().unwrap() {
+            let command = next["command"].as_str().unwrap();
+            let words = command.split(' ').skip(1);
+            let words: Vec<&str> = words
+                .map(|word| {
+                    if word == "DIR" {
+                        exported.to_str().unwrap()
+                    } else {
+                        word
+                    }
+                })
+                .collect();
+            let run = verify(&words);
+            assert!(run.code <= 1, "{command}: {}", run.err);
+        }
+        assert_eq!(exported.is_dir(), !whole, "{name}");
+    }
+}
+
+#[test]
+fn a_list_of_pairs_is_judged_by_directions() {
+    let run = verify_with(
+        TWO.as_bytes(),
+        &["overview", "-", "--json", "--min-views", "2"],
+    );
+    let line = run.json().remove(0);
+    assert_eq!(run.code, 1);
+    assert_eq!(
+        (&line["determined_by"], &line["determined"]),
+        (&json!("pairs"), &json!(false))
+    );
+    assert_eq!(line["joints"][0]["freedom"], 2);
+    assert!(run.out.contains("--min-views is ignored"), "{}", run.out);
+    // A second pair of other images fixes the scale.
+    let joined = TWO.to_owned() + "b f\n";
+    let run = verify_with(joined.as_bytes(), &["overview", "-"]);
+    assert_eq!(run.code, 0, "{}", run.out);
+    assert!(run.out.contains("pairs alone do not tell"), "{}", run.out);
+}
+
+/// A problem of bundle adjustment has tracks and no pairs: two cameras that see the same points.
+#[test]
+fn tracks_without_pairs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("problem.txt");
+    let observations = "0 0 1.5 2.5\n0 1 1.5 2.5\n1 0 1.5 2.5\n1 1 1.5 2.5\n";
+    let numbers = "0.5\n".repeat(2 * 9 + 2 * 3);
+    std::fs::write(&path, format!("2 2 4\n{observations}{numbers}")).unwrap();
+    let path = path.to_str().unwrap();
+    let run = verify(&["overview", "--json", "--min-views", "2", path]);
+    let line = valid(&schema(), &run).remove(0);
+    assert_eq!((run.code, &line["pairs"]), (0, &Value::Null));
+    assert_eq!(sizes(&line["tracks"]["positions"], "cameras"), [2]);
+    // No track is seen in three images.
+    assert_eq!(verify(&["overview", path]).code, 1);
+    let bytes = std::fs::read(path).unwrap();
+    let run = verify_with(&bytes, &["overview", "-"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("name the file"), "{}", run.err);
+}
