@@ -36,6 +36,8 @@ pub(super) struct Side {
     /// The node, among those that were not eliminated.
     pub(super) node: usize,
     pub(super) vector: [u64; 3],
+    /// Which of the three entries are not the zero polynomial in the centres.
+    pub(super) pattern: [bool; 3],
     /// The unknown, if the scale is not one.
     pub(super) scale: Option<usize>,
 }
@@ -221,21 +223,22 @@ impl Core {
         let mut rows = Vec::new();
         let number = |v: usize| self.number[v];
         for (body, scales) in self.bodies.iter().zip(&self.body_scales) {
-            let mut put = |i: usize, j: usize, vector: [u64; 3]| {
+            let mut put = |i: usize, j: usize, pattern: [bool; 3], vector: [u64; 3]| {
                 let side = |k: usize| {
-                    number(body[k]).map(|node| Side { node, vector, scale: scales[k] })
+                    number(body[k]).map(|node| Side { node, vector, pattern, scale: scales[k] })
                 };
                 rows.push(Row { sides: [side(i)?, side(j)?] });
                 Some(())
             };
             for j in 1..body.len() {
                 let [first, second] =
-                    directions(field, &centres[body[j - 1]], &centres[body[j]])?;
-                put(j - 1, j, first)?;
-                put(j - 1, j, second)?;
+                    fixed_directions(field, &centres[body[j - 1]], &centres[body[j]])?;
+                put(j - 1, j, [true, true, false], first)?;
+                put(j - 1, j, [true, false, true], second)?;
                 if j > 1 {
-                    let [third, _] = directions(field, &centres[body[j - 2]], &centres[body[j]])?;
-                    put(j - 2, j, third)?;
+                    let [third, _] =
+                        fixed_directions(field, &centres[body[j - 2]], &centres[body[j]])?;
+                    put(j - 2, j, [true, true, false], third)?;
                 }
             }
         }
@@ -244,8 +247,8 @@ impl Core {
             let [plus, minus] = [a, b].map(number);
             rows.push(Row {
                 sides: [
-                    Side { node: plus?, vector, scale: None },
-                    Side { node: minus?, vector, scale },
+                    Side { node: plus?, vector, pattern: [true; 3], scale: None },
+                    Side { node: minus?, vector, pattern: [true; 3], scale },
                 ],
             });
         }
@@ -324,6 +327,19 @@ fn solve(field: &PrimeField, rows: &Echelon) -> Option<[[u64; 4]; 3]> {
         }
     }
     Some(solution)
+}
+
+/// The directions (3.1) with q = 1: polynomials in the centres, and not chosen at the point. `None`
+/// if the first coordinates are equal.
+fn fixed_directions(
+    field: &PrimeField,
+    c: &[u64; 3],
+    d: &[u64; 3],
+) -> Option<[[u64; 3]; 2]> {
+    if c[0] == d[0] {
+        return None;
+    }
+    directions(field, c, d)
 }
 
 /// The nodes that lie in two sets or more.

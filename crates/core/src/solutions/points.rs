@@ -43,30 +43,38 @@ pub(super) fn at_most(
     draw: &mut impl FnMut() -> u64,
 ) -> Result<AtMost, NoBound> {
     let field = &system.field;
-    let (exponents, kernel) = span.annihilated(field, 1);
+    let (exponents, absent, kernel) = span.annihilated(field, 1);
     if kernel.is_empty() || kernel.len() > MOST_POINTS {
         return Err(NoBound::Short);
     }
-    let inner = restriction(&exponents, &kernel, None);
+    let inner_places = inner_places(&exponents, &absent);
+    let inner = restriction(&exponents, &inner_places, &kernel, None);
     let mut echelon = Echelon::default();
     if !inner.iter().all(|row| echelon.insert(field, row.clone())) {
         return Err(NoBound::Short);
     }
     let mut matrix = vec![vec![0; kernel.len()]; kernel.len()];
+    let mut multiplications = Vec::new();
     for f in 0..span.unknowns.len() {
-        let images = restriction(&exponents, &kernel, Some(f));
+        let images = restriction(&exponents, &inner_places, &kernel, Some(f));
         // The kernel is no space of points if multiplication leads out of it.
         let by_unknown = transport(field, &inner, &images).ok_or(NoBound::Short)?;
         let weight = draw();
         for (sum, row) in matrix.iter_mut().zip(&by_unknown) {
             field.axpy(sum, weight, row);
         }
+        multiplications.push(by_unknown);
     }
     let vectors = left_eigenvectors(field, &matrix, draw).ok_or(NoBound::Irrational)?;
     let mut points = Vec::new();
     let mut settled = Vec::new();
     for vector in vectors {
-        let point = evaluation(field, &exponents, &kernel, &vector).ok_or(NoBound::Short)?;
+        let point: Option<Vec<u64>> =
+            multiplications.iter().map(|matrix| eigenvalue(field, matrix, &vector)).collect();
+        let point = point.ok_or(NoBound::Short)?;
+        if !evaluates(field, &exponents, &absent, &kernel, &vector, &point) {
+            return Err(NoBound::Short);
+        }
         let mut values = values.clone();
         for (&f, &x) in span.unknowns.iter().zip(&point) {
             values[f] = Some(x);
@@ -86,14 +94,34 @@ pub(super) fn at_most(
     })
 }
 
-/// The entries of vectors at the exponents a with every a + e_f within the bounds, or at a + e_f
-/// for one f.
-fn restriction(exponents: &Exponents, kernel: &[Vec<u64>], shift: Option<usize>) -> Vec<Vec<u64>> {
-    let inner = Exponents { bounds: exponents.bounds.iter().map(|bound| bound - 1).collect() };
+/// The exponents a that are present with every a + e_f.
+fn inner_places(exponents: &Exponents, absent: &[bool]) -> Vec<Vec<usize>> {
+    let present = |exponent: &[usize]| {
+        exponent.iter().zip(&exponents.bounds).all(|(e, bound)| e <= bound)
+            && !absent[exponents.index(exponent)]
+    };
+    let inner = |exponent: &Vec<usize>| {
+        present(exponent)
+            && (0..exponent.len()).all(|f| {
+                let mut next = exponent.clone();
+                next[f] += 1;
+                present(&next)
+            })
+    };
+    exponents.all().into_iter().filter(inner).collect()
+}
+
+/// The entries of vectors at some exponents, or at these plus e_f for one f.
+fn restriction(
+    exponents: &Exponents,
+    inner: &[Vec<usize>],
+    kernel: &[Vec<u64>],
+    shift: Option<usize>,
+) -> Vec<Vec<u64>> {
     let places: Vec<usize> = inner
-        .all()
-        .into_iter()
-        .map(|mut exponent| {
+        .iter()
+        .map(|exponent| {
+            let mut exponent = exponent.clone();
             if let Some(f) = shift {
                 exponent[f] += 1;
             }
@@ -103,33 +131,39 @@ fn restriction(exponents: &Exponents, kernel: &[Vec<u64>], shift: Option<usize>)
     kernel.iter().map(|vector| places.iter().map(|&k| vector[k]).collect()).collect()
 }
 
-/// The point at which a combination of the vectors evaluates all monomials; `None` if there is
-/// none.
-fn evaluation(
+/// The eigenvalue of a left eigenvector, `None` if it is none.
+fn eigenvalue(field: &PrimeField, matrix: &[Vec<u64>], vector: &[u64]) -> Option<u64> {
+    let mut image = vec![0; vector.len()];
+    for (&x, row) in vector.iter().zip(matrix) {
+        field.axpy(&mut image, x, row);
+    }
+    let at = vector.iter().position(|&x| x != 0)?;
+    let value = field.times(image[at], field.inverse(vector[at])?);
+    let holds = vector.iter().zip(&image).all(|(&x, &y)| field.times(value, x) == y);
+    holds.then_some(value)
+}
+
+/// Whether a combination of the vectors is a multiple of the values of all monomials at a point.
+fn evaluates(
     field: &PrimeField,
     exponents: &Exponents,
+    absent: &[bool],
     kernel: &[Vec<u64>],
     combination: &[u64],
-) -> Option<Vec<u64>> {
+    point: &[u64],
+) -> bool {
     let mut vector = vec![0; exponents.len()];
     for (&factor, row) in combination.iter().zip(kernel) {
         field.axpy(&mut vector, factor, row);
     }
-    let scale = field.inverse(vector[0])?;
-    for x in &mut vector {
-        *x = field.times(*x, scale);
-    }
-    let unknowns = exponents.bounds.len();
-    let point: Vec<u64> = (0..unknowns)
-        .map(|f| {
-            let exponent: Vec<usize> = (0..unknowns).map(|g| usize::from(f == g)).collect();
-            vector[exponents.index(&exponent)]
-        })
-        .collect();
-    let monomial = |exponent: &Vec<usize>| {
-        let powers = exponent.iter().zip(&point).map(|(&e, &x)| field.pow(x, e as u64));
-        powers.fold(field.from_u64(1), |product, power| field.times(product, power))
-    };
-    let holds = exponents.all().iter().zip(&vector).all(|(e, &x)| monomial(e) == x);
-    holds.then_some(point)
+    let monomials = exponents.all().into_iter().zip(absent).map(|(exponent, &absent)| {
+        let powers = exponent.iter().zip(point).map(|(&e, &x)| field.pow(x, e as u64));
+        let product = powers.fold(field.from_u64(1), |product, power| field.times(product, power));
+        if absent { 0 } else { product }
+    });
+    let monomials: Vec<u64> = monomials.collect();
+    let Some(at) = monomials.iter().position(|&x| x != 0) else { return false };
+    let Some(inverse) = field.inverse(monomials[at]) else { return false };
+    let scale = field.times(vector[at], inverse);
+    scale != 0 && vector.iter().zip(&monomials).all(|(&x, &y)| x == field.times(scale, y))
 }

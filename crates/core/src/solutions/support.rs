@@ -39,6 +39,8 @@ pub(super) struct Generator {
     pub(super) degrees: Vec<usize>,
     /// Coefficients in the order of [`Exponents`] for `degrees`.
     coefficients: Vec<u64>,
+    /// Which coefficients are the zero polynomial in the centres by Theorem 10.7.
+    zero: Vec<bool>,
 }
 
 /// All exponents up to bounds, in lexicographic order, the last unknown fastest.
@@ -83,6 +85,8 @@ pub(super) struct Span {
     /// Minors none of which is a combination of shifts of those before it.
     pub(super) generators: Vec<Generator>,
     rank: usize,
+    /// Exponents at which no shift of a generator has a coefficient, at any centres.
+    absent: Vec<bool>,
 }
 
 impl Span {
@@ -99,6 +103,7 @@ impl Span {
             exponents,
             generators: Vec::new(),
             rank: 0,
+            absent: Vec::new(),
         };
         let full = span.exponents.len() - 1;
         let mut echelon = Echelon::default();
@@ -122,12 +127,41 @@ impl Span {
             }
         }
         span.rank = echelon.rank();
+        if span.rank < full {
+            for generator in &mut span.generators {
+                generator.find_zeros(system, unknowns);
+            }
+        }
+        span.absent = span.absent(&span.exponents);
         Some(span)
     }
 
-    /// Whether only u = 1 is left.
+    /// Whether only u = 1 is left (Theorem 10.5): the rank is one less than the number of exponents,
+    /// and differences of exponents generate all of Z^unknowns.
     pub(super) fn is_unique(&self) -> bool {
-        self.rank + 1 == self.exponents.len()
+        let present = self.absent.iter().filter(|&&absent| !absent).count();
+        self.rank + 1 == present && steps_everywhere(&self.exponents, &self.absent)
+    }
+
+    /// The exponents at which no shift of a generator has a coefficient, at any centres.
+    fn absent(&self, exponents: &Exponents) -> Vec<bool> {
+        let mut absent = vec![true; exponents.len()];
+        for generator in &self.generators {
+            let own = Exponents { bounds: generator.degrees.clone() };
+            let present: Vec<Vec<usize>> = own
+                .all()
+                .into_iter()
+                .zip(&generator.zero)
+                .filter(|(_, zero)| !**zero)
+                .map(|(exponent, _)| exponent)
+                .collect();
+            for shift in generator.room(exponents).all() {
+                for exponent in &present {
+                    absent[exponents.index(&sum(exponent, &shift))] = false;
+                }
+            }
+        }
+        absent
     }
 
     /// Calls `each` with the minors for one choice of freed rows, until it returns false; returns
@@ -204,7 +238,8 @@ impl Span {
                     columns: echelon.pivots().iter().copied().chain(of_free).collect(),
                 };
                 let degrees = degrees.clone();
-                if !each(self, Generator { minor, degrees, coefficients }) {
+                let zero = vec![false; coefficients.len()];
+                if !each(self, Generator { minor, degrees, coefficients, zero }) {
                     return false;
                 }
             }
@@ -212,13 +247,13 @@ impl Span {
         }) || choices >= MOST_ROW_CHOICES
     }
 
-    /// A basis of the vectors, one entry for each exponent up to `bounds`, that all shifts of the
-    /// generators annihilate; and the exponents.
+    /// All exponents up to `more` above the bounds, which of them are absent, and a basis of the
+    /// vectors on the others that all shifts of the generators annihilate.
     pub(super) fn annihilated(
         &self,
         field: &PrimeField,
         more: usize,
-    ) -> (Exponents, Vec<Vec<u64>>) {
+    ) -> (Exponents, Vec<bool>, Vec<Vec<u64>>) {
         let bounds = self.exponents.bounds.iter().map(|bound| bound + more).collect();
         let exponents = Exponents { bounds };
         let mut echelon = Echelon::default();
@@ -227,8 +262,11 @@ impl Span {
                 echelon.insert(field, shifted);
             }
         }
-        let kernel = echelon.kernel(field, exponents.len());
-        (exponents, kernel)
+        let absent = self.absent(&exponents);
+        let mut kernel = echelon.kernel(field, exponents.len());
+        // At an absent exponent all shifts vanish, so it has a vector of its own.
+        kernel.retain(|vector| vector.iter().zip(&absent).any(|(&x, absent)| x != 0 && !absent));
+        (exponents, absent, kernel)
     }
 }
 
@@ -236,8 +274,7 @@ impl Generator {
     /// All multiples by a monomial within the bounds: the exponent, and the coefficients.
     fn shifts(&self, exponents: &Exponents) -> Vec<(Vec<usize>, Vec<u64>)> {
         let own = Exponents { bounds: self.degrees.clone() };
-        let room = exponents.bounds.iter().zip(&self.degrees);
-        let room = Exponents { bounds: room.map(|(bound, degree)| bound - degree).collect() };
+        let room = self.room(exponents);
         let terms: Vec<(Vec<usize>, u64)> = own
             .all()
             .into_iter()
@@ -250,13 +287,116 @@ impl Generator {
         let shifted = room.all().into_iter().map(|shift| {
             let mut vector = vec![0; exponents.len()];
             for (exponent, coefficient) in &terms {
-                let sum: Vec<usize> = exponent.iter().zip(&shift).map(|(a, b)| a + b).collect();
-                vector[exponents.index(&sum)] = *coefficient;
+                vector[exponents.index(&sum(exponent, &shift))] = *coefficient;
             }
             (shift, vector)
         });
         shifted.collect()
     }
+
+    /// The shifts that stay within the bounds.
+    fn room(&self, exponents: &Exponents) -> Exponents {
+        let room = exponents.bounds.iter().zip(&self.degrees);
+        Exponents { bounds: room.map(|(bound, degree)| bound - degree).collect() }
+    }
+
+    /// Finds the coefficients that are zero at all centres by Theorem 10.7.
+    fn find_zeros(&mut self, system: &System<'_>, unknowns: &[usize]) {
+        let own = Exponents { bounds: self.degrees.clone() };
+        for (k, exponent) in own.all().iter().enumerate() {
+            self.zero[k] = self.coefficients[k] == 0
+                && !has_transversal(system, &self.minor, unknowns, exponent);
+        }
+    }
+}
+
+fn sum(a: &[usize], b: &[usize]) -> Vec<usize> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+/// Whether for every unknown some exponent and the next one are both present.
+fn steps_everywhere(exponents: &Exponents, absent: &[bool]) -> bool {
+    let all = exponents.all();
+    (0..exponents.bounds.len()).all(|f| {
+        all.iter().enumerate().any(|(k, exponent)| {
+            let mut next = exponent.clone();
+            next[f] += 1;
+            next[f] <= exponents.bounds[f] && !absent[k] && !absent[exponents.index(&next)]
+        })
+    })
+}
+
+/// Whether the rows and columns of a minor can be matched where the coefficient of `exponent` has
+/// entries that are not the zero polynomial: without the sides with an unknown of exponent 0,
+/// and with these alone where every row with the unknown must give it (Theorem 10.7).
+fn has_transversal(
+    system: &System<'_>,
+    minor: &Minor,
+    unknowns: &[usize],
+    exponent: &[usize],
+) -> bool {
+    let place = |f: usize| unknowns.iter().position(|&g| g == f);
+    let of_row = |row: usize, f: usize| system.rows[row].unknowns().any(|g| g == f);
+    let whole = |part: &Part| match part {
+        Part::Whole(row) => Some(*row),
+        _ => None,
+    };
+    let counts: Vec<usize> = unknowns
+        .iter()
+        .map(|&f| minor.rows.iter().filter_map(whole).filter(|&row| of_row(row, f)).count())
+        .collect();
+    let entries = |row: usize, which: usize| {
+        let side = &system.rows[row].sides[which];
+        (0..3).filter(|&k| side.pattern[k]).map(|k| 3 * side.node + k).collect::<Vec<_>>()
+    };
+    let columns_of = |part: &Part| -> Vec<usize> {
+        match *part {
+            Part::Plus(row) => entries(row, 0),
+            Part::Minus(row) => entries(row, 1),
+            Part::Whole(row) => {
+                let kept = |which: usize| {
+                    let [own, other] = [which, 1 - which]
+                        .map(|k| system.rows[row].sides[k].scale.and_then(place));
+                    own.is_none_or(|f| exponent[f] > 0)
+                        && other.is_none_or(|f| exponent[f] < counts[f])
+                };
+                (0..2).filter(|&which| kept(which)).flat_map(|which| entries(row, which)).collect()
+            }
+        }
+    };
+    let mut row_of = vec![None; system.columns];
+    let allowed: Vec<Vec<usize>> = minor
+        .rows
+        .iter()
+        .map(|part| {
+            let columns = columns_of(part).into_iter();
+            columns.filter(|column| minor.columns.contains(column)).collect()
+        })
+        .collect();
+    (0..allowed.len()).all(|row| {
+        let mut seen = vec![false; system.columns];
+        augment(row, &allowed, &mut row_of, &mut seen)
+    })
+}
+
+/// Finds a column for a row, moving other rows to other columns if need be.
+fn augment(
+    row: usize,
+    allowed: &[Vec<usize>],
+    row_of: &mut [Option<usize>],
+    seen: &mut [bool],
+) -> bool {
+    for &column in &allowed[row] {
+        if seen[column] {
+            continue;
+        }
+        seen[column] = true;
+        if row_of[column].is_none_or(|other| augment(other, allowed, row_of, seen)) {
+            row_of[column] = Some(row);
+            return true;
+        }
+    }
+    false
 }
 
 /// A row `x sides[0] - y sides[1]`, x and y being one or unknowns.
