@@ -5,7 +5,7 @@
 //! Lemma 10.4).
 
 use super::echelon::Echelon;
-use super::members::{Members, Set, bits};
+use super::members::{Members, Set, bits, shared};
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
@@ -71,7 +71,9 @@ impl Row {
     ) -> Vec<u64> {
         let mut row = vec![0; columns];
         let [plus, minus] = [0, 1].map(|k| self.sides[k].scale.map(&value));
-        for (side, factor, negative) in [(&self.sides[0], plus, false), (&self.sides[1], minus, true)] {
+        for (side, factor, negative) in
+            [(&self.sides[0], plus, false), (&self.sides[1], minus, true)]
+        {
             for (at, &entry) in (3 * side.node..).zip(&side.vector) {
                 let entry = factor.map_or(entry, |factor| field.times(factor, entry));
                 row[at] = if negative { field.negate(entry) } else { entry };
@@ -199,22 +201,39 @@ impl Core {
     /// The chart in terms of the graph.
     pub(super) fn chart(&self) -> Chart {
         let name = |&v: &usize| self.nodes[v];
-        let mut members: Vec<Vec<u32>> =
-            self.bodies.iter().map(|body| body.iter().map(name).collect()).collect();
+        let mut members: Vec<Vec<u32>> = self
+            .bodies
+            .iter()
+            .map(|body| body.iter().map(name).collect())
+            .collect();
         let mut unknowns = Vec::new();
         for (member, (body, scales)) in self.bodies.iter().zip(&self.body_scales).enumerate() {
             let of_body = body.iter().zip(scales).filter(|(_, scale)| scale.is_some());
-            unknowns.extend(of_body.map(|(v, _)| Scale { node: name(v), member }));
+            unknowns.extend(of_body.map(|(v, _)| Scale {
+                node: name(v),
+                member,
+            }));
         }
         for ([v, a, b], scale) in self.half_edges.iter().zip(&self.half_edge_scales) {
             members.push(vec![name(v), name(a)]);
             members.push(vec![name(v), name(b)]);
             if scale.is_some() {
-                unknowns.push(Scale { node: name(b), member: members.len() - 1 });
+                unknowns.push(Scale {
+                    node: name(b),
+                    member: members.len() - 1,
+                });
             }
         }
-        let half_edges = self.half_edges.iter().map(|half| half.map(|v| self.nodes[v])).collect();
-        Chart { members, half_edges, unknowns }
+        let half_edges = self
+            .half_edges
+            .iter()
+            .map(|half| half.map(|v| self.nodes[v]))
+            .collect();
+        Chart {
+            members,
+            half_edges,
+            unknowns,
+        }
     }
 
     /// The rows of N(u): those of the bodies, 3 |s| - 4 each, then one for each half-edge.
@@ -225,9 +244,16 @@ impl Core {
         for (body, scales) in self.bodies.iter().zip(&self.body_scales) {
             let mut put = |i: usize, j: usize, pattern: [bool; 3], vector: [u64; 3]| {
                 let side = |k: usize| {
-                    number(body[k]).map(|node| Side { node, vector, pattern, scale: scales[k] })
+                    number(body[k]).map(|node| Side {
+                        node,
+                        vector,
+                        pattern,
+                        scale: scales[k],
+                    })
                 };
-                rows.push(Row { sides: [side(i)?, side(j)?] });
+                rows.push(Row {
+                    sides: [side(i)?, side(j)?],
+                });
                 Some(())
             };
             for j in 1..body.len() {
@@ -247,8 +273,18 @@ impl Core {
             let [plus, minus] = [a, b].map(number);
             rows.push(Row {
                 sides: [
-                    Side { node: plus?, vector, pattern: [true; 3], scale: None },
-                    Side { node: minus?, vector, pattern: [true; 3], scale },
+                    Side {
+                        node: plus?,
+                        vector,
+                        pattern: [true; 3],
+                        scale: None,
+                    },
+                    Side {
+                        node: minus?,
+                        vector,
+                        pattern: [true; 3],
+                        scale,
+                    },
                 ],
             });
         }
@@ -264,7 +300,12 @@ impl Core {
     /// its rows, 3 at most.
     pub(super) fn degrees(&self, rows: &[Row]) -> Vec<usize> {
         (0..self.unknowns)
-            .map(|f| rows.iter().filter(|row| row.unknowns().any(|g| g == f)).count().min(3))
+            .map(|f| {
+                rows.iter()
+                    .filter(|row| row.unknowns().any(|g| g == f))
+                    .count()
+                    .min(3)
+            })
             .collect()
     }
 
@@ -284,7 +325,9 @@ impl Core {
             .iter()
             .map(|number| {
                 let at = 3 * (*number)?;
-                Some(std::array::from_fn(|row| columns.map(|column| column[at + row])))
+                Some(std::array::from_fn(|row| {
+                    columns.map(|column| column[at + row])
+                }))
             })
             .collect();
         for (&[v, a, b], scale) in self.half_edges.iter().zip(&self.half_edge_scales) {
@@ -331,25 +374,11 @@ fn solve(field: &PrimeField, rows: &Echelon) -> Option<[[u64; 4]; 3]> {
 
 /// The directions (3.1) with q = 1: polynomials in the centres, and not chosen at the point. `None`
 /// if the first coordinates are equal.
-fn fixed_directions(
-    field: &PrimeField,
-    c: &[u64; 3],
-    d: &[u64; 3],
-) -> Option<[[u64; 3]; 2]> {
+fn fixed_directions(field: &PrimeField, c: &[u64; 3], d: &[u64; 3]) -> Option<[[u64; 3]; 2]> {
     if c[0] == d[0] {
         return None;
     }
     directions(field, c, d)
-}
-
-/// The nodes that lie in two sets or more.
-pub(super) fn shared(sets: &[Set]) -> Set {
-    let (mut once, mut twice) = (0, 0);
-    for set in sets {
-        twice |= once & set;
-        once |= set;
-    }
-    twice
 }
 
 /// Nodes in just two members, both of two nodes, no two of them adjacent; and the other members.
@@ -368,7 +397,10 @@ fn half_edges(sets: &[Set], shared: Set) -> (Vec<[usize; 3]>, Vec<Vec<usize>>) {
             continue;
         }
         // Neither its neighbours nor the node may be an end of another such elimination.
-        if half_edges.iter().any(|&[w, _, _]: &[usize; 3]| others >> w & 1 == 1) {
+        if half_edges
+            .iter()
+            .any(|&[w, _, _]: &[usize; 3]| others >> w & 1 == 1)
+        {
             continue;
         }
         apart |= 1 << v;
@@ -377,7 +409,10 @@ fn half_edges(sets: &[Set], shared: Set) -> (Vec<[usize; 3]>, Vec<Vec<usize>>) {
         half_edges.push([v, end(sets[k]), end(sets[l])]);
     }
     let left = sets.iter().zip(used).filter(|&(_, used)| !used);
-    (half_edges, left.map(|(&set, _)| bits(set).collect()).collect())
+    (
+        half_edges,
+        left.map(|(&set, _)| bits(set).collect()).collect(),
+    )
 }
 
 fn rotate<T>(list: &mut [T], by: usize) {
@@ -389,9 +424,8 @@ fn rotate<T>(list: &mut [T], by: usize) {
 
 /// (a - v) x (b - v), which is normal to the plane of three centres; `None` if they are collinear.
 fn normal(field: &PrimeField, v: &[u64; 3], a: &[u64; 3], b: &[u64; 3]) -> Option<[u64; 3]> {
-    let difference = |x: &[u64; 3]| -> [u64; 3] {
-        std::array::from_fn(|k| field.minus(x[k], v[k]))
-    };
+    let difference =
+        |x: &[u64; 3]| -> [u64; 3] { std::array::from_fn(|k| field.minus(x[k], v[k])) };
     let (d, e) = (difference(a), difference(b));
     let cross: [u64; 3] = std::array::from_fn(|k| {
         let (l, m) = ((k + 1) % 3, (k + 2) % 3);

@@ -2,7 +2,7 @@
 
 use super::core::{Chart, Core};
 use super::linear::{Linear, settle};
-use super::members::{Members, Merge};
+use super::members::{Members, Merge, Set, bits, shared};
 use super::points::{AtMost, NoBound, at_most};
 use super::simple::{self, Point};
 use super::support::{Minor, Span};
@@ -97,7 +97,11 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { charts: 6, draws: 24, unknowns: 4 }
+        Self {
+            charts: 6,
+            draws: 24,
+            unknowns: 4,
+        }
     }
 }
 
@@ -122,23 +126,86 @@ pub(super) struct Draws {
 
 impl Draws {
     fn new(graph: &Graph, seed: u64) -> Self {
-        let key = DrawKey { graph_sha256: sha256(graph), core_sha256: None, seed, draw: 0 };
-        Self { field: PrimeField::mersenne61(), key }
+        let key = DrawKey {
+            graph_sha256: sha256(graph),
+            core_sha256: None,
+            seed,
+            draw: 0,
+        };
+        Self {
+            field: PrimeField::mersenne61(),
+            key,
+        }
     }
 
     /// Distinct centres of nodes.
     fn centres(&self, nodes: usize, draw: usize) -> Option<Vec<[u64; 3]>> {
         // Centres are redrawn one number after the other, should two of them be equal.
-        let key = DrawKey { draw: (draw as u64) << 16, ..self.key };
-        centres_mod(&self.field, nodes, &key).ok().map(|drawn| drawn.values)
+        let key = DrawKey {
+            draw: (draw as u64) << 16,
+            ..self.key
+        };
+        centres_mod(&self.field, nodes, &key)
+            .ok()
+            .map(|drawn| drawn.values)
     }
 
     fn residues(&self, draw: usize) -> impl FnMut() -> u64 + use<> {
-        DrawKey { draw: draw as u64, ..self.key }.residues(&self.field)
+        DrawKey {
+            draw: draw as u64,
+            ..self.key
+        }
+        .residues(&self.field)
     }
 }
 
+/// Bounds for a core; if they do not meet, parts of it that have one solution become members.
 fn count_members(members: &mut Members, effort: Effort, draws: &Draws) -> Option<Solutions> {
+    let mut best = count_core(members, effort, draws)?;
+    while best.exactly().is_none() {
+        let Some((inside, evidence)) = unique_part(members, effort, draws) else {
+            break;
+        };
+        members.grow(inside, evidence);
+        best = count_core(members, effort, draws)?;
+    }
+    Some(best)
+}
+
+/// Most nodes of a core whose parts are looked through.
+const MOST_PARTED: usize = 14;
+
+/// The smallest part of a core with one solution, and why; not the core itself.
+fn unique_part(members: &Members, effort: Effort, draws: &Draws) -> Option<(Set, Solutions)> {
+    let nodes: Vec<usize> = bits(shared(&members.sets)).collect();
+    if nodes.len() > MOST_PARTED {
+        return None;
+    }
+    // One chart is enough for what merging and linear algebra nearly prove.
+    let effort = Effort {
+        charts: effort.charts.min(2),
+        draws: 1,
+        ..effort
+    };
+    let mut found = None;
+    for size in 5..nodes.len() {
+        subsets(&nodes, size, &mut |chosen| {
+            let inside = chosen.iter().fold(0, |set, v| set | 1 << v);
+            found = members
+                .part(inside)
+                .and_then(|part| count_core(&part, effort, draws))
+                .filter(|solutions| solutions.exactly() == Some(1))
+                .map(|solutions| (inside, solutions));
+            found.is_none()
+        });
+        if found.is_some() {
+            break;
+        }
+    }
+    found
+}
+
+fn count_core(members: &Members, effort: Effort, draws: &Draws) -> Option<Solutions> {
     let mut best = Solutions {
         at_least: 1,
         at_most: None,
@@ -152,7 +219,11 @@ fn count_members(members: &mut Members, effort: Effort, draws: &Draws) -> Option
     }
     for chart in 0..effort.charts {
         let core = Core::new(members, chart)?;
-        let attempt = Attempt { core: &core, effort, draws };
+        let attempt = Attempt {
+            core: &core,
+            effort,
+            draws,
+        };
         let found = attempt.run()?;
         best.improve(found);
         if best.exactly().is_some() {
@@ -164,7 +235,11 @@ fn count_members(members: &mut Members, effort: Effort, draws: &Draws) -> Option
 
 impl Solutions {
     fn improve(&mut self, found: Bounds) {
-        if found.lower.as_ref().is_some_and(|_| found.at_least > self.at_least) {
+        if found
+            .lower
+            .as_ref()
+            .is_some_and(|_| found.at_least > self.at_least)
+        {
             (self.at_least, self.lower) = (found.at_least, found.lower);
         }
         if let Some((most, upper)) = found.upper
@@ -200,8 +275,16 @@ impl Attempt<'_> {
         }
         let mut values: Values = vec![None; self.core.unknowns];
         let ones = self.ones(&system, &mut values);
-        let upper = Upper { place: self.place(&system), ones, points: None };
-        let mut bounds = Bounds { at_least: 1, lower: None, upper: None };
+        let upper = Upper {
+            place: self.place(&system),
+            ones,
+            points: None,
+        };
+        let mut bounds = Bounds {
+            at_least: 1,
+            lower: None,
+            upper: None,
+        };
         if !values.contains(&None) {
             bounds.upper = Some((1, upper));
             return Some(bounds);
@@ -215,7 +298,13 @@ impl Attempt<'_> {
         Place {
             chart: self.core.chart(),
             prime: system.field.modulus(),
-            centres: self.core.nodes.iter().copied().zip(system.centres.iter().map(centre)).collect(),
+            centres: self
+                .core
+                .nodes
+                .iter()
+                .copied()
+                .zip(system.centres.iter().map(centre))
+                .collect(),
         }
     }
 
@@ -242,7 +331,11 @@ impl Attempt<'_> {
             }
             steps.push(One::Support {
                 bounds: span.exponents.bounds.clone(),
-                minors: span.generators.iter().map(|generator| generator.minor.clone()).collect(),
+                minors: span
+                    .generators
+                    .iter()
+                    .map(|generator| generator.minor.clone())
+                    .collect(),
                 unknowns: span.unknowns,
             });
         }
@@ -259,9 +352,16 @@ impl Attempt<'_> {
         for size in 1..=self.effort.unknowns.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
                 self.points_of(values, unknowns, upper, bounds);
-                !bounds.upper.as_ref().is_some_and(|(most, _)| *most == bounds.at_least)
+                !bounds
+                    .upper
+                    .as_ref()
+                    .is_some_and(|(most, _)| *most == bounds.at_least)
             });
-            if bounds.upper.as_ref().is_some_and(|(most, _)| *most == bounds.at_least) {
+            if bounds
+                .upper
+                .as_ref()
+                .is_some_and(|(most, _)| *most == bounds.at_least)
+            {
                 break;
             }
         }
@@ -269,9 +369,15 @@ impl Attempt<'_> {
 
     fn points_of(&self, values: &Values, unknowns: &[usize], upper: &Upper, bounds: &mut Bounds) {
         for draw in 0..self.effort.draws {
-            let Some(centres) = self.draws.centres(self.core.nodes.len(), draw) else { return };
-            let Some(system) = System::new(self.draws.field, self.core, &centres) else { continue };
-            let Some(span) = Span::new(&system, values, unknowns) else { return };
+            let Some(centres) = self.draws.centres(self.core.nodes.len(), draw) else {
+                return;
+            };
+            let Some(system) = System::new(self.draws.field, self.core, &centres) else {
+                continue;
+            };
+            let Some(span) = Span::new(&system, values, unknowns) else {
+                return;
+            };
             let mut residues = self.draws.residues(draw);
             match at_most(&system, values, &span, &mut residues) {
                 Ok(found) => {
@@ -297,11 +403,14 @@ impl Attempt<'_> {
             .collect();
         if self.core.excess() == 0 && system.chains_are_independent() {
             let one = field.from_u64(1);
-            let identity = points.iter().any(|point| point.values.iter().all(|&x| x == one));
+            let identity = points
+                .iter()
+                .any(|point| point.values.iter().all(|&x| x == one));
             let least = points.len() + usize::from(!identity);
             if least > bounds.at_least {
                 bounds.at_least = least;
-                let residues = |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
+                let residues =
+                    |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
                 bounds.lower = Some(Lower {
                     place: self.place(system),
                     points: points.iter().map(residues).collect(),
@@ -310,7 +419,13 @@ impl Attempt<'_> {
         }
         if bounds.upper.as_ref().is_none_or(|&(known, _)| most < known) {
             let points = Some((self.place(system), found));
-            bounds.upper = Some((most, Upper { points, ..upper.clone() }));
+            bounds.upper = Some((
+                most,
+                Upper {
+                    points,
+                    ..upper.clone()
+                },
+            ));
         }
     }
 }

@@ -22,14 +22,22 @@ pub struct Linear {
 pub(super) fn settle(system: &System<'_>, values: &mut Values) -> Vec<Linear> {
     let mut steps = Vec::new();
     while values.contains(&None) {
-        let Some(step) = step(system, values) else { break };
+        let Some(step) = step(system, values) else {
+            break;
+        };
         steps.push(step);
     }
     steps
 }
 
 fn step(system: &System<'_>, values: &mut Values) -> Option<Linear> {
-    let single = |&row: &usize| system.rows[row].unknowns().filter(|&f| values[f].is_none()).count() == 1;
+    let single = |&row: &usize| {
+        system.rows[row]
+            .unknowns()
+            .filter(|&f| values[f].is_none())
+            .count()
+            == 1
+    };
     let scaled: Vec<usize> = system.scaled(values).into_iter().filter(single).collect();
     let mut found = None;
     for size in (1..=4.min(scaled.len())).rev() {
@@ -59,7 +67,9 @@ fn apply(
     let mut rows: Vec<Vec<u64>> = constant.map(|row| system.constant(row, values)).collect();
     let others = rows.len();
     // Fewer rows than this have no left kernel where the rank is 3 n' - 4.
-    let least = (others + freed.len()).checked_sub(system.target).filter(|&least| least > 0)?;
+    let least = (others + freed.len())
+        .checked_sub(system.target)
+        .filter(|&least| least > 0)?;
     for &row in freed {
         let sides = [0, 1].map(|which| {
             let mut side = system.rows[row].side(which, system.columns);
@@ -81,7 +91,11 @@ fn apply(
         let sides = &system.rows[row].sides;
         let plus_is_unknown = sides[0].scale.is_some_and(|f| values[f].is_none());
         // mu (x plus - y minus) with one of x, y unknown and in the kernel (mu x, - mu y).
-        let (known, unknown) = if plus_is_unknown { (at + 1, at) } else { (at, at + 1) };
+        let (known, unknown) = if plus_is_unknown {
+            (at + 1, at)
+        } else {
+            (at, at + 1)
+        };
         let f = sides[usize::from(!plus_is_unknown)].scale?;
         let Some(vector) = kernel.iter().find(|vector| vector[known] != 0) else {
             continue;

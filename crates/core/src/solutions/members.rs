@@ -4,7 +4,9 @@
 //! two of them, closed under rules 2 and 3 of Theorem 4.1 and under the rule of the bicliques
 //! K_{2,3} (Theorem 10.3), and every merge that led there.
 
+use super::count::Solutions;
 use crate::contract::Contraction;
+use crate::geometry::model::Model;
 use crate::graph::Graph;
 
 /// The most nodes that members may share: one bit for each.
@@ -23,6 +25,8 @@ pub struct Merge {
     pub at: Vec<u32>,
     /// The shared nodes of the members that were merged, as nodes of the graph.
     pub members: Vec<Vec<u32>>,
+    /// Why the part between the nodes has one solution, if it was grown.
+    pub grown: Option<Box<Solutions>>,
 }
 
 /// Why members are one.
@@ -35,7 +39,7 @@ pub enum Rule {
     /// Two nodes are joined to each of three others by members (Theorem 10.3).
     Biclique,
     /// The part of the core between them is finite solvable and proved to have one solution
-    /// (Proposition 10.13).
+    /// (Proposition 10.11).
     Grown,
 }
 
@@ -65,7 +69,11 @@ impl Members {
         if count.contains(&0) {
             return None;
         }
-        let nodes: Vec<u32> = (0..).zip(&count).filter(|&(_, &k)| k > 1).map(|(v, _)| v).collect();
+        let nodes: Vec<u32> = (0..)
+            .zip(&count)
+            .filter(|&(_, &k)| k > 1)
+            .map(|(v, _)| v)
+            .collect();
         if nodes.len() > MOST_NODES {
             return None;
         }
@@ -97,12 +105,49 @@ impl Members {
         places.dedup();
         let members = places.iter().map(|&k| self.named(self.sets[k])).collect();
         let at = at.iter().map(|&v| self.nodes[v]).collect();
-        self.merges.push(Merge { rule, at, members });
+        self.merges.push(Merge {
+            rule,
+            at,
+            members,
+            grown: None,
+        });
         let union = places.iter().fold(0, |union, &k| union | self.sets[k]);
         for &k in places.iter().rev() {
             self.sets.swap_remove(k);
         }
         self.sets.push(union);
+    }
+
+    /// The part of the core between some nodes: what its members have there, if it is a core with
+    /// two members or more, and enough equations to be finite solvable.
+    pub(super) fn part(&self, inside: Set) -> Option<Self> {
+        let sets = self.sets.iter().map(|set| set & inside);
+        let sets: Vec<Set> = sets.filter(|set| set.count_ones() > 1).collect();
+        let required = |set: Set| Model::Projective.required(set.count_ones() as usize);
+        let equations: usize = sets.iter().map(|&set| required(set)).sum();
+        if sets.len() < 2 || shared(&sets) != inside || equations < required(inside) {
+            return None;
+        }
+        let mut part = Self {
+            nodes: self.nodes.clone(),
+            sets,
+            merges: Vec::new(),
+        };
+        part.close();
+        Some(part)
+    }
+
+    /// Makes one member of the part between some nodes, which has one solution, and of all members
+    /// that share two nodes with it (Proposition 10.11).
+    pub(super) fn grow(&mut self, inside: Set, evidence: Solutions) {
+        let touching = |&k: &usize| (self.sets[k] & inside).count_ones() > 1;
+        let places = (0..self.sets.len()).filter(touching).collect();
+        let at: Vec<usize> = bits(inside).collect();
+        self.unite(places, Rule::Grown, &at);
+        if let Some(merge) = self.merges.last_mut() {
+            merge.grown = Some(Box::new(evidence));
+        }
+        self.close();
     }
 
     fn merge_shared(&mut self) -> bool {
@@ -129,7 +174,12 @@ impl Members {
                 }
                 for m in 0..l {
                     let [first, second] = [k, l].map(|x| self.sets[m] & self.sets[x]);
-                    if first != 0 && second != 0 && first != corner && second != corner && first != second {
+                    if first != 0
+                        && second != 0
+                        && first != corner
+                        && second != corner
+                        && first != second
+                    {
                         let at: Vec<usize> = bits(corner | first | second).collect();
                         self.unite(vec![m, l, k], Rule::Triangle, &at);
                         return true;
@@ -156,10 +206,13 @@ impl Members {
                 }
                 let three: Vec<usize> = bits(common).take(3).collect();
                 let used = |set: Set| {
-                    [a, b].iter().any(|&x| three.iter().any(|&v| set >> x & set >> v & 1 == 1))
+                    [a, b]
+                        .iter()
+                        .any(|&x| three.iter().any(|&v| set >> x & set >> v & 1 == 1))
                 };
-                let places: Vec<usize> =
-                    (0..self.sets.len()).filter(|&k| used(self.sets[k])).collect();
+                let places: Vec<usize> = (0..self.sets.len())
+                    .filter(|&k| used(self.sets[k]))
+                    .collect();
                 // Inside one member there is nothing to merge.
                 if places.len() > 1 {
                     let at: Vec<usize> = [a, b].into_iter().chain(three).collect();
@@ -179,4 +232,14 @@ pub(super) fn bits(mut set: Set) -> impl Iterator<Item = usize> {
         set &= set - 1;
         Some(lowest)
     })
+}
+
+/// The nodes that lie in two sets or more.
+pub(super) fn shared(sets: &[Set]) -> Set {
+    let (mut once, mut twice) = (0, 0);
+    for set in sets {
+        twice |= once & set;
+        once |= set;
+    }
+    twice
 }

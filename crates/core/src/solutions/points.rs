@@ -69,8 +69,10 @@ pub(super) fn at_most(
     let mut points = Vec::new();
     let mut settled = Vec::new();
     for vector in vectors {
-        let point: Option<Vec<u64>> =
-            multiplications.iter().map(|matrix| eigenvalue(field, matrix, &vector)).collect();
+        let point: Option<Vec<u64>> = multiplications
+            .iter()
+            .map(|matrix| eigenvalue(field, matrix, &vector))
+            .collect();
         let point = point.ok_or(NoBound::Short)?;
         if !evaluates(field, &exponents, &absent, &kernel, &vector, &point) {
             return Err(NoBound::Short);
@@ -88,7 +90,11 @@ pub(super) fn at_most(
     Ok(AtMost {
         unknowns: span.unknowns.clone(),
         bounds: exponents.bounds,
-        minors: span.generators.iter().map(|generator| generator.minor.clone()).collect(),
+        minors: span
+            .generators
+            .iter()
+            .map(|generator| generator.minor.clone())
+            .collect(),
         points,
         settled,
     })
@@ -97,7 +103,10 @@ pub(super) fn at_most(
 /// The exponents a that are present with every a + e_f.
 fn inner_places(exponents: &Exponents, absent: &[bool]) -> Vec<Vec<usize>> {
     let present = |exponent: &[usize]| {
-        exponent.iter().zip(&exponents.bounds).all(|(e, bound)| e <= bound)
+        exponent
+            .iter()
+            .zip(&exponents.bounds)
+            .all(|(e, bound)| e <= bound)
             && !absent[exponents.index(exponent)]
     };
     let inner = |exponent: &Vec<usize>| {
@@ -128,7 +137,10 @@ fn restriction(
             exponents.index(&exponent)
         })
         .collect();
-    kernel.iter().map(|vector| places.iter().map(|&k| vector[k]).collect()).collect()
+    kernel
+        .iter()
+        .map(|vector| places.iter().map(|&k| vector[k]).collect())
+        .collect()
 }
 
 /// The eigenvalue of a left eigenvector, `None` if it is none.
@@ -139,7 +151,10 @@ fn eigenvalue(field: &PrimeField, matrix: &[Vec<u64>], vector: &[u64]) -> Option
     }
     let at = vector.iter().position(|&x| x != 0)?;
     let value = field.times(image[at], field.inverse(vector[at])?);
-    let holds = vector.iter().zip(&image).all(|(&x, &y)| field.times(value, x) == y);
+    let holds = vector
+        .iter()
+        .zip(&image)
+        .all(|(&x, &y)| field.times(value, x) == y);
     holds.then_some(value)
 }
 
@@ -156,14 +171,31 @@ fn evaluates(
     for (&factor, row) in combination.iter().zip(kernel) {
         field.axpy(&mut vector, factor, row);
     }
-    let monomials = exponents.all().into_iter().zip(absent).map(|(exponent, &absent)| {
-        let powers = exponent.iter().zip(point).map(|(&e, &x)| field.pow(x, e as u64));
-        let product = powers.fold(field.from_u64(1), |product, power| field.times(product, power));
-        if absent { 0 } else { product }
-    });
+    let monomials = exponents
+        .all()
+        .into_iter()
+        .zip(absent)
+        .map(|(exponent, &absent)| {
+            let powers = exponent
+                .iter()
+                .zip(point)
+                .map(|(&e, &x)| field.pow(x, e as u64));
+            let product = powers.fold(field.from_u64(1), |product, power| {
+                field.times(product, power)
+            });
+            if absent { 0 } else { product }
+        });
     let monomials: Vec<u64> = monomials.collect();
-    let Some(at) = monomials.iter().position(|&x| x != 0) else { return false };
-    let Some(inverse) = field.inverse(monomials[at]) else { return false };
+    let Some(at) = monomials.iter().position(|&x| x != 0) else {
+        return false;
+    };
+    let Some(inverse) = field.inverse(monomials[at]) else {
+        return false;
+    };
     let scale = field.times(vector[at], inverse);
-    scale != 0 && vector.iter().zip(&monomials).all(|(&x, &y)| x == field.times(scale, y))
+    scale != 0
+        && vector
+            .iter()
+            .zip(&monomials)
+            .all(|(&x, &y)| x == field.times(scale, y))
 }

@@ -115,13 +115,17 @@ pub(super) fn left_eigenvectors(
     let mut iterates = vec![(0..n).map(|_| draw()).collect::<Vec<u64>>()];
     for k in 0..n {
         let next = (0..n)
-            .map(|column| (0..n).fold(0, |sum, row| {
-                field.plus(sum, field.times(iterates[k][row], matrix[row][column]))
-            }))
+            .map(|column| {
+                (0..n).fold(0, |sum, row| {
+                    field.plus(sum, field.times(iterates[k][row], matrix[row][column]))
+                })
+            })
             .collect();
         iterates.push(next);
     }
-    let [polynomial] = &left_kernel(field, &iterates, n)[..] else { return None };
+    let [polynomial] = &left_kernel(field, &iterates, n)[..] else {
+        return None;
+    };
     let roots = all_roots(field, trimmed(polynomial.clone()), draw)?;
     let vectors = roots.into_iter().map(|root| {
         let mut shifted: Vec<Vec<u64>> = matrix.to_vec();
@@ -168,7 +172,9 @@ mod tests {
     fn drawn() -> impl FnMut() -> u64 {
         let mut state = 1u64;
         move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             state >> 8
         }
     }
@@ -176,7 +182,13 @@ mod tests {
     #[test]
     fn roots_by_hand() {
         let f = PrimeField::mersenne61();
-        let e = |x: i64| if x < 0 { f.negate(f.from_u64(x.unsigned_abs())) } else { f.from_u64(x as u64) };
+        let e = |x: i64| {
+            if x < 0 {
+                f.negate(f.from_u64(x.unsigned_abs()))
+            } else {
+                f.from_u64(x as u64)
+            }
+        };
         // (x - 1)(x - 2)(x + 3) = x^3 - 7 x + 6.
         let mut roots = all_roots(&f, [6, -7, 0, 1].map(e).to_vec(), &mut drawn()).unwrap();
         roots.sort_unstable();
@@ -185,7 +197,10 @@ mod tests {
         assert_eq!(roots, expected);
         // 2^61 - 1 is 3 modulo 4: -1 is not a square. A double root is refused as well.
         assert_eq!(all_roots(&f, [1, 0, 1].map(e).to_vec(), &mut drawn()), None);
-        assert_eq!(all_roots(&f, [1, -2, 1].map(e).to_vec(), &mut drawn()), None);
+        assert_eq!(
+            all_roots(&f, [1, -2, 1].map(e).to_vec(), &mut drawn()),
+            None
+        );
     }
 
     #[test]
@@ -196,8 +211,14 @@ mod tests {
         let matrix = [vec![e(2), e(0)], vec![e(1), e(3)]];
         let vectors = left_eigenvectors(&f, &matrix, &mut drawn()).unwrap();
         for vector in &vectors {
-            let image: Vec<u64> =
-                (0..2).map(|c| f.plus(f.times(vector[0], matrix[0][c]), f.times(vector[1], matrix[1][c]))).collect();
+            let image: Vec<u64> = (0..2)
+                .map(|c| {
+                    f.plus(
+                        f.times(vector[0], matrix[0][c]),
+                        f.times(vector[1], matrix[1][c]),
+                    )
+                })
+                .collect();
             let cross = f.minus(f.times(image[0], vector[1]), f.times(image[1], vector[0]));
             assert_eq!(cross, 0);
         }

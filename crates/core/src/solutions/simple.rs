@@ -28,15 +28,17 @@ pub(super) fn point(system: &System<'_>, values: &[u64]) -> Option<Point> {
         return None;
     }
     let kernel = echelon.kernel(field, system.columns);
-    let cameras = system.core.cameras(field, system.centres, &kernel, values)?;
+    let cameras = system
+        .core
+        .cameras(field, system.centres, &kernel, values)?;
     let centres: Vec<Option<[u64; 4]>> = cameras
         .iter()
         .map(|camera| camera.as_ref().map(|camera| centre(field, camera)))
         .collect();
     let distinct = |v: usize, w: usize| match (centres[v], centres[w]) {
-        (Some(c), Some(d)) => (0..4).any(|k| {
-            (0..k).any(|l| field.times(c[k], d[l]) != field.times(c[l], d[k]))
-        }),
+        (Some(c), Some(d)) => {
+            (0..4).any(|k| (0..k).any(|l| field.times(c[k], d[l]) != field.times(c[l], d[k])))
+        }
         _ => false,
     };
     if centres.iter().flatten().any(|centre| *centre == [0; 4]) {
@@ -46,20 +48,31 @@ pub(super) fn point(system: &System<'_>, values: &[u64]) -> Option<Point> {
     let within = bodies.flat_map(|body| {
         (0..body.len()).flat_map(move |k| (0..k).map(move |l| (body[k], body[l])))
     });
-    let halves = system.core.half_edges.iter().flat_map(|&[v, a, b]| [(v, a), (v, b)]);
+    let halves = system
+        .core
+        .half_edges
+        .iter()
+        .flat_map(|&[v, a, b]| [(v, a), (v, b)]);
     if !within.chain(halves).all(|(v, w)| distinct(v, w)) {
         return None;
     }
     let simple = is_simple(system, values, &kernel);
-    Some(Point { values: values.to_vec(), cameras, simple })
+    Some(Point {
+        values: values.to_vec(),
+        cameras,
+        simple,
+    })
 }
 
 /// Whether the derivative of `w N(u) y` by the unknowns is injective, for w in the left and y in
 /// the right kernel at the point.
 fn is_simple(system: &System<'_>, values: &[u64], kernel: &[Vec<u64>]) -> bool {
     let field = &system.field;
-    let rows: Vec<Vec<u64>> =
-        system.rows.iter().map(|row| row.at(field, system.columns, |f| values[f])).collect();
+    let rows: Vec<Vec<u64>> = system
+        .rows
+        .iter()
+        .map(|row| row.at(field, system.columns, |f| values[f]))
+        .collect();
     let left = left_kernel(field, &rows, system.columns);
     // For each row what its sides give at the four kernel vectors.
     let sides: Vec<[Vec<u64>; 2]> = system

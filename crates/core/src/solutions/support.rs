@@ -55,7 +55,10 @@ impl Exponents {
     }
 
     pub(super) fn index(&self, exponent: &[usize]) -> usize {
-        exponent.iter().zip(&self.bounds).fold(0, |index, (e, bound)| index * (bound + 1) + e)
+        exponent
+            .iter()
+            .zip(&self.bounds)
+            .fold(0, |index, (e, bound)| index * (bound + 1) + e)
     }
 
     pub(super) fn all(&self) -> Vec<Vec<usize>> {
@@ -94,7 +97,9 @@ impl Span {
     /// most, or dropped. Stops early when only one point is left.
     pub(super) fn new(system: &System<'_>, values: &Values, unknowns: &[usize]) -> Option<Self> {
         let degrees = system.core.degrees(&system.rows);
-        let exponents = Exponents { bounds: unknowns.iter().map(|&f| degrees[f]).collect() };
+        let exponents = Exponents {
+            bounds: unknowns.iter().map(|&f| degrees[f]).collect(),
+        };
         if exponents.len() > MOST_VALUES {
             return None;
         }
@@ -147,7 +152,9 @@ impl Span {
     fn absent(&self, exponents: &Exponents) -> Vec<bool> {
         let mut absent = vec![true; exponents.len()];
         for generator in &self.generators {
-            let own = Exponents { bounds: generator.degrees.clone() };
+            let own = Exponents {
+                bounds: generator.degrees.clone(),
+            };
             let present: Vec<Vec<usize>> = own
                 .all()
                 .into_iter()
@@ -191,8 +198,9 @@ impl Span {
         let variable: Vec<usize> = (0..system.rows.len())
             .filter(|&row| !system.is_constant(row, values) && inside(row) && !freed.contains(&row))
             .collect();
-        let free: Vec<usize> =
-            (0..system.columns).filter(|column| !echelon.pivots().contains(column)).collect();
+        let free: Vec<usize> = (0..system.columns)
+            .filter(|column| !echelon.pivots().contains(column))
+            .collect();
         let size = (system.target + freed.len() + 1).saturating_sub(echelon.rank());
         if size == 0 || size > variable.len() || free.len() > MOST_COLUMNS || size > free.len() {
             return true;
@@ -227,7 +235,12 @@ impl Span {
                 })
                 .collect();
             let degrees: Vec<usize> = (0..self.unknowns.len())
-                .map(|f| rows.iter().filter(|row| row.scales.contains(&Some(f))).count().min(3))
+                .map(|f| {
+                    rows.iter()
+                        .filter(|row| row.scales.contains(&Some(f)))
+                        .count()
+                        .min(3)
+                })
                 .collect();
             for (columns, coefficients) in polynomials(field, &rows, free.len(), &degrees) {
                 let whole = chosen.iter().map(|&k| Part::Whole(variable[k]));
@@ -239,7 +252,15 @@ impl Span {
                 };
                 let degrees = degrees.clone();
                 let zero = vec![false; coefficients.len()];
-                if !each(self, Generator { minor, degrees, coefficients, zero }) {
+                if !each(
+                    self,
+                    Generator {
+                        minor,
+                        degrees,
+                        coefficients,
+                        zero,
+                    },
+                ) {
                     return false;
                 }
             }
@@ -254,7 +275,12 @@ impl Span {
         field: &PrimeField,
         more: usize,
     ) -> (Exponents, Vec<bool>, Vec<Vec<u64>>) {
-        let bounds = self.exponents.bounds.iter().map(|bound| bound + more).collect();
+        let bounds = self
+            .exponents
+            .bounds
+            .iter()
+            .map(|bound| bound + more)
+            .collect();
         let exponents = Exponents { bounds };
         let mut echelon = Echelon::default();
         for generator in &self.generators {
@@ -265,7 +291,12 @@ impl Span {
         let absent = self.absent(&exponents);
         let mut kernel = echelon.kernel(field, exponents.len());
         // At an absent exponent all shifts vanish, so it has a vector of its own.
-        kernel.retain(|vector| vector.iter().zip(&absent).any(|(&x, absent)| x != 0 && !absent));
+        kernel.retain(|vector| {
+            vector
+                .iter()
+                .zip(&absent)
+                .any(|(&x, absent)| x != 0 && !absent)
+        });
         (exponents, absent, kernel)
     }
 }
@@ -273,7 +304,9 @@ impl Span {
 impl Generator {
     /// All multiples by a monomial within the bounds: the exponent, and the coefficients.
     fn shifts(&self, exponents: &Exponents) -> Vec<(Vec<usize>, Vec<u64>)> {
-        let own = Exponents { bounds: self.degrees.clone() };
+        let own = Exponents {
+            bounds: self.degrees.clone(),
+        };
         let room = self.room(exponents);
         let terms: Vec<(Vec<usize>, u64)> = own
             .all()
@@ -297,12 +330,56 @@ impl Generator {
     /// The shifts that stay within the bounds.
     fn room(&self, exponents: &Exponents) -> Exponents {
         let room = exponents.bounds.iter().zip(&self.degrees);
-        Exponents { bounds: room.map(|(bound, degree)| bound - degree).collect() }
+        Exponents {
+            bounds: room.map(|(bound, degree)| bound - degree).collect(),
+        }
+    }
+
+    /// How many coefficients are said to be zero at all centres.
+    ///
+    /// # Panics
+    /// If one of them is not zero at the centres of this system.
+    #[cfg(test)]
+    pub(super) fn check_zeros(&self, system: &System<'_>, unknowns: &[usize]) -> usize {
+        let own = Exponents {
+            bounds: self.degrees.clone(),
+        };
+        let field = &system.field;
+        let mut values: Vec<u64> = own
+            .all()
+            .iter()
+            .map(|point| {
+                let value = |f: usize| {
+                    let place = unknowns.iter().position(|&g| g == f);
+                    field.from_u64(place.map_or(1, |place| point[place] as u64))
+                };
+                let rows = self.minor.rows.iter().map(|part| match *part {
+                    Part::Whole(row) => system.rows[row].at(field, system.columns, value),
+                    Part::Plus(row) => system.rows[row].side(0, system.columns),
+                    Part::Minus(row) => system.rows[row].side(1, system.columns),
+                });
+                let rows: Vec<Vec<u64>> = rows
+                    .map(|row| {
+                        self.minor
+                            .columns
+                            .iter()
+                            .map(|&column| row[column])
+                            .collect()
+                    })
+                    .collect();
+                determinant(field, rows)
+            })
+            .collect();
+        interpolate(field, &self.degrees, &mut values);
+        let zeros = self.zero.iter().zip(&values).filter(|(zero, _)| **zero);
+        zeros.inspect(|(_, value)| assert_eq!(**value, 0)).count()
     }
 
     /// Finds the coefficients that are zero at all centres by Theorem 10.7.
     fn find_zeros(&mut self, system: &System<'_>, unknowns: &[usize]) {
-        let own = Exponents { bounds: self.degrees.clone() };
+        let own = Exponents {
+            bounds: self.degrees.clone(),
+        };
         for (k, exponent) in own.all().iter().enumerate() {
             self.zero[k] = self.coefficients[k] == 0
                 && !has_transversal(system, &self.minor, unknowns, exponent);
@@ -343,11 +420,21 @@ fn has_transversal(
     };
     let counts: Vec<usize> = unknowns
         .iter()
-        .map(|&f| minor.rows.iter().filter_map(whole).filter(|&row| of_row(row, f)).count())
+        .map(|&f| {
+            minor
+                .rows
+                .iter()
+                .filter_map(whole)
+                .filter(|&row| of_row(row, f))
+                .count()
+        })
         .collect();
     let entries = |row: usize, which: usize| {
         let side = &system.rows[row].sides[which];
-        (0..3).filter(|&k| side.pattern[k]).map(|k| 3 * side.node + k).collect::<Vec<_>>()
+        (0..3)
+            .filter(|&k| side.pattern[k])
+            .map(|k| 3 * side.node + k)
+            .collect::<Vec<_>>()
     };
     let columns_of = |part: &Part| -> Vec<usize> {
         match *part {
@@ -355,12 +442,15 @@ fn has_transversal(
             Part::Minus(row) => entries(row, 1),
             Part::Whole(row) => {
                 let kept = |which: usize| {
-                    let [own, other] = [which, 1 - which]
-                        .map(|k| system.rows[row].sides[k].scale.and_then(place));
+                    let [own, other] =
+                        [which, 1 - which].map(|k| system.rows[row].sides[k].scale.and_then(place));
                     own.is_none_or(|f| exponent[f] > 0)
                         && other.is_none_or(|f| exponent[f] < counts[f])
                 };
-                (0..2).filter(|&which| kept(which)).flat_map(|which| entries(row, which)).collect()
+                (0..2)
+                    .filter(|&which| kept(which))
+                    .flat_map(|which| entries(row, which))
+                    .collect()
             }
         }
     };
@@ -370,7 +460,9 @@ fn has_transversal(
         .iter()
         .map(|part| {
             let columns = columns_of(part).into_iter();
-            columns.filter(|column| minor.columns.contains(column)).collect()
+            columns
+                .filter(|column| minor.columns.contains(column))
+                .collect()
         })
         .collect();
     (0..allowed.len()).all(|row| {
@@ -413,19 +505,30 @@ fn polynomials(
     columns: usize,
     degrees: &[usize],
 ) -> Vec<(Vec<usize>, Vec<u64>)> {
-    let grid = Exponents { bounds: degrees.to_vec() };
-    let masks: Vec<usize> =
-        (0..1usize << columns).filter(|mask| mask.count_ones() as usize == rows.len()).collect();
-    let mut of_mask: Vec<Vec<u64>> = masks.iter().map(|_| Vec::with_capacity(grid.len())).collect();
+    let grid = Exponents {
+        bounds: degrees.to_vec(),
+    };
+    let masks: Vec<usize> = (0..1usize << columns)
+        .filter(|mask| mask.count_ones() as usize == rows.len())
+        .collect();
+    let mut of_mask: Vec<Vec<u64>> = masks
+        .iter()
+        .map(|_| Vec::with_capacity(grid.len()))
+        .collect();
     let mut table = vec![0; 1 << columns];
     for point in grid.all() {
         let matrix: Vec<Vec<u64>> = rows
             .iter()
             .map(|row| {
-                let [x, y] = row.scales.map(|f| f.map(|f| field.from_u64(point[f] as u64)));
-                let times = |scale: Option<u64>, entry: u64| scale.map_or(entry, |s| field.times(s, entry));
+                let [x, y] = row
+                    .scales
+                    .map(|f| f.map(|f| field.from_u64(point[f] as u64)));
+                let times =
+                    |scale: Option<u64>, entry: u64| scale.map_or(entry, |s| field.times(s, entry));
                 let sides = row.sides[0].iter().zip(&row.sides[1]);
-                sides.map(|(&a, &b)| field.minus(times(x, a), times(y, b))).collect()
+                sides
+                    .map(|(&a, &b)| field.minus(times(x, a), times(y, b)))
+                    .collect()
             })
             .collect();
         all_minors(field, &matrix, columns, &mut table);
@@ -458,7 +561,11 @@ fn all_minors(field: &PrimeField, matrix: &[Vec<u64>], columns: usize, table: &m
         for column in (0..columns).filter(|column| mask >> column & 1 == 1) {
             let term = field.times(row[column], table[mask & !(1 << column)]);
             let above = (mask >> column).count_ones() - 1;
-            sum = if above % 2 == 0 { field.plus(sum, term) } else { field.minus(sum, term) };
+            sum = if above % 2 == 0 {
+                field.plus(sum, term)
+            } else {
+                field.minus(sum, term)
+            };
         }
         table[mask] = sum;
     }
@@ -475,7 +582,9 @@ fn interpolate(field: &PrimeField, degrees: &[usize], values: &mut [u64]) {
             for offset in start..start + stride {
                 let at = |k: usize| offset + k * stride;
                 for order in 1..=degree {
-                    let inverse = field.inverse(field.from_u64(order as u64)).unwrap_or_default();
+                    let inverse = field
+                        .inverse(field.from_u64(order as u64))
+                        .unwrap_or_default();
                     for k in (order..=degree).rev() {
                         let difference = field.minus(values[at(k)], values[at(k - 1)]);
                         values[at(k)] = field.times(difference, inverse);
@@ -491,6 +600,29 @@ fn interpolate(field: &PrimeField, degrees: &[usize], values: &mut [u64]) {
             }
         }
     }
+}
+
+/// By elimination.
+#[cfg(test)]
+fn determinant(field: &PrimeField, mut rows: Vec<Vec<u64>>) -> u64 {
+    let mut product = field.from_u64(1);
+    for k in 0..rows.len() {
+        let Some(pivot) = (k..rows.len()).find(|&row| rows[row][k] != 0) else {
+            return 0;
+        };
+        if pivot != k {
+            rows.swap(pivot, k);
+            product = field.negate(product);
+        }
+        product = field.times(product, rows[k][k]);
+        let inverse = field.inverse(rows[k][k]).unwrap();
+        let (head, tail) = rows.split_at_mut(k + 1);
+        for row in tail {
+            let factor = field.negate(field.times(row[k], inverse));
+            field.axpy(row, factor, &head[k]);
+        }
+    }
+    product
 }
 
 #[cfg(test)]
@@ -518,11 +650,16 @@ mod tests {
     fn minors_by_hand() {
         let f = PrimeField::new(10007).unwrap();
         let rows: [&[u64]; 2] = [&[1, 2, 3], &[4, 5, 7]];
-        let matrix: Vec<Vec<u64>> =
-            rows.iter().map(|row| row.iter().map(|&x| f.from_u64(x)).collect()).collect();
+        let matrix: Vec<Vec<u64>> = rows
+            .iter()
+            .map(|row| row.iter().map(|&x| f.from_u64(x)).collect())
+            .collect();
         let mut table = vec![0; 8];
         all_minors(&f, &matrix, 3, &mut table);
         let negative = |x: u64| f.negate(f.from_u64(x));
-        assert_eq!([table[3], table[5], table[6]], [negative(3), negative(5), negative(1)]);
+        assert_eq!(
+            [table[3], table[5], table[6]],
+            [negative(3), negative(5), negative(1)]
+        );
     }
 }

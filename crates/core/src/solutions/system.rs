@@ -20,11 +20,7 @@ pub(super) type Values = Vec<Option<u64>>;
 
 impl<'a> System<'a> {
     /// `None` if the centres are degenerate.
-    pub(super) fn new(
-        field: PrimeField,
-        core: &'a Core,
-        centres: &'a [[u64; 3]],
-    ) -> Option<Self> {
+    pub(super) fn new(field: PrimeField, core: &'a Core, centres: &'a [[u64; 3]]) -> Option<Self> {
         Some(Self {
             field,
             core,
@@ -37,7 +33,9 @@ impl<'a> System<'a> {
 
     /// The rows with an unknown that has no value.
     pub(super) fn scaled(&self, values: &Values) -> Vec<usize> {
-        (0..self.rows.len()).filter(|&k| !self.is_constant(k, values)).collect()
+        (0..self.rows.len())
+            .filter(|&k| !self.is_constant(k, values))
+            .collect()
     }
 
     pub(super) fn is_constant(&self, row: usize, values: &Values) -> bool {
