@@ -1,6 +1,6 @@
 //! How many solutions: what is tried, in which order.
 
-use super::core::{Chart, Core};
+use super::chart::{Chart, Core};
 use super::linear::{Linear, settle};
 use super::members::{Members, Merge, Set, bits, shared};
 use super::points::{AtMost, NoBound, at_most};
@@ -58,6 +58,8 @@ pub enum One {
         unknowns: Vec<usize>,
         /// The largest exponent of each.
         bounds: Vec<usize>,
+        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
+        absent: Vec<Vec<usize>>,
         /// Minors that vanish at all solutions.
         minors: Vec<Minor>,
     },
@@ -125,7 +127,7 @@ pub(super) struct Draws {
 }
 
 impl Draws {
-    fn new(graph: &Graph, seed: u64) -> Self {
+    pub(super) fn new(graph: &Graph, seed: u64) -> Self {
         let key = DrawKey {
             graph_sha256: sha256(graph),
             core_sha256: None,
@@ -176,7 +178,11 @@ fn count_members(members: &mut Members, effort: Effort, draws: &Draws) -> Option
 const MOST_PARTED: usize = 14;
 
 /// The smallest part of a core with one solution, and why; not the core itself.
-fn unique_part(members: &Members, effort: Effort, draws: &Draws) -> Option<(Set, Solutions)> {
+pub(super) fn unique_part(
+    members: &Members,
+    effort: Effort,
+    draws: &Draws,
+) -> Option<(Set, Solutions)> {
     let nodes: Vec<usize> = bits(shared(&members.sets)).collect();
     if nodes.len() > MOST_PARTED {
         return None;
@@ -331,6 +337,7 @@ impl Attempt<'_> {
             }
             steps.push(One::Support {
                 bounds: span.exponents.bounds.clone(),
+                absent: span.exponents.marked(&span.absent),
                 minors: span
                     .generators
                     .iter()

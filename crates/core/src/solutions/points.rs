@@ -15,6 +15,8 @@ pub struct AtMost {
     pub unknowns: Vec<usize>,
     /// The largest exponent of each, shifts included.
     pub bounds: Vec<usize>,
+    /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
+    pub absent: Vec<Vec<usize>>,
     /// Minors that vanish at all solutions.
     pub minors: Vec<Minor>,
     /// The values of all unknowns at each point, as least residues.
@@ -89,6 +91,7 @@ pub(super) fn at_most(
     }
     Ok(AtMost {
         unknowns: span.unknowns.clone(),
+        absent: exponents.marked(&absent),
         bounds: exponents.bounds,
         minors: span
             .generators

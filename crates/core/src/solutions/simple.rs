@@ -3,14 +3,15 @@
 
 use super::echelon::{Echelon, left_kernel};
 use super::system::System;
-use crate::geometry::camera::{Camera, centre};
+use crate::geometry::camera::centre;
 
 /// A point at which N(u) has rank 3 n' - 4 and cameras with distinct centres.
 pub(super) struct Point {
     /// The values of the unknowns.
     pub(super) values: Vec<u64>,
     /// A camera for each shared node that lies in the core.
-    pub(super) cameras: Vec<Option<Camera<u64>>>,
+    #[cfg(test)]
+    pub(super) cameras: Vec<Option<crate::geometry::camera::Camera<u64>>>,
     /// Whether only multiples of H and scales keep the fundamental matrices, to first order.
     pub(super) simple: bool,
 }
@@ -59,6 +60,7 @@ pub(super) fn point(system: &System<'_>, values: &[u64]) -> Option<Point> {
     let simple = is_simple(system, values, &kernel);
     Some(Point {
         values: values.to_vec(),
+        #[cfg(test)]
         cameras,
         simple,
     })

@@ -61,6 +61,12 @@ impl Exponents {
             .fold(0, |index, (e, bound)| index * (bound + 1) + e)
     }
 
+    /// Those that are marked.
+    pub(super) fn marked(&self, marks: &[bool]) -> Vec<Vec<usize>> {
+        let marked = self.all().into_iter().zip(marks).filter(|(_, mark)| **mark);
+        marked.map(|(exponent, _)| exponent).collect()
+    }
+
     pub(super) fn all(&self) -> Vec<Vec<usize>> {
         self.bounds.iter().fold(vec![Vec::new()], |all, &bound| {
             let longer = all.into_iter().flat_map(|exponent: Vec<usize>| {
@@ -89,7 +95,7 @@ pub(super) struct Span {
     pub(super) generators: Vec<Generator>,
     rank: usize,
     /// Exponents at which no shift of a generator has a coefficient, at any centres.
-    absent: Vec<bool>,
+    pub(super) absent: Vec<bool>,
 }
 
 impl Span {

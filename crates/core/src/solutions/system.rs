@@ -1,6 +1,6 @@
 //! N(u) at one assignment of centres modulo a prime, some of its unknowns known to be one.
 
-use super::core::{Core, Row};
+use super::chart::{Core, Row};
 use super::echelon::Echelon;
 use crate::linalg::prime::PrimeField;
 

@@ -1,4 +1,5 @@
-use super::core::Core;
+use super::chart::Core;
+use super::count::{Draws, unique_part};
 use super::echelon::Echelon;
 use super::members::{Members, Rule};
 use super::simple;
@@ -336,4 +337,26 @@ fn counts_by_merging_and_by_scales() {
     for graph in [path, hexagon, apart] {
         assert_eq!(count(&graph, Effort::default(), 3), None);
     }
+}
+
+/// A graph with one solution, and a node that sees two others of it.
+#[test]
+fn a_part_with_one_solution_becomes_a_member() {
+    let small = graph("GBjcaO");
+    let [a, b] = [
+        0,
+        (1..8).find(|&b| small.edge_number(0, b).is_none()).unwrap(),
+    ];
+    let pairs = small.edges().iter().copied().chain([(a, 8), (b, 8)]);
+    let mut members = members(&Graph::from_edges(pairs).unwrap());
+    let draws = Draws::new(&small, 1);
+    let (inside, evidence) = unique_part(&members, Effort::default(), &draws).unwrap();
+    assert_eq!(inside, 0b1111_1111);
+    assert_eq!(evidence.exactly(), Some(1));
+    members.grow(inside, evidence);
+    // The new member, and a triangle with the two edges of the node.
+    assert_eq!(members.sets, [0b1_1111_1111]);
+    let rules: Vec<Rule> = members.merges.iter().map(|merge| merge.rule).collect();
+    assert_eq!(rules, [Rule::Grown, Rule::Triangle]);
+    assert!(members.merges[0].grown.is_some());
 }
