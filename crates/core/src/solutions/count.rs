@@ -187,10 +187,10 @@ pub(super) fn unique_part(
     if nodes.len() > MOST_PARTED {
         return None;
     }
-    // One chart is enough for what merging and linear algebra nearly prove.
+    // Points are not looked for: a part is of use only if all its scales are one.
     let effort = Effort {
-        charts: effort.charts.min(2),
-        draws: 1,
+        charts: 1,
+        draws: 0,
         ..effort
     };
     let mut found = None;
