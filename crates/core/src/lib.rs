@@ -42,6 +42,7 @@ pub mod decide;
 pub mod geometry;
 pub mod graph;
 pub mod linalg;
+pub mod solutions;
 pub mod watch;
 pub mod wording;
 

@@ -6,4 +6,5 @@ pub mod catalog;
 pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
+pub mod solutions;
 pub mod values;

@@ -1,0 +1,27 @@
+//! How many solutions a finite solvable graph has (docs/theory.md, section 10).
+//!
+//! In: a graph. It is contracted to members (`members`), whose shared nodes form a core with a
+//! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
+//! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
+//! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
+//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof.
+
+mod chart;
+mod count;
+mod echelon;
+mod linear;
+mod members;
+mod points;
+mod roots;
+mod simple;
+mod support;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use chart::{Chart, Scale};
+pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
+pub use linear::Linear;
+pub use members::{MOST_NODES, Merge, Rule};
+pub use points::AtMost;
+pub use support::{Minor, Part};
