@@ -58,7 +58,7 @@ fn the_manual_names_every_command_and_each_has_its_page() {
     assert!(
         wrong
             .err
-            .contains("chekc is not a command of verify; its commands are check, ")
+            .contains("chekc is not a command of verify; its commands are overview, check, ")
     );
     // What is hidden stays hidden.
     assert!(!commands().contains(&"manpage".to_owned()));
