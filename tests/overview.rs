@@ -187,12 +187,15 @@ fn sizes(answer: &Value, member: &str) -> Vec<u64> {
     sizes
 }
 
+/// A database, and the sizes of its components: projective, calibrated, of tracks.
+type Sample = (&'static str, &'static [u64], &'static [u64], &'static [u64]);
+
 /// What FACTS.md says, found with other programs: images of the components in the projective and in
 /// the calibrated model, cameras of those of tracks in three images and more.
 #[test]
 fn samples_are_as_the_facts_say() {
     let Some(folder) = samples() else { return };
-    let cases: [(&str, &[u64], &[u64], &[u64]); 5] = [
+    let cases: [Sample; 5] = [
         ("clusters_one_edge_private", &[6, 6, 2], &[6, 6, 2], &[6, 6]),
         ("clusters_one_edge_tracks", &[6, 6, 2], &[6, 6, 2], &[12]),
         ("clusters_two_edges", &[6, 6, 2, 2], &[12], &[6, 6]),

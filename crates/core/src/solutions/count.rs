@@ -359,10 +359,10 @@ impl Attempt<'_> {
         for size in 1..=self.effort.unknowns.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
                 self.points_of(values, unknowns, upper, bounds);
-                !bounds
+                bounds
                     .upper
                     .as_ref()
-                    .is_some_and(|(most, _)| *most == bounds.at_least)
+                    .is_none_or(|(most, _)| *most != bounds.at_least)
             });
             if bounds
                 .upper
