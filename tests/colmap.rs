@@ -288,24 +288,7 @@ fn the_samples_stay_as_they_are() {
 fn a_read_only_file_system() {
     let Some(folder) = samples() else { return };
     let place = tempfile::tempdir().unwrap();
-    let mount = |options: &[&str]| {
-        let mount = Command::new("mount")
-            .args(options)
-            .arg(place.path())
-            .output();
-        match mount {
-            Ok(mount) if mount.status.success() => true,
-            Ok(mount) => {
-                let reason = String::from_utf8_lossy(&mount.stderr);
-                eprintln!("skipped: no file system may be mounted: {}", reason.trim());
-                false
-            }
-            Err(error) => {
-                eprintln!("skipped: mount is not there: {error}");
-                false
-            }
-        }
-    };
+    let mount = |options: &[&str]| common::mounted(options, place.path());
     if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
         return;
     }

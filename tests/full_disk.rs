@@ -109,21 +109,8 @@ impl Small {
     fn new(kibibytes: u32) -> Option<Self> {
         let folder = tempfile::tempdir().unwrap();
         let size = format!("size={kibibytes}k");
-        let mount = Command::new("mount")
-            .args(["-t", "tmpfs", "-o", &size, "tmpfs", path(folder.path())])
-            .output();
-        match mount {
-            Ok(mount) if mount.status.success() => Some(Self(folder)),
-            Ok(mount) => {
-                let reason = String::from_utf8_lossy(&mount.stderr);
-                common::absent(&format!("no file system may be mounted: {}", reason.trim()));
-                None
-            }
-            Err(error) => {
-                common::absent(&format!("mount is not there: {error}"));
-                None
-            }
-        }
+        common::mounted(&["-t", "tmpfs", "-o", &size, "tmpfs"], folder.path())
+            .then_some(Self(folder))
     }
 
     fn grow(&self, kibibytes: u32) {

@@ -13,6 +13,20 @@ pub fn absent(what: &str) {
     eprintln!("SKIPPED: {what}");
 }
 
+/// Whether `mount` could mount this; where it could not, says why, as [`absent`] does.
+pub fn mounted(options: &[&str], place: &Path) -> bool {
+    let mount = Command::new("mount").args(options).arg(place).output();
+    match mount {
+        Ok(mount) if mount.status.success() => return true,
+        Ok(mount) => {
+            let reason = String::from_utf8_lossy(&mount.stderr);
+            absent(&format!("no file system may be mounted: {}", reason.trim()));
+        }
+        Err(error) => absent(&format!("mount is not there: {error}")),
+    }
+    false
+}
+
 /// The folder with the published graphs and tables, which is not part of the repository:
 /// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
 pub fn data() -> Option<PathBuf> {
