@@ -19,14 +19,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tracks: Option<TrackLine>,
     model: &'static str,
-    verdict: &'static str,
-    strength: &'static str,
-    error_log2: Option<i64>,
-    rank: usize,
-    rank_required: usize,
-    rank_strength: &'static str,
-    components: Vec<ComponentLine>,
-    components_strength: &'static str,
+    #[serde(flatten)]
+    answer: AnswerLine,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -39,6 +33,36 @@ struct GraphLine<'a> {
     nodes: usize,
     edges: usize,
     sha256: String,
+}
+
+/// What is decided, and how strong it is.
+#[derive(Serialize)]
+pub(super) struct AnswerLine {
+    verdict: &'static str,
+    strength: &'static str,
+    error_log2: Option<i64>,
+    rank: usize,
+    rank_required: usize,
+    rank_strength: &'static str,
+    components: Vec<ComponentLine>,
+    components_strength: &'static str,
+}
+
+impl From<&Report<'_>> for AnswerLine {
+    fn from(report: &Report) -> Self {
+        let verdict = report.verdict;
+        let strength = verdict.value_claim().strength;
+        Self {
+            verdict: verdict.value.name(),
+            strength: strength.name(),
+            error_log2: strength.error_log2(),
+            rank: verdict.rank,
+            rank_required: verdict.required,
+            rank_strength: verdict.rank_claim().strength.name(),
+            components: components(report),
+            components_strength: verdict.components_claim().strength.name(),
+        }
+    }
 }
 
 /// A component, in numbers.
@@ -61,7 +85,6 @@ pub(super) struct ComponentLine {
 /// Those of the writer.
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
-    let strength = verdict.value_claim().strength;
     let line = Line {
         graph: GraphLine {
             name: &input.name,
@@ -76,14 +99,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .zip(input.tracks.as_ref())
             .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
-        verdict: verdict.value.name(),
-        strength: strength.name(),
-        error_log2: strength.error_log2(),
-        rank: verdict.rank,
-        rank_required: verdict.required,
-        rank_strength: verdict.rank_claim().strength.name(),
-        components: components(report),
-        components_strength: verdict.components_claim().strength.name(),
+        answer: AnswerLine::from(report),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         acted: report.acted,

@@ -5,9 +5,9 @@
 //! seen of COLMAP's mappers.
 
 use super::database::DatabaseLine;
-use super::json::ComponentLine;
+use super::json::AnswerLine;
 use super::tracks::TrackLine;
-use super::{Report, counted, database, json, size_of, text, tracks};
+use super::{Report, counted, database, size_of, text, tracks};
 use crate::act::{Acted, write_joints};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -410,35 +410,6 @@ struct PositionLine {
     #[serde(flatten)]
     facts: TrackLine,
     positions: AnswerLine,
-}
-
-#[derive(Serialize)]
-struct AnswerLine {
-    verdict: &'static str,
-    strength: &'static str,
-    error_log2: Option<i64>,
-    rank: usize,
-    rank_required: usize,
-    rank_strength: &'static str,
-    components: Vec<ComponentLine>,
-    components_strength: &'static str,
-}
-
-impl From<&Report<'_>> for AnswerLine {
-    fn from(report: &Report) -> Self {
-        let verdict = report.verdict;
-        let strength = verdict.value_claim().strength;
-        Self {
-            verdict: verdict.value.name(),
-            strength: strength.name(),
-            error_log2: strength.error_log2(),
-            rank: verdict.rank,
-            rank_required: verdict.required,
-            rank_strength: verdict.rank_claim().strength.name(),
-            components: json::components(report),
-            components_strength: verdict.components_claim().strength.name(),
-        }
-    }
 }
 
 /// Writes words in lines of limited width.
