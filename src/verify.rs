@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, Options, Prime, Value};
+use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
@@ -55,6 +55,21 @@ pub(super) struct VerifyArguments {
     /// Do not look for proofs by counting: negative verdicts get an error bound.
     #[arg(long)]
     no_counting: bool,
+    /// Count the solutions of graphs that are finite solvable: quick (the default: where it takes
+    /// well below a second), or full (whatever it takes).
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        num_args = 0..=1,
+        require_equals = true,
+        default_value = "quick",
+        default_missing_value = "quick"
+    )]
+    solutions: Solutions,
+    /// Do not count solutions.
+    #[arg(long, conflicts_with = "solutions")]
+    no_solutions: bool,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -91,6 +106,14 @@ enum ModelName {
     Projective,
     /// Edges carry essential matrices: known intrinsics.
     Calibrated,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Solutions {
+    /// Where it takes well below a second.
+    Quick,
+    /// Whatever it takes.
+    Full,
 }
 
 impl VerifyArguments {
@@ -136,6 +159,11 @@ impl VerifyArguments {
             .prime(prime)
             .contraction(!self.no_contraction)
             .counting(!self.no_counting)
+            .solutions(match self.solutions {
+                _ if self.no_solutions => CountSolutions::Off,
+                Solutions::Quick => CountSolutions::Quick,
+                Solutions::Full => CountSolutions::Full,
+            })
             .seed(self.seed)
             .watch(running::shown_watch()))
     }

@@ -107,7 +107,8 @@ impl<'a> Document<'a> {
         graph6: Option<String>,
         verdict: &'a Verdict,
     ) -> Self {
-        let (value, rank) = (verdict.value_claim(), verdict.rank_claim());
+        let (mut value, rank) = (verdict.value_claim(), verdict.rank_claim());
+        value.value = verdict.value_by_rank();
         let components = verdict.components_claim();
         Self {
             format: "viewcert certificate",
@@ -216,6 +217,10 @@ impl<'a> MergeView<'a> {
                 at,
             },
             Merge::Cycle { parts, at } => Self {
+                with: parts.iter().map(|&part| part.into()).collect(),
+                at,
+            },
+            Merge::Biclique { parts, at } => Self {
                 with: parts.iter().map(|&part| part.into()).collect(),
                 at,
             },

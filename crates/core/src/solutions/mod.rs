@@ -20,6 +20,7 @@ mod system;
 mod tests;
 
 pub use chart::{Chart, Scale};
+pub(crate) use count::count_in;
 pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
 pub use linear::Linear;
 pub use members::{MOST_NODES, Merge, Rule};
