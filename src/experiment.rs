@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
-use viewcert::decide::{Options, Strength, Value};
+use viewcert::decide::{CountSolutions, Options, Strength, Value};
 use viewcert::solutions::Effort;
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::Entry;
@@ -113,7 +113,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 /// Counts solutions, and lists the graphs whose number is not known exactly.
 fn run_solutions(arguments: &Solutions) -> Result<ExitCode> {
-    let options = Options::default().watch(running::watch());
+    let options = Options::default()
+        .solutions(CountSolutions::Off)
+        .watch(running::watch());
     let mut out = atomic::text(&[]);
     writeln!(
         out,
@@ -164,6 +166,7 @@ fn run_random(arguments: &Random) -> Result<ExitCode> {
         None => Vec::new(),
     };
     let options = Options::default()
+        .solutions(CountSolutions::Off)
         .seed(arguments.seed)
         .watch(running::watch());
     let mut columns = Vec::new();

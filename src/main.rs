@@ -19,6 +19,7 @@ mod progress;
 mod report;
 mod running;
 mod verify;
+mod witness;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

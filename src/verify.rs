@@ -7,7 +7,7 @@ use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
-use super::{GOOD, NOT, atomic, certificates, running};
+use super::{GOOD, NOT, atomic, certificates, running, witness};
 use crate::report;
 use crate::report::Report;
 use anyhow::{Context, Result, ensure};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, Options, Prime, Value};
+use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
@@ -55,6 +55,25 @@ pub(super) struct VerifyArguments {
     /// Do not look for proofs by counting: negative verdicts get an error bound.
     #[arg(long)]
     no_counting: bool,
+    /// Count the solutions of graphs that are finite solvable: quick (the default: where it takes
+    /// well below a second), or full (whatever it takes).
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        num_args = 0..=1,
+        require_equals = true,
+        default_value = "quick",
+        default_missing_value = "quick"
+    )]
+    solutions: Solutions,
+    /// Do not count solutions.
+    #[arg(long, conflicts_with = "solutions")]
+    no_solutions: bool,
+    /// Write two sets of cameras modulo a prime that have the same fundamental matrices, if a second
+    /// solution is known.
+    #[arg(long, value_name = "FILE", conflicts_with = "no_solutions")]
+    witness: Option<PathBuf>,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -91,6 +110,14 @@ enum ModelName {
     Projective,
     /// Edges carry essential matrices: known intrinsics.
     Calibrated,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Solutions {
+    /// Where it takes well below a second.
+    Quick,
+    /// Whatever it takes.
+    Full,
 }
 
 impl VerifyArguments {
@@ -136,6 +163,11 @@ impl VerifyArguments {
             .prime(prime)
             .contraction(!self.no_contraction)
             .counting(!self.no_counting)
+            .solutions(match self.solutions {
+                _ if self.no_solutions => CountSolutions::Off,
+                Solutions::Quick => CountSolutions::Quick,
+                Solutions::Full => CountSolutions::Full,
+            })
             .seed(self.seed)
             .watch(running::shown_watch()))
     }
@@ -147,7 +179,8 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let [html, svg] = arguments.pages.outputs();
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    atomic::ensure_apart(&[written, html, svg], inputs)?;
+    let witness = (witness::OPTION, arguments.witness.as_deref());
+    atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
     arguments.act.check()?;
     let mut target = arguments
         .certificate
@@ -158,20 +191,30 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
         let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-        atomic::ensure_apart(&[certificate, written, html, svg], std::iter::empty())?;
+        let outputs = [certificate, written, witness, html, svg];
+        atomic::ensure_apart(&outputs, std::iter::empty())?;
     }
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
         (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
         (None, (_, None)) => {
+            let (option, file) = witness;
+            let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
-            act.or_else(|| arguments.pages.too_many(what))
+            witness.or(act).or_else(|| arguments.pages.too_many(what))
         }
     };
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
-    let mut out = atomic::text(&[arguments.certificate.as_deref(), written.1, html.1, svg.1]);
+    let files = [
+        arguments.certificate.as_deref(),
+        written.1,
+        witness.1,
+        html.1,
+        svg.1,
+    ];
+    let mut out = atomic::text(&files);
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
@@ -205,6 +248,10 @@ fn decide(
         .transpose()?;
     let written = arguments.write_graph.as_deref();
     let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
+    let witness = arguments.witness.as_deref();
+    let shown = witness
+        .map(|path| witness::write(path, input, &verdict, options.seed))
+        .transpose()?;
     let time = start.elapsed();
     let acted = arguments.act.act(input, &verdict, options.seed);
     running::hide();
@@ -233,7 +280,17 @@ fn decide(
             };
             writeln!(out, "  written     {}{how}", path.display())?;
         }
+        if let Some((path, witness::Found::Written)) = witness.zip(shown.as_ref()) {
+            writeln!(out, "  witness     {}", path.display())?;
+        }
         arguments.pages.say(out)?;
+    }
+    if let Some(witness::Found::Nothing(why)) = shown {
+        writeln!(
+            std::io::stderr(),
+            "verify: {}: no witness: {why}",
+            input.name
+        )?;
     }
     Ok(verdict.value)
 }

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{TABLE_1, cycle, data, geng, verify, verify_with};
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Trivial graphs whose answers are known by hand.
@@ -291,6 +292,96 @@ fn synthetic_graphs_have_their_true_components() {
         let path = data.join("synthetic").join(name).with_extension("mat");
         let run = verify(&[path.to_str().unwrap(), "--json"]);
         assert_eq!(run.json()[0]["verdict"], "finite-solvable");
+    }
+}
+
+/// Published: all graphs with eight nodes and eleven edges have one solution, ten of the 27 with nine
+/// nodes and twelve edges have two. K_{2,3} is one body, and the cycle of four has no end of them.
+#[test]
+fn solutions_are_counted() {
+    let graphs = b"G@TclO\nHBQkcP_\nD]o\nCl\n";
+    let found = |arguments: &[&str]| -> Vec<(String, Value)> {
+        let run = verify_with(graphs, &[&["-", "--json"], arguments].concat());
+        assert_eq!(run.code, 1, "the last graph");
+        let lines = run.json().into_iter();
+        lines
+            .map(|line| {
+                (
+                    line["verdict"].as_str().unwrap().into(),
+                    line["solutions"].clone(),
+                )
+            })
+            .collect()
+    };
+    let bounds = |exactly: Option<u32>, at_most: Option<u32>| {
+        let at_least = exactly.unwrap_or(1);
+        json!({"exactly": exactly, "at_least": at_least, "at_most": at_most, "strength": "proof"})
+    };
+    let [one, two, open] = [(Some(1), Some(1)), (Some(2), Some(2)), (None, None)]
+        .map(|(exactly, at_most)| bounds(exactly, at_most));
+    let last = [
+        ("solvable".to_owned(), one.clone()),
+        ("not-finite-solvable".to_owned(), Value::Null),
+    ];
+    for arguments in [
+        &[][..],
+        &["--solutions"],
+        &["--solutions=quick"],
+        &["--solutions=full"],
+    ] {
+        let first = [
+            ("solvable".into(), one.clone()),
+            ("finite-solvable".into(), two.clone()),
+        ];
+        assert_eq!(
+            found(arguments),
+            [first, last.clone()].concat(),
+            "{arguments:?}"
+        );
+    }
+    let first = [
+        ("finite-solvable".to_owned(), open.clone()),
+        ("finite-solvable".into(), open),
+    ];
+    assert_eq!(found(&["--no-solutions"]), [first, last.clone()].concat());
+    // Known directions: one solution, or infinitely many.
+    let calibrated = found(&["--model", "calibrated"]);
+    assert!(
+        calibrated.iter().all(|found| *found == last[0]),
+        "{calibrated:?}"
+    );
+
+    let said = verify_with(graphs, &["-"]).out;
+    assert!(
+        said.contains("solvable: the cameras are unique (proved)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("; the scales of its parts have one solution"),
+        "{said}"
+    );
+    assert!(
+        said.contains("finite solvable: exactly 2 solutions (proved)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("one body of 5 cameras around a K_{2,3}"),
+        "{said}"
+    );
+    let said = verify_with(b"HBQkcP_\n", &["-", "--no-solutions"]).out;
+    assert!(
+        said.contains("finite solvable: finitely many sets of cameras (proved)"),
+        "{said}"
+    );
+    for bad in [
+        &["--solutions=much"][..],
+        &["--solutions=full", "--no-solutions"],
+    ] {
+        assert_eq!(
+            verify_with(graphs, &[&["-"], bad].concat()).code,
+            2,
+            "{bad:?}"
+        );
     }
 }
 

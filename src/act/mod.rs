@@ -19,7 +19,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use clap::{Args, ValueEnum};
 use found::Names;
 use std::path::PathBuf;
-use viewcert::decide::Options;
+use viewcert::decide::{CountSolutions, Options};
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 use viewcert_reconstruction as reconstruction;
@@ -178,6 +178,7 @@ impl<'a> Task<'a> {
             },
             names: Names::new(input),
             options: Options::default()
+                .solutions(CountSolutions::Off)
                 .model(verdict.model)
                 .seed(seed)
                 .watch(running::watch()),

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
-use viewcert::decide::{Options, Prime};
+use viewcert::decide::{CountSolutions, Options, Prime};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_studies::catalog::mine;
@@ -116,6 +116,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime {}", arguments.prime))?;
     let options = Options::default()
+        .solutions(CountSolutions::Off)
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
         .watch(running::watch());

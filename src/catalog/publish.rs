@@ -14,7 +14,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::decide::{Options, Prime, Value, Verdict, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Prime, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_studies::catalog::candidates::to_graph;
@@ -130,7 +130,9 @@ impl Files<'_> {
 }
 
 fn options() -> Options {
-    Options::default().watch(running::watch())
+    Options::default()
+        .solutions(CountSolutions::Off)
+        .watch(running::watch())
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room

@@ -8,7 +8,7 @@ use crate::act::Acted;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
-use viewcert::decide::Component;
+use viewcert::decide::{Component, SolutionCount};
 
 #[derive(Serialize)]
 struct Line<'a> {
@@ -41,6 +41,7 @@ pub(super) struct AnswerLine {
     verdict: &'static str,
     strength: &'static str,
     error_log2: Option<i64>,
+    solutions: Option<SolutionsLine>,
     rank: usize,
     rank_required: usize,
     rank_strength: &'static str,
@@ -56,11 +57,32 @@ impl From<&Report<'_>> for AnswerLine {
             verdict: verdict.value.name(),
             strength: strength.name(),
             error_log2: strength.error_log2(),
+            solutions: verdict.solutions.as_ref().map(SolutionsLine::from),
             rank: verdict.rank,
             rank_required: verdict.required,
             rank_strength: verdict.rank_claim().strength.name(),
             components: components(report),
             components_strength: verdict.components_claim().strength.name(),
+        }
+    }
+}
+
+/// How many solutions there are, if finitely many.
+#[derive(Serialize)]
+struct SolutionsLine {
+    exactly: Option<usize>,
+    at_least: usize,
+    at_most: Option<usize>,
+    strength: &'static str,
+}
+
+impl From<&SolutionCount> for SolutionsLine {
+    fn from(count: &SolutionCount) -> Self {
+        Self {
+            exactly: count.exactly(),
+            at_least: count.at_least,
+            at_most: count.at_most,
+            strength: count.strength().name(),
         }
     }
 }

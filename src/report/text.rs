@@ -71,6 +71,12 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
 /// The verdict and how strong it is.
 pub(super) fn answer(report: &Report) -> String {
     let verdict = report.verdict;
+    let known = verdict.solutions.as_ref();
+    let known = known.filter(|count| count.at_least > 1 || count.at_most.is_some());
+    let finite = match known {
+        Some(count) => format!("finite solvable: {count}"),
+        None => "finite solvable: finitely many sets of cameras".into(),
+    };
     let value = match (verdict.value, verdict.model) {
         (Value::NotFiniteSolvable, _) if report.input.cameras.is_some() => {
             "not solvable: infinitely many positions of the cameras and points"
@@ -79,7 +85,7 @@ pub(super) fn answer(report: &Report) -> String {
             "solvable: the positions of all cameras and points are unique"
         }
         (Value::Solvable, _) => "solvable: the cameras are unique",
-        (Value::FiniteSolvable, _) => "finite solvable: finitely many sets of cameras",
+        (Value::FiniteSolvable, _) => &finite,
         (Value::NotFiniteSolvable, Model::Projective) => {
             "not finite solvable: infinitely many sets of cameras"
         }
@@ -112,6 +118,9 @@ pub(super) fn reason(report: &Report) -> String {
         return match verdict.contraction.bodies.len() {
             0 => "a single pair determines its two cameras".into(),
             1 => match report.input.cameras {
+                None if verdict.contraction.bodies[0].add.is_empty() => {
+                    format!("one body of {nodes} cameras around a K_{{2,3}}")
+                }
                 None => format!("one body grows from a triangle to all {nodes} cameras"),
                 Some(_) => format!("one body grows to all {nodes} {members}"),
             },
@@ -119,32 +128,12 @@ pub(super) fn reason(report: &Report) -> String {
         };
     }
     if verdict.value != Value::NotFiniteSolvable {
-        let kind = verdict
-            .pieces
-            .iter()
-            .flat_map(|piece| &piece.evidence)
-            .next_back();
-        return match kind {
-            Some(Evidence::IntegerMinor(minor)) => {
-                let witness = match &minor.witness {
-                    Witness::Determinant(determinant) => {
-                        format!(
-                            "a determinant of {}",
-                            counted(determinant.bits() as usize, "bit")
-                        )
-                    }
-                    Witness::Prime(prime) => format!("not even modulo {prime}"),
-                };
-                format!("a minor of the Jacobian at rational cameras is not zero ({witness})")
-            }
-            Some(Evidence::Minor { draw, .. }) => {
-                format!("a minor of the Jacobian is not zero modulo {}", draw.prime)
-            }
-            Some(Evidence::PlaneFlow { draw, .. }) => {
-                format!("full rank at one camera set modulo {}", draw.prime)
-            }
-            _ => "full rank".into(),
-        };
+        return full_rank(verdict)
+            + if verdict.value == verdict.value_by_rank() {
+                ""
+            } else {
+                "; the scales of its parts have one solution"
+            };
     }
     let parts = verdict.rigid.len() + verdict.pieces.len();
     let covered: usize = verdict.pieces.iter().map(|piece| piece.upper).sum();
@@ -161,6 +150,36 @@ pub(super) fn reason(report: &Report) -> String {
             None => "some cameras have no pairs".into(),
             Some(_) => "some cameras see no track that counts".into(),
         },
+    }
+}
+
+/// By which minor the rank is full.
+fn full_rank(verdict: &Verdict) -> String {
+    let kind = verdict
+        .pieces
+        .iter()
+        .flat_map(|piece| &piece.evidence)
+        .next_back();
+    match kind {
+        Some(Evidence::IntegerMinor(minor)) => {
+            let witness = match &minor.witness {
+                Witness::Determinant(determinant) => {
+                    format!(
+                        "a determinant of {}",
+                        counted(determinant.bits() as usize, "bit")
+                    )
+                }
+                Witness::Prime(prime) => format!("not even modulo {prime}"),
+            };
+            format!("a minor of the Jacobian at rational cameras is not zero ({witness})")
+        }
+        Some(Evidence::Minor { draw, .. }) => {
+            format!("a minor of the Jacobian is not zero modulo {}", draw.prime)
+        }
+        Some(Evidence::PlaneFlow { draw, .. }) => {
+            format!("full rank at one camera set modulo {}", draw.prime)
+        }
+        _ => "full rank".into(),
     }
 }
 

@@ -115,7 +115,22 @@ class Truth:
                     bodies = {body for body in bodies if body not in some} | {frozenset().union(*some)}
                     break
             else:
-                return bodies == {frozenset(range(n))}
+                six = Truth.around_a_biclique(bodies, n)
+                if six is None:
+                    return bodies == {frozenset(range(n))}
+                bodies = {body for body in bodies if body not in six} | {frozenset().union(*six)}
+
+    @staticmethod
+    def around_a_biclique(bodies, n):
+        """Six bodies that join two nodes to each of three others; None if there are none."""
+        together = {(a, v): body for body in bodies for a, v in itertools.permutations(body, 2)}
+        for a, b in itertools.combinations(range(n), 2):
+            three = [v for v in range(n) if (a, v) in together and (v, b) in together][:3]
+            six = {together[pair] for v in three for pair in ((a, v), (v, b))}
+            # Within one body, or where two rules come to the same, nothing is left to merge.
+            if len(three) == 3 and len(six) == 6:
+                return six
+        return None
 
     def contradicts(self, claim, n, model):
         """What is wrong with a claim, or None."""

@@ -724,9 +724,10 @@ class Check:
                 others, at = members(step, "with at", f"{where}: merge")
                 at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
                 size = len(a_list(others, f"{where}: with"))
-                need(size in (1, 2, 3), f"{where}: with holds one, two or three")
-                need(size < 3 or not self.projective, f"{where}: a cycle of four is no body in the projective model")
-                need(len(at) == size + 1, f"{where}: the length of at is wrong")
+                need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
+                need(size != 3 or not self.projective, f"{where}: a cycle of four is no body in the projective model")
+                need(size != 5 or self.projective, f"{where}: six bodies are merged in the projective model only")
+                need(len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
                 need(distinct(at), f"{where}: the nodes of at are not different")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
                 others = [self.body_or_edge(other, where) for other in others]
@@ -735,10 +736,15 @@ class Check:
                 elif size == 2:
                     (x, y), (a, b, c) = others, at
                     shared = a in body and a in x and b in body and b in y and c in x and c in y
-                else:
+                elif size == 3:
                     (x, y, z), (a, b, c, d) = others, at
                     shared = a in body and a in x and b in x and b in y
                     shared = shared and c in y and c in z and d in z and d in body
+                else:
+                    # Theorem 10.3: a is joined to u, v, w by the body, x and z, and these to b by t, y and s.
+                    (t, x, y, z, s), (a, b, u, v, w) = others, at
+                    shared = {a, u} <= set(body) and {u, b} <= set(t) and {a, v} <= set(x)
+                    shared = shared and {v, b} <= set(y) and {a, w} <= set(z) and {w, b} <= set(s)
                 need(shared, f"{where}: the nodes of at are not shared as a merge demands")
                 body.update(*others)
             self.bodies.append(frozenset(body))

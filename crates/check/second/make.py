@@ -81,7 +81,26 @@ class Maker:
                     if type(y) is type(z) is tuple and (not self.variety or self.rng.random() < 0.7):
                         return self.new_body(x, [[c, a, b]], [], [y, z], nodes)
                     return self.new_body(x, [], [{"with": [as_json(y), as_json(z)], "at": [a, b, c]}], [y, z], nodes)
+        if self.projective and self.merge_six(items):
+            return True
         return (not self.projective or self.bad_cycles) and self.merge_four(items)
+
+    def merge_six(self, items):
+        """One merge around a K_{2,3}, of members closed under the other rules; False if there is none."""
+        nodes = list(range(self.graph.n))
+        if self.variety:
+            self.rng.shuffle(nodes)
+        for a, b in itertools.permutations(nodes, 2):
+            ways = []
+            for v in nodes:
+                pair = [next((item for item in items if {end, v} <= item[1]), None) for end in (a, b)]
+                if v not in (a, b) and None not in pair and pair[0] != pair[1]:
+                    ways.append((v, pair))
+            if len(ways) >= 3:
+                (x, xs), *others = [item for _, pair in ways[:3] for item in pair]
+                merge = {"with": [as_json(name) for name, _ in others], "at": [a, b, *(v for v, _ in ways[:3])]}
+                return self.new_body(x, [], [merge], [name for name, _ in others], xs.union(*(s for _, s in others)))
+        return False
 
     def merge_four(self, items):
         """One merge along a cycle of four; False if there is none."""

@@ -403,8 +403,8 @@ class Bodies(Case):
             (step(1, "merge", merge([[3, 5], [4, 5]], [3, 3, 5])), "not different"),
             (step(1, "merge", merge([[3, 5], [4, 5]], [4, 3, 5])), "not shared"),
             (step(1, "merge", merge([[3, 5], [4, 5]], [3, 4])), "length of at"),
-            (step(1, "merge", merge([], [3])), "one, two or three"),
-            (step(1, "merge", merge([[3, 5], [4, 5], 0, 0], [3, 4, 5, 0, 1])), "one, two or three"),
+            (step(1, "merge", merge([], [3])), "one, two, three or five"),
+            (step(1, "merge", merge([[3, 5], [4, 5], 0, 0], [3, 4, 5, 0, 1])), "one, two, three or five"),
             (step(1, "merge", merge([[3, 5], [3, 5]], [3, 5, 4])), "with the same twice"),
             (step(1, "merge", merge([0], [3, 4])), "not shared"),
             (step(2, "merge", merge([0, [0, 4]], [3, 0, 4])), "body 0 is consumed already"),
@@ -423,6 +423,57 @@ class Bodies(Case):
         document["rigid"], document["pieces"] = {"bodies": [2], "edges": []}, []
         document["claim"]["verdict"]["value"] = "solvable"
         self.verifies(document)
+
+    def test_bicliques(self):
+        """K_{2,3} with the sides 0, 1 and 2, 3, 4, of which 0-2 is in a triangle with 5 and 3-1 in one with 6."""
+        edges = [(0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4), (0, 5), (2, 5), (1, 6), (3, 6)]
+        graph = check.Graph(7, edges)
+        maker = make.Maker(graph, use_bodies=False)
+        with_, at = [[1, 2], [0, 3], 1, [0, 4], [1, 4]], [0, 1, 2, 3, 4]
+        maker.body_list = [
+            {"seed": [0, 2], "add": [[5, 0, 2]], "merge": []},
+            {"seed": [1, 3], "add": [[6, 1, 3]], "merge": []},
+            {"seed": 0, "add": [], "merge": [{"with": with_, "at": at}]},
+        ]
+        maker.bodies = [{0, 2, 5}, {1, 3, 6}, set(range(7))]
+        maker.members = [(2, maker.bodies[2])]
+        document = maker.document()
+        self.assertEqual(document["claim"]["verdict"], check.stated("solvable"))
+        self.verifies(document)
+
+        def merge(others, nodes, seed=0):
+            step = {"with": others, "at": nodes}
+            return lambda other: other["bodies"][2].update(seed=seed, merge=[step])
+
+        # Each of the six in the place of another one, and each node in that of another.
+        wrong = [with_[:k] + [with_[l]] + with_[k + 1:] for k in range(5) for l in range(5) if k != l]
+        moved = [at[:k] + [v] + at[k + 1:] for k in range(5) for v in range(7) if v != at[k]]
+        for others in wrong:
+            words = "body 1 is consumed already" if others.count(1) == 2 else "not shared"
+            self.broken(document, merge(others, at), "section 5", words)
+        for nodes in moved:
+            words = "not different" if len(set(nodes)) < 5 else "not shared"
+            self.broken(document, merge(with_, nodes), "section 5", words)
+        for change, words in (
+            (merge(with_[:4], at), "one, two, three or five"),
+            (merge(with_ + [[0, 5]], at + [5]), "one, two, three or five"),
+            (merge(with_, at[:4]), "length of at"),
+            (merge(with_, at + [5]), "length of at"),
+            (merge([[1, 2], [0, 3], 1, [0, 4], [0, 1]], at), "(0, 1) is not an edge"),
+            (merge([[1, 2], [0, 3], 0, [0, 4], [1, 4]], at), "body 0 is consumed already"),
+            (merge(with_, at, [0, 3]), "not shared"),
+            (lambda other: other.update(model="calibrated"), "projective model only"),
+        ):
+            self.broken(document, change, "section 5", words)
+        # The other names of the same six: the three in another order, the sides of a and b exchanged.
+        for seed, others, nodes in (
+            (0, [[1, 2], [0, 4], [1, 4], [0, 3], 1], [0, 1, 2, 4, 3]),
+            (1, [[0, 3], [1, 2], 0, [1, 4], [0, 4]], [1, 0, 3, 2, 4]),
+            ([0, 4], [[1, 4], 0, [1, 2], [0, 3], 1], [0, 1, 4, 2, 3]),
+        ):
+            other = json.loads(json.dumps(document))
+            merge(others, nodes, seed)(other)
+            self.verifies(other)
 
     def test_cycles_of_four(self):
         """Four triangles around the nodes 0, 1, 2, 3; and two more nodes, on a path from 0 to 2 and a path from 4 to 6."""

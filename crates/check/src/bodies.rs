@@ -1,5 +1,5 @@
-//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9
-//! and 13.9).
+//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9,
+//! 10.3 and 13.9).
 
 use crate::document::{Body, Merge, Model, Source};
 use crate::graph::Graph;
@@ -69,20 +69,19 @@ impl Builder<'_> {
     }
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
-    /// Theorem 4.1, and rule 5 of Theorem 4.9).
+    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3).
     fn merge(&mut self, nodes: &mut Nodes, step: &Merge) -> Checked<()> {
-        let shared = self.around(step)?;
+        let places = self.places(step)?;
         let parts = step.with.iter().map(|&source| self.take(source));
         let parts = parts.collect::<Checked<Vec<Nodes>>>()?;
         ensure!(
-            shared.iter().collect::<HashSet<_>>().len() == shared.len(),
+            step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
             "the nodes of `at` are not different"
         );
-        let cycle: Vec<&Nodes> = std::iter::once(&*nodes).chain(&parts).collect();
-        for (k, node) in shared.iter().enumerate() {
-            let next = cycle[(k + 1) % cycle.len()];
+        let members: Vec<&Nodes> = std::iter::once(&*nodes).chain(&parts).collect();
+        for (node, which) in step.at.iter().zip(places) {
             ensure!(
-                cycle[k].contains(node) && next.contains(node),
+                which.iter().all(|&k| members[k].contains(node)),
                 "node {node} is not where the merge needs it"
             );
         }
@@ -90,22 +89,29 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The nodes that neighbours share, in the order of the cycle that begins at the body and goes
-    /// on to what is listed in `with`: first that of the body and the first of these, last that of
-    /// the last of these and the body.
-    fn around(&self, step: &Merge) -> Checked<Vec<u32>> {
-        match (step.with.len(), step.at.as_slice()) {
-            (1, &[a, b]) => Ok(vec![a, b]),
-            (2, &[a, b, c]) => Ok(vec![a, c, b]),
-            (3, &[a, b, c, d]) => {
+    /// For each node of `at` the members that have to contain it: the body is 0, what is listed in
+    /// `with` follows.
+    fn places(&self, step: &Merge) -> Checked<&'static [&'static [usize]]> {
+        match (step.with.len(), step.at.len()) {
+            (1, 2) => Ok(&[&[0, 1], &[0, 1]]),
+            (2, 3) => Ok(&[&[0, 1], &[0, 2], &[1, 2]]),
+            (3, 4) => {
                 ensure!(
                     self.model == Model::Calibrated,
                     "a cycle of four is a body in the calibrated model only"
                 );
-                Ok(vec![a, b, c, d])
+                Ok(&[&[0, 1], &[1, 2], &[2, 3], &[0, 3]])
+            }
+            (5, 5) => {
+                ensure!(
+                    self.model == Model::Projective,
+                    "six bodies are merged in the projective model only"
+                );
+                Ok(&[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]])
             }
             _ => Err(Failure::rejected(
-                "`with` and `at` have one and two, two and three, or three and four entries",
+                "`with` and `at` have one and two, two and three, three and four, or five and five \
+                 entries",
             )),
         }
     }

@@ -245,13 +245,13 @@ fn section_5_bodies() {
             "merges",
             "/bodies/3/merge/0/at",
             json!([2, 0]),
-            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, or three and four",
+            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, three and four, or five and five",
         ),
         (
             "merges",
             "/bodies/3/merge/0/with",
             json!([1]),
-            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, or three and four",
+            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, three and four, or five and five",
         ),
         (
             "merges",
@@ -339,7 +339,9 @@ fn section_5_cycles_of_four() {
         refused(
             "ring",
             &merge(json!([1, 2, 3]), at),
-            &format!("{step}`with` and `at` have one and two, two and three, or three and four"),
+            &format!(
+                "{step}`with` and `at` have one and two, two and three, three and four, or five and five"
+            ),
         );
     }
     // Later, unknown, consumed by the seed, and used a second time.
@@ -367,6 +369,106 @@ fn section_5_cycles_of_four() {
         changes.retain(|(pointer, new)| named("ring").pointer(pointer) != Some(new));
         let text = changed("ring", &changes).to_string();
         assert!(check(text.as_bytes(), None).is_ok(), "{with:?}");
+    }
+}
+
+/// A K_{2,3} with the sides 0, 1 and 2, 3, 4; the bodies {0, 2, 5} and {1, 3, 6} are in the place
+/// of the edges 0-2 and 1-3.
+#[test]
+fn section_5_bicliques() {
+    let step = "bodies[2].merge[0]: ";
+    let merge =
+        |with: &[Value], at: &[u32]| vec![("/bodies/2/merge/0", json!({"with": with, "at": at}))];
+    let with = [
+        json!([1, 2]),
+        json!([0, 3]),
+        json!(1),
+        json!([0, 4]),
+        json!([1, 4]),
+    ];
+    let at = [0, 1, 2, 3, 4];
+    let misplaced = |changes: &[(&str, Value)]| {
+        let reason = rejection(&changed("biclique", changes), None);
+        let words = [
+            "is not where the merge needs it",
+            "are not different",
+            "used a second time",
+        ];
+        assert!(
+            reason.starts_with(step) && words.iter().any(|words| reason.ends_with(words)),
+            "{changes:?}: {reason}"
+        );
+    };
+    // Each of the six in the place of another one, and each node in that of another.
+    for (k, l) in (0..5).flat_map(|k| (0..5).map(move |l| (k, l))) {
+        if k != l {
+            let mut other = with.clone();
+            other[k] = with[l].clone();
+            misplaced(&merge(&other, &at));
+        }
+    }
+    for (k, v) in (0..5).flat_map(|k| (0..7).map(move |v| (k, v))) {
+        if at[k] != v {
+            let mut other = at;
+            other[k] = v;
+            misplaced(&merge(&with, &other));
+        }
+    }
+    let lengths =
+        "`with` and `at` have one and two, two and three, three and four, or five and five";
+    let six = [&with[..], &[json!([0, 5])]].concat();
+    for (with, at) in [
+        (&with[..4], &at[..]),
+        (&with[..], &at[..4]),
+        (&with[..], &[0, 1, 2, 3, 4, 5][..]),
+        (&six[..], &at[..]),
+        (&six[..], &[0, 1, 2, 3, 4, 5][..]),
+    ] {
+        refused("biclique", &merge(with, at), &format!("{step}{lengths}"));
+    }
+    refused(
+        "biclique",
+        &[("/model", json!("calibrated"))],
+        &format!("{step}six bodies are merged in the projective model only"),
+    );
+    refused(
+        "biclique",
+        &[("/bodies/2/merge/0/with/4", json!([0, 1]))],
+        &format!("{step}[0, 1] is not an edge (i < j) of the graph"),
+    );
+    refused(
+        "biclique",
+        &[("/bodies/2/merge/0/with/2", json!(0))],
+        &format!("{step}body 0 is not an earlier one, or is used a second time"),
+    );
+    // What four bodies and an edge leave of it: all but one of the six.
+    refused(
+        "biclique",
+        &[("/bodies/2/seed", json!([0, 3]))],
+        &format!("{step}node 2 is not where the merge needs it"),
+    );
+    // The same six by other names: b for a, another order of the three, another one first.
+    for (seed, with, at) in [
+        (
+            json!(0),
+            json!([[1, 2], [0, 4], [1, 4], [0, 3], 1]),
+            [0, 1, 2, 4, 3],
+        ),
+        (
+            json!(1),
+            json!([[0, 3], [1, 2], 0, [1, 4], [0, 4]]),
+            [1, 0, 3, 2, 4],
+        ),
+        (
+            json!([0, 4]),
+            json!([[1, 4], 0, [1, 2], [0, 3], 1]),
+            [0, 1, 4, 2, 3],
+        ),
+    ] {
+        let mut value = named("biclique");
+        value["bodies"][2]["seed"] = seed;
+        value["bodies"][2]["merge"][0] = json!({"with": with, "at": at});
+        assert!(check(value.to_string().as_bytes(), None).is_ok(), "{at:?}");
     }
 }
 

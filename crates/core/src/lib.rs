@@ -48,7 +48,8 @@ pub mod wording;
 
 pub use certificate::Certificate;
 pub use decide::{
-    Arithmetic, Claim, Component, Options, Prime, Strength, Value, Verdict, VerdictError, decide,
+    Arithmetic, Claim, Component, CountSolutions, Options, Prime, SolutionCount, Strength, Value,
+    Verdict, VerdictError, decide,
 };
 pub use geometry::model::Model;
 pub use graph::{Graph, GraphError, LabelledGraph, Labels, PairedWithItself};

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::Graph;
-use viewcert::decide::Options;
+use viewcert::decide::{CountSolutions, Options};
 use viewcert::{Model, Verdict, decide};
 
 /// Random graphs of 4 to 9 nodes, sparse ones and dense ones.
@@ -51,7 +51,9 @@ pub fn clusters(count: u64) -> impl Iterator<Item = Graph> {
 
 /// The question in a model.
 pub fn options(model: Model) -> Options {
-    Options::default().model(model)
+    Options::default()
+        .model(model)
+        .solutions(CountSolutions::Off)
 }
 
 /// The verdict in a model.

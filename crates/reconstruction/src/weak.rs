@@ -170,6 +170,7 @@ fn used(contraction: &Contraction) -> Vec<Pair> {
                 Merge::Shared { part, .. } => std::slice::from_ref(part),
                 Merge::Triangle { parts, .. } => parts,
                 Merge::Cycle { parts, .. } => parts,
+                Merge::Biclique { parts, .. } => parts,
             };
             used.extend(parts.iter().filter_map(|part| match *part {
                 Joined::Edge(a, b) => Some(ordered(a, b)),

@@ -125,6 +125,7 @@ impl<'a> Document<'a> {
         solutions: Option<&'a Solutions>,
     ) -> Result<Self, ForeignSolutions> {
         let (mut value, rank) = (verdict.value_claim(), verdict.rank_claim());
+        value.value = verdict.value_by_rank();
         let components = verdict.components_claim();
         let known = solutions.map(|solutions| solutions::view(verdict, solutions));
         let (claimed, evidence) = known.transpose()?.flatten().unzip();
@@ -240,6 +241,10 @@ impl<'a> MergeView<'a> {
                 at,
             },
             Merge::Cycle { parts, at } => Self {
+                with: parts.iter().map(|&part| part.into()).collect(),
+                at,
+            },
+            Merge::Biclique { parts, at } => Self {
                 with: parts.iter().map(|&part| part.into()).collect(),
                 at,
             },

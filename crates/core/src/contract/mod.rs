@@ -4,10 +4,12 @@
 //! grown from triangles until a node seen twice remains nowhere, then merged by the
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
-//! (rule 5 of Theorem 4.9). Every step is recorded, and the record is the proof.
+//! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Every
+//! step is recorded, and the record is the proof.
 
 pub(crate) mod piece;
 
+mod bicliques;
 mod cycles;
 mod grow;
 mod merge;
@@ -71,6 +73,15 @@ pub enum Merge {
         /// The four common nodes, all different.
         at: [u32; 4],
     },
+    /// Body and parts stand around a K_{2,3}, in the projective model: with `at` = a, b, v_1, v_2,
+    /// v_3 the body has a and v_1, the first part v_1 and b, the second a and v_2, the third v_2
+    /// and b, the fourth a and v_3, the fifth v_3 and b.
+    Biclique {
+        /// What joins.
+        parts: [Part; 5],
+        /// The two nodes of the one side and the three of the other, all different.
+        at: [u32; 5],
+    },
 }
 
 /// A body and how it came to be.
@@ -112,20 +123,31 @@ impl Contraction {
         }
     }
 
-    /// Closed under cycles of two and three (Theorem 4.1).
+    /// Closed under cycles of two and three (Theorem 4.1) and under the rule of K_{2,3}
+    /// (Theorem 10.3), as far as its steps reach.
     fn by_triangles(graph: &Graph) -> Self {
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);
         let mut bodies = grow::grow(&mut remaining);
-        let owners = merge::close(&mut bodies, &remaining, graph.nodes());
-        let mut loose = Vec::new();
-        for (v, w) in remaining.edges() {
-            match owners.common_body(v, w) {
-                Some(body) => bodies[body as usize].edges += 1,
-                None => loose.push((v, w)),
+        let steps = bicliques::Steps::new(graph);
+        loop {
+            let owners = merge::close(&mut bodies, &remaining, graph.nodes());
+            let mut owned = Vec::new();
+            let mut loose = Vec::new();
+            for (v, w) in remaining.edges() {
+                match owners.common_body(v, w) {
+                    Some(body) => owned.push(body),
+                    None => loose.push((v, w)),
+                }
             }
+            if bicliques::merge(&mut bodies, &loose, graph.nodes(), &steps) {
+                continue;
+            }
+            for body in owned {
+                bodies[body as usize].edges += 1;
+            }
+            return Self::of_closed(bodies, loose);
         }
-        Self::of_closed(bodies, loose)
     }
 
     /// Closed under cycles of two, three and four (Theorem 4.9).

@@ -1,6 +1,7 @@
 //! Contraction, replayed step by step and compared with the rules applied naively.
 
 use super::*;
+use crate::decide::{Options, decide};
 use crate::geometry::draw::{DrawKey, centres_mod};
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::sha256;
@@ -67,6 +68,17 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
                     }
                     nodes.extend(x.into_iter().chain(y).chain(z));
                 }
+                Merge::Biclique { parts, at } => {
+                    assert_eq!(Nodes::from(at).len(), 5);
+                    let parts = parts.map(&mut part);
+                    let all = std::iter::once(&nodes).chain(&parts);
+                    let [a, b, three @ ..] = at;
+                    let corners = three.iter().flat_map(|&v| [[a, v], [v, b]]);
+                    for (member, corners) in all.zip(corners) {
+                        assert!(corners.iter().all(|v| member.contains(v)));
+                    }
+                    nodes.extend(parts.into_iter().flatten());
+                }
             }
         }
         bodies.push(Some(nodes));
@@ -84,23 +96,45 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
     bodies.into_iter().flatten().collect()
 }
 
-/// Bodies and edges merged around cycles of at most `longest` until none is left, by trying
-/// everything.
-fn naive(graph: &Graph, longest: usize) -> BTreeSet<Nodes> {
+/// Bodies and edges merged by the rules of a model until none applies, by trying everything.
+fn naive(graph: &Graph, model: Model) -> BTreeSet<Nodes> {
+    let find = |parts: &[Nodes]| match model {
+        Model::Projective => find_cycle(parts, 3).or_else(|| find_biclique(parts)),
+        Model::Calibrated => find_cycle(parts, 4),
+    };
     let mut parts: Vec<Nodes> = graph
         .edges()
         .iter()
         .map(|&(i, j)| Nodes::from([i, j]))
         .collect();
-    while let Some(mut cycle) = find_cycle(&parts, longest) {
-        cycle.sort_unstable();
+    while let Some(mut found) = find(&parts) {
+        found.sort_unstable();
         let mut together = Nodes::new();
-        for k in cycle.into_iter().rev() {
+        for k in found.into_iter().rev() {
             together.extend(parts.swap_remove(k));
         }
         parts.push(together);
     }
     parts.into_iter().collect()
+}
+
+/// Six parts around a K_{2,3}: for some a and b, and three nodes v, one with a and v, another with v
+/// and b.
+fn find_biclique(parts: &[Nodes]) -> Option<Vec<usize>> {
+    let nodes: Nodes = parts.iter().flatten().copied().collect();
+    let with = |x: u32, y: u32| {
+        (0..parts.len()).find(|&k| x != y && parts[k].contains(&x) && parts[k].contains(&y))
+    };
+    let pairs = nodes
+        .iter()
+        .flat_map(|&a| nodes.iter().map(move |&b| (a, b)));
+    pairs.into_iter().find_map(|(a, b)| {
+        let ways = nodes
+            .iter()
+            .filter_map(|&v| Some([with(a, v)?, with(v, b)?]));
+        let ways: Vec<[usize; 2]> = ways.filter(|[p, q]| p != q).take(3).collect();
+        (a != b && ways.len() == 3).then(|| ways.concat())
+    })
 }
 
 /// Different parts, each of which shares a node with the next one and the last with the first,
@@ -147,26 +181,38 @@ fn check(graph: &Graph, model: Model) {
     assert_eq!(parts.len(), finals.len());
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
     assert_eq!(parts.len(), finals.len() + contraction.loose.len());
-    let longest = match model {
-        Model::Projective => 3,
-        Model::Calibrated => 4,
-    };
-    assert_eq!(parts, naive(graph, longest));
+    assert_eq!(parts, naive(graph, model));
     for (&k, nodes) in contraction.finals.iter().zip(&finals) {
         let inside = |&&(i, j): &&(u32, u32)| nodes.contains(&i) && nodes.contains(&j);
         let covered: Vec<(u32, u32)> = graph.edges().iter().filter(inside).copied().collect();
         assert_eq!(contraction.bodies[k as usize].edges, covered.len());
-        if model == Model::Calibrated {
-            assert_eq!(rigidity_rank(nodes, &covered), 3 * nodes.len() - 4);
+        match model {
+            Model::Calibrated => {
+                assert_eq!(rigidity_rank(nodes, &covered), 3 * nodes.len() - 4);
+            }
+            Model::Projective => {
+                assert_eq!(paper_rank(nodes, &covered), 11 * nodes.len() - 15);
+            }
         }
     }
 }
 
-/// The rank of N at drawn centres modulo 2^61 - 1.
-fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+/// A graph on some nodes alone.
+fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
     let number = |v: u32| nodes.range(..v).count() as u32;
     let pairs = edges.iter().map(|&(i, j)| (number(i), number(j))).collect();
-    let (graph, _) = Graph::from_pairs(nodes.len() as u32, pairs).unwrap();
+    Graph::from_pairs(nodes.len() as u32, pairs).unwrap().0
+}
+
+/// The generic rank of J_P, without contraction.
+fn paper_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+    let options = Options::default().contraction(false);
+    decide(&alone(nodes, edges), &options).unwrap().rank
+}
+
+/// The rank of N at drawn centres modulo 2^61 - 1.
+fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+    let graph = alone(nodes, edges);
     let key = DrawKey {
         graph_sha256: sha256(&graph),
         core_sha256: None,
@@ -244,7 +290,13 @@ fn cycles_of_four_by_hand() {
     let g = graph(6, &[(0, 1), (1, 2), (2, 3), (0, 3), (1, 4), (3, 4), (4, 5)]);
     check(&g, Model::Calibrated);
     assert_eq!(one_body(&g), ((0..5).collect(), 1));
-    assert!(Contraction::new(&g, Model::Projective).bodies.is_empty());
+    let cycle = graph(4, &[(0, 1), (1, 2), (2, 3), (0, 3)]);
+    assert_eq!(one_body(&cycle), ((0..4).collect(), 0));
+    assert!(
+        Contraction::new(&cycle, Model::Projective)
+            .bodies
+            .is_empty()
+    );
     // A cycle of five edges is none.
     let pentagon = graph(5, &[(0, 1), (1, 2), (2, 3), (3, 4), (0, 4)]);
     check(&pentagon, Model::Calibrated);
@@ -287,6 +339,47 @@ fn cycles_of_four_by_hand() {
     assert_eq!(Contraction::new(&g, Model::Calibrated).finals.len(), 2);
 }
 
+/// The two nodes of one side of a K_{2,3} are 0 and 1; what joins them to the others varies.
+#[test]
+fn bicliques_by_hand() {
+    let finals = |graph: &Graph| Contraction::new(graph, Model::Projective).finals.len();
+    let ends = [(0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4)];
+    let biclique = graph(5, &ends);
+    check(&biclique, Model::Projective);
+    let contraction = Contraction::new(&biclique, Model::Projective);
+    assert_eq!(contraction.bodies[0].nodes, [0, 1, 2, 3, 4]);
+    assert_eq!(contraction.bodies[0].edges, 6);
+    let [Merge::Biclique { at, .. }] = contraction.bodies[0].merge[..] else {
+        panic!("{:?}", contraction.bodies[0]);
+    };
+    assert_eq!(at, [0, 1, 2, 3, 4]);
+    // K_{2,2} is none, nor is K_{3,3} without two edges at different nodes of both sides.
+    assert_eq!(finals(&graph(4, &ends[..4])), 0);
+    let seven = [(0, 3), (0, 4), (1, 3), (1, 5), (2, 3), (2, 4), (2, 5)];
+    assert_eq!(finals(&graph(6, &seven)), 0);
+    // Each edge in turn, and all of them, with a triangle in its place; a node that hangs on two
+    // others afterwards.
+    let with_tips = |of: std::ops::Range<usize>| {
+        let tips = ends[of].iter().zip(5..);
+        let sides = tips.flat_map(|(&(a, b), tip)| [(a, tip), (b, tip)]);
+        let pairs: Vec<(u32, u32)> = ends.iter().copied().chain(sides).collect();
+        graph(11, &pairs)
+    };
+    for of in (0..6).map(|k| k..k + 1).chain([0..6]) {
+        check(&with_tips(of), Model::Projective);
+    }
+    assert_eq!(finals(&with_tips(0..6)), 1);
+    let mut hanging = ends.to_vec();
+    hanging.extend([(2, 5), (3, 5)]);
+    check(&graph(6, &hanging), Model::Projective);
+    assert_eq!(finals(&graph(6, &hanging)), 1);
+    // A K_{2,3} one of whose edges is the body of another one.
+    let mut nested = ends.to_vec();
+    let second = [(2, 5), (3, 5), (2, 6), (5, 7), (6, 7)];
+    nested.extend(second);
+    check(&graph(8, &nested), Model::Projective);
+}
+
 /// Pairs of different nodes below `nodes`.
 fn among(nodes: u32, pairs: Vec<(u32, u32)>) -> Graph {
     let fits = |&(i, j): &(u32, u32)| i != j && i < nodes && j < nodes;
@@ -302,6 +395,16 @@ proptest! {
         let graph = among(nodes, pairs);
         check(&graph, Model::Projective);
         check(&graph, Model::Calibrated);
+    }
+
+    /// Bipartite graphs have no triangles but may have bicliques.
+    #[test]
+    fn bicliques_of_edges(
+        left in 2u32..9,
+        pairs in prop::collection::vec((0u32..9, 0u32..9), 6..30),
+    ) {
+        let pairs = pairs.into_iter().map(|(a, b)| (a % left, left + b));
+        check(&among(left + 9, pairs.collect()), Model::Projective);
     }
 
     #[test]
@@ -323,5 +426,6 @@ proptest! {
         let sides = triangles.into_iter().flat_map(|(a, b, c)| [(a, b), (b, c), (a, c)]);
         let graph = among(nodes, sides.chain(pairs).collect());
         check(&graph, Model::Calibrated);
+        check(&graph, Model::Projective);
     }
 }

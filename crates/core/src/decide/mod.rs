@@ -14,11 +14,12 @@
 //!     counting   a partition and hubs -> an upper bound                     5
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
+//!   solutions  how many a finite solvable graph has: one makes it solvable   10
 //! ```
 //!
 //! Pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in
 //! `motion_class`, bounds in `counting`, the paper's own matrix (`--no-contraction`,
-//! `--rational`) in `whole_matrix`. What goes in is in `options`, what is found in [`evidence`],
+//! `--rational`) in `whole_matrix`, the number of solutions in `solution_count`. What goes in is in `options`, what is found in [`evidence`],
 //! what comes out in `verdict`.
 
 pub mod evidence;
@@ -30,13 +31,15 @@ mod error;
 mod motion_class;
 mod one_piece;
 mod options;
+mod solution_count;
 mod verdict;
 mod whole_matrix;
 
 pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
-pub use options::{Arithmetic, Options, Prime};
+pub use options::{Arithmetic, CountSolutions, Options, Prime};
+pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
 use crate::contract::Contraction;
@@ -74,7 +77,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let pieces = one_piece::decide_all(&assembly, &pieces, &sha256, options)?;
     let found = Found {
         graph,
-        model: options.model,
+        options,
         assembly: &assembly,
         rigid,
         pieces,
@@ -85,7 +88,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
-    model: Model,
+    options: &'a Options,
     assembly: &'a Assembly,
     /// The members that are pieces by themselves.
     rigid: Members,
@@ -101,12 +104,16 @@ impl Found<'_> {
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
         let upper = rigid_rank + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
         let value = self.value(rank);
+        let value_strength = self.strength(value, upper);
+        let solutions = self.solutions(value, &contraction);
+        let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
         let contraction = Arc::new(contraction);
         Verdict {
-            model: self.model,
+            model: self.options.model,
             sha256,
-            value,
-            value_strength: self.strength(value, upper),
+            value: if is_one { Value::Solvable } else { value },
+            value_strength,
+            solutions,
             rank,
             required: self.required(),
             components: self.components(&contraction),
@@ -118,17 +125,17 @@ impl Found<'_> {
 
     /// The rank of a finite solvable graph with as many nodes.
     fn required(&self) -> usize {
-        self.model.required(self.graph.nodes())
+        self.options.model.required(self.graph.nodes())
     }
 
     /// The rank of the members that are pieces by themselves.
     fn rigid_rank(&self) -> usize {
         let singles = self.rigid.singles();
         let nodes = singles.iter().map(|part| self.assembly.count_nodes(part));
-        nodes.map(|nodes| self.model.required(nodes)).sum()
+        nodes.map(|nodes| self.options.model.required(nodes)).sum()
     }
 
-    /// The answer: one body is unique (Corollary 4.2), one piece of full rank is finite
+    /// The answer before solutions are counted: one body is unique (Corollary 4.2), one piece of full rank is finite
     /// (Theorem 1.3) and in the calibrated model unique (Theorem 4.8).
     fn value(&self, rank: usize) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
@@ -140,11 +147,25 @@ impl Found<'_> {
                 .pieces
                 .first()
                 .is_some_and(|piece| all_nodes(&piece.members));
-        match self.model {
+        match self.options.model {
             _ if is_body || self.graph.nodes() == 1 => Value::Solvable,
             Model::Calibrated if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
             _ => Value::NotFiniteSolvable,
+        }
+    }
+
+    /// How many solutions there are (section 10), if finitely many.
+    fn solutions(&self, value: Value, contraction: &Contraction) -> Option<SolutionCount> {
+        let effort = match self.options.contraction {
+            true => self.options.solutions,
+            false => CountSolutions::Off,
+        };
+        let seed = self.options.seed;
+        match value {
+            Value::Solvable => Some(SolutionCount::one()),
+            Value::FiniteSolvable => Some(SolutionCount::of(self.graph, contraction, effort, seed)),
+            Value::NotFiniteSolvable => None,
         }
     }
 

@@ -52,6 +52,20 @@ pub enum Arithmetic {
     },
 }
 
+/// How much is spent on the number of solutions of a graph that is finite solvable in the projective
+/// model and no single body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CountSolutions {
+    /// Nothing: for many graphs of which only 'finite or not' is asked.
+    Off,
+    /// Solutions are counted where it takes well below a second: where the members of the graph
+    /// share few nodes. The others stay finite solvable.
+    #[default]
+    Quick,
+    /// Solutions are counted whatever it takes: minutes, where many nodes are shared.
+    Full,
+}
+
 /// How the question is decided. Start from the default, and say what is to be different:
 ///
 /// ```
@@ -73,6 +87,8 @@ pub struct Options {
     pub contraction: bool,
     /// Whether to look for proofs by counting.
     pub counting: bool,
+    /// How much to spend on the number of solutions. Without contraction they are not counted.
+    pub solutions: CountSolutions,
     /// The seed of all draws.
     pub seed: u64,
     /// Who is told what is being done, and may stop it.
@@ -115,6 +131,13 @@ impl Options {
         self
     }
 
+    /// Spends more or less on the number of solutions.
+    #[must_use]
+    pub fn solutions(mut self, solutions: CountSolutions) -> Self {
+        self.solutions = solutions;
+        self
+    }
+
     /// Draws other cameras.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
@@ -138,6 +161,7 @@ impl Default for Options {
             prime: Prime::default(),
             contraction: true,
             counting: true,
+            solutions: CountSolutions::default(),
             seed: 1,
             watch: Watch::default(),
         }

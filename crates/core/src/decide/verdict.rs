@@ -4,6 +4,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::Members;
 use crate::decide::claim::{Claim, Strength};
 use crate::decide::evidence::PieceVerdict;
+use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::fmt;
@@ -137,6 +138,8 @@ pub struct Verdict {
     pub sha256: [u8; 32],
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.
     pub value: Value,
+    /// How many solutions there are; `None` if infinitely many.
+    pub solutions: Option<SolutionCount>,
     /// The generic rank of J_P (calibrated: of N), with [`rank_claim`](Self::rank_claim).
     pub rank: usize,
     /// The rank of a finite solvable graph with as many nodes.
@@ -159,6 +162,19 @@ impl Verdict {
         Claim {
             value: self.value,
             strength: self.value_strength,
+        }
+    }
+
+    /// The answer without what rests on counting solutions: what a certificate may claim that holds
+    /// no evidence for their number.
+    pub fn value_by_rank(&self) -> Value {
+        let counted = self
+            .solutions
+            .as_ref()
+            .is_some_and(|count| count.evidence.is_some());
+        match self.value {
+            Value::Solvable if counted => Value::FiniteSolvable,
+            value => value,
         }
     }
 

@@ -113,7 +113,22 @@ impl Default for Effort {
 ///
 /// Bounds are proofs, whatever was drawn (docs/theory.md, section 10). `seed` selects centres.
 pub fn count(graph: &Graph, effort: Effort, seed: u64) -> Option<Solutions> {
-    let mut members = Members::new(graph, &Contraction::new(graph, Model::Projective))?;
+    count_in(
+        graph,
+        &Contraction::new(graph, Model::Projective),
+        effort,
+        seed,
+    )
+}
+
+/// As [`count`], with the contraction of the graph in the projective model.
+pub(crate) fn count_in(
+    graph: &Graph,
+    contraction: &Contraction,
+    effort: Effort,
+    seed: u64,
+) -> Option<Solutions> {
+    let mut members = Members::new(graph, contraction)?;
     if graph.nodes() < 2 || members.sets.is_empty() {
         return None;
     }

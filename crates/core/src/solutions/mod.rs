@@ -4,7 +4,8 @@
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
 //! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof.
+//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof. A second solution
+//! can be looked at (`witness`).
 
 mod chart;
 mod count;
@@ -18,10 +19,13 @@ mod support;
 mod system;
 #[cfg(test)]
 mod tests;
+mod witness;
 
 pub use chart::{Chart, Scale};
+pub(crate) use count::count_in;
 pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
 pub use linear::Linear;
 pub use members::{MOST_NODES, Merge, Rule};
 pub use points::AtMost;
 pub use support::{Minor, Part};
+pub use witness::Witness;

@@ -10,6 +10,7 @@
 //! | `name` | a name in the folder of graphs, with or without what follows the dot |
 //! | `verdict` | `solvable`, `finite-solvable`, `not-finite-solvable`, `not-solvable` |
 //! | `components`, `components_...` | a number of maximal finite-solvable components |
+//! | `solutions` | how many solutions there are: a number, `1` meaning solvable |
 //! | `rank` | the generic rank of J_P (calibrated: of N) |
 //! | `model` | `projective`, which is meant where it is not said, or `calibrated` |
 //! | `nodes`, `edges`, `sha256` | size and hash, to tell whether it is the graph that was meant |
@@ -67,7 +68,7 @@ pub enum TableProblem {
     NoRows,
     /// A column, or a member, that says nothing here.
     #[error(
-        "unknown column {0:?}; known are graph, file, name, verdict, components, rank, model, nodes, edges, \
+        "unknown column {0:?}; known are graph, file, name, verdict, components, solutions, rank, model, nodes, edges, \
          sha256, and seconds and density, which claim nothing; correct it, or leave it out with \
          --ignore {0}"
     )]
@@ -115,6 +116,7 @@ fn is_known(column: &str) -> bool {
             | "name"
             | "verdict"
             | "components"
+            | "solutions"
             | "rank"
             | "model"
             | "nodes"
@@ -289,6 +291,9 @@ struct Reported {
     graph: ReportedGraph,
     model: String,
     verdict: String,
+    /// Missing where an earlier version did not count.
+    #[serde(default)]
+    solutions: Option<ReportedSolutions>,
     rank: usize,
     rank_required: usize,
     components: Vec<ReportedComponent>,
@@ -302,6 +307,12 @@ struct ReportedGraph {
     sha256: String,
 }
 
+/// Bounds are how it was found; the number is a claim.
+#[derive(Deserialize)]
+struct ReportedSolutions {
+    exactly: Option<usize>,
+}
+
 #[derive(Deserialize)]
 struct ReportedComponent {
     nodes: usize,
@@ -309,7 +320,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 23] = [
+const REPORTED: [&str; 24] = [
     "graph",
     "notes",
     "database",
@@ -318,6 +329,7 @@ const REPORTED: [&str; 23] = [
     "verdict",
     "strength",
     "error_log2",
+    "solutions",
     "rank",
     "rank_required",
     "rank_strength",
@@ -347,7 +359,12 @@ fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProbl
     }
     let found: Reported = serde_json::from_value(Json::Object(object))
         .map_err(|error| TableProblem::Report(error.to_string()))?;
+    let exactly = found.solutions.and_then(|solutions| solutions.exactly);
     let cells = [
+        (
+            "solutions",
+            exactly.map_or_else(String::new, |number| number.to_string()),
+        ),
         ("graph", found.graph.name),
         ("model", found.model),
         ("verdict", found.verdict),

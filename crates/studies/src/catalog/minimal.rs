@@ -123,7 +123,7 @@ fn partner(bodies: &[u16], new: u16) -> Option<[Option<usize>; 2]> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use viewcert::contract::Contraction;
+    use viewcert::contract::{Contraction, Merge};
     use viewcert::geometry::model::Model;
 
     fn minimal(nodes: usize) -> Vec<Graph> {
@@ -196,6 +196,9 @@ mod tests {
                 }
             }
             let contraction = Contraction::new(&to_graph(&graph), Model::Projective);
+            // The search closes under cycles only, which is what it takes to find redundant edges.
+            let is_biclique = |merge: &Merge| matches!(merge, Merge::Biclique { .. });
+            prop_assume!(!contraction.bodies.iter().flat_map(|body| &body.merge).any(is_biclique));
             let mut expected: Vec<u16> = contraction
                 .finals
                 .iter()

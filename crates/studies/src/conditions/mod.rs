@@ -232,3 +232,6 @@ pub fn solvable(conditions: &[Condition]) -> bool {
         .iter()
         .any(|condition| !condition.necessary && condition.answer == Answer::Yes)
 }
+
+#[cfg(test)]
+mod tests;

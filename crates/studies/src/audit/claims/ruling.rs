@@ -15,7 +15,9 @@ pub enum RowError {
     #[error("no graph is named: one of the columns graph, file, name is needed")]
     NoGraph,
     /// Nothing is claimed.
-    #[error("nothing is claimed: one of the columns verdict, components, rank is needed")]
+    #[error(
+        "nothing is claimed: one of the columns verdict, components, solutions, rank is needed"
+    )]
     NoClaim,
     /// A cell does not hold a number.
     #[error("{column}: {text:?} is not a number")]
@@ -119,6 +121,8 @@ pub struct Claim {
     pub components: Option<usize>,
     /// Cameras and pairs of every component, falling.
     pub sizes: Option<Vec<(usize, usize)>>,
+    /// The number of solutions.
+    pub solutions: Option<usize>,
     /// The rank.
     pub rank: Option<usize>,
     /// The rank of a finite solvable graph of that size.
@@ -149,11 +153,13 @@ pub fn claim(row: &Row) -> Result<Claim, RowError> {
         verdict: cell(row, "verdict").map(str::parse).transpose()?,
         components: components(row)?,
         sizes: row.sizes.clone().map(falling),
+        solutions: size(row, "solutions")?,
         rank: size(row, "rank")?,
         required: size(row, "rank_required")?,
         sha256: cell(row, "sha256").map(str::to_lowercase),
     };
-    if claim.verdict.is_none() && claim.components.is_none() && claim.rank.is_none() {
+    let numbers = [claim.components, claim.solutions, claim.rank];
+    if claim.verdict.is_none() && numbers == [None; 3] {
         return Err(RowError::NoClaim);
     }
     match claim.contradiction() {
@@ -223,6 +229,23 @@ impl Claim {
         if let Some(count) = self.components.filter(|&count| finite && count > 1) {
             return Some(format!("{verdict} has one component, not {count}"));
         }
+        if let Some(count) = self.solutions {
+            let excluded = match self.verdict {
+                _ if count == 0 => true,
+                Some(C::Solvable) => count != 1,
+                Some(C::NotSolvable) => count == 1,
+                Some(C::NotFiniteSolvable) => true,
+                Some(C::FiniteSolvable) | None => false,
+            };
+            if excluded {
+                let and = if verdict.is_empty() {
+                    "the cameras are one solution"
+                } else {
+                    verdict
+                };
+                return Some(format!("{}, and {and}", counted(count, "solution")));
+            }
+        }
         let (rank, full) = (self.rank?, self.model.required(self.nodes?));
         let excluded = rank > full || finite && rank < full || infinite && rank == full;
         let and = if verdict.is_empty() { "" } else { ", and " };
@@ -242,10 +265,28 @@ pub fn rule(claim: &Claim, nodes: usize, edges: usize, verdict: &Verdict) -> Rul
     }
     let value = claim
         .verdict
-        .map_or(Judged::Right, |claimed| judge(claimed, verdict.value));
+        .map_or(Judged::Right, |claimed| judge(claimed, verdict));
     let mut wrong = Vec::new();
     if let (Judged::Wrong, Some(claimed)) = (value, claim.verdict) {
-        wrong.push(format!("claimed {claimed}, is {}", verdict.value.name()));
+        let found = verdict.value.name();
+        wrong.push(match &verdict.solutions {
+            Some(count) if count.at_least > 1 => {
+                format!("claimed {claimed}, is {found} with {count}")
+            }
+            _ => format!("claimed {claimed}, is {found}"),
+        });
+    }
+    let number = claim
+        .solutions
+        .map_or(Judged::Right, |claimed| judge_number(claimed, verdict));
+    if let (Judged::Wrong, Some(claimed)) = (number, claim.solutions) {
+        let found = match &verdict.solutions {
+            Some(count) => {
+                format!("there are {count}").replacen("are exactly 1 ", "is exactly 1 ", 1)
+            }
+            None => "there are infinitely many".to_owned(),
+        };
+        wrong.push(format!("claimed solutions {claimed}, {found}"));
     }
     for (what, claimed, found) in [
         ("components", claim.components, verdict.components.len()),
@@ -261,9 +302,15 @@ pub fn rule(claim: &Claim, nodes: usize, edges: usize, verdict: &Verdict) -> Rul
     }
     match value {
         _ if !wrong.is_empty() => Ruling::Refuted(wrong),
-        Judged::Open => Ruling::NotDecidable(
-            "finite solvable, and whether one or several sets of cameras is not decided".to_owned(),
-        ),
+        _ if value == Judged::Open || number == Judged::Open => {
+            Ruling::NotDecidable(match &verdict.solutions {
+                Some(count) if count.at_least > 1 || count.at_most.is_some() => {
+                    format!("finite solvable, and the number of solutions is not decided: {count}")
+                }
+                _ => "finite solvable, and whether one or several sets of cameras is not decided"
+                    .to_owned(),
+            })
+        }
         _ => Ruling::Confirmed,
     }
 }
@@ -293,14 +340,33 @@ enum Judged {
     Open,
 }
 
-fn judge(claimed: ClaimedVerdict, found: Value) -> Judged {
+fn judge(claimed: ClaimedVerdict, found: &Verdict) -> Judged {
     use ClaimedVerdict as C;
-    match (claimed, found) {
+    let several = found
+        .solutions
+        .as_ref()
+        .is_some_and(|count| count.at_least > 1);
+    match (claimed, found.value) {
+        (C::Solvable, Value::FiniteSolvable) if several => Judged::Wrong,
+        (C::NotSolvable, Value::FiniteSolvable) if several => Judged::Right,
         (C::Solvable | C::NotSolvable, Value::FiniteSolvable) => Judged::Open,
         (C::Solvable | C::FiniteSolvable, Value::NotFiniteSolvable)
         | (C::NotFiniteSolvable, Value::Solvable | Value::FiniteSolvable)
         | (C::NotSolvable, Value::Solvable) => Judged::Wrong,
         _ => Judged::Right,
+    }
+}
+
+fn judge_number(claimed: usize, found: &Verdict) -> Judged {
+    let Some(count) = &found.solutions else {
+        return Judged::Wrong;
+    };
+    match count.exactly() {
+        Some(exactly) if exactly == claimed => Judged::Right,
+        Some(_) => Judged::Wrong,
+        None if claimed < count.at_least => Judged::Wrong,
+        None if count.at_most.is_some_and(|most| claimed > most) => Judged::Wrong,
+        None => Judged::Open,
     }
 }
 
@@ -351,6 +417,87 @@ mod tests {
     }
 
     /// Every claim against every verdict.
+    #[test]
+    fn rulings_on_the_number_of_solutions() {
+        use viewcert::decide::CountSolutions;
+        use viewcert::graph::graph6;
+        let ruled = |graph: &str, effort, column: &str, claimed: &str| {
+            let decoded = graph6::decode(graph.as_bytes()).unwrap();
+            let verdict = decide(&decoded, &Options::default().solutions(effort)).unwrap();
+            let claim = claim(&row(&[("graph", graph), (column, claimed)])).unwrap();
+            let ruling = rule(&claim, decoded.nodes(), decoded.edges().len(), &verdict);
+            match ruling {
+                Ruling::Confirmed => "confirmed".to_owned(),
+                Ruling::Refuted(why) => why.join("; "),
+                Ruling::NotDecidable(why) => why,
+            }
+        };
+        // Published: one solution with eight nodes, two with these nine.
+        let [one, two] = ["G@TclO", "HBQkcP_"];
+        let full = CountSolutions::Full;
+        for (graph, column, claimed, wanted) in [
+            (one, "verdict", "solvable", "confirmed"),
+            (
+                one,
+                "verdict",
+                "not-solvable",
+                "claimed not-solvable, is solvable",
+            ),
+            (one, "solutions", "1", "confirmed"),
+            (
+                one,
+                "solutions",
+                "2",
+                "claimed solutions 2, there is exactly 1 solution",
+            ),
+            (two, "verdict", "not-solvable", "confirmed"),
+            (two, "verdict", "finite-solvable", "confirmed"),
+            (
+                two,
+                "verdict",
+                "solvable",
+                "claimed solvable, is finite-solvable with exactly 2 solutions",
+            ),
+            (two, "solutions", "2", "confirmed"),
+            (
+                two,
+                "solutions",
+                "1",
+                "claimed solutions 1, there are exactly 2 solutions",
+            ),
+            (
+                "Cl",
+                "solutions",
+                "1",
+                "claimed solutions 1, there are infinitely many",
+            ),
+        ] {
+            assert_eq!(
+                ruled(graph, full, column, claimed),
+                wanted,
+                "{graph} {column}"
+            );
+        }
+        let open = "finite solvable, and whether one or several sets of cameras is not decided";
+        for (column, claimed) in [
+            ("verdict", "solvable"),
+            ("verdict", "not-solvable"),
+            ("solutions", "2"),
+        ] {
+            assert_eq!(ruled(two, CountSolutions::Off, column, claimed), open);
+        }
+        let error = |cells: &[(&str, &str)]| claim(&row(cells)).unwrap_err().to_string();
+        assert!(error(&[("graph", "C~"), ("solutions", "0")]).contains("0 solutions, and"));
+        let both = [("graph", "C~"), ("solutions", "2"), ("verdict", "solvable")];
+        assert!(error(&both).contains("2 solutions, and solvable"));
+        let none = [
+            ("graph", "C~"),
+            ("solutions", "1"),
+            ("verdict", "not solvable"),
+        ];
+        assert!(error(&none).contains("1 solution, and not-solvable"));
+    }
+
     #[test]
     fn rulings() {
         let graph =

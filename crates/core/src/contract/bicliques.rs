@@ -1,0 +1,314 @@
+//! Merging six members around a K_{2,3}, in the projective model (docs/theory.md, Theorem 10.3).
+//!
+//! In: bodies and loose edges of which no two share two nodes and no three pairwise share one. Out:
+//! new bodies, each of six members: two nodes a, b are joined to each of three others, a by the one
+//! member, b by another. That the six differ follows from what goes in (Proposition 10.12). A member
+//! is used by one merge a call; whoever calls closes under the other rules again and comes back.
+
+use super::{Body, Merge, Part, Seed};
+use crate::graph::{Graph, Lists, prune_leaves};
+use std::cell::Cell;
+use std::collections::HashMap;
+
+/// How many steps the searches in one graph may take together.
+///
+/// Bodies with many nodes in many others have more ways between them than is of use. Where the
+/// steps end, members are left that could be merged: cores are larger then, and nothing is wrong.
+pub(super) struct Steps(Cell<u64>);
+
+impl Steps {
+    /// Linear in the graph, and enough for all small ones.
+    pub(super) fn new(graph: &Graph) -> Self {
+        let linear = 64 * (graph.nodes() + graph.edges().len()) as u64;
+        Self(Cell::new((1 << 23) + linear))
+    }
+
+    /// Takes so many steps; whether they were left.
+    fn take(&self, steps: usize) -> bool {
+        let left = self.0.get().checked_sub(steps as u64);
+        self.0.set(left.unwrap_or(0));
+        left.is_some()
+    }
+}
+
+/// Merges wherever the rule applies and no member is used twice. New bodies are appended; the
+/// consumed ones lose their nodes. Returns whether there are new ones.
+///
+/// The largest member of a K_{2,3} finds the others, so a body is only searched by larger ones.
+pub(super) fn merge(
+    bodies: &mut Vec<Body>,
+    loose: &[(u32, u32)],
+    nodes: usize,
+    steps: &Steps,
+) -> bool {
+    let mut search = Search::new(bodies, loose, nodes, steps);
+    search.from_bodies();
+    search.from_edges();
+    let Search { part, found, .. } = search;
+    let members = part.len() as u32;
+    for biclique in &found {
+        let at = biclique.at.map(|place| place - members);
+        let parts = biclique.members.map(|member| part[member as usize]);
+        let body = merged(bodies, parts, at);
+        bodies.push(body);
+    }
+    !found.is_empty()
+}
+
+/// The body of six parts, which are taken from the list.
+fn merged(bodies: &mut [Body], parts: [Part; 6], at: [u32; 5]) -> Body {
+    let [first, rest @ ..] = parts;
+    let mut take = |part: Part| match part {
+        Part::Edge(i, j) => (vec![i, j], 0),
+        Part::Body(k) => {
+            let body = &mut bodies[k as usize];
+            let nodes = std::mem::take(&mut body.nodes);
+            (nodes, std::mem::take(&mut body.edges))
+        }
+    };
+    let (mut nodes, mut edges) = take(first);
+    // The first has the nodes at[0] and at[2]; no two share another node.
+    nodes.extend([at[1], at[3], at[4]]);
+    for part in rest {
+        let (more, covered) = take(part);
+        nodes.extend(more.into_iter().filter(|v| !at.contains(v)));
+        edges += covered;
+    }
+    Body {
+        seed: match first {
+            Part::Edge(i, j) => Seed::Edge(i, j),
+            Part::Body(k) => Seed::Body(k),
+        },
+        add: Vec::new(),
+        merge: vec![Merge::Biclique { parts: rest, at }],
+        nodes,
+        edges,
+    }
+}
+
+/// Six members and the five nodes, in the order of [`Merge::Biclique`].
+struct Biclique {
+    members: [u32; 6],
+    at: [u32; 5],
+}
+
+/// How a search from a body has come to a node outside: from its node, through a member.
+#[derive(Clone, Copy)]
+struct Reach {
+    from: u32,
+    member: u32,
+}
+
+/// Members and the nodes that they share. Both are places: members first, then nodes.
+struct Search<'a> {
+    /// What the member is in a record; bodies first.
+    part: Vec<Part>,
+    /// How many members are bodies.
+    bodies: usize,
+    /// The shared nodes of every member, the members at every node; without what lies on no cycle.
+    incidence: Lists,
+    used: Vec<bool>,
+    found: Vec<Biclique>,
+    steps: &'a Steps,
+}
+
+impl<'a> Search<'a> {
+    fn new(bodies: &[Body], loose: &[(u32, u32)], nodes: usize, steps: &'a Steps) -> Self {
+        let finals = || (0..).zip(bodies).filter(|(_, body)| !body.nodes.is_empty());
+        let part: Vec<Part> = finals()
+            .map(|(k, _)| Part::Body(k))
+            .chain(loose.iter().map(|&(i, j)| Part::Edge(i, j)))
+            .collect();
+        let members = part.len();
+        let edges = (members - loose.len()) as u32..;
+        let mut pairs: Vec<(u32, u32)> = (0..)
+            .zip(finals())
+            .flat_map(|(member, (_, body))| body.nodes.iter().map(move |&v| (member, v)))
+            .chain(
+                edges
+                    .zip(loose)
+                    .flat_map(|(member, &(i, j))| [(member, i), (member, j)]),
+            )
+            .collect();
+        let mut count = vec![0u8; nodes];
+        for &(_, v) in &pairs {
+            count[v as usize] = count[v as usize].saturating_add(1);
+        }
+        pairs.retain(|&(_, v)| count[v as usize] > 1);
+        let place = |v: u32| members as u32 + v;
+        let both_ways = pairs
+            .iter()
+            .flat_map(|&(member, v)| [(member, place(v)), (place(v), member)]);
+        let mut incidence = Lists::group(members + nodes, both_ways);
+        prune_leaves(&mut incidence);
+        Self {
+            bodies: members - loose.len(),
+            used: vec![false; members],
+            part,
+            incidence,
+            found: Vec::new(),
+            steps,
+        }
+    }
+
+    fn of(&self, place: u32) -> &[u32] {
+        self.incidence.of(place as usize)
+    }
+
+    fn is_free(&self, member: u32) -> bool {
+        !self.used[member as usize]
+    }
+
+    /// Enters what was found, if none of the members is used.
+    fn accept(&mut self, biclique: Biclique) {
+        if biclique.members.iter().all(|&member| self.is_free(member)) {
+            for member in biclique.members {
+                self.used[member as usize] = true;
+            }
+            self.found.push(biclique);
+        }
+    }
+
+    /// Every K_{2,3} whose largest member is a body, by falling size.
+    fn from_bodies(&mut self) {
+        let mut order: Vec<u32> = (0..self.bodies as u32).collect();
+        order.sort_by_key(|&body| std::cmp::Reverse(self.of(body).len()));
+        let mut reached = vec![None; self.incidence.len() - self.part.len()];
+        for body in order {
+            if self.is_free(body)
+                && let Some(biclique) = self.around(body, &mut reached)
+            {
+                self.accept(biclique);
+            }
+        }
+    }
+
+    /// A K_{2,3} in which the body holds a and the first of the three.
+    ///
+    /// A node outside that touches the body through a member does so through one member and at one
+    /// node only: anything else would be two members that share two nodes, or a triangle.
+    fn around(&self, body: u32, reached: &mut [Option<Reach>]) -> Option<Biclique> {
+        let members = self.part.len();
+        let size = self.of(body).len();
+        let joins = |search: &Self, member: u32| {
+            member != body && search.is_free(member) && search.of(member).len() <= size
+        };
+        let mut layer = Vec::new();
+        let mut cost = size;
+        for &from in self.of(body) {
+            for &member in self.of(from) {
+                cost += 1;
+                if joins(self, member) {
+                    cost += self.of(member).len();
+                    let others = self.of(member).iter().filter(|&&x| x != from);
+                    layer.extend(others.map(|&x| (x, Reach { from, member })));
+                }
+            }
+        }
+        // The members that do not touch the body, with the nodes of the layer in them.
+        let mut far: Vec<(u32, u32)> = Vec::new();
+        for &(x, reach) in &layer {
+            reached[x as usize - members] = Some(reach);
+            cost += self.of(x).len();
+            let next = self.of(x).iter().filter(|&&member| member != reach.member);
+            far.extend(
+                next.filter(|&&member| joins(self, member))
+                    .map(|&member| (member, x)),
+            );
+        }
+        let found = if self.steps.take(cost) {
+            far.sort_unstable();
+            self.two_squares(body, &far, reached)
+        } else {
+            None
+        };
+        for (x, _) in layer {
+            reached[x as usize - members] = None;
+        }
+        found
+    }
+
+    /// Two cycles of four around the body with the same a, b. `far` lists the members opposite to
+    /// it with their nodes, in order.
+    fn two_squares(
+        &self,
+        body: u32,
+        far: &[(u32, u32)],
+        reached: &[Option<Reach>],
+    ) -> Option<Biclique> {
+        let members = self.part.len();
+        // For a and b the third node of the first such cycle, and the member between it and b.
+        let mut squares: HashMap<[u32; 2], (u32, u32)> = HashMap::new();
+        for opposite in far.chunk_by(|one, other| one.0 == other.0) {
+            if !self.steps.take(opposite.len() * opposite.len()) {
+                return None;
+            }
+            for &(member, b) in opposite {
+                for &(_, v) in opposite {
+                    let [at_b, at_v] = [b, v].map(|x| reached[x as usize - members]);
+                    let (at_b, at_v) = (at_b?, at_v?);
+                    let a = at_v.from;
+                    if at_b.from == a {
+                        continue;
+                    }
+                    let Some(&(w, other)) = squares.get(&[a, b]) else {
+                        squares.insert([a, b], (v, member));
+                        continue;
+                    };
+                    let at_w = reached[w as usize - members]?;
+                    return Some(Biclique {
+                        members: [body, at_b.member, at_v.member, member, at_w.member, other],
+                        at: [a, b, at_b.from, v, w],
+                    });
+                }
+            }
+        }
+        None
+    }
+
+    /// Every K_{2,3} of edges.
+    fn from_edges(&mut self) {
+        let members = self.part.len() as u32;
+        for a in members..self.incidence.len() as u32 {
+            // Ways of two edges from a to a larger node: that node, the one between, both edges.
+            let mut ways: Vec<(u32, u32, [u32; 2])> = Vec::new();
+            for &first in self.of(a).iter().filter(|&&edge| self.is_edge(edge)) {
+                let v = self.other_end(first, a);
+                if !self.steps.take(self.of(v).len()) {
+                    return;
+                }
+                let seconds = self.of(v).iter().filter(|&&edge| self.is_edge(edge));
+                ways.extend(seconds.filter_map(|&second| {
+                    let b = self.other_end(second, v);
+                    (b > a).then_some((b, v, [first, second]))
+                }));
+            }
+            ways.sort_unstable();
+            for to_one in ways.chunk_by(|one, other| one.0 == other.0) {
+                let free = |(_, _, edges): &&(u32, u32, [u32; 2])| {
+                    edges.iter().all(|&edge| self.is_free(edge))
+                };
+                let mut free = to_one.iter().filter(free);
+                if let (Some(x), Some(y), Some(z)) = (free.next(), free.next(), free.next()) {
+                    let ([p, q], [r, s], [t, u]) = (x.2, y.2, z.2);
+                    let biclique = Biclique {
+                        members: [p, q, r, s, t, u],
+                        at: [a, x.0, x.1, y.1, z.1],
+                    };
+                    self.accept(biclique);
+                }
+            }
+        }
+    }
+
+    fn is_edge(&self, member: u32) -> bool {
+        member as usize >= self.bodies && self.is_free(member)
+    }
+
+    /// The end of an edge that is not the given one. Both ends are on cycles, or the edge is not
+    /// listed at any.
+    fn other_end(&self, edge: u32, end: u32) -> u32 {
+        let ends = self.of(edge);
+        ends[usize::from(ends[0] == end)]
+    }
+}
