@@ -7,10 +7,8 @@ use crate::watch::{Stopped, Task};
 /// rules: its edges are independent rows of the plane direction matrix at generic points.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pinching {
-    /// The two nodes to start from.
+    /// The two nodes to start from, increasing, and the edge between them.
     pub start: [u32; 2],
-    /// Whether there is an edge between these at the start.
-    pub joined: bool,
     /// The other nodes, one after another.
     pub steps: Vec<Step>,
 }
@@ -51,8 +49,9 @@ impl Pinching {
     /// Takes off node after node. The average degree of a sparse edge set is below 4, so there is
     /// always a node of degree at most 3; one of degree at most 2 goes with its edges. If a node
     /// has three neighbours, an edge can be added between some two of them when it is gone:
-    /// otherwise these would lie in tight sets, whose union with it would have too many edges
-    /// (docs/theory.md, Lemma 13.9). The game finds out between which. O(n^2) at worst.
+    /// otherwise these would lie in tight sets, and its edges would be too many for the union
+    /// (docs/theory.md, Lemma 13.14). The game finds out between which. The edge at the start is
+    /// an edge of none if the last two nodes are not joined. O(n^2) at worst.
     pub(super) fn reduce(mut game: PebbleGame, task: &Task) -> Result<Self, Stopped> {
         let nodes = game.nodes();
         assert!(nodes >= 2, "a sequence starts from two nodes");
@@ -106,10 +105,6 @@ impl Pinching {
         steps.reverse();
         let mut rest = (0..nodes as u32).filter(|&v| is_left[v as usize]);
         let start = std::array::from_fn(|_| rest.next().expect("two nodes are left"));
-        Ok(Self {
-            start,
-            joined: game.joins(start[0], start[1]),
-            steps,
-        })
+        Ok(Self { start, steps })
     }
 }
