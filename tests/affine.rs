@@ -201,3 +201,38 @@ fn census_of_connected_graphs() {
         2
     );
 }
+
+/// `verify compare --model affine`: the published matrix of the 4-cycle has rank 4 * 4 + 12 of 32.
+#[test]
+fn the_published_matrix_in_the_comparison() {
+    let cycle = common::cycle(4);
+    for field in [&["--rational"][..], &["--prime", "1000003"], &[]] {
+        let arguments = [&["compare", "-", "--model", "affine"], field].concat();
+        let run = verify_with(cycle.as_bytes(), &arguments);
+        assert_eq!(run.code, 0, "{}", run.err);
+        for words in [
+            "28 x 32",
+            "4 x 8",
+            "on 4 of 4 pairs",
+            "4 dimensions of motions",
+        ] {
+            assert!(run.out.contains(words), "{words}: {}", run.out);
+        }
+        let run = verify_with(cycle.as_bytes(), &[&arguments[..], &["--json"]].concat());
+        let line = &run.json()[0];
+        assert_eq!((&line["agree"], &line["excess"]), (&true.into(), &4.into()));
+        assert_eq!(line["affine_f"], 4);
+        assert!(line.get("kernel_is_f").is_none());
+        let of = |k: usize| line["formulations"][k]["rank"].as_u64().unwrap();
+        assert_eq!((of(0), of(1)), (28, 16));
+    }
+    let run = verify_with(
+        common::cycle(3).as_bytes(),
+        &["compare", "-", "--model", "affine"],
+    );
+    assert!(
+        run.out.contains("full rank, affine solvable"),
+        "{}",
+        run.out
+    );
+}

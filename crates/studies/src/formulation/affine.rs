@@ -9,6 +9,9 @@ use viewcert::geometry::jacobian::SparseRows;
 use viewcert::graph::Graph;
 use viewcert::linalg::Field;
 
+/// Where it was published.
+pub const SOURCE: &str = "Solvability of the Viewing Graph under the Affine Camera Model, 2026";
+
 /// An affine camera: the rows of [A t].
 pub type AffineCamera<E> = [[E; 4]; 2];
 
@@ -45,6 +48,51 @@ pub fn left_null_vector<F: Field>(
         [dot(&i[1], &from_j), field.neg(&dot(&i[0], &from_j))],
         [dot(&j[1], &from_i), field.neg(&dot(&j[0], &from_i))],
     ]
+}
+
+/// The fundamental matrix by Lemma 13.1: b_j in the last column, b_i in the last row, and
+/// -(b_i t_i + b_j t_j) in the corner.
+pub fn fundamental<F: Field>(
+    field: &F,
+    i: &AffineCamera<F::Elem>,
+    j: &AffineCamera<F::Elem>,
+) -> [[F::Elem; 3]; 3] {
+    let [at_i, at_j] = left_null_vector(field, i, j);
+    let terms = [(&at_i, i), (&at_j, j)].into_iter();
+    let terms = terms.flat_map(|(b, camera)| b.iter().zip(camera));
+    let sum = terms.fold(field.zero(), |sum, (x, row)| {
+        field.add(&sum, &field.mul(x, &row[3]))
+    });
+    let [b0, b1] = at_i;
+    let [c0, c1] = at_j;
+    [
+        [field.zero(), field.zero(), c0],
+        [field.zero(), field.zero(), c1],
+        [b0, b1, field.neg(&sum)],
+    ]
+}
+
+/// Whether the rows of all A are independent, viewing directions differ on edges, and the rows that
+/// fix the frame do: generic cameras are always admitted.
+pub fn admits<F: Field>(field: &F, graph: &Graph, cameras: &[AffineCamera<F::Elem>]) -> bool {
+    let is_zero = |entries: &[F::Elem]| entries.iter().all(|x| field.is_zero(x));
+    let ranks = cameras
+        .iter()
+        .all(|camera| !is_zero(&direction(field, camera)));
+    let edges = graph.edges().iter().all(|&(i, j)| {
+        let halves = left_null_vector(field, &cameras[i as usize], &cameras[j as usize]);
+        !halves.iter().any(|half| is_zero(half))
+    });
+    let frame = graph.edges().first().is_none_or(|&(first, second)| {
+        // An affine map that keeps the first camera adds a multiple of its direction.
+        let direction = direction(field, &cameras[first as usize]);
+        let row = cameras[second as usize][0].iter().zip(&direction);
+        let dot = row.fold(field.zero(), |sum, (x, y)| {
+            field.add(&sum, &field.mul(x, y))
+        });
+        !field.is_zero(&dot)
+    });
+    ranks && edges && frame
 }
 
 /// R of affine cameras: row e = (i, j) holds b_i in the columns 2i, 2i+1 and b_j in 2j, 2j+1.
