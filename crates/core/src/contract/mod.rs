@@ -118,14 +118,15 @@ impl Contraction {
     /// O(m * arboricity) for the search of cycles of edges at worst.
     pub fn new(graph: &Graph, model: Model) -> Self {
         match model {
-            Model::Projective => Self::by_triangles(graph),
+            // Four bodies around a cycle move against each other in the plane.
+            Model::Projective | Model::Affine => Self::by_triangles(graph, model),
             Model::Calibrated => Self::by_cycles(graph),
         }
     }
 
-    /// Closed under cycles of two and three (Theorem 4.1) and under the rule of K_{2,3}
-    /// (Theorem 10.3), as far as its steps reach.
-    fn by_triangles(graph: &Graph) -> Self {
+    /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
+    /// under the rule of K_{2,3} (Theorem 10.3), as far as its steps reach.
+    fn by_triangles(graph: &Graph, model: Model) -> Self {
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);
         let mut bodies = grow::grow(&mut remaining);
@@ -140,7 +141,9 @@ impl Contraction {
                     None => loose.push((v, w)),
                 }
             }
-            if bicliques::merge(&mut bodies, &loose, graph.nodes(), &steps) {
+            // In a plane all planes through two centres are one.
+            let bicliques = model == Model::Projective;
+            if bicliques && bicliques::merge(&mut bodies, &loose, graph.nodes(), &steps) {
                 continue;
             }
             for body in owned {

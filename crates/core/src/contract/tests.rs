@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::decide::{Options, decide};
-use crate::geometry::draw::{DrawKey, centres_mod};
+use crate::geometry::draw::{DrawKey, centres_mod, points_mod};
+use crate::geometry::plane_direction::PlaneDirections;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::sha256;
 use crate::linalg::prime::PrimeField;
@@ -100,6 +101,7 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
 fn naive(graph: &Graph, model: Model) -> BTreeSet<Nodes> {
     let find = |parts: &[Nodes]| match model {
         Model::Projective => find_cycle(parts, 3).or_else(|| find_biclique(parts)),
+        Model::Affine => find_cycle(parts, 3),
         Model::Calibrated => find_cycle(parts, 4),
     };
     let mut parts: Vec<Nodes> = graph
@@ -193,11 +195,14 @@ fn check(graph: &Graph, model: Model) {
             Model::Projective => {
                 assert_eq!(paper_rank(nodes, &covered), 11 * nodes.len() - 15);
             }
+            Model::Affine => {
+                assert_eq!(plane_rank(nodes, &covered), 2 * nodes.len() - 3);
+            }
         }
     }
 }
 
-/// A graph on some nodes alone.
+/// Some nodes as a graph of their own.
 fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
     let number = |v: u32| nodes.range(..v).count() as u32;
     let pairs = edges.iter().map(|&(i, j)| (number(i), number(j))).collect();
@@ -208,6 +213,20 @@ fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
 fn paper_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
     let options = Options::default().contraction(false);
     decide(&alone(nodes, edges), &options).unwrap().rank
+}
+
+/// The rank of R at drawn points modulo 2^61 - 1.
+fn plane_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+    let graph = alone(nodes, edges);
+    let key = DrawKey {
+        graph_sha256: sha256(&graph),
+        core_sha256: None,
+        seed: 5,
+        draw: 0,
+    };
+    let field = PrimeField::mersenne61();
+    let points = points_mod(&field, graph.nodes(), &key).unwrap().values;
+    unwatched(|task| PlaneDirections::new(&field, &graph, &points, task)).rank()
 }
 
 /// The rank of N at drawn centres modulo 2^61 - 1.
@@ -393,8 +412,9 @@ proptest! {
         pairs in prop::collection::vec((0u32..14, 0u32..14), 1..34),
     ) {
         let graph = among(nodes, pairs);
-        check(&graph, Model::Projective);
-        check(&graph, Model::Calibrated);
+        for model in Model::ALL {
+            check(&graph, model);
+        }
     }
 
     /// Bipartite graphs have no triangles but may have bicliques.

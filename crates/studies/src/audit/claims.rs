@@ -11,8 +11,8 @@
 //! | `verdict` | `solvable`, `finite-solvable`, `not-finite-solvable`, `not-solvable` |
 //! | `components`, `components_...` | a number of maximal finite-solvable components |
 //! | `solutions` | how many solutions there are: a number, `1` meaning solvable |
-//! | `rank` | the generic rank of J_P (calibrated: of N) |
-//! | `model` | `projective`, which is meant where it is not said, or `calibrated` |
+//! | `rank` | the generic rank of J_P (calibrated: of N; affine: four times that of R) |
+//! | `model` | `projective`, which is meant where it is not said, `calibrated` or `affine` |
 //! | `nodes`, `edges`, `sha256` | size and hash, to tell whether it is the graph that was meant |
 //! | `seconds`, `seconds_...`, `density_...` | how long it took, how dense it is: no claim |
 //!
@@ -320,7 +320,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 24] = [
+const REPORTED: [&str; 26] = [
     "graph",
     "notes",
     "database",
@@ -335,6 +335,8 @@ const REPORTED: [&str; 24] = [
     "rank_strength",
     "components",
     "components_strength",
+    "conditions",
+    "planar",
     "mode",
     "seconds",
     "joints",
