@@ -21,6 +21,7 @@ use viewcert::decide::{Arithmetic, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
+use viewcert_reconstruction::Shapes;
 
 /// The option that names the file for the graph.
 const WRITE_GRAPH: &str = "--write-graph";
@@ -148,7 +149,9 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     atomic::ensure_apart(&[written, html, svg], inputs)?;
-    arguments.act.check()?;
+    let certificate = (certificates::OPTION, arguments.certificate.as_deref());
+    let outputs = [certificate, written, html, svg];
+    arguments.act.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -157,8 +160,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-        atomic::ensure_apart(&[certificate, written, html, svg], std::iter::empty())?;
+        atomic::ensure_apart(&outputs, std::iter::empty())?;
     }
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
@@ -172,10 +174,16 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
     let mut out = atomic::text(&[arguments.certificate.as_deref(), written.1, html.1, svg.1]);
+    let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
-        let decided = decide(arguments, &options, input, target.as_mut(), start, out);
-        Ok(match decided? {
+        let work = Work {
+            arguments,
+            options: &options,
+            target: target.as_mut(),
+            shapes: &mut shapes,
+        };
+        Ok(match decide(work, input, start, out)? {
             Value::NotFiniteSolvable => NOT,
             _ => GOOD,
         })
@@ -188,15 +196,23 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     Ok(ExitCode::from(code))
 }
 
+/// What is to be done with every graph of a run.
+struct Work<'a> {
+    arguments: &'a VerifyArguments,
+    options: &'a Options,
+    target: Option<&'a mut Target>,
+    /// Joints of the graphs before.
+    shapes: &'a mut Shapes,
+}
+
 /// Decides one graph that has been read since `start`, certifies and reports.
-fn decide(
-    arguments: &VerifyArguments,
-    options: &Options,
-    input: &NamedGraph,
-    target: Option<&mut Target>,
-    start: Instant,
-    out: &mut impl Write,
-) -> Result<Value> {
+fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) -> Result<Value> {
+    let Work {
+        arguments,
+        options,
+        target,
+        shapes,
+    } = work;
     let decided = verdict::decide(&input.graph, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
@@ -206,7 +222,7 @@ fn decide(
     let written = arguments.write_graph.as_deref();
     let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
     let time = start.elapsed();
-    let acted = arguments.act.act(input, &verdict, options.seed);
+    let acted = arguments.act.act(input, &verdict, options.seed, shapes);
     running::hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
