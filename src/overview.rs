@@ -268,7 +268,17 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
             "the images of every part, as lists for the mappers",
         ));
     }
-    if found.averaging().is_some_and(|parts| !parts.whole) {
+    if found.has_parts() {
+        next.push(command(
+            &decided,
+            " --suggest",
+            match with_tracks {
+                true => "images to match that would join parts, and how much has to come of it",
+                false => "pairs to match that would join parts",
+            },
+        ));
+    }
+    if with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
         next.push(command(
             " --model calibrated",
             " --suggest",

@@ -22,6 +22,7 @@ use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value, Verdic
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
+use viewcert_reconstruction::Shapes;
 
 /// The option that names the file for the graph.
 const WRITE_GRAPH: &str = "--write-graph";
@@ -204,7 +205,9 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     let witness = (witness::OPTION, arguments.witness.as_deref());
     atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
-    arguments.act.check()?;
+    let certificate = (certificates::OPTION, arguments.certificate.as_deref());
+    let outputs = [certificate, written, witness, html, svg];
+    arguments.act.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -213,8 +216,6 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-        let outputs = [certificate, written, witness, html, svg];
         atomic::ensure_apart(&outputs, std::iter::empty())?;
     }
     let too_many = |what: &str| match (&single, written) {
@@ -238,10 +239,16 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         svg.1,
     ];
     let mut out = atomic::text(&files);
+    let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
-        let decided = decide(arguments, &options, input, target.as_mut(), start, out);
-        Ok(if decided? { GOOD } else { NOT })
+        let work = Work {
+            arguments,
+            options: &options,
+            target: target.as_mut(),
+            shapes: &mut shapes,
+        };
+        Ok(if decide(work, input, start, out)? { GOOD } else { NOT })
     };
     let read = ReadOptions {
         tracks: arguments.tracks.options(),
@@ -251,16 +258,24 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     Ok(ExitCode::from(code))
 }
 
+/// What is to be done with every graph of a run.
+struct Work<'a> {
+    arguments: &'a VerifyArguments,
+    options: &'a Options,
+    target: Option<&'a mut Target>,
+    /// Joints of the graphs before.
+    shapes: &'a mut Shapes,
+}
+
 /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
 /// determines the cameras; with `--planar` whether it does in the plane.
-fn decide(
-    arguments: &VerifyArguments,
-    options: &Options,
-    input: &NamedGraph,
-    target: Option<&mut Target>,
-    start: Instant,
-    out: &mut impl Write,
-) -> Result<bool> {
+fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) -> Result<bool> {
+    let Work {
+        arguments,
+        options,
+        target,
+        shapes,
+    } = work;
     let decided = verdict::decide(&input.graph, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
@@ -275,7 +290,7 @@ fn decide(
         .map(|path| witness::write(path, input, &verdict, options.seed))
         .transpose()?;
     let time = start.elapsed();
-    let acted = arguments.act.act(input, &verdict, options.seed);
+    let acted = arguments.act.act(input, &verdict, options.seed, shapes);
     running::hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {

@@ -49,6 +49,52 @@ pub(super) fn check(folder: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Refuses a folder that holds an input or another output: it is replaced as a whole.
+///
+/// # Errors
+/// Which of them is in it.
+pub(super) fn ensure_outside(
+    folder: &Path,
+    inputs: &[PathBuf],
+    outputs: &[(&str, Option<&Path>)],
+) -> Result<()> {
+    let name = folder.display();
+    let real = resolved(folder);
+    for input in inputs {
+        let inside = fs::canonicalize(input).is_ok_and(|input| input.starts_with(&real));
+        ensure!(
+            !inside,
+            "--export {name}: the input {} is in this folder, which would be replaced; name another \
+             folder",
+            input.display()
+        );
+    }
+    for &(option, path) in outputs {
+        let inside = path.is_some_and(|path| resolved(path).starts_with(&real));
+        ensure!(
+            !inside,
+            "{option} {}: this is in the folder of --export {name}, which holds nothing else; name \
+             another place",
+            path.unwrap_or(Path::new("")).display()
+        );
+    }
+    Ok(())
+}
+
+/// A path without links, as far as it is there.
+fn resolved(path: &Path) -> PathBuf {
+    if let Ok(real) = fs::canonicalize(path) {
+        return real;
+    }
+    match (path.parent(), path.file_name()) {
+        (Some(parent), Some(name)) if parent.as_os_str().is_empty() => {
+            resolved(Path::new(".")).join(name)
+        }
+        (Some(parent), Some(name)) => resolved(parent).join(name),
+        _ => path.to_owned(),
+    }
+}
+
 /// Something in a folder that an export does not write.
 fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
     let entries: Vec<PathBuf> = paths(folder)?;
@@ -165,7 +211,9 @@ fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Resu
         let blank = if in_pairs {
             name.contains(char::is_whitespace)
         } else {
-            name.contains(['\n', '\r']) || name.trim() != name
+            // Everything at which Python, or COLMAP, ends a line.
+            let ends = |c: char| c.is_control() || "\u{2028}\u{2029}".contains(c);
+            name.contains(ends) || name.trim() != name
         };
         blank || name.is_empty() || in_pairs && name.starts_with('#')
     };
@@ -180,10 +228,13 @@ fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Resu
         0 => String::new(),
         more => format!(" and {more} more"),
     };
+    let why = match in_pairs {
+        true => "a list of pairs is split at blanks, and # begins a comment",
+        false => "a name is a line, without blanks at its ends",
+    };
     ensure!(
         bad.is_empty(),
-        "--export {}: COLMAP's lists cannot hold the names {}{more}: a list of pairs is split at \
-         blanks, and # begins a comment; rename these images",
+        "--export {}: COLMAP's lists cannot hold the names {}{more}: {why}; rename these images",
         folder.display(),
         shown.join(", ")
     );
@@ -294,7 +345,7 @@ fn write_joints(path: &Path, joints: &[Joint]) -> Result<()> {
 
 /// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap.
 fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
-    let is_database = task.input.matching.is_some() && task.input.name != "-";
+    let is_database = task.input.database.is_some();
     let database = if is_database {
         &task.input.name[..]
     } else {
@@ -310,17 +361,21 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
             shell(&images)
         )
     };
-    let script = format!(
-        "import pycolmap; options = pycolmap.IncrementalPipelineOptions(); \
-         options.image_names = open({}).read().splitlines(); \
-         pycolmap.incremental_mapping({}, 'images', '{out}', options)",
-        python(&images),
-        python(database)
-    );
+    let script = |options: &str, mapping: &str| {
+        let script = format!(
+            "import pycolmap; options = pycolmap.{options}(); options.image_names = open({}, \
+             encoding=\"utf-8\").read().splitlines(); pycolmap.{mapping}({}, \"images\", \"{out}\", \
+             options)",
+            python(&images),
+            python(database)
+        );
+        format!("mkdir -p {out} && python3 -c {}", shell(&script))
+    };
     vec![
         mapper("mapper", "Mapper"),
         mapper("global_mapper", "GlobalMapper"),
-        format!("mkdir -p {out} && python3 -c {}", shell(&script)),
+        script("IncrementalPipelineOptions", "incremental_mapping"),
+        script("GlobalPipelineOptions", "global_mapping"),
     ]
 }
 

@@ -13,6 +13,9 @@ pub(crate) struct Acted {
     /// Whether there is no component larger than a pair: joints are of little use to people then.
     #[serde(skip)]
     pub(super) single_pairs_only: bool,
+    /// Whether the graph is one of cameras and points.
+    #[serde(skip)]
+    pub(super) of_tracks: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) weak: Option<Weak>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,6 +31,14 @@ pub(crate) struct Acted {
 }
 
 impl Acted {
+    /// Of one component, or none: nothing to do.
+    pub(super) fn whole() -> Self {
+        Self {
+            joints_complete: true,
+            ..Self::default()
+        }
+    }
+
     /// Whether no two components touch, as far as joints were looked for.
     pub(crate) fn has_no_joints(&self) -> bool {
         self.joints.is_empty() && self.joints_complete
@@ -55,7 +66,7 @@ pub(super) struct Joint {
 /// What components hang on.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Weak {
-    /// `pairs` or `images`.
+    /// `pairs` or `images`; in a camera-point graph `observations` or `cameras and points`.
     pub(super) of: &'static str,
     pub(super) items: Vec<WeakItem>,
     /// How many pairs are components by themselves; they are not among the items.
@@ -84,6 +95,28 @@ pub(super) struct Suggestion {
     pub(super) single_pairs: usize,
     pub(super) images: usize,
     pub(super) gain: usize,
+    /// In a camera-point graph: how much has to come of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) enough: Option<Enough>,
+}
+
+/// What is enough to join components of a camera-point graph.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Enough {
+    pub(super) observations: Vec<Further>,
+    /// How many points of the one component have to become one with points of the other; null if
+    /// none can.
+    pub(super) merged: Option<usize>,
+    /// Whether the two images are matched and used.
+    pub(super) matched: bool,
+}
+
+/// Points of a component that an image would have to see.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Further {
+    pub(super) image: String,
+    pub(super) component: usize,
+    pub(super) points: usize,
 }
 
 /// One image.
@@ -136,8 +169,6 @@ pub(super) struct Margin {
     /// Percent left out.
     pub(super) missing: [u32; MISSING.len()],
     pub(super) components: Vec<MarginOf>,
-    /// How many components were not thinned.
-    pub(super) left_out: usize,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -177,6 +208,14 @@ impl<'a> Names<'a> {
 
     pub(super) fn pair(&self, (a, b): (u32, u32)) -> [String; 2] {
         [self.of(a), self.of(b)]
+    }
+
+    /// What an edge is.
+    pub(super) fn edge(&self) -> &'static str {
+        match self.0.cameras {
+            None => "pair",
+            Some(_) => "observation",
+        }
     }
 
     /// The images: the cameras of a camera-point graph, else all nodes.

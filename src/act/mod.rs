@@ -18,14 +18,14 @@ use super::running;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::{Args, ValueEnum};
 use found::Names;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use viewcert::decide::{CountSolutions, Options};
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 use viewcert_reconstruction as reconstruction;
 use viewcert_reconstruction::margin::MISSING;
 use viewcert_reconstruction::suggest::Wanted;
-use viewcert_reconstruction::{Known, OtherPair, Parts, Thinning};
+use viewcert_reconstruction::{Known, OtherPair, Parts, Shapes, Thinning};
 
 /// Options about what to do.
 #[derive(Args)]
@@ -35,7 +35,8 @@ pub(super) struct ActArguments {
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<Weak>,
-    /// Suggest pairs to match that would join components, at most N [default: 10].
+    /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
+    /// also how much has to come of it.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
     suggest: Option<u32>,
@@ -66,9 +67,6 @@ enum Weak {
 /// Most joints that are computed.
 const JOINTS: usize = 10_000;
 
-/// How many components `--margin` thins.
-const THINNED: usize = 8;
-
 /// Most pairs without enough inliers that `--explain` shows, and most suggestions.
 const EXPLAINED: usize = 5;
 
@@ -76,9 +74,17 @@ impl ActArguments {
     /// Refuses what can be refused before a graph is read.
     ///
     /// # Errors
-    /// A folder with something else in it.
-    pub(super) fn check(&self) -> Result<()> {
-        self.export.as_deref().map_or(Ok(()), export::check)
+    /// A folder with something else in it, or with an input or another output.
+    pub(super) fn check(
+        &self,
+        inputs: &[PathBuf],
+        outputs: &[(&str, Option<&Path>)],
+    ) -> Result<()> {
+        let Some(folder) = self.export.as_deref() else {
+            return Ok(());
+        };
+        export::check(folder)?;
+        export::ensure_outside(folder, inputs, outputs)
     }
 
     /// Why there cannot be several graphs, if there cannot.
@@ -96,23 +102,46 @@ impl ActArguments {
     /// What is missing in it.
     pub(super) fn check_input(&self, input: &NamedGraph) -> Result<()> {
         ensure!(
+            self.sweep.is_empty() || input.cameras.is_none(),
+            "--sweep decides graphs of pairs; leave out --tracks, or ask for tracks with each \
+             --min-inliers in turn"
+        );
+        ensure!(
             self.sweep.is_empty() || input.matching.is_some(),
             "--sweep needs the number of inliers of every pair, which only a COLMAP database has; \
              leave it out, or name the database"
         );
-        ensure!(
-            self.suggest.is_none() || input.cameras.is_none(),
-            "--suggest is about pairs of images, and this graph has cameras and points; leave out \
-             --tracks, or look at the joints for images whose matches are few"
-        );
         Ok(())
     }
 
-    /// Does what is asked for; joints are always looked for.
-    pub(super) fn act(&self, input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
+    /// Whether more than the joints is asked for.
+    fn asks(&self) -> bool {
+        self.weak.is_some()
+            || self.suggest.is_some()
+            || self.explain.is_some()
+            || !self.sweep.is_empty()
+            || self.margin.is_some()
+            || self.export.is_some()
+    }
+
+    /// Does what is asked for; joints are always looked for. What they leave free is kept in
+    /// `shapes` for the next graph of the same model.
+    ///
+    /// # Errors
+    /// Those of decisions and of the folder; an image that is not there.
+    pub(super) fn act(
+        &self,
+        input: &NamedGraph,
+        verdict: &Verdict,
+        seed: u64,
+        shapes: &mut Shapes,
+    ) -> Result<Acted> {
+        if verdict.components.len() < 2 && !self.asks() {
+            return Ok(Acted::whole());
+        }
         let others: Vec<OtherPair> = input.matching.iter().flat_map(others).collect();
         let task = Task::new(input, verdict, &others, seed);
-        let (mut acted, joints) = task.joints()?;
+        let (mut acted, joints) = task.joints(shapes)?;
         if let Some(what) = self.weak {
             acted.weak = Some(task.weak(what)?);
         }
@@ -140,7 +169,8 @@ impl ActArguments {
 /// # Errors
 /// Those of a decision.
 pub(super) fn joints(input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
-    Ok(Task::new(input, verdict, &[], seed).joints()?.0)
+    let task = Task::new(input, verdict, &[], seed);
+    Ok(task.joints(&mut Shapes::default())?.0)
 }
 
 fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item = OtherPair> + '_ {
@@ -148,6 +178,7 @@ fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item = OtherPair>
         images: pair.images,
         inliers: pair.inliers,
         matches: pair.matches,
+        used: pair.used,
     })
 }
 
@@ -186,14 +217,16 @@ impl<'a> Task<'a> {
     }
 
     /// The joints, in the user's names and as they were found.
-    fn joints(&self) -> Result<(Acted, Vec<reconstruction::Joint>)> {
-        let graph = &self.input.graph;
-        let found = reconstruction::joints(graph, self.verdict, &self.parts, &self.options, JOINTS)
-            .context("joints")?;
+    fn joints(&self, shapes: &mut Shapes) -> Result<(Acted, Vec<reconstruction::Joint>)> {
+        let (graph, parts) = (&self.input.graph, &self.parts);
+        let found =
+            reconstruction::joints(graph, self.verdict, parts, &self.options, JOINTS, shapes)
+                .context("joints")?;
         let joints = found.joints.iter().map(|joint| self.joint(joint)).collect();
         let acted = Acted {
             joints,
             joints_complete: found.complete,
+            of_tracks: self.input.cameras.is_some(),
             single_pairs_only: self.parts.parts.is_empty(),
             ..Acted::default()
         };
@@ -265,9 +298,11 @@ impl<'a> Task<'a> {
                 .collect(),
         };
         Ok(found::Weak {
-            of: match what {
-                Weak::Pairs => "pairs",
-                Weak::Images => "images",
+            of: match (what, self.input.cameras) {
+                (Weak::Pairs, None) => "pairs",
+                (Weak::Pairs, Some(_)) => "observations",
+                (Weak::Images, None) => "images",
+                (Weak::Images, Some(_)) => "cameras and points",
             },
             items,
             single_pairs: self.parts.links.len(),
@@ -281,15 +316,13 @@ impl<'a> Task<'a> {
         at: Option<u32>,
     ) -> Result<Vec<found::Suggestion>> {
         let wanted = Wanted { most, at };
-        let graph = &self.input.graph;
-        let parts = &self.parts;
-        let found =
-            reconstruction::suggest(graph, parts, joints, self.known, wanted, &self.options);
-        let found = found.context("--suggest")?;
-        let single = |&component: &usize| self.verdict.components[component].node_count() == 2;
-        let named = found.into_iter().map(|found| {
-            let (links, larger): (Vec<usize>, Vec<usize>) =
-                found.components.iter().copied().partition(single);
+        if let Some(cameras) = self.input.cameras {
+            return self.suggest_matches(cameras, joints, wanted);
+        }
+        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let found = reconstruction::suggest(graph, parts, joints, known, wanted, &self.options);
+        let named = found.context("--suggest")?.into_iter().map(|found| {
+            let (links, joins) = self.links_and_parts(&found.components);
             let known = |pick: fn(OtherPair) -> Option<u32>| {
                 let all: Option<Vec<u32>> = found
                     .pairs
@@ -306,23 +339,81 @@ impl<'a> Task<'a> {
                     .collect(),
                 inliers: known(|pair| Some(pair.inliers)),
                 matches: known(|pair| pair.matches),
-                joins: larger.into_iter().map(number).collect(),
-                single_pairs: links.len(),
+                joins,
+                single_pairs: links,
                 images: found.images,
                 gain: found.gain,
+                enough: None,
             }
         });
         Ok(named.collect())
+    }
+
+    /// How many of some components are single pairs, and the numbers of the others.
+    fn links_and_parts(&self, components: &[usize]) -> (usize, Vec<usize>) {
+        let single = |component: usize| self.verdict.components[component].node_count() == 2;
+        let larger = components.iter().filter(|&&component| !single(component));
+        let larger: Vec<usize> = larger.copied().map(number).collect();
+        (components.len() - larger.len(), larger)
+    }
+
+    /// The same in a camera-point graph.
+    fn suggest_matches(
+        &self,
+        cameras: u32,
+        joints: &[reconstruction::Joint],
+        wanted: Wanted,
+    ) -> Result<Vec<found::Suggestion>> {
+        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let options = &self.options;
+        let found =
+            reconstruction::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
+        let named = found.context("--suggest")?.into_iter().map(|found| {
+            let (links, joins) = self.links_and_parts(&found.components);
+            let known = found.known;
+            found::Suggestion {
+                pairs: vec![self.names.pair(found.cameras)],
+                inliers: known.map(|known| vec![known.inliers]),
+                matches: known.and_then(|known| Some(vec![known.matches?])),
+                joins,
+                single_pairs: links,
+                images: found.images,
+                gain: found.gain,
+                enough: Some(found::Enough {
+                    observations: self.further(&found.observations),
+                    merged: found.merged,
+                    matched: known.is_some_and(|known| known.used),
+                }),
+            }
+        });
+        Ok(named.collect())
+    }
+
+    /// Further observations, by the camera and the component whose points it would see.
+    fn further(&self, observations: &[(u32, u32)]) -> Vec<found::Further> {
+        let mut further: Vec<found::Further> = Vec::new();
+        for &(camera, point) in observations {
+            let part = self.parts.of(point)[0] as usize;
+            let component = number(self.parts.parts[part].component);
+            let image = self.names.of(camera);
+            let same = |one: &&mut found::Further| one.image == image && one.component == component;
+            match further.iter_mut().find(same) {
+                Some(one) => one.points += 1,
+                None => further.push(found::Further {
+                    image,
+                    component,
+                    points: 1,
+                }),
+            }
+        }
+        further
     }
 
     fn explain(&self, joints: &[reconstruction::Joint], image: &str) -> Result<found::Explain> {
         let node = self.names.find(image)?;
         let (graph, parts) = (&self.input.graph, &self.parts);
         let found = reconstruction::explain(graph, parts, self.known, node, EXPLAINED);
-        let suggestions = match self.input.cameras {
-            None => self.suggest(joints, EXPLAINED, Some(node))?,
-            Some(_) => Vec::new(),
-        };
+        let suggestions = self.suggest(joints, EXPLAINED, Some(node))?;
         let other = |(a, b): (u32, u32)| self.names.of(a + b - node);
         Ok(found::Explain {
             image: image.to_owned(),
@@ -368,11 +459,7 @@ impl<'a> Task<'a> {
     }
 
     fn margin(&self, draws: u32, seed: u64) -> Result<found::Margin> {
-        let thinning = Thinning {
-            draws,
-            seed,
-            parts: THINNED,
-        };
+        let thinning = Thinning { draws, seed };
         let (graph, cameras) = (&self.input.graph, self.input.cameras);
         let found = reconstruction::margin(graph, &self.parts, cameras, thinning, &self.options);
         let parts = found.context("--margin")?.into_iter();
@@ -390,7 +477,6 @@ impl<'a> Task<'a> {
                         .map(|sum| 100 * sum / (u64::from(draws) * part.images as u64)),
                 })
                 .collect(),
-            left_out: self.parts.parts.len().saturating_sub(THINNED),
         })
     }
 }

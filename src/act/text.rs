@@ -1,6 +1,6 @@
 //! What was found, in a few lines for people.
 
-use super::found::{Acted, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak};
+use super::found::{Acted, Enough, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 
@@ -20,15 +20,22 @@ pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
         weak(out, found)?;
     }
     if let Some(found) = &acted.suggestions {
+        let nothing = match acted.of_tracks {
+            true => "none found: no image sees a point of a part that is only there",
+            false => "none found",
+        };
         writeln!(
             out,
             "  suggested   {}",
-            some(found.len(), "proved: these would join components")
+            match found.len() {
+                0 => nothing.to_owned(),
+                count => format!("{count} (proved: these would join components)"),
+            }
         )?;
         suggestions(out, found)?;
     }
     if let Some(found) = &acted.explain {
-        explain(out, found)?;
+        explain(out, found, acted.of_tracks)?;
     }
     if let Some(found) = &acted.sweep {
         sweep(out, found)?;
@@ -125,10 +132,14 @@ fn weak(out: &mut impl Write, found: &Weak) -> io::Result<()> {
     }
     rest(out, found.items.len(), "--json lists them")?;
     if found.single_pairs > 0 {
-        let pairs = counted(found.single_pairs, "pair");
+        let thing = match found.of {
+            "pairs" | "images" => "single pair",
+            _ => "single observation",
+        };
+        let pairs = counted(found.single_pairs, thing);
         writeln!(
             out,
-            "    not looked at: {pairs} outside of the larger components"
+            "    not among them: {pairs}, on which no larger component rests"
         )?;
     }
     Ok(())
@@ -161,8 +172,29 @@ fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
             joins(one),
             counted(one.images, "image"),
         )?;
+        if let Some(enough) = &one.enough {
+            writeln!(out, "      enough: {}", sufficient(enough))?;
+        }
     }
     Ok(())
+}
+
+/// How much has to come of matching two images.
+fn sufficient(enough: &Enough) -> String {
+    let seen = enough.observations.iter().map(|one| {
+        let points = counted(one.points, "more point");
+        format!("{} sees {points} of component {}", one.image, one.component)
+    });
+    let mut words = seen.collect::<Vec<_>>().join(" and ");
+    if let Some(count) = enough.merged {
+        let tracks = counted(count, "track");
+        words += &format!(", or {tracks} of each become one");
+    }
+    if enough.matched {
+        words += "; they are matched, but in tracks that are too short: match both with further \
+                  images of the other's component";
+    }
+    words
 }
 
 fn joins(one: &Suggestion) -> String {
@@ -173,9 +205,13 @@ fn joins(one: &Suggestion) -> String {
         count if count <= SHOWN => format!("components {shown}"),
         count => format!("components {shown} and {} more", count - SHOWN),
     };
+    let single = match one.enough {
+        None => "single pair",
+        Some(_) => "single observation",
+    };
     let pairs = match one.single_pairs {
         0 => String::new(),
-        count => counted(count, "single pair"),
+        count => counted(count, single),
     };
     let both: Vec<String> = [parts, pairs]
         .into_iter()
@@ -187,7 +223,59 @@ fn joins(one: &Suggestion) -> String {
     }
 }
 
-fn explain(out: &mut impl Write, found: &Explain) -> io::Result<()> {
+fn explain(out: &mut impl Write, found: &Explain, of_tracks: bool) -> io::Result<()> {
+    if of_tracks {
+        explain_observations(out, found)?;
+    } else {
+        explain_pairs(out, found)?;
+    }
+    for pair in &found.unused {
+        let matches = pair
+            .matches
+            .map_or(String::new(), |count| format!(", {count} matches"));
+        writeln!(
+            out,
+            "    not used: {} with {}{matches}",
+            pair.image,
+            counted(pair.inliers as usize, "inlier")
+        )?;
+    }
+    if !found.suggestions.is_empty() {
+        writeln!(out, "    it would help to match:")?;
+        suggestions(out, &found.suggestions)?;
+    }
+    Ok(())
+}
+
+/// A camera, and the points that it sees.
+fn explain_observations(out: &mut impl Write, found: &Explain) -> io::Result<()> {
+    let outside = found.pairs_outside.len();
+    let place = match (&found.components[..], outside) {
+        ([], 0) => "sees no track that counts".to_owned(),
+        ([], _) => "is in no component of two cameras or more".to_owned(),
+        ([one], _) => format!("is in component {one}"),
+        (many, _) => format!("is in components {}, which it hinges", list(many)),
+    };
+    writeln!(out, "  image       {} {place}", found.image)?;
+    if found.pairs_inside > 0 {
+        let points = counted(found.pairs_inside, "point");
+        writeln!(out, "    it sees {points} inside")?;
+    }
+    for seen in found.pairs_outside.iter().take(SHOWN) {
+        let reaches = match &seen.reaches[..] {
+            [] => "is in no such component either".to_owned(),
+            parts => format!(
+                "is in component {}, for which one observation is not enough",
+                list(parts)
+            ),
+        };
+        writeln!(out, "    it sees {}, which {reaches}", seen.image)?;
+    }
+    rest(out, outside, "--json lists them")
+}
+
+/// An image, and its pairs.
+fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
     let outside = found.pairs_outside.len();
     let place = match (&found.components[..], outside) {
         ([], 0) => "has no pair".to_owned(),
@@ -217,22 +305,7 @@ fn explain(out: &mut impl Write, found: &Explain) -> io::Result<()> {
             pair.image
         )?;
     }
-    rest(out, outside, "--json lists them")?;
-    for pair in &found.unused {
-        let matches = pair
-            .matches
-            .map_or(String::new(), |count| format!(", {count} matches"));
-        writeln!(
-            out,
-            "    not used: {} with {} inliers{matches}",
-            pair.image, pair.inliers
-        )?;
-    }
-    if !found.suggestions.is_empty() {
-        writeln!(out, "    it would help to match:")?;
-        suggestions(out, &found.suggestions)?;
-    }
-    Ok(())
+    rest(out, outside, "--json lists them")
 }
 
 fn sweep(out: &mut impl Write, rows: &[SweepRow]) -> io::Result<()> {
@@ -242,8 +315,7 @@ fn sweep(out: &mut impl Write, rows: &[SweepRow]) -> io::Result<()> {
     )?;
     let most = rows.iter().map(|row| row.largest).max().unwrap_or(0).max(1);
     for row in rows {
-        writeln!(
-            out,
+        let line = format!(
             "              {:>7} {:>7} {:>7} {:>10} {:>11} {:>13} {:>8}  {}",
             row.threshold,
             row.pairs,
@@ -253,7 +325,8 @@ fn sweep(out: &mut impl Write, rows: &[SweepRow]) -> io::Result<()> {
             row.single_pairs,
             row.largest,
             "#".repeat((row.largest * BAR).div_ceil(most)),
-        )?;
+        );
+        writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())
 }
@@ -271,7 +344,7 @@ fn margin(out: &mut impl Write, found: &Margin) -> io::Result<()> {
         found.of,
         missing.join(" ")
     )?;
-    for part in &found.components {
+    for part in found.components.iter().take(SHOWN) {
         let whole = part.whole.map(|count| format!("{count:>6}")).join(" ");
         let together = part.together.map(|share| format!("{share:>4} %")).join(" ");
         let number = part.component;
@@ -281,13 +354,7 @@ fn margin(out: &mut impl Write, found: &Margin) -> io::Result<()> {
         )?;
         writeln!(out, "      images that stay together {together}")?;
     }
-    if found.left_out > 0 {
-        writeln!(
-            out,
-            "    {} were not thinned",
-            counted(found.left_out, "smaller component")
-        )?;
-    }
+    rest(out, found.components.len(), "--json lists them")?;
     writeln!(
         out,
         "    A random experiment (seed {}), not a proof: it shows how many {} can be missing, not \
@@ -323,7 +390,8 @@ fn export(out: &mut impl Write, found: &Export) -> io::Result<()> {
     if let Some(commands) = found.commands.first() {
         writeln!(
             out,
-            "  next        for the first component (the others by their numbers):"
+            "  next        for the first component (the others by their numbers; `images` is the \
+             folder of the photographs):"
         )?;
         for command in commands {
             writeln!(out, "    {command}")?;

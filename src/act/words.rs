@@ -52,7 +52,9 @@ pub(super) fn meaning(model: Model, freedom: usize) -> String {
 /// Why something is weak.
 pub(super) fn why(why: Why, names: &Names) -> String {
     match why {
-        Why::Hangs(image) => format!("{} would have one pair left", names.of(image)),
+        Why::Hangs(image) => {
+            format!("{} would have one {} left", names.of(image), names.edge())
+        }
         Why::Decided => "decided without it".to_owned(),
         Why::Counted((a, b)) => {
             format!("in the place of {} {} in a count", names.of(a), names.of(b))

@@ -496,107 +496,26 @@ fn legend(picture: &Picture) -> Vec<(String, String)> {
 
 /// Components as discs, their areas as their numbers of nodes; shared nodes as dots between them.
 fn draw_components(picture: &Picture) -> Drawn {
-    let candidates = match picture.larger() {
-        0 => picture.sizes.len(),
-        larger => larger,
-    };
-    let discs = candidates.min(MOST_DISCS);
-    let drawn = |v: u32| {
-        let of = picture.components_of(v).iter().map(|&k| k as usize);
-        of.take_while(|&k| k < discs).collect::<Vec<_>>()
-    };
-    let hinges: Vec<(u32, Vec<usize>)> = picture
-        .nodes()
-        .map(|v| (v, drawn(v)))
-        .filter(|(_, of)| of.len() > 1)
-        .collect();
-    // Single pairs between discs, those between the same two together.
-    let mut joined: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-    for (k, &(i, j)) in picture.input.graph.edges().iter().enumerate() {
-        if picture.of_edge(k) >= discs
-            && let (Some(&a), Some(&b)) = (drawn(i).first(), drawn(j).first())
-            && a != b
-        {
-            *joined.entry((a.min(b), a.max(b))).or_default() += 1;
-        }
-    }
-    let cameras = || picture.sizes[..discs].iter().map(|size| size.cameras);
-    let most = cameras().max().unwrap_or(1).max(1) as f64;
-    let mut radii: Vec<f64> = cameras()
-        .map(|count| (80.0 * (count as f64 / most).sqrt()).max(5.0))
-        .collect();
-    radii.extend(hinges.iter().map(|_| 4.0));
-    let link = |a: usize, b: usize, apart: f64| Link {
-        ends: (a as u32, b as u32),
-        length: radii[a] + radii[b] + apart,
-    };
-    let dots = (discs..).zip(&hinges);
-    let dots = dots.flat_map(|(dot, (_, of))| of.iter().map(move |&disc| (disc, dot)));
-    let links: Vec<Link> = dots
-        .map(|(disc, dot)| link(disc, dot, 8.0))
-        .chain(joined.keys().map(|&(a, b)| link(a, b, 40.0)))
-        .collect();
-    let found = layout(&radii, &links);
+    let discs = Discs::new(picture);
+    let radii = discs.radii();
+    let found = layout(&radii, &discs.links(&radii));
     let scale = ((WIDTH - 2.0 * MARGIN) / found.size[0]).min(1.0);
-    let at = |k: usize| found.points[k].map(|x| MARGIN + scale * x);
+    let places: Vec<[f64; 2]> = found
+        .points
+        .iter()
+        .map(|p| p.map(|x| MARGIN + scale * x))
+        .collect();
     let mut body = String::new();
-    let mut line = |a: usize, b: usize, width: f64| {
-        let ([a, b], [c, d]) = (at(a), at(b));
-        // Writing to a string does not fail.
-        let _ = writeln!(
-            body,
-            r#"<path d="M{a:.1} {b:.1}L{c:.1} {d:.1}" stroke="{GREY}" stroke-width="{width:.1}"/>"#
-        );
-    };
-    for (&(a, b), &count) in &joined {
-        line(a, b, 1.0 + (count as f64).log2());
+    discs.write_lines(&mut body, &places);
+    for (k, (&at, radius)) in places.iter().zip(&radii[..discs.count]).enumerate() {
+        write_disc(&mut body, picture, k, at, scale * radius);
     }
-    for (dot, (_, of)) in (discs..).zip(&hinges) {
-        of.iter().for_each(|&disc| line(disc, dot, 1.5));
-    }
-    for (k, radius) in radii[..discs].iter().enumerate() {
-        let ([x, y], radius, mark) = (at(k), scale * radius, picture.mark(k));
-        let size = picture.sizes[k];
-        let mut text = String::new();
-        if radius > 12.0 {
-            let high = (radius * 0.45).clamp(8.0, 22.0);
-            // A triangle has its room below the middle.
-            let down = if mark.shape() == 2 {
-                0.25 * radius
-            } else {
-                0.0
-            };
-            let _ = write!(
-                text,
-                r#"<text y="{:.1}" font-size="{high:.0}" text-anchor="middle" fill="{}">{}</text>"#,
-                high * 0.35 + down,
-                mark.text(),
-                size.cameras
-            );
-        }
-        let _ = writeln!(
-            body,
-            r#"<g data-component="{k}" transform="translate({x:.1} {y:.1})"><title>component {}: {}</title>{}{text}</g>"#,
-            k + 1,
-            size.words(),
-            symbol(mark, radius)
-        );
-    }
-    for (dot, (v, of)) in (discs..).zip(&hinges) {
-        let [x, y] = at(dot);
-        let marks: Vec<Mark> = of.iter().map(|&k| picture.mark(k)).collect();
-        let _ = writeln!(
-            body,
-            r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
-            escaped(&picture.input.labels.label(*v)),
-            hinge(&marks, 4.5)
-        );
-    }
+    discs.write_hinges(&mut body, &places);
     let mut size = found.size.map(|x| scale * x + 2.0 * MARGIN);
-    let joins: usize = joined.values().sum();
-    let hidden = picture.sizes.len() - discs - joins;
+    let hidden = picture.sizes.len() - discs.count - discs.joined.values().sum::<usize>();
     if hidden > 0 {
         let what = counted(hidden, "smaller component");
+        // Writing to a string does not fail.
         let _ = writeln!(
             body,
             r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">not drawn: {what}</text>"##,
@@ -605,6 +524,137 @@ fn draw_components(picture: &Picture) -> Drawn {
         size = [size[0].max(LEAST_WIDTH / 2.0), size[1] + 16.0];
     }
     Drawn { body, size }
+}
+
+/// Components as discs, and what joins them.
+struct Discs<'a> {
+    picture: &'a Picture<'a>,
+    /// How many components, the first ones, are drawn.
+    count: usize,
+    /// Nodes in several of them, which are dots, and in which.
+    hinges: Vec<(u32, Vec<usize>)>,
+    /// How many single pairs lead from one disc to another.
+    joined: BTreeMap<(usize, usize), usize>,
+}
+
+impl<'a> Discs<'a> {
+    fn new(picture: &'a Picture<'a>) -> Self {
+        let candidates = match picture.larger() {
+            0 => picture.sizes.len(),
+            larger => larger,
+        };
+        let count = candidates.min(MOST_DISCS);
+        let drawn = |v: u32| {
+            let of = picture.components_of(v).iter().map(|&k| k as usize);
+            of.take_while(|&k| k < count).collect::<Vec<_>>()
+        };
+        let nodes = picture.nodes().map(|v| (v, drawn(v)));
+        let hinges = nodes.filter(|(_, of)| of.len() > 1).collect();
+        let mut joined: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for (k, &(i, j)) in picture.input.graph.edges().iter().enumerate() {
+            if picture.of_edge(k) >= count
+                && let (Some(&a), Some(&b)) = (drawn(i).first(), drawn(j).first())
+                && a != b
+            {
+                *joined.entry((a.min(b), a.max(b))).or_default() += 1;
+            }
+        }
+        Self {
+            picture,
+            count,
+            hinges,
+            joined,
+        }
+    }
+
+    /// The dots, by their places behind the discs.
+    fn dots(&self) -> impl Iterator<Item = (usize, &(u32, Vec<usize>))> {
+        (self.count..).zip(&self.hinges)
+    }
+
+    /// The radii of discs and dots: areas are as numbers of cameras.
+    fn radii(&self) -> Vec<f64> {
+        let cameras = || {
+            let sizes = self.picture.sizes[..self.count].iter();
+            sizes.map(|size| size.cameras)
+        };
+        let most = cameras().max().unwrap_or(1).max(1) as f64;
+        let discs = cameras().map(|count| (80.0 * (count as f64 / most).sqrt()).max(5.0));
+        discs.chain(self.hinges.iter().map(|_| 4.0)).collect()
+    }
+
+    /// What pulls discs and dots together.
+    fn links(&self, radii: &[f64]) -> Vec<Link> {
+        let link = |a: usize, b: usize, apart: f64| Link {
+            ends: (a as u32, b as u32),
+            length: radii[a] + radii[b] + apart,
+        };
+        let dots = self.dots();
+        let dots = dots.flat_map(|(dot, (_, of))| of.iter().map(move |&disc| (disc, dot)));
+        dots.map(|(disc, dot)| link(disc, dot, 8.0))
+            .chain(self.joined.keys().map(|&(a, b)| link(a, b, 40.0)))
+            .collect()
+    }
+
+    /// Lines between discs, and from dots to their discs.
+    fn write_lines(&self, body: &mut String, places: &[[f64; 2]]) {
+        let mut line = |a: usize, b: usize, width: f64| {
+            let ([a, b], [c, d]) = (places[a], places[b]);
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                body,
+                r#"<path d="M{a:.1} {b:.1}L{c:.1} {d:.1}" stroke="{GREY}" stroke-width="{width:.1}"/>"#
+            );
+        };
+        for (&(a, b), &count) in &self.joined {
+            line(a, b, 1.0 + (count as f64).log2());
+        }
+        for (dot, (_, of)) in self.dots() {
+            of.iter().for_each(|&disc| line(disc, dot, 1.5));
+        }
+    }
+
+    fn write_hinges(&self, body: &mut String, places: &[[f64; 2]]) {
+        for (dot, (v, of)) in self.dots() {
+            let [x, y] = places[dot];
+            let marks: Vec<Mark> = of.iter().map(|&k| self.picture.mark(k)).collect();
+            let _ = writeln!(
+                body,
+                r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
+                escaped(&self.picture.input.labels.label(*v)),
+                hinge(&marks, 4.5)
+            );
+        }
+    }
+}
+
+/// A component as a disc, with its number of cameras if there is room.
+fn write_disc(body: &mut String, picture: &Picture, k: usize, [x, y]: [f64; 2], radius: f64) {
+    let (mark, size) = (picture.mark(k), picture.sizes[k]);
+    let mut text = String::new();
+    if radius > 12.0 {
+        let high = (radius * 0.45).clamp(8.0, 22.0);
+        // A triangle has its room below the middle.
+        let down = match mark.shape() {
+            2 => 0.25 * radius,
+            _ => 0.0,
+        };
+        // Writing to a string does not fail.
+        let _ = write!(
+            text,
+            r#"<text y="{:.1}" font-size="{high:.0}" text-anchor="middle" fill="{}">{}</text>"#,
+            high * 0.35 + down,
+            mark.text(),
+            size.cameras
+        );
+    }
+    let _ = writeln!(
+        body,
+        r#"<g data-component="{k}" transform="translate({x:.1} {y:.1})"><title>component {}: {}</title>{}{text}</g>"#,
+        k + 1,
+        size.words(),
+        symbol(mark, radius)
+    );
 }
 
 #[cfg(test)]

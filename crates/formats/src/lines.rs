@@ -139,16 +139,9 @@ impl<R: Read> Iterator for Lines<R> {
             Ok(true) => match self.graph(&line) {
                 Ok((graph, notes)) => {
                     self.seen = true;
-                    return Some(Ok(NamedGraph {
-                        name: format!("{}:{}", self.name, self.line),
-                        graph,
-                        labels: Labels::Numbers { first: 0 },
-                        notes,
-                        matching: None,
-                        cameras: None,
-                        database: None,
-                        tracks: None,
-                    }));
+                    let name = format!("{}:{}", self.name, self.line);
+                    let graph = NamedGraph::new(name, graph, Labels::Numbers { first: 0 });
+                    return Some(Ok(NamedGraph { notes, ..graph }));
                 }
                 // A graph without nodes is a graph of the format.
                 Err(problem) if self.guessed && !matches!(problem, Problem::NoNodes) => {

@@ -3,13 +3,14 @@
 /// Facts about pairs of images, from a database of matches; images are nodes of the graph.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Matching {
-    /// For every edge, in the order of the graph's edges, how many verified matches it has.
+    /// For every edge, in the order of the graph's edges, how many verified matches it has. Of a
+    /// camera-point graph, whose edges are observations, empty.
     pub inliers: Vec<u32>,
-    /// Pairs of images that are known and are no edges, increasing.
+    /// Pairs of images that are known and are no edges, increasing. Of a camera-point graph, all.
     pub others: Vec<OtherPair>,
 }
 
-/// A pair of images with matches that are too few, or not verified.
+/// A pair of images with matches: too few, or not verified, unless tracks are made of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OtherPair {
     /// The two images, the smaller node first.
@@ -18,4 +19,6 @@ pub struct OtherPair {
     pub inliers: u32,
     /// How many there were before verification, if that is known.
     pub matches: Option<u32>,
+    /// Whether tracks are made of its matches; never in a graph of pairs.
+    pub used: bool,
 }

@@ -52,15 +52,9 @@ enum Values {
 pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
     let mut input = BufReader::with_capacity(1 << 16, input);
     let mut line = Vec::new();
-    let mut number = 0;
-    let mut kind: Option<Kind> = None;
-    let mut size: Option<(u32, u64)> = None;
-    let mut entries: Vec<(u32, u32, bool)> = Vec::new();
-    let (mut seen, mut zeros) = (0, 0);
-    loop {
+    let mut matrix = Matrix::default();
+    for number in 1.. {
         line.clear();
-        number += 1;
-        let fault = |problem| Place::Line(number).fault(problem);
         let got = input
             .by_ref()
             .take(LINE_LIMIT + 1)
@@ -69,84 +63,104 @@ pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
         if got == 0 {
             break;
         }
-        if got as u64 > LINE_LIMIT {
-            return Err(fault(Problem::LineTooLong {
+        let taken = matrix.take(&line);
+        taken.map_err(|problem| Place::Line(number).fault(problem))?;
+    }
+    matrix
+        .graph()
+        .map_err(|problem| Place::Input.fault(problem))
+}
+
+/// What the lines have said so far.
+#[derive(Default)]
+struct Matrix {
+    kind: Option<Kind>,
+    /// Rows, and how many entries are promised.
+    size: Option<(u32, u64)>,
+    /// The pairs of entries that are not zero, and whether each stands below the diagonal.
+    entries: Vec<(u32, u32, bool)>,
+    seen: u64,
+    zeros: usize,
+}
+
+impl Matrix {
+    /// One more line, with its end.
+    fn take(&mut self, line: &[u8]) -> Result<(), Problem> {
+        if line.len() as u64 > LINE_LIMIT {
+            return Err(Problem::LineTooLong {
                 limit: LINE_LIMIT as usize,
-            }));
+            });
         }
-        let bytes = line.strip_suffix(b"\n").unwrap_or(&line);
+        let bytes = line.strip_suffix(b"\n").unwrap_or(line);
         let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
-        let line = text(bytes).map_err(fault)?;
+        let line = text(bytes)?;
         let mut words = line.split([' ', '\t']).filter(|word| !word.is_empty());
-        let Some(kind) = &kind else {
-            kind = Some(Kind::of_header(words).map_err(fault)?);
-            continue;
+        let Some(kind) = &self.kind else {
+            self.kind = Some(Kind::of_header(words)?);
+            return Ok(());
         };
         let Some(first) = words.next().filter(|word| !word.starts_with('%')) else {
-            continue;
+            return Ok(());
         };
-        let Some((nodes, promised)) = size else {
-            size = Some(sizes(first, words).map_err(fault)?);
-            continue;
+        let Some((nodes, promised)) = self.size else {
+            self.size = Some(sizes(first, words)?);
+            return Ok(());
         };
-        seen += 1;
-        if seen > promised {
-            return Err(fault(said(format!(
+        self.seen += 1;
+        if self.seen > promised {
+            return Err(said(format!(
                 "{promised} entries are promised, and here is one more"
-            ))));
+            )));
         }
-        let row = place(first, nodes).map_err(fault)?;
-        let column = match words.next() {
-            Some(word) => place(word, nodes).map_err(fault)?,
-            None => return Err(fault(said("the entry has no column".into()))),
+        match kind.entry(first, words, nodes)? {
+            None => self.zeros += 1,
+            Some((row, column)) if row == column => return Err(Problem::Diagonal(row + 1)),
+            Some((row, column)) => {
+                let entry = (row.min(column), row.max(column), row > column);
+                self.entries.push(entry);
+            }
+        }
+        Ok(())
+    }
+
+    /// The graph, after the last line.
+    fn graph(self) -> Result<(Graph, Vec<String>), Problem> {
+        let (Some(kind), Some((nodes, promised))) = (self.kind, self.size) else {
+            return Err(said("the line with the sizes is missing".into()));
         };
-        let present = kind.is_present(words.next(), row, column).map_err(fault)?;
-        if words.next().is_some() {
-            return Err(fault(said("the entry has too many fields".into())));
+        let seen = self.seen;
+        if seen < promised {
+            return Err(said(format!(
+                "{promised} entries are promised, and {seen} are there"
+            )));
         }
-        if !present {
-            zeros += 1;
-        } else if row == column {
-            return Err(fault(Problem::Diagonal(row + 1)));
-        } else {
-            entries.push((row.min(column), row.max(column), row > column));
+        let (pairs, repeated) = kind.pairs(self.entries)?;
+        if nodes == 0 {
+            return Err(Problem::NoNodes);
         }
-    }
-    let fault = |problem| Place::Input.fault(problem);
-    let (Some(kind), Some((nodes, promised))) = (kind, size) else {
-        return Err(fault(said("the line with the sizes is missing".into())));
-    };
-    if seen < promised {
-        return Err(fault(said(format!(
-            "{promised} entries are promised, and {seen} are there"
-        ))));
-    }
-    let (pairs, repeated) = kind.pairs(entries).map_err(fault)?;
-    if nodes == 0 {
-        return Err(fault(Problem::NoNodes));
-    }
-    if pairs.len() > i32::MAX as usize {
-        return Err(fault(Problem::TooManyPairs));
-    }
-    if u64::from(nodes) > ISOLATED_LIMIT + 2 * pairs.len() as u64 {
-        return Err(fault(Problem::TooManyIsolated {
-            nodes: nodes.into(),
-            pairs: pairs.len(),
-            limit: ISOLATED_LIMIT,
-        }));
-    }
-    let graph = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
-        // Neither happens: entries are off the diagonal, and within the size.
-        GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. } => {
-            fault(Problem::Diagonal(node + 1))
+        if pairs.len() > i32::MAX as usize {
+            return Err(Problem::TooManyPairs);
         }
-    })?;
-    let mut notes = Vec::from_iter(crate::merged(repeated));
-    if zeros > 0 {
-        let entries = counted(zeros as usize, "entry");
-        notes.push(format!("explicit zeros are no pairs: {entries}"));
+        if u64::from(nodes) > ISOLATED_LIMIT + 2 * pairs.len() as u64 {
+            return Err(Problem::TooManyIsolated {
+                nodes: nodes.into(),
+                pairs: pairs.len(),
+                limit: ISOLATED_LIMIT,
+            });
+        }
+        let graph = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
+            // Neither happens: entries are off the diagonal, and within the size.
+            GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. } => {
+                Problem::Diagonal(node + 1)
+            }
+        })?;
+        let mut notes = Vec::from_iter(crate::merged(repeated));
+        if self.zeros > 0 {
+            let entries = counted(self.zeros, "entry");
+            notes.push(format!("explicit zeros are no pairs: {entries}"));
+        }
+        Ok((graph.0, notes))
     }
-    Ok((graph.0, notes))
 }
 
 fn said(what: String) -> Problem {
@@ -223,6 +237,25 @@ impl Kind {
             }
         };
         Ok(Self { values, symmetric })
+    }
+
+    /// Row and column of an entry, from 0, unless it is zero.
+    fn entry<'a>(
+        &self,
+        row: &str,
+        mut words: impl Iterator<Item = &'a str>,
+        nodes: u32,
+    ) -> Result<Option<(u32, u32)>, Problem> {
+        let row = place(row, nodes)?;
+        let column = match words.next() {
+            Some(word) => place(word, nodes)?,
+            None => return Err(said("the entry has no column".into())),
+        };
+        let present = self.is_present(words.next(), row, column)?;
+        if words.next().is_some() {
+            return Err(said("the entry has too many fields".into()));
+        }
+        Ok(present.then_some((row, column)))
     }
 
     /// Whether an entry of this value is not zero.

@@ -55,7 +55,7 @@ pub fn explain(graph: &Graph, parts: &Parts, known: Known, image: u32, most: usi
     links.sort_by_key(|link| (Reverse(link.inliers), link.other));
     let others = known.others.iter().copied();
     let mut others: Vec<OtherPair> = others
-        .filter(|pair| pair.images.0 == image || pair.images.1 == image)
+        .filter(|pair| !pair.used && (pair.images.0 == image || pair.images.1 == image))
         .collect();
     others.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
     others.truncate(most);

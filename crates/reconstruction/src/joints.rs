@@ -45,6 +45,34 @@ impl How {
     }
 }
 
+/// What joints of some shapes leave free, as it was found; for one model.
+///
+/// Many graphs have joints of few shapes: what was decided for one is kept for the next.
+#[derive(Clone, Debug, Default)]
+pub struct Shapes(HashMap<Vec<(u32, u32)>, (usize, Strength)>);
+
+impl Shapes {
+    /// Most shapes that are kept.
+    const MOST: usize = 100_000;
+
+    /// What a condensed joint leaves free.
+    fn freedom(
+        &mut self,
+        condensed: &Graph,
+        options: &Options,
+    ) -> Result<(usize, Strength), VerdictError> {
+        if let Some(&known) = self.0.get(condensed.edges()) {
+            return Ok(known);
+        }
+        let found = freedom(condensed, options)?;
+        if self.0.len() == Self::MOST {
+            self.0.clear();
+        }
+        self.0.insert(condensed.edges().to_vec(), found);
+        Ok(found)
+    }
+}
+
 /// All joints of a verdict.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Joints {
@@ -61,7 +89,7 @@ pub struct Joints {
 /// (docs/theory.md, Theorem 4.4); at a shared node ranks add up (4.3).
 ///
 /// O(n + k log k) for k places where two components meet, of which about `4 most` are looked at,
-/// and a decision of a small graph for each shape of joint that occurs.
+/// and a decision of a small graph for each shape of joint that is not in `shapes` yet.
 ///
 /// # Errors
 /// Those of [`viewcert::decide()`].
@@ -71,13 +99,19 @@ pub fn joints(
     parts: &Parts,
     options: &Options,
     most: usize,
+    shapes: &mut Shapes,
 ) -> Result<Joints, VerdictError> {
+    if verdict.components.len() < 2 {
+        return Ok(Joints {
+            joints: Vec::new(),
+            complete: true,
+        });
+    }
     let (found, complete) = if parts.parts.is_empty() {
         between_links(graph.nodes(), parts, most)
     } else {
         between_parts(parts, most)
     };
-    let mut cache = HashMap::new();
     let mut joints = Vec::new();
     for (components, how) in found.into_iter().take(most) {
         let (freedom, strength) = if how.pairs.is_empty() && how.through.is_empty() {
@@ -86,15 +120,7 @@ pub fn joints(
             let both = verdict.model.required(sizes[0] + sizes[1] - 1);
             (both - one - other, Strength::Proof)
         } else {
-            let condensed = joint_graph(parts, components, &how);
-            match cache.get(condensed.edges()) {
-                Some(&known) => known,
-                None => {
-                    let found = freedom(&condensed, options)?;
-                    cache.insert(condensed.edges().to_vec(), found);
-                    found
-                }
-            }
+            shapes.freedom(&joint_graph(parts, components, &how), options)?
         };
         joints.push(Joint {
             components,

@@ -18,10 +18,10 @@ mod condensation;
 mod samples;
 
 pub use explain::{Explanation, explain};
-pub use joints::{How, Joint, Joints, joints};
+pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use margin::{Margin, Thinning, margin};
 pub use parts::{Part, Parts};
-pub use suggest::{Suggestion, suggest};
+pub use suggest::{SuggestedMatch, Suggestion, suggest, suggest_matches};
 pub use sweep::{Row, sweep};
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
 
@@ -34,6 +34,8 @@ pub struct OtherPair {
     pub inliers: u32,
     /// How many there were before verification, if that is known.
     pub matches: Option<u32>,
+    /// Whether tracks are made of its matches; never in a graph of pairs.
+    pub used: bool,
 }
 
 /// What is known of pairs besides the graph: nothing, if both lists are empty.

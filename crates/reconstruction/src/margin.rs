@@ -1,25 +1,23 @@
 //! Random thinnings: how often a part stays whole when some of its pairs, or tracks, are missing.
 //!
 //! An experiment with a fixed seed, not a proof: a part that stays whole has more pairs than it
-//! needs. Each thinned part is decided exactly.
+//! needs. Every thinned graph is decided exactly, all parts at once: what is left of the pairs of
+//! a part has components of its own, since a component of fewer pairs lies in one of all.
 
-use crate::parts::{Alone, Parts};
+use crate::parts::Parts;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
-use std::collections::HashMap;
 use viewcert::Graph;
 use viewcert::decide::{Options, VerdictError, decide};
 
-/// What is thinned, and how often.
+/// How often is thinned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thinning {
     /// How many thinnings for each rate.
     pub draws: u32,
     /// The seed.
     pub seed: u64,
-    /// How many parts, the largest ones.
-    pub parts: usize,
 }
 
 /// The shares of pairs or tracks, in percent, that are left out.
@@ -40,10 +38,11 @@ pub struct Margin {
     pub images: usize,
 }
 
-/// Thins the largest parts. In a camera-point graph, of which the first `cameras` nodes are
-/// cameras, points go with all their observations; else pairs go, each by itself.
+/// Thins all parts, in the order of the verdict. In a camera-point graph, of which the first
+/// `cameras` nodes are cameras, points go with all their observations; else pairs go, each by
+/// itself.
 ///
-/// `draws` decisions of a part for each of five rates.
+/// `draws` decisions of the whole graph for each of five rates, however many parts it has.
 ///
 /// # Errors
 /// Those of [`decide`].
@@ -54,67 +53,83 @@ pub fn margin(
     thinning: Thinning,
     options: &Options,
 ) -> Result<Vec<Margin>, VerdictError> {
-    let edges = parts.edges(graph);
-    let largest = parts.parts.iter().zip(&edges).take(thinning.parts);
-    let of_part = largest.enumerate().map(|(number, (part, edges))| {
-        let alone = Alone::new(&part.nodes, edges);
-        let kept = cameras.map(|c| part.nodes.partition_point(|&v| v < c) as u32);
-        let images = kept.unwrap_or(part.nodes.len() as u32);
-        let mut found = Margin {
+    let images = 0..cameras.unwrap_or(graph.nodes() as u32);
+    let mut found: Vec<Margin> = parts
+        .parts
+        .iter()
+        .map(|part| Margin {
             component: part.component,
             whole: [0; MISSING.len()],
             together: [0; MISSING.len()],
-            images: images as usize,
-        };
-        for (k, &missing) in MISSING.iter().enumerate() {
-            let draws = (0..thinning.draws).into_par_iter().map(|draw| {
-                let stream = [number as u64, u64::from(missing), u64::from(draw)];
-                let random = random(thinning.seed, stream);
-                most_together(
-                    &thinned(&alone.graph, kept, missing, random),
-                    images,
-                    options,
-                )
-            });
-            for together in draws.collect::<Result<Vec<u32>, VerdictError>>()? {
-                found.whole[k] += u32::from(together == images);
-                found.together[k] += u64::from(together);
-            }
-        }
-        Ok(found)
+            images: part.nodes.partition_point(|v| images.contains(v)),
+        })
+        .collect();
+    if found.is_empty() {
+        return Ok(found);
+    }
+    let nodes = graph.nodes() as u32;
+    let in_parts = Graph::new(nodes, parts.edges(graph).into_iter().flatten());
+    let in_parts = in_parts.expect("edges of a graph");
+    let draws = (0..MISSING.len()).flat_map(|k| (0..thinning.draws).map(move |draw| (k, draw)));
+    let draws: Vec<(usize, u32)> = draws.collect();
+    let decided = draws.into_par_iter().map(|(k, draw)| {
+        let missing = MISSING[k];
+        let random = random(thinning.seed, missing, draw);
+        let left = thinned(&in_parts, cameras, missing, random);
+        let together = most_together(&left, parts, images.end, options)?;
+        Ok::<_, VerdictError>((k, together))
     });
-    of_part.collect()
+    let decided: Result<Vec<(usize, Vec<u32>)>, VerdictError> = decided.collect();
+    for (k, together) in decided? {
+        for (part, together) in found.iter_mut().zip(together) {
+            part.whole[k] += u32::from(together as usize == part.images);
+            part.together[k] += u64::from(together);
+        }
+    }
+    Ok(found)
 }
 
-/// A generator for each part, rate and draw.
-fn random(seed: u64, [part, missing, draw]: [u64; 3]) -> ChaCha8Rng {
+/// A generator for each rate and draw.
+fn random(seed: u64, missing: u32, draw: u32) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(part << 40 | missing << 32 | draw);
+    random.set_stream(u64::from(missing) << 32 | u64::from(draw));
     random
 }
 
-/// What is left of a part. The nodes stay, but for points that go.
+/// What is left of a graph. The nodes stay.
 fn thinned(graph: &Graph, cameras: Option<u32>, missing: u32, mut random: ChaCha8Rng) -> Graph {
     let mut stays = || random.random_range(0..100) >= missing;
-    let Some(cameras) = cameras else {
-        let edges = graph.edges().iter().copied().filter(|_| stays());
-        return Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
+    let edges = graph.edges().iter().copied();
+    let left: Vec<(u32, u32)> = match cameras {
+        None => edges.filter(|_| stays()).collect(),
+        Some(cameras) => {
+            let points: Vec<bool> = (cameras..graph.nodes() as u32).map(|_| stays()).collect();
+            edges
+                .filter(|&(_, point)| points[(point - cameras) as usize])
+                .collect()
+        }
     };
-    let points = (cameras..graph.nodes() as u32).filter(|_| stays());
-    let number: HashMap<u32, u32> = (0..cameras).chain(points).zip(0..).collect();
-    let edges = graph.edges().iter();
-    let edges = edges.filter_map(|(i, j)| number.get(i).copied().zip(number.get(j).copied()));
-    Graph::new(number.len() as u32, edges).expect("edges of a graph")
+    Graph::new(graph.nodes() as u32, left).expect("edges of a graph")
 }
 
-/// How many of the first `images` nodes lie in one component, at most; one, if there is none.
-fn most_together(graph: &Graph, images: u32, options: &Options) -> Result<u32, VerdictError> {
+/// For every part how many of its images, the nodes before `images`, lie in one component of a
+/// graph with some of its edges, at most; one, if there is none.
+fn most_together(
+    graph: &Graph,
+    parts: &Parts,
+    images: u32,
+    options: &Options,
+) -> Result<Vec<u32>, VerdictError> {
     let verdict = decide(graph, options)?;
-    let sizes = verdict.components.iter().map(|component| {
+    let mut most = vec![1; parts.parts.len()];
+    for component in &verdict.components {
         let nodes = component.nodes();
-        nodes.partition_point(|&v| v < images) as u32
-    });
-    Ok(sizes.max().unwrap_or(1))
+        // A component of fewer edges lies in one of all.
+        if let Some(part) = parts.common(nodes[0], nodes[1]) {
+            most[part] = most[part].max(nodes.partition_point(|&v| v < images) as u32);
+        }
+    }
+    Ok(most)
 }
 
 #[cfg(test)]

@@ -11,9 +11,14 @@ use crate::{Known, OtherPair};
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ops::Range;
 use viewcert::decide::{Options, VerdictError, decide};
 use viewcert::graph::{Adjacency, UnionFind};
 use viewcert::{Graph, Verdict};
+
+mod matches;
+
+pub use matches::{SuggestedMatch, suggest_matches};
 
 /// Pairs that join components, if they are matched and verified.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,16 +78,7 @@ pub fn suggest(
     wanted: Wanted,
     options: &Options,
 ) -> Result<Vec<Suggestion>, VerdictError> {
-    let search = Search {
-        graph,
-        parts,
-        neighbours: Adjacency::new(graph),
-        known: known
-            .others
-            .iter()
-            .map(|pair| (pair.images, *pair))
-            .collect(),
-    };
+    let search = Search::new(graph, parts, known, graph.nodes() as u32);
     let mut sets = search.known_pairs(known.others, wanted.at);
     let near = search.near_joints(joints, wanted.at);
     sets.extend(
@@ -139,9 +135,22 @@ struct Search<'a> {
     parts: &'a Parts,
     neighbours: Adjacency,
     known: HashMap<Pair, OtherPair>,
+    /// The nodes that are images: all, or the cameras of a camera-point graph.
+    images: Range<u32>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(graph: &'a Graph, parts: &'a Parts, known: Known, images: u32) -> Self {
+        let others = known.others.iter();
+        Self {
+            graph,
+            parts,
+            neighbours: Adjacency::new(graph),
+            known: others.map(|pair| (pair.images, *pair)).collect(),
+            images: 0..images,
+        }
+    }
+
     /// Known pairs whose images are in no component together, those with most inliers first.
     fn known_pairs(&self, others: &[OtherPair], at: Option<u32>) -> Vec<Vec<Pair>> {
         let mut pairs: Vec<&OtherPair> = others
@@ -192,6 +201,7 @@ impl Search<'_> {
     /// Images of a component: such that do not touch the other one first, near those that do before
     /// others, of more pairs before fewer.
     fn ends(&self, nodes: &[u32], touched: &[u32], count: usize) -> Vec<u32> {
+        let nodes = self.images_of(nodes);
         let near = |v: u32| {
             let mut near = touched.iter();
             near.any(|&t| self.neighbours.neighbours(t).binary_search(&v).is_ok())
@@ -438,64 +448,85 @@ impl Search<'_> {
         set: &[Pair],
         options: &Options,
     ) -> Result<Option<Suggestion>, VerdictError> {
-        let graph = with(&small.graph, set.iter().map(|&pair| small.pair(pair)));
-        let verdict: Verdict = decide(&graph, options)?;
-        let found = Parts::new(&graph, &verdict);
-        let mut together = set.iter().map(|&pair| {
-            let (a, b) = small.pair(pair);
-            found.common(a, b)
-        });
-        let Some(place) = together.next().flatten() else {
+        let pairs: Vec<Pair> = set.iter().map(|&pair| small.pair(pair)).collect();
+        let graph = with(&small.graph, pairs.iter().copied());
+        let found = self.together(small, &graph, &pairs, options)?;
+        let pairs = set
+            .iter()
+            .map(|&pair| (pair, self.known.get(&pair).copied()));
+        Ok(found.map(|found| Suggestion {
+            pairs: pairs.collect(),
+            components: found.components,
+            images: found.images,
+            gain: found.gain,
+        }))
+    }
+
+    /// The component of a graph on a condensation's nodes that holds the ends of some pairs, if
+    /// there is one that is more than it was.
+    fn together(
+        &self,
+        small: &Condensation,
+        graph: &Graph,
+        pairs: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Together>, VerdictError> {
+        let verdict: Verdict = decide(graph, options)?;
+        let found = Parts::new(graph, &verdict);
+        let mut places = pairs.iter().map(|&(a, b)| found.common(a, b));
+        let Some(place) = places.next().flatten() else {
             return Ok(None);
         };
-        if together.any(|other| other != Some(place)) {
+        if places.any(|other| other != Some(place)) {
             return Ok(None);
         }
         let part = &found.parts[place];
+        let of_small = part.nodes.iter().map(|&v| small.nodes[v as usize]);
+        let mut images: Vec<u32> = of_small.filter(|v| self.images.contains(v)).collect();
         let mut components = Vec::new();
-        let mut images: Vec<u32> = part
-            .nodes
-            .iter()
-            .map(|&v| small.nodes[v as usize])
-            .collect();
         let mut largest = 1;
         for (k, terminals) in small.terminals.iter().enumerate() {
             // Two components of one graph share a node at most, and this one is rigid.
-            if terminals
-                .iter()
-                .filter(|&&v| part.contains(v))
-                .nth(1)
-                .is_some()
-            {
+            let mut shared = terminals.iter().filter(|&&v| part.contains(v));
+            if shared.nth(1).is_some() {
                 components.push(self.parts.parts[k].component);
-                images.extend(&self.parts.parts[k].nodes);
-                largest = largest.max(self.parts.parts[k].nodes.len());
+                let own = self.images_of(&self.parts.parts[k].nodes);
+                images.extend(own);
+                largest = largest.max(own.len());
             }
         }
         for &((a, b), component) in &self.parts.links {
-            if small
-                .number(a)
-                .zip(small.number(b))
-                .is_some_and(|(a, b)| part.contains(a) && part.contains(b))
-            {
+            let ends = small.number(a).zip(small.number(b));
+            if ends.is_some_and(|(a, b)| part.contains(a) && part.contains(b)) {
                 components.push(component);
-                largest = largest.max(2);
+                largest = largest.max(self.images_of(&[a, b]).len());
             }
         }
         images.sort_unstable();
         images.dedup();
         components.sort_unstable();
         let gain = images.len() - largest;
-        let pairs = set
-            .iter()
-            .map(|&pair| (pair, self.known.get(&pair).copied()));
-        Ok((gain > 0).then(|| Suggestion {
-            pairs: pairs.collect(),
+        Ok((gain > 0).then_some(Together {
             components,
             images: images.len(),
             gain,
         }))
     }
+
+    /// Those of some nodes, given increasing, that are images.
+    fn images_of<'b>(&self, nodes: &'b [u32]) -> &'b [u32] {
+        &nodes[..nodes.partition_point(|v| self.images.contains(v))]
+    }
+}
+
+/// What becomes one component.
+struct Together {
+    /// The components of the verdict that it is made of, increasing.
+    components: Vec<usize>,
+    /// How many images it has.
+    images: usize,
+    /// How many more than the largest of these components.
+    gain: usize,
 }
 
 /// How many images of each part are choices for pairs between them.

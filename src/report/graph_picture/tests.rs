@@ -3,16 +3,8 @@ use viewcert::decide::{Options, decide};
 use viewcert::graph::{Graph, Labels};
 
 fn named(nodes: u32, pairs: &[(u32, u32)]) -> NamedGraph {
-    NamedGraph {
-        name: "a <graph>".into(),
-        graph: Graph::new(nodes, pairs.iter().copied()).unwrap(),
-        labels: Labels::Numbers { first: 0 },
-        notes: Vec::new(),
-        matching: None,
-        cameras: None,
-        database: None,
-        tracks: None,
-    }
+    let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
+    NamedGraph::new("a <graph>", graph, Labels::Numbers { first: 0 })
 }
 
 fn with_picture<T>(input: &NamedGraph, look: impl FnOnce(&Picture) -> T) -> T {

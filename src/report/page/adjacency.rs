@@ -134,16 +134,8 @@ mod tests {
     }
 
     fn named(nodes: u32, pairs: Vec<(u32, u32)>) -> NamedGraph {
-        NamedGraph {
-            name: "g".into(),
-            graph: Graph::new(nodes, pairs).unwrap(),
-            labels: Labels::Numbers { first: 0 },
-            notes: Vec::new(),
-            matching: None,
-            cameras: None,
-            database: None,
-            tracks: None,
-        }
+        let graph = Graph::new(nodes, pairs).unwrap();
+        NamedGraph::new("g", graph, Labels::Numbers { first: 0 })
     }
 
     fn decoded(png: &[u8]) -> (usize, Vec<[u8; 4]>) {

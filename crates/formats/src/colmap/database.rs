@@ -36,19 +36,17 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
     notes.extend(database.notes(&facts));
     let mut graph = match options.tracks {
         None => NamedGraph {
-            name: String::new(),
-            graph: pairs,
-            labels: Labels::Names(database.names),
-            notes: Vec::new(),
             matching: Some(matching),
-            cameras: None,
-            database: None,
-            tracks: None,
+            ..NamedGraph::new("", pairs, Labels::Names(database.names))
         },
         Some(tracks) => {
             let (names, nodes) = (&database.names, &database.nodes);
             let connection = &opened.connection;
-            tracks::read(connection, database.table, names, nodes, &pairs, tracks)?
+            let graph = tracks::read(connection, database.table, names, nodes, &pairs, tracks)?;
+            NamedGraph {
+                matching: Some(database.between_cameras(&pairs, matching)),
+                ..graph
+            }
         }
     };
     opened.finish().map_err(input)?;
@@ -206,6 +204,7 @@ impl Tables {
                     images: pair.nodes,
                     inliers: pair.inliers,
                     matches: None,
+                    used: false,
                 },
             );
         }
@@ -215,6 +214,7 @@ impl Tables {
                     images,
                     inliers: 0,
                     matches: None,
+                    used: false,
                 });
                 other.matches = Some(matches);
             }
@@ -224,6 +224,23 @@ impl Tables {
             others: others.into_values().collect(),
         };
         Ok((graph, matching))
+    }
+
+    /// What is known of all pairs, for a graph in which no pair of cameras is an edge.
+    fn between_cameras(&self, pairs: &Graph, matching: Matching) -> Matching {
+        let used = pairs.edges().iter().zip(matching.inliers);
+        let used = used.map(|(&images, inliers)| OtherPair {
+            images,
+            inliers,
+            matches: self.matches.get(&images).copied(),
+            used: true,
+        });
+        let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
+        others.sort_unstable_by_key(|pair| pair.images);
+        Matching {
+            inliers: Vec::new(),
+            others,
+        }
     }
 
     fn facts(&self, graph: &Graph) -> DatabaseFacts {

@@ -83,12 +83,14 @@ impl DatabaseError {
                 "copy it again (with its -wal file, if there is one), or save what is left: `sqlite3 FILE .recover | sqlite3 new.db`"
             }
             Self::NotColmap(_) => "name COLMAP's database, or write the pairs as an edge list",
-            Self::NoImages => "extract features first: `colmap feature_extractor`",
+            Self::NoImages => {
+                "extract features first: `colmap feature_extractor --database_path FILE --image_path images`"
+            }
             Self::NotMatched(_) => {
-                "match the images first, for example with `colmap exhaustive_matcher`"
+                "match the images first, for example with `colmap exhaustive_matcher --database_path FILE`"
             }
             Self::NotVerified(..) => {
-                "run the geometric verification: `colmap geometric_verifier`, or a matcher without skipping it"
+                "run the geometric verification: `colmap geometric_verifier --database_path FILE`, or in Python `pycolmap.geometric_verification(FILE)`; COLMAP 3.8 has neither, there match again, for example with `colmap exhaustive_matcher`"
             }
             Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
             Self::NoLists(_) => {

@@ -43,6 +43,7 @@ fn pairs_that_are_no_edges_keep_what_is_known_of_them() {
         images,
         inliers,
         matches: Some(matches),
+        used: false,
     };
     let matching = Matching {
         inliers: vec![40],

@@ -41,6 +41,22 @@ pub struct NamedGraph {
     pub tracks: Option<TrackFacts>,
 }
 
+impl NamedGraph {
+    /// A graph of which nothing else is known.
+    pub fn new(name: impl Into<String>, graph: Graph, labels: Labels) -> Self {
+        Self {
+            name: name.into(),
+            graph,
+            labels,
+            notes: Vec::new(),
+            matching: None,
+            cameras: None,
+            database: None,
+            tracks: None,
+        }
+    }
+}
+
 /// The formats that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -317,16 +333,8 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
     match one {
         Ok((graph, labels, mut notes)) => {
             notes.extend(unused);
-            Box::new(std::iter::once(Ok(NamedGraph {
-                name,
-                graph,
-                labels,
-                notes,
-                matching: None,
-                cameras: None,
-                database: None,
-                tracks: None,
-            })))
+            let graph = NamedGraph::new(name, graph, labels);
+            Box::new(std::iter::once(Ok(NamedGraph { notes, ..graph })))
         }
         Err(fault) => failed(&name, fault),
     }

@@ -142,15 +142,12 @@ impl TrackGraph {
         }
         let (graph, _) = Graph::from_pairs(nodes, edges)
             .map_err(|error| Place::Input.fault(Problem::Corrupt(error.to_string())))?;
+        let labels = Labels::CamerasAndPoints(self.cameras);
         Ok(NamedGraph {
-            name: String::new(),
-            graph,
-            labels: Labels::CamerasAndPoints(self.cameras),
             notes,
-            matching: None,
             cameras: Some(cameras),
-            database: None,
             tracks: Some(self.facts),
+            ..NamedGraph::new("", graph, labels)
         })
     }
 

@@ -4,11 +4,7 @@ use viewcert::Model;
 
 fn thinned_parts(graph: &Graph, cameras: Option<u32>, model: Model, seed: u64) -> Vec<Margin> {
     let parts = Parts::new(graph, &verdict(graph, model));
-    let thinning = Thinning {
-        draws: 20,
-        seed,
-        parts: 4,
-    };
+    let thinning = Thinning { draws: 20, seed };
     margin(graph, &parts, cameras, thinning, &options(model)).unwrap()
 }
 
@@ -54,9 +50,31 @@ fn about_as_many_go_as_shall() {
         (0..200).flat_map(|i| (i + 1..200).map(move |j| (i, j))),
     )
     .unwrap();
-    let left = thinned(&graph, None, 80, random(3, [0, 80, 0]))
-        .edges()
-        .len();
+    let left = thinned(&graph, None, 80, random(3, 80, 0)).edges().len();
     // 19900 pairs, a fifth is 3980, standard deviation 56.
     assert!((3700..4260).contains(&left), "{left}");
+}
+
+/// Two hundred triangles in a row, each with an image of the next: all are thinned, and none is
+/// whole without one of its pairs.
+#[test]
+fn all_parts_are_thinned() {
+    let rows = (0..200).flat_map(|k| {
+        [
+            (2 * k, 2 * k + 1),
+            (2 * k, 2 * k + 2),
+            (2 * k + 1, 2 * k + 2),
+        ]
+    });
+    let graph = Graph::new(401, rows).unwrap();
+    let found = thinned_parts(&graph, None, Model::Projective, 5);
+    assert_eq!(found.len(), 200);
+    let whole: u32 = found.iter().map(|part| part.whole[0]).sum();
+    // A triangle keeps its three pairs with probability 0.729: 2916 of 4000, standard deviation 28.
+    assert!((2750..3080).contains(&whole), "{whole}");
+    assert!(
+        found
+            .iter()
+            .all(|part| part.images == 3 && part.together[0] <= 60)
+    );
 }

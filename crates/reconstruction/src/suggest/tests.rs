@@ -1,5 +1,5 @@
 use super::*;
-use crate::joints::joints;
+use crate::joints::{Shapes, joints};
 use crate::samples::{clusters, graphs, options, verdict};
 use viewcert::Model;
 
@@ -11,7 +11,15 @@ fn suggested(
 ) -> Vec<Suggestion> {
     let verdict = verdict(graph, model);
     let parts = Parts::new(graph, &verdict);
-    let joints = joints(graph, &verdict, &parts, &options(model), 1000).unwrap();
+    let joints = joints(
+        graph,
+        &verdict,
+        &parts,
+        &options(model),
+        1000,
+        &mut Shapes::default(),
+    )
+    .unwrap();
     let known = Known {
         inliers: &[],
         others,
@@ -114,6 +122,7 @@ fn pairs_with_matches_come_first() {
         images: (a, b),
         inliers,
         matches: Some(inliers + 5),
+        used: false,
     };
     // 12 is seen from 0 alone.
     let graph = two(&[(0, 6), (1, 7), (0, 12)]);
@@ -137,6 +146,7 @@ fn an_image_without_pairs_needs_two() {
         images: (a, b),
         inliers,
         matches: None,
+        used: false,
     };
     let others = [other(2, 12, 7), other(3, 12, 8)];
     let found = suggested(

@@ -12,6 +12,7 @@ fn components_by_threshold() {
         images: (a, b),
         inliers,
         matches: None,
+        used: false,
     };
     // The last has as many inliers as a pair that was used: something else is wrong with it.
     let others = [other(0, 3, 12), other(1, 5, 3), other(4, 5, 30)];

@@ -1,0 +1,307 @@
+//! Images that, if they were matched, would join components of a camera-point graph.
+//!
+//! A match of two images gives a camera a point of the other's component to see, or makes two
+//! points one. How many of either are enough is decided, on the condensation of all components
+//! (docs/theory.md, 4.11): each number is proved, for any points that lie in one component only.
+
+use super::{Pair, Search, TRIED, Together, Wanted, dedup, ordered, touched};
+use crate::condensation::{Condensation, terminals, with};
+use crate::joints::{How, Joint};
+use crate::parts::Parts;
+use crate::{Known, OtherPair};
+use rayon::prelude::*;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use viewcert::Graph;
+use viewcert::decide::{Options, VerdictError};
+
+/// Two images to match, and how much has to come of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SuggestedMatch {
+    /// The two cameras, the smaller node first.
+    pub cameras: (u32, u32),
+    /// What is known of the pair.
+    pub known: Option<OtherPair>,
+    /// Further observations that are enough, a camera and a point each. None of them can be left
+    /// out; any points of the same component that are in no other one do as well.
+    pub observations: Vec<(u32, u32)>,
+    /// How many points of the one camera's component have to become one with points of the other's,
+    /// if that is enough too.
+    pub merged: Option<usize>,
+    /// The components that become one, or parts of one, increasing.
+    pub components: Vec<usize>,
+    /// How many cameras the new component has.
+    pub images: usize,
+    /// How many cameras that is more than the largest of the components has.
+    pub gain: usize,
+}
+
+impl SuggestedMatch {
+    /// What is known of the pair: inliers and matches; 0 where they are not known.
+    fn evidence(&self) -> (u32, u32) {
+        self.known
+            .map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
+    }
+}
+
+/// Most edges of condensations that are decided, together and about.
+const WORK: usize = 4_000_000;
+
+/// Fewest pairs that are tried, however large the graph is.
+const LEAST_TRIED: usize = 20;
+
+/// Most suggestions that join the same components.
+const ALIKE: usize = 2;
+
+/// Suggests images to match in a camera-point graph, of which the first `cameras` nodes are
+/// cameras: those with most matches already first, then by how few observations are enough, then by
+/// how many cameras they add to a component.
+///
+/// Some decisions of the condensed graph for each of some hundred candidates; of fewer, if it is
+/// large.
+///
+/// # Errors
+/// Those of [`viewcert::decide()`].
+pub fn suggest_matches(
+    graph: &Graph,
+    parts: &Parts,
+    cameras: u32,
+    joints: &[Joint],
+    known: Known,
+    wanted: Wanted,
+    options: &Options,
+) -> Result<Vec<SuggestedMatch>, VerdictError> {
+    let search = Search::new(graph, parts, known, cameras);
+    let candidates = candidates(&search, joints, known.others, wanted);
+    let attempts: Vec<Attempt> = candidates
+        .into_iter()
+        .filter_map(|cameras| Attempt::new(&search, cameras))
+        .collect();
+    let nodes: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
+    let links = parts.links.iter().map(|&(pair, _)| pair);
+    let ends = || attempts.iter().flat_map(Attempt::nodes);
+    let touched = links.clone().flat_map(|(a, b)| [a, b]).chain(ends());
+    let small = Condensation::new(terminals(&nodes, touched), links, ends());
+    let most = (WORK / (small.graph.edges().len() + 1)).clamp(LEAST_TRIED, 4 * TRIED);
+    let each = attempts.par_iter().take(most);
+    let found = each.map(|attempt| attempt.enough(&search, &small, options));
+    let found: Result<Vec<Option<SuggestedMatch>>, VerdictError> = found.collect();
+    Ok(ranked(found?.into_iter().flatten().collect(), wanted.most))
+}
+
+/// The best first, few of a kind.
+fn ranked(mut found: Vec<SuggestedMatch>, most: usize) -> Vec<SuggestedMatch> {
+    found.sort_by_key(|one| {
+        (
+            Reverse(one.evidence()),
+            one.observations.len(),
+            Reverse(one.gain),
+            one.cameras,
+        )
+    });
+    let mut alike: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    found.retain(|one| {
+        // Cameras alone are different, though they join the same component.
+        if let [_] = one.components[..] {
+            return true;
+        }
+        let count = alike.entry(one.components.clone()).or_default();
+        *count += 1;
+        *count <= ALIKE
+    });
+    found.truncate(most);
+    found
+}
+
+/// Pairs of cameras to try: those with most matches first, then such near joints, near cameras that
+/// hang on single observations, and of parts that are not connected.
+fn candidates(
+    search: &Search,
+    joints: &[Joint],
+    others: &[OtherPair],
+    wanted: Wanted,
+) -> Vec<Pair> {
+    let mut sets = search.known_pairs(others, wanted.at);
+    let mut more = |pair: Option<Pair>| sets.extend(pair.map(|pair| vec![pair]));
+    let here = |components: [usize; 2]| {
+        wanted.at.is_none_or(|v| {
+            let of = search.parts.components_of(v);
+            components.iter().any(|part| of.contains(part))
+        })
+    };
+    let near = joints.iter().filter(|joint| here(joint.components));
+    for joint in near.take(TRIED) {
+        more(between(search, joint.components, &joint.how, wanted.at));
+    }
+    for pair in hanging(search, wanted.at) {
+        more(Some(pair));
+    }
+    let apart = search.apart().into_iter().filter(|&parts| here(parts));
+    for components in apart.take(TRIED) {
+        more(between(search, components, &How::default(), wanted.at));
+    }
+    more(wanted.at.and_then(|camera| with_largest(search, camera)));
+    dedup(&mut sets);
+    sets.concat()
+}
+
+/// A pair of cameras of two components, near where these touch.
+fn between(search: &Search, components: [usize; 2], how: &How, at: Option<u32>) -> Option<Pair> {
+    let [one, other] = [0, 1].map(|side| {
+        let nodes = search.parts.nodes_of(components[side]);
+        match at.filter(|v| nodes.binary_search(v).is_ok()) {
+            Some(v) => vec![v],
+            None => search.ends(&nodes, &touched(how, side), super::CHOICE),
+        }
+    });
+    let mut pairs = one.iter().flat_map(|&a| other.iter().map(move |&b| (a, b)));
+    pairs
+        .find(|&pair| search.is_candidate(pair, at))
+        .map(ordered)
+}
+
+/// Cameras of no part, with a camera that sees, in a part, a point that they see as well.
+fn hanging(search: &Search, at: Option<u32>) -> Vec<Pair> {
+    let mut found = Vec::new();
+    for &((camera, point), _) in &search.parts.links {
+        if !search.parts.of(camera).is_empty() || at.is_some_and(|v| v != camera) {
+            continue;
+        }
+        let near = search.neighbours.neighbours(point).iter();
+        let mut near = near.filter(|&&other| search.parts.common(other, point).is_some());
+        found.extend(near.next().map(|&other| ordered((camera, other))));
+        if found.len() >= TRIED {
+            break;
+        }
+    }
+    found
+}
+
+/// A camera, and the one of the largest part that sees most.
+fn with_largest(search: &Search, camera: u32) -> Option<Pair> {
+    let largest = search.parts.parts.first()?;
+    let mut ends = search.ends(&largest.nodes, &[], super::CHOICE).into_iter();
+    ends.find(|&other| search.is_candidate((camera, other), None))
+        .map(|other| ordered((camera, other)))
+}
+
+/// Two cameras, and points that they see in one component each and nowhere else.
+struct Attempt {
+    cameras: Pair,
+    /// The part of each of the two, and two points at most.
+    sides: [Option<(usize, Vec<u32>)>; 2],
+}
+
+impl Attempt {
+    /// None, if neither camera sees a point of a part that is in no other component.
+    fn new(search: &Search, cameras: Pair) -> Option<Self> {
+        let side = |camera: u32| {
+            let part = *search.parts.of(camera).first()?;
+            let alone = |&&point: &&u32| {
+                search.parts.of(point) == [part] && search.parts.links_at(point).next().is_none()
+            };
+            let points = search.neighbours.neighbours(camera).iter().filter(alone);
+            Some((part as usize, points.take(2).copied().collect()))
+        };
+        let sides = [side(cameras.0), side(cameras.1)];
+        let sees = |side: &Option<(usize, Vec<u32>)>| {
+            side.as_ref().is_some_and(|(_, points)| !points.is_empty())
+        };
+        sides.iter().any(sees).then_some(Self { cameras, sides })
+    }
+
+    /// All nodes that it is about.
+    fn nodes(&self) -> impl Iterator<Item = u32> {
+        let points = self.sides.iter().flatten().flat_map(|(_, points)| points);
+        points.copied().chain([self.cameras.0, self.cameras.1])
+    }
+
+    /// Sets of observations, the smaller ones first.
+    fn observations(&self) -> Vec<Vec<Pair>> {
+        let (a, b) = self.cameras;
+        // What the camera of the other side would see.
+        let seen = |camera: u32, side: usize| -> Vec<Pair> {
+            let points = self.sides[side].iter().flat_map(|(_, points)| points);
+            points.map(|&point| (camera, point)).collect()
+        };
+        let (by_b, by_a) = (seen(b, 0), seen(a, 1));
+        let mut sets: Vec<Vec<Pair>> = [&by_b, &by_a]
+            .into_iter()
+            .filter_map(|seen| Some(vec![*seen.first()?]))
+            .collect();
+        match &self.sides {
+            [Some(_), Some(_)] => {
+                let both = by_b.first().zip(by_a.first());
+                sets.extend(both.map(|(&one, &other)| vec![one, other]));
+            }
+            _ => sets.extend([by_b, by_a].into_iter().filter(|seen| seen.len() == 2)),
+        }
+        sets
+    }
+
+    /// Points of both sides that become one: one of them, two of them.
+    fn merges(&self) -> Vec<Vec<Pair>> {
+        let [Some((_, one)), Some((_, other))] = &self.sides else {
+            return Vec::new();
+        };
+        let all: Vec<Pair> = one.iter().zip(other).map(|(&a, &b)| (a, b)).collect();
+        (1..=all.len()).map(|count| all[..count].to_vec()).collect()
+    }
+
+    /// The suggestion, if some of the sets of observations join the components of both cameras.
+    fn enough(
+        &self,
+        search: &Search,
+        small: &Condensation,
+        options: &Options,
+    ) -> Result<Option<SuggestedMatch>, VerdictError> {
+        for set in self.observations() {
+            let pairs: Vec<Pair> = set.iter().map(|&pair| small.pair(pair)).collect();
+            let graph = with(&small.graph, pairs.iter().copied());
+            let found = search.together(small, &graph, &pairs, options)?;
+            let Some(found) = found.filter(|found| self.is_joined(search, found)) else {
+                continue;
+            };
+            return Ok(Some(SuggestedMatch {
+                cameras: self.cameras,
+                known: search.known.get(&self.cameras).copied(),
+                observations: set,
+                merged: self.merged(search, small, options)?,
+                components: found.components,
+                images: found.images,
+                gain: found.gain,
+            }));
+        }
+        Ok(None)
+    }
+
+    /// How many points have to become one, if two are enough.
+    fn merged(
+        &self,
+        search: &Search,
+        small: &Condensation,
+        options: &Options,
+    ) -> Result<Option<usize>, VerdictError> {
+        for set in self.merges() {
+            let merged = small.merged(&set);
+            let cameras = [small.pair(self.cameras)];
+            let found = search.together(&merged, &merged.graph, &cameras, options)?;
+            if found.is_some_and(|found| self.is_joined(search, &found)) {
+                return Ok(Some(set.len()));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the components of both cameras have become one.
+    fn is_joined(&self, search: &Search, found: &Together) -> bool {
+        let mut sides = self.sides.iter().flatten();
+        sides.all(|&(part, _)| {
+            let component = search.parts.parts[part].component;
+            found.components.binary_search(&component).is_ok()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
