@@ -206,7 +206,8 @@ fn decide(
     let written = arguments.write_graph.as_deref();
     let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
     let time = start.elapsed();
-    let acted = arguments.act.act(input, &verdict, options.seed);
+    let watch = running::watch();
+    let acted = arguments.act.act(input, &verdict, options.seed, watch);
     running::hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
