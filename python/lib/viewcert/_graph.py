@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._native import Graph as NativeGraph
 from ._errors import InputError
 
 Node = Hashable
@@ -41,7 +42,7 @@ class Graph:
 
     __slots__ = ("_native", "_nodes", "_texts")
 
-    _native: _native.Graph
+    _native: NativeGraph
     _nodes: Optional[Sequence[Node]]
     _texts: Optional[Sequence[str]]
 
@@ -51,7 +52,7 @@ class Graph:
             _log.warning("%s: %s", self._native.name, note)
 
     @classmethod
-    def _of(cls, native: _native.Graph) -> Graph:
+    def _of(cls, native: NativeGraph) -> Graph:
         graph = cls.__new__(cls)
         graph._native, graph._nodes, graph._texts = native, None, None
         for note in native.notes:
@@ -114,7 +115,7 @@ class Graph:
         return dict(zip(texts, nodes))
 
 
-_Converted = Tuple[_native.Graph, Optional[Sequence[Node]], Optional[Sequence[str]]]
+_Converted = Tuple[NativeGraph, Optional[Sequence[Node]], Optional[Sequence[str]]]
 
 
 def as_graph(graph: Any, name: Optional[str] = None) -> Graph:
@@ -227,9 +228,10 @@ def _ordered(nodes: List[Node]) -> Tuple[List[Node], Optional[List[str]], dict[s
     points, in the program by the bytes of UTF-8, which is the same); all else stays as it came.
     """
     if all(type(node) is int or isinstance(node, np.integer) for node in nodes):
-        integers = sorted(nodes, key=int)  # type: ignore[call-overload]
+        given: List[Any] = sorted(nodes, key=_integer)
+        integers = list(map(_integer, given))
         if not integers or 0 <= integers[0] and integers[-1] < 2**64:
-            return integers, None, {"integers": [int(node) for node in integers]}
+            return given, None, {"integers": integers}
     if all(type(node) is str for node in nodes):
         texts: List[str] = [str(node) for node in nodes]
         if all(map(_is_integer, texts)):
@@ -244,6 +246,11 @@ def _ordered(nodes: List[Node]) -> Tuple[List[Node], Optional[List[str]], dict[s
     else:
         texts = [f"{text} ({number})" for number, text in enumerate(texts)]
     return nodes, texts, {"names": texts}
+
+
+def _integer(node: Any) -> int:
+    """An integer of Python or numpy as one of Python."""
+    return int(node)
 
 
 def _is_integer(text: str) -> bool:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, FrozenSet, List, NoReturn, Optional, Tuple
 
 from . import _native
+from ._native import Decided
 from ._errors import InputError
 from ._graph import Graph, Node, Path, as_graph
 from ._progress import Progress, shown
@@ -75,7 +76,7 @@ class Verdict:
     __slots__ = ("_graph", "_native", "_components", "_joints")
 
     _graph: Graph
-    _native: _native.Decided
+    _native: Decided
     _components: Optional[List[FrozenSet[Node]]]
     _joints: Optional[Tuple[Joint, ...]]
 
@@ -83,7 +84,7 @@ class Verdict:
         raise TypeError("verdicts come from viewcert.verify")
 
     @classmethod
-    def _of(cls, graph: Graph, native: _native.Decided) -> Verdict:
+    def _of(cls, graph: Graph, native: Decided) -> Verdict:
         verdict = cls.__new__(cls)
         for name, value in (("_graph", graph), ("_native", native)):
             object.__setattr__(verdict, name, value)
