@@ -16,7 +16,8 @@ python3 -m venv "$out/build"
 python3 -m venv "$out/clean"
 
 step "the program, against which everything is held"
-cargo build --quiet --manifest-path "$root/Cargo.toml" --bin verify
+# Both packages together, as the wheel has them: what is built here is not built again for it.
+cargo build --quiet --locked --manifest-path "$root/Cargo.toml" -p viewcert-cli -p viewcert-python --bin verify
 export VIEWCERT_PROGRAM=${CARGO_TARGET_DIR:-$root/target}/debug/verify
 
 step "the wheel"

@@ -9,7 +9,7 @@ use crate::act::{ActArguments, Acted};
 use crate::check::checker;
 use crate::report::graph_picture::{Drawn, Picture, document, draw};
 use crate::report::{Report, json, page, text};
-use crate::{act, atomic};
+use crate::{act, atomic, certificates};
 use anyhow::{Error, Result};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -129,6 +129,11 @@ impl Answer<'_> {
         page::write(&mut out, &self.report(), &picture, &drawn)?;
         Ok(out)
     }
+}
+
+/// The certificate that `--certificate` writes.
+pub fn certificate<'a>(input: &'a NamedGraph, verdict: &'a Verdict) -> viewcert::Certificate<'a> {
+    certificates::certificate(input, verdict)
 }
 
 fn drawn<'a>(input: &'a NamedGraph, verdict: &Verdict) -> (Picture<'a>, Drawn) {

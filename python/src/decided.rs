@@ -185,8 +185,8 @@ impl Decided {
         compact: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let written = py.detach(|| -> std::io::Result<Vec<u8>> {
-            let certificate = self.verdict.certificate(&self.input.graph);
-            let mut certificate = certificate.named(&self.input.name).embed_graph(embed_graph);
+            let certificate = front::certificate(&self.input, &self.verdict);
+            let mut certificate = certificate.embed_graph(embed_graph);
             if compact {
                 certificate = certificate.compact();
             }
