@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use viewcert::Certificate;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
 
@@ -61,8 +62,9 @@ impl Target {
             bail!("{}", too_many(OPTION, &self.path, "several graphs"));
         };
         atomic::write(&path, |out| {
-            let certificate = verdict.certificate(&input.graph).named(&input.name);
-            certificate.embed_graph(self.embed).write_to(out)
+            certificate(input, verdict)
+                .embed_graph(self.embed)
+                .write_to(out)
         })?;
         Ok(path)
     }
@@ -109,6 +111,11 @@ impl Target {
         self.taken.insert(name);
         Ok(path)
     }
+}
+
+/// The certificate of a graph as it was read.
+pub(super) fn certificate<'a>(input: &'a NamedGraph, verdict: &'a Verdict) -> Certificate<'a> {
+    verdict.certificate(&input.graph).named(&input.name)
 }
 
 /// Why a file cannot be the target of an option for many graphs.

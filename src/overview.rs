@@ -6,6 +6,7 @@
 
 use super::act::{self, Acted, shell};
 use super::input::{self, InputArguments, Read};
+use super::plane::Scope;
 use super::{GOOD, NOT, atomic, running};
 use crate::report::Report;
 use crate::report::overview::{Next, Overview, Wanted};
@@ -154,6 +155,7 @@ fn overview(
     running::hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let no_joints = Acted::default();
+    let any_scope = Scope::default();
     let report = |input, verdict, acted| Report {
         input,
         verdict,
@@ -161,8 +163,7 @@ fn overview(
         list_components: false,
         time: Duration::ZERO,
         acted,
-        conditions: &[],
-        planar: None,
+        scope: &any_scope,
     };
     let mut found = Overview {
         name: &input.name,

@@ -1,12 +1,18 @@
-//! What a graph determines if all centres lie in one plane (docs/theory.md, Theorem 13.3 and
-//! Corollary 13.4).
+//! What an answer holds for: what a graph determines if all centres lie in one plane
+//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), and what unknown focal lengths ask for.
 
 use serde::Serialize;
 use viewcert::contract::Merge;
-use viewcert::decide::{Verdict, plane_rank};
+use viewcert::decide::{Value, Verdict, plane_rank};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
+use viewcert_formats::NamedGraph;
+
+/// What `--model focal` rests on.
+const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
+                     lengths if pixels are square, principal points are known, and its two optical \
+                     axes do not meet";
 
 /// The answer for centres that are generic in one plane. All of it is proved.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -75,9 +81,71 @@ impl Planar {
 
 /// Whether a verdict shows already that nothing is lost in a plane: one body, by the merge rules
 /// that hold there as well.
-pub(crate) fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
+fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
     let merges = verdict.contraction.bodies.iter();
     let mut merges = merges.flat_map(|body| &body.merge);
     verdict.pieces.is_empty()
         && merges.all(|merge| matches!(merge, Merge::Shared { .. } | Merge::Triangle { .. }))
+}
+
+/// What is asked about the scope of an answer.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Asked {
+    /// Whether all centres lie in one plane.
+    pub(crate) planar: bool,
+    /// Whether focal lengths are unknown.
+    pub(crate) focal: bool,
+}
+
+/// What an answer holds for, beyond generic cameras of the model.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scope {
+    conditions: Vec<String>,
+    planar: Option<Planar>,
+}
+
+impl Scope {
+    /// Centres in one plane are looked at if that is asked for, and if the general answer, which
+    /// is good, may hide that it is not as good there.
+    ///
+    /// # Errors
+    /// If the work was stopped.
+    pub(crate) fn new(
+        input: &NamedGraph,
+        verdict: &Verdict,
+        asked: Asked,
+        watch: &Watch,
+    ) -> Result<Self, Stopped> {
+        let is_good = verdict.value != Value::NotFiniteSolvable;
+        let may_hide = is_good
+            && verdict.model != Model::Affine
+            && input.cameras.is_none()
+            && !is_rigid_by_triangles(verdict);
+        let planar = (asked.planar || may_hide)
+            .then(|| Planar::new(&input.graph, verdict.model, watch))
+            .transpose()?;
+        let hidden = is_good && planar.is_some_and(|planar| !planar.is_determined());
+        let mut conditions = Vec::new();
+        if asked.focal {
+            conditions.push(FOCAL.to_owned());
+        }
+        if hidden {
+            let condition = "holds for centres in general position; if all lie in one plane: not";
+            conditions.push(condition.to_owned());
+        }
+        Ok(Self {
+            conditions,
+            planar: planar.filter(|planar| asked.planar || !planar.is_determined()),
+        })
+    }
+
+    /// The conditions, in words.
+    pub(crate) fn conditions(&self) -> &[String] {
+        &self.conditions
+    }
+
+    /// The answer for centres in one plane, if it was asked for or is worse.
+    pub(crate) fn planar(&self) -> Option<&Planar> {
+        self.planar.as_ref()
+    }
 }

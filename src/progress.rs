@@ -14,7 +14,11 @@ const INTERVAL: Duration = Duration::from_secs(10);
 pub(super) struct Progress {
     bar: ProgressBar,
     plain: Option<Mutex<Plain>>,
+    told: Option<Told>,
 }
+
+/// Somebody who wants to know what has been done since the last call.
+pub(super) type Told = Box<dyn Fn(u64) + Send + Sync>;
 
 struct Plain {
     start: Instant,
@@ -38,7 +42,11 @@ impl Progress {
             if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style);
             }
-            return Self { bar, plain: None };
+            return Self {
+                bar,
+                plain: None,
+                told: None,
+            };
         }
         let now = Instant::now();
         Self {
@@ -49,12 +57,25 @@ impl Progress {
                 done: 0,
                 total,
             })),
+            told: None,
+        }
+    }
+
+    /// Tells somebody, and prints nothing.
+    pub(super) fn to(told: Told) -> Self {
+        Self {
+            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
+            plain: None,
+            told: Some(told),
         }
     }
 
     /// Counts what has been done since the last call.
     pub(super) fn done(&self, more: u64) {
         self.bar.inc(more);
+        if let Some(told) = &self.told {
+            told(more);
+        }
         let Some(plain) = &self.plain else {
             return;
         };

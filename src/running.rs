@@ -117,7 +117,7 @@ pub(super) fn begin(arguments: &LimitArguments) -> Result<()> {
     let memory = arguments
         .memory_limit
         .map(|limit| limit.0)
-        .or_else(|| machine_memory().map(|bytes| bytes / 4 * 3));
+        .or_else(default_memory_limit);
     let terminal = std::io::stderr().is_terminal();
     let running = RUNNING.get_or_init(|| Running {
         watch: Watch::new(Limits {
@@ -265,6 +265,11 @@ fn catch_signals(running: &'static Running) -> std::io::Result<()> {
             }
         })?;
     Ok(())
+}
+
+/// The memory that a run takes at most if nothing else is said.
+pub(super) fn default_memory_limit() -> Option<u64> {
+    machine_memory().map(|bytes| bytes / 4 * 3)
 }
 
 /// The memory of the machine, or of the group of processes that this one belongs to.

@@ -7,7 +7,7 @@ use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
-use super::plane::{self, Planar};
+use super::plane::{Asked, Scope};
 use super::{GOOD, NOT, atomic, certificates, running, witness};
 use crate::report;
 use crate::report::Report;
@@ -129,11 +129,6 @@ enum Solutions {
     /// Whatever it takes.
     Full,
 }
-/// What `--model focal` rests on.
-const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
-                     lengths if pixels are square, principal points are known, and its two optical \
-                     axes do not meet";
-
 impl VerifyArguments {
     /// The model that is given or implied.
     fn model(&self) -> Result<Model> {
@@ -248,7 +243,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             target: target.as_mut(),
             shapes: &mut shapes,
         };
-        Ok(if decide(work, input, start, out)? { GOOD } else { NOT })
+        Ok(if decide(work, input, start, out)? {
+            GOOD
+        } else {
+            NOT
+        })
     };
     let read = ReadOptions {
         tracks: arguments.tracks.options(),
@@ -279,7 +278,14 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     let decided = verdict::decide(&input.graph, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
-    let planar = planar(arguments, input, &verdict)?;
+    let scope = Scope::new(
+        input,
+        &verdict,
+        asked_scope(arguments),
+        &running::shown_watch(),
+    );
+    running::hide();
+    let scope = scope.with_context(|| input.name.clone())?;
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
@@ -290,7 +296,10 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         .map(|path| witness::write(path, input, &verdict, options.seed))
         .transpose()?;
     let time = start.elapsed();
-    let acted = arguments.act.act(input, &verdict, options.seed, shapes);
+    let watch = running::watch();
+    let acted = arguments
+        .act
+        .act(input, &verdict, options.seed, shapes, watch);
     running::hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
@@ -300,8 +309,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         list_components: arguments.components,
         time,
         acted: &acted,
-        conditions: &conditions(arguments, &verdict, planar.as_ref()),
-        planar: planar.as_ref(),
+        scope: &scope,
     };
     arguments.pages.write(&report)?;
     if arguments.json {
@@ -331,48 +339,18 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
             input.name
         )?;
     }
-    Ok(match &planar {
+    Ok(match scope.planar() {
         Some(planar) if arguments.planar => planar.is_determined(),
         _ => verdict.value != Value::NotFiniteSolvable,
     })
 }
 
-/// What centres in one plane determine: if it is asked for, and if the general answer, which is
-/// good, hides that it is not as good there.
-fn planar(
-    arguments: &VerifyArguments,
-    input: &NamedGraph,
-    verdict: &Verdict,
-) -> Result<Option<Planar>> {
-    let may_hide = verdict.value != Value::NotFiniteSolvable
-        && verdict.model != Model::Affine
-        && input.cameras.is_none()
-        && !plane::is_rigid_by_triangles(verdict);
-    if !arguments.planar && !may_hide {
-        return Ok(None);
+/// What is asked about the scope of the answer.
+fn asked_scope(arguments: &VerifyArguments) -> Asked {
+    Asked {
+        planar: arguments.planar,
+        focal: matches!(arguments.model, Some(ModelName::Focal)),
     }
-    let planar = Planar::new(&input.graph, verdict.model, &running::shown_watch());
-    running::hide();
-    let planar = planar.with_context(|| input.name.clone())?;
-    Ok(Some(planar).filter(|planar| arguments.planar || !planar.is_determined()))
-}
-
-/// What the answer holds for, beyond generic cameras of the model.
-fn conditions(
-    arguments: &VerifyArguments,
-    verdict: &Verdict,
-    planar: Option<&Planar>,
-) -> Vec<String> {
-    let mut conditions = Vec::new();
-    if matches!(arguments.model, Some(ModelName::Focal)) {
-        conditions.push(FOCAL.to_owned());
-    }
-    let is_good = verdict.value != Value::NotFiniteSolvable;
-    if is_good && planar.is_some_and(|planar| !planar.is_determined()) {
-        let condition = "holds for centres in general position; if all lie in one plane: not";
-        conditions.push(condition.to_owned());
-    }
-    conditions
 }
 
 /// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns

@@ -20,6 +20,7 @@ use clap::{Args, ValueEnum};
 use found::Names;
 use std::path::{Path, PathBuf};
 use viewcert::decide::{CountSolutions, Options};
+use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 use viewcert_reconstruction as reconstruction;
@@ -28,36 +29,37 @@ use viewcert_reconstruction::suggest::Wanted;
 use viewcert_reconstruction::{Known, OtherPair, Parts, Shapes, Thinning};
 
 /// Options about what to do.
-#[derive(Args)]
+#[derive(Args, Default)]
 #[command(next_help_heading = "What to do about a verdict")]
 pub(super) struct ActArguments {
     /// Find the pairs (`--weak=images`: the images) without which a component falls apart.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
-    weak: Option<Weak>,
+    pub(crate) weak: Option<Weak>,
     /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
     /// also how much has to come of it.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
-    suggest: Option<u32>,
+    pub(crate) suggest: Option<u32>,
     /// Explain an image: its components, its pairs, what it would need.
     #[arg(long, value_name = "IMAGE")]
-    explain: Option<String>,
+    pub(crate) explain: Option<String>,
     /// Decide again with at least so many inliers per pair, for each number (of a database).
     #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
-    sweep: Vec<u32>,
+    pub(crate) sweep: Vec<u32>,
     /// Leave out pairs (or tracks) at random, N times for each of several shares, and say how often
     /// the components stay whole [default: 10].
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..=10_000))]
-    margin: Option<u32>,
+    pub(crate) margin: Option<u32>,
     /// Write the components to this folder, as COLMAP takes them.
     #[arg(long, value_name = "DIR")]
-    export: Option<PathBuf>,
+    pub(crate) export: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Weak {
+/// What a component may hang on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Weak {
     /// Pairs.
     Pairs,
     /// Images.
@@ -128,19 +130,20 @@ impl ActArguments {
     /// `shapes` for the next graph of the same model.
     ///
     /// # Errors
-    /// Those of decisions and of the folder; an image that is not there.
+    /// Those of decisions and of the folder; an image that is not there; work that was stopped.
     pub(super) fn act(
         &self,
         input: &NamedGraph,
         verdict: &Verdict,
         seed: u64,
         shapes: &mut Shapes,
+        watch: Watch,
     ) -> Result<Acted> {
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Acted::whole());
         }
         let others: Vec<OtherPair> = input.matching.iter().flat_map(others).collect();
-        let task = Task::new(input, verdict, &others, seed);
+        let task = Task::new(input, verdict, &others, seed, watch);
         let (mut acted, joints) = task.joints(shapes)?;
         if let Some(what) = self.weak {
             acted.weak = Some(task.weak(what)?);
@@ -169,7 +172,7 @@ impl ActArguments {
 /// # Errors
 /// Those of a decision.
 pub(super) fn joints(input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
-    let task = Task::new(input, verdict, &[], seed);
+    let task = Task::new(input, verdict, &[], seed, running::watch());
     Ok(task.joints(&mut Shapes::default())?.0)
 }
 
@@ -198,6 +201,7 @@ impl<'a> Task<'a> {
         verdict: &'a Verdict,
         others: &'a [OtherPair],
         seed: u64,
+        watch: Watch,
     ) -> Self {
         Self {
             input,
@@ -212,7 +216,7 @@ impl<'a> Task<'a> {
                 .solutions(CountSolutions::Off)
                 .model(verdict.model)
                 .seed(seed)
-                .watch(running::watch()),
+                .watch(watch),
         }
     }
 

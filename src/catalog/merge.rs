@@ -20,7 +20,13 @@ pub(super) struct Arguments {
 
 /// Checks every shard and prints the table of the whole.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let folder = &arguments.folder;
+    let row = merged(&arguments.folder)?;
+    table::write(&mut std::io::stdout().lock(), &[row]).context("standard output")?;
+    Ok(ExitCode::from(GOOD))
+}
+
+/// Checks every shard; the whole as a row of the table.
+pub(super) fn merged(folder: &Path) -> Result<table::Row> {
     let mut shards = BTreeMap::new();
     let listing = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     for item in listing {
@@ -55,13 +61,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for (_, done) in shards.values() {
         summary.add(&done.summary);
     }
-    let row = table::Row {
+    Ok(table::Row {
         name: first.run.source.clone(),
         summary,
         seconds: None,
-    };
-    table::write(&mut std::io::stdout().lock(), &[row]).context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    })
 }
 
 /// Reads a shard, and checks that its parts are complete and add up.

@@ -6,7 +6,7 @@ mod parts;
 mod publish;
 mod source;
 
-use super::progress::Progress;
+use super::progress::{Progress, Told};
 use super::{BAD_INPUT, GOOD, running};
 use crate::report::values::Values;
 use crate::report::{counted, table};
@@ -17,13 +17,14 @@ use rayon::prelude::*;
 use source::Source;
 use std::io::Write;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Prime};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert::watch::Watch;
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::{Entry, Summary};
 use viewcert_studies::catalog::minimal::decide_minimal;
@@ -71,6 +72,124 @@ pub(super) struct Arguments {
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+}
+
+/// Candidates of one size, for front ends that have no command line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// How many nodes, 3 at least.
+    pub nodes: usize,
+    /// How many edges; by default the least that can do.
+    pub edges: Option<usize>,
+    /// Whether those with adjacent nodes of degree 2 are left out.
+    pub necessary: bool,
+    /// Whether graphs are wanted that are finite solvable and not so without any one edge.
+    pub minimal: bool,
+    /// A prime, 5 <= p < 2^62; by default 2^61 - 1.
+    pub prime: Option<u64>,
+    /// The seed of all draws.
+    pub seed: u64,
+}
+
+/// Which part of the work on a size, and where to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The folder for all shards.
+    pub folder: PathBuf,
+    /// Which shard, from 1.
+    pub shard: u64,
+    /// Of how many.
+    pub of: u64,
+    /// How many candidates a part file has.
+    pub part: u32,
+    /// Whether only the lines of finite-solvable graphs and of unproved verdicts are kept.
+    pub solvable_only: bool,
+}
+
+impl Size {
+    /// The options of the command line that ask for the same.
+    ///
+    /// # Errors
+    /// Options that exclude each other.
+    fn arguments(&self, part: Option<&Part>) -> Result<Arguments> {
+        if self.minimal && (self.edges.is_some() || self.necessary) {
+            bail!("minimal graphs have all numbers of edges: leave out edges and necessary");
+        }
+        let shard = part.map_or(Ok(Shard { index: 1, count: 1 }), |part| {
+            format!("{}/{}", part.shard, part.of).parse()
+        });
+        Ok(Arguments {
+            command: None,
+            nodes: Some(Nodes(self.nodes..=self.nodes)),
+            edges: self.edges,
+            from: None,
+            necessary: self.necessary,
+            minimal: self.minimal,
+            list: false,
+            shard: shard.map_err(anyhow::Error::msg)?,
+            out: part.map(|part| part.folder.clone()),
+            part: part.map_or(1, |part| part.part),
+            solvable_only: part.is_some_and(|part| part.solvable_only),
+            prime: self.prime.unwrap_or(DEFAULT_PRIME),
+            seed: self.seed,
+        })
+    }
+
+    /// Calls `each` for every candidate, always in the same order, until it returns false.
+    ///
+    /// # Errors
+    /// A size without candidates.
+    pub fn for_each(&self, each: &mut dyn FnMut(Graph) -> bool) -> Result<()> {
+        let source = Source::new(&self.arguments(None)?, self.nodes)?;
+        source.for_each(&mut |graph| graph.is_ok_and(&mut *each))
+    }
+
+    /// How many candidates there are, if that is known beforehand.
+    ///
+    /// # Errors
+    /// A size without candidates.
+    pub fn total(&self) -> Result<Option<u64>> {
+        Ok(Source::new(&self.arguments(None)?, self.nodes)?.total())
+    }
+
+    /// How they are decided.
+    ///
+    /// # Errors
+    /// A number that is no prime, or too large.
+    pub fn options(&self) -> Result<Options> {
+        let prime = self.prime.unwrap_or(DEFAULT_PRIME);
+        let field = PrimeField::new(prime).with_context(|| format!("prime {prime}"))?;
+        let options = Options::default().prime(Prime::Fixed(field));
+        Ok(options.seed(self.seed))
+    }
+
+    /// Writes one shard, as `--shard` with `--out` does: an earlier run of the same is completed.
+    /// `told` learns how many candidates have been decided since the last call.
+    ///
+    /// # Errors
+    /// A size without candidates, a shard that there cannot be, a folder of another run or that
+    /// cannot be written; if the work is stopped.
+    pub fn write_shard(&self, part: &Part, watch: Watch, told: Told) -> Result<()> {
+        if !(1..=1 << 20).contains(&part.part) {
+            bail!("a part file has 1 to {} candidates", 1 << 20);
+        }
+        let arguments = self.arguments(Some(part))?;
+        let source = Source::new(&arguments, self.nodes)?;
+        let options = self.options()?.watch(watch);
+        let list: Option<&mut Values<std::io::Sink>> = None;
+        mine_all(&arguments, &source, &options, list, Progress::to(told))?;
+        Ok(())
+    }
+}
+
+/// The table that `verify catalog merge` prints: all shards of a run, checked.
+///
+/// # Errors
+/// Shards that are missing, or do not belong together.
+pub fn merged(folder: &Path) -> Result<String> {
+    let mut out = Vec::new();
+    table::write(&mut out, &[merge::merged(folder)?])?;
+    Ok(String::from_utf8(out)?)
 }
 
 #[derive(Subcommand)]
@@ -140,7 +259,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for nodes in sizes {
         let start = Instant::now();
         let source = Source::new(arguments, nodes)?;
-        let (summary, bad) = mine_all(arguments, &source, &options, list.as_mut())?;
+        let progress = Progress::new(own_share(arguments.shard, &source)?);
+        let (summary, bad) = mine_all(arguments, &source, &options, list.as_mut(), progress)?;
         bad_lines += bad;
         rows.push(table::Row {
             name: source.name(),
@@ -163,6 +283,7 @@ fn mine_all(
     source: &Source,
     options: &Options,
     list: Option<&mut Values<impl Write>>,
+    progress: Progress,
 ) -> Result<(Summary, u64)> {
     let parts = match &arguments.out {
         Some(folder) => {
@@ -171,13 +292,12 @@ fn mine_all(
         }
         None => None,
     };
-    let own = own_share(arguments.shard, source)?;
     let mut miner = Miner {
         arguments,
         options,
         list,
         parts,
-        progress: Progress::new(own),
+        progress,
         batch: Vec::with_capacity(BATCH),
         summary: Summary::default(),
     };

@@ -49,6 +49,21 @@ pub(super) fn check_for(
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
+    let graph = graph_at(&certificate, path, options)?;
+    Ok(certificate
+        .check(Some(&graph))
+        .map(|verified| Proved::new(&verified)))
+}
+
+/// The graph in a file that a certificate is about; see [`check_for`].
+///
+/// # Errors
+/// If there is no such graph.
+pub(crate) fn graph_at(
+    certificate: &Certificate,
+    path: &Path,
+    options: ReadOptions,
+) -> Result<Graph> {
     // A folder may be a model.
     let bytes = if path.is_dir() {
         Vec::new()
@@ -64,13 +79,10 @@ pub(super) fn check_for(
         } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
         _ => None,
     };
-    let graph = match own {
-        Some(graph) => graph,
-        None => converted(&certificate, bytes, path, options)?,
-    };
-    Ok(certificate
-        .check(Some(&graph))
-        .map(|verified| Proved::new(&verified)))
+    match own {
+        Some(graph) => Ok(graph),
+        None => converted(certificate, bytes, path, options),
+    }
 }
 
 /// The graph that a certificate is about, or else the first one, by this program's reader.

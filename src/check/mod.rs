@@ -1,6 +1,6 @@
 //! `verify check`: the independent checker on certificates.
 
-mod checker;
+pub(crate) mod checker;
 mod folder;
 
 use self::folder::{Listing, name};

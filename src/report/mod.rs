@@ -21,7 +21,7 @@ pub mod tracks;
 pub mod values;
 
 use crate::act::Acted;
-use crate::plane::Planar;
+use crate::plane::Scope;
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
@@ -64,10 +64,8 @@ pub struct Report<'a> {
     pub time: Duration,
     /// What to do about it.
     pub(crate) acted: &'a Acted,
-    /// What the answer holds for, in words, beyond generic cameras of the model.
-    pub conditions: &'a [String],
-    /// The answer for centres in one plane, if it was looked for.
-    pub(crate) planar: Option<&'a Planar>,
+    /// What the answer holds for, beyond generic cameras of the model.
+    pub(crate) scope: &'a Scope,
 }
 
 #[cfg(test)]

@@ -29,10 +29,10 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     }
     writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(report))?;
-    for condition in report.conditions {
+    for condition in report.scope.conditions() {
         writeln!(out, "  condition   {condition}")?;
     }
-    if let Some(planar) = report.planar {
+    if let Some(planar) = report.scope.planar() {
         writeln!(out, "  in a plane  {}", planar.words())?;
     }
     writeln!(

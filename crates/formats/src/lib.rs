@@ -13,6 +13,7 @@ mod lines;
 pub mod matching;
 pub mod matlab;
 pub mod matrix_market;
+pub mod pairs;
 pub mod read;
 mod recognise;
 pub mod sparse6;

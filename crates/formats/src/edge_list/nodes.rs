@@ -8,7 +8,7 @@ use viewcert::graph::Labels;
 
 /// Replaces integers by their places among those that occur. Returns the
 /// labels and their number.
-pub(super) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
+pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
     let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
     let largest = ends.chain(singles.iter().copied()).max().unwrap_or(0);
     let given = 2 * pairs.len() + singles.len();

@@ -1,4 +1,7 @@
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
+//!
+//! [`main`] is the program. [`front`] is what another front end takes from it, so that both say the
+//! same, byte for byte.
 
 mod act;
 mod atomic;
@@ -10,6 +13,7 @@ mod check;
 mod compare;
 mod conditions;
 mod experiment;
+pub mod front;
 mod input;
 mod man;
 mod manifest;
@@ -82,7 +86,7 @@ enum Command {
 }
 
 /// Runs the program on the process's arguments.
-fn main() -> ExitCode {
+pub fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let done = running::begin(&arguments.limits).and_then(|()| match arguments.command {
         Some(Command::Overview(arguments)) => overview::run(&arguments),

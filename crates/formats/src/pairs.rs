@@ -1,0 +1,142 @@
+//! Pairs that are in memory already, from a caller's arrays and lists.
+//!
+//! In: pairs of integers, or of node numbers with labels. Out: the graph that a file with the same
+//! pairs gives, with the same numbers of nodes and the same notes.
+
+use crate::edge_list::nodes::number_integers;
+use crate::error::{Place, Problem};
+use crate::{NamedGraph, ReadError, merged};
+use viewcert::graph::{Graph, GraphError, Labels};
+
+/// Most pairs, as in files.
+const MOST: usize = i32::MAX as usize;
+
+/// The graph of pairs of integers: its nodes are those that occur, in increasing order, as in an
+/// edge list. O(pairs), unless they have to be sorted.
+///
+/// # Errors
+/// No pairs, too many of them, or one of an integer with itself.
+pub fn of_integers(name: &str, mut pairs: Vec<(u32, u32)>) -> Result<NamedGraph, ReadError> {
+    if pairs.len() > MOST {
+        return Err(refused(name, Problem::TooManyPairs));
+    }
+    let (labels, nodes) = number_integers(&mut pairs, &[]);
+    of_nodes(name, nodes as u32, labels, pairs)
+}
+
+/// The same for integers of any size. O(pairs log pairs).
+///
+/// # Errors
+/// As there, and more integers than nodes can be numbered.
+pub fn of_long_integers(name: &str, pairs: &[(u64, u64)]) -> Result<NamedGraph, ReadError> {
+    if pairs.len() > MOST {
+        return Err(refused(name, Problem::TooManyPairs));
+    }
+    let mut values: Vec<u64> = pairs.iter().flat_map(|&(a, b)| [a, b]).collect();
+    values.sort_unstable();
+    values.dedup();
+    let nodes = u32::try_from(values.len()).map_err(|_| refused(name, Problem::TooManyNodes))?;
+    let place = |value| values.partition_point(|&other| other < value) as u32;
+    let pairs = pairs.iter().map(|&(a, b)| (place(a), place(b))).collect();
+    of_nodes(name, nodes, Labels::Integers(values), pairs)
+}
+
+/// The graph of pairs of the nodes `0..nodes`, which have the given labels; pairs given more than
+/// once are merged, and that is noted. O(pairs log pairs), or O(pairs) if they are sorted.
+///
+/// # Errors
+/// No nodes, too many pairs, a node paired with itself or out of range.
+pub fn of_nodes(
+    name: &str,
+    nodes: u32,
+    labels: Labels,
+    pairs: Vec<(u32, u32)>,
+) -> Result<NamedGraph, ReadError> {
+    if nodes == 0 {
+        return Err(refused(name, Problem::NoNodes));
+    }
+    if pairs.len() > MOST {
+        return Err(refused(name, Problem::TooManyPairs));
+    }
+    let (graph, again) = Graph::from_pairs(nodes, pairs).map_err(|error| {
+        refused(
+            name,
+            match error {
+                GraphError::SelfLoop(node) => Problem::SelfLoop(labels.label(node).into_owned()),
+                GraphError::OutOfRange { .. } => Problem::Corrupt(error.to_string()),
+            },
+        )
+    })?;
+    Ok(NamedGraph {
+        name: name.to_owned(),
+        graph,
+        labels,
+        notes: merged(again).into_iter().collect(),
+        matching: None,
+        cameras: None,
+        database: None,
+        tracks: None,
+    })
+}
+
+fn refused(name: &str, problem: Problem) -> ReadError {
+    Place::Input.fault(problem).in_file(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::graphs;
+    use crate::{Format, ReadOptions};
+
+    /// The graph of the same pairs in a file.
+    fn of_file(pairs: &[(u64, u64)]) -> NamedGraph {
+        let lines = pairs.iter().map(|(a, b)| format!("{a} {b}\n"));
+        let text = std::io::Cursor::new(lines.collect::<String>());
+        let options = ReadOptions {
+            format: Some(Format::Edges),
+            ..ReadOptions::default()
+        };
+        let mut found = graphs("memory".into(), text, options);
+        found.next().expect("a graph").expect("a good one")
+    }
+
+    #[test]
+    fn pairs_in_memory_and_in_a_file_are_one_graph() {
+        let samples: [&[(u64, u64)]; 4] = [
+            &[(3, 1), (1, 2), (2, 3), (3, 1), (1, 3)],
+            &[(7, 1000), (1000, 3_000_000_000), (3_000_000_000, 7)],
+            &[(5, 9), (9, 12)],
+            &[(1, 1 << 40), (1 << 40, u64::MAX), (u64::MAX, 1)],
+        ];
+        for pairs in samples {
+            let expected = of_file(pairs);
+            assert_eq!(
+                of_long_integers("memory", pairs).unwrap().graph,
+                expected.graph
+            );
+            let small = pairs.iter().map(|&(a, b)| {
+                let [a, b] = [a, b].map(u32::try_from);
+                a.ok().zip(b.ok())
+            });
+            if let Some(small) = small.collect() {
+                assert_eq!(of_integers("memory", small).unwrap(), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_graph_is_refused_with_its_name() {
+        let message = |found: Result<NamedGraph, ReadError>| found.unwrap_err().to_string();
+        let alone = message(of_integers("mine", vec![(4, 5), (7, 7)]));
+        assert!(
+            alone.starts_with("mine: camera 7 is paired with itself; "),
+            "{alone}"
+        );
+        let none = message(of_integers("mine", Vec::new()));
+        assert!(none.starts_with("mine: the graph is empty; "), "{none}");
+        let labels = Labels::Numbers { first: 0 };
+        let outside = message(of_nodes("mine", 2, labels, vec![(0, 2)]));
+        assert!(outside.contains("node 2 is out of range"), "{outside}");
+    }
+}

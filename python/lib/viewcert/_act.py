@@ -1,0 +1,370 @@
+"""What to do about a verdict. Components are counted from 0, as in `Verdict.components`."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+from ._errors import InputError
+from ._graph import Node, Path
+from ._verdict import Verdict, verify
+
+_Pair = Tuple[Node, Node]
+
+
+@dataclass(frozen=True)
+class Weak:
+    """A pair, or a node, without which a component falls apart.
+
+    Attributes
+    ----------
+    nodes : tuple
+        The two nodes of the pair, or the node.
+    component : int
+        Its place in `Verdict.components`.
+    why : str
+        In words.
+    strength : str
+        ``'proof'`` or ``'error-bound'``.
+    """
+
+    nodes: Tuple[Node, ...]
+    component: int
+    why: str
+    strength: str
+
+
+@dataclass(frozen=True)
+class Suggestion:
+    """Pairs that would join components; that they do is proved.
+
+    Attributes
+    ----------
+    pairs : tuple of pairs
+        All of them are needed for what is said here; fewer may be enough.
+    joins : tuple of int
+        The components that become one, as places in `Verdict.components`.
+    single_pairs : int
+        How many components of a single pair become part of it as well.
+    images : int
+        How many nodes are together then.
+    gain : int
+        How many these are more than in the largest component that is joined.
+    inliers, matches : tuple of int, optional
+        Of each pair, as far as a database knows.
+    """
+
+    pairs: Tuple[_Pair, ...]
+    joins: Tuple[int, ...]
+    single_pairs: int
+    images: int
+    gain: int
+    inliers: Optional[Tuple[int, ...]]
+    matches: Optional[Tuple[int, ...]]
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A pair of an explained node in no larger component: its other end, its inliers if they are
+    known, and the components that it reaches."""
+
+    node: Node
+    inliers: Optional[int]
+    reaches: Tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Unused:
+    """A pair of an explained node that a database has and that was not used."""
+
+    node: Node
+    inliers: int
+    matches: Optional[int]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Where a node is, and what it would need.
+
+    Attributes
+    ----------
+    node
+        The node.
+    components : tuple of int
+        The components of more than a pair that hold it, as places in `Verdict.components`.
+    pairs_inside : int
+        How many of its pairs lie in these.
+    pairs_outside : tuple of Outside
+        Its other pairs.
+    unused : tuple of Unused
+        Pairs of the database that were not used.
+    suggestions : tuple of Suggestion
+        What would help to match.
+    """
+
+    node: Node
+    components: Tuple[int, ...]
+    pairs_inside: int
+    pairs_outside: Tuple[Outside, ...]
+    unused: Tuple[Unused, ...]
+    suggestions: Tuple[Suggestion, ...]
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """What a least number of inliers gives: how many pairs are used and nodes have one, the nodes
+    of the largest connected part, components of more than a pair, single pairs, nodes of the
+    largest component, and the answer."""
+
+    threshold: int
+    pairs: int
+    images: int
+    connected: int
+    components: int
+    single_pairs: int
+    largest: int
+    value: str
+
+
+@dataclass(frozen=True)
+class Margin:
+    """How a component bears that pairs (or tracks) are missing, in a random experiment.
+
+    Attributes
+    ----------
+    component : int
+        Its place in `Verdict.components`.
+    missing : tuple of int
+        Percentages left out.
+    whole : tuple of int
+        How many draws left it whole, for each of `missing`.
+    together : tuple of int
+        What percentage of its nodes stayed in one component, on average, for each of `missing`.
+    """
+
+    component: int
+    missing: Tuple[int, ...]
+    whole: Tuple[int, ...]
+    together: Tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Export:
+    """What was written: the folder, how many components have a folder in it, the nodes in several
+    of these, how many are in none, and the commands that come next, for each component."""
+
+    folder: str
+    components: int
+    shared: Tuple[Node, ...]
+    outside: int
+    commands: Tuple[Tuple[str, ...], ...]
+
+
+def _decided(verdict: Any) -> Verdict:
+    return verdict if isinstance(verdict, Verdict) else verify(verdict)
+
+
+def _asked(verdict: Verdict, what: str, **question: Any) -> Any:
+    """The member of the program's JSON that answers a question."""
+    answer: Dict[str, Any] = json.loads(verdict._native.report("json", **question))
+    return answer[what]
+
+
+def _places(components: Sequence[int]) -> Tuple[int, ...]:
+    return tuple(component - 1 for component in components)
+
+
+def _known(numbers: Optional[Sequence[int]]) -> Optional[Tuple[int, ...]]:
+    return None if numbers is None else tuple(numbers)
+
+
+def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
+    """The pairs without any one of which a component falls apart.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    of : {'pairs', 'images'}
+        Whether pairs or nodes are left out.
+
+    Returns
+    -------
+    list of Weak
+        Pairs that are components by themselves are not among them.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> verdict = viewcert.verify([(0, 1), (0, 2), (1, 2)])
+    >>> [item.nodes for item in viewcert.weak(verdict)]
+    [(0, 1), (0, 2), (1, 2)]
+    """
+    verdict = _decided(verdict)
+    by_text = verdict.graph._by_text()
+    return [
+        Weak(
+            nodes=tuple(by_text[text] for text in item["images"]),
+            component=item["component"] - 1,
+            why=item["why"],
+            strength=item["strength"],
+        )
+        for item in _asked(verdict, "weak", weak=of)["items"]
+    ]
+
+
+def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[Suggestion]:
+    return [
+        Suggestion(
+            pairs=tuple((by_text[a], by_text[b]) for a, b in one["pairs"]),
+            joins=_places(one["joins"]),
+            single_pairs=one["single_pairs"],
+            images=one["images"],
+            gain=one["gain"],
+            inliers=_known(one["inliers"]),
+            matches=_known(one["matches"]),
+        )
+        for one in found
+    ]
+
+
+def suggest(verdict: Any, most: int = 10) -> List[Suggestion]:
+    """Pairs that would join components, the best first.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    most : int
+        How many suggestions, at least 1.
+
+    Raises
+    ------
+    InputError
+        Of a camera-point graph, which has no pairs of images.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> chain = [(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)]
+    >>> viewcert.suggest(chain, 1)[0].gain
+    2
+    """
+    if most < 1:
+        raise InputError(f"most={most}: ask for one suggestion at least")
+    verdict = _decided(verdict)
+    found = _asked(verdict, "suggestions", suggest=most)
+    return _suggestions(found, verdict.graph._by_text())
+
+
+def explain(verdict: Any, node: Node) -> Explanation:
+    """Explains a node: its components, its pairs, what it would need.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    node
+        A node of the graph, as it was given; a camera of a camera-point graph.
+
+    Raises
+    ------
+    InputError
+        If there is no such node.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> found = viewcert.explain([(0, 1), (0, 2), (1, 2), (2, 3)], 3)
+    >>> found.components, found.pairs_outside[0].node
+    ((), 2)
+    """
+    verdict = _decided(verdict)
+    by_text = verdict.graph._by_text()
+    found = _asked(verdict, "explain", explain=verdict.graph._text_of(node))
+    outside = (
+        Outside(by_text[pair["image"]], pair["inliers"], _places(pair["reaches"]))
+        for pair in found["pairs_outside"]
+    )
+    unused = (
+        Unused(by_text[pair["image"]], pair["inliers"], pair["matches"])
+        for pair in found["unused"]
+    )
+    return Explanation(
+        node=by_text[found["image"]],
+        components=_places(found["components"]),
+        pairs_inside=found["pairs_inside"],
+        pairs_outside=tuple(outside),
+        unused=tuple(unused),
+        suggestions=tuple(_suggestions(found["suggestions"], by_text)),
+    )
+
+
+def sweep(verdict: Any, thresholds: Sequence[int]) -> List[Threshold]:
+    """Decides a database again with other least numbers of inliers.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Of a graph of :func:`from_database`, or that graph.
+    thresholds : sequence of int
+        The least numbers.
+
+    Raises
+    ------
+    InputError
+        If the numbers of inliers are not known.
+    """
+    rows = _asked(_decided(verdict), "sweep", sweep=list(thresholds)) if thresholds else []
+    return [Threshold(value=row.pop("verdict"), **row) for row in rows]
+
+
+def margin(verdict: Any, draws: int = 10) -> List[Margin]:
+    """Leaves out pairs (of a camera-point graph: tracks) at random, several shares of them, and
+    says how often the largest components stay whole: an experiment, not a proof.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    draws : int
+        How often, for every share: 1 to 10,000.
+    """
+    if not 1 <= draws <= 10_000:
+        raise InputError(f"draws={draws}: give a number from 1 to 10,000")
+    found = _asked(_decided(verdict), "margin", margin=draws)
+    missing = tuple(found["missing"])
+    return [
+        Margin(part["component"] - 1, missing, tuple(part["whole"]), tuple(part["together"]))
+        for part in found["components"]
+    ]
+
+
+def export(verdict: Any, folder: Path) -> Export:
+    """Writes the components to a folder, as COLMAP takes them: lists of images and pairs for each,
+    tables of components, images and joints.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    folder : str or path
+        A new folder, an empty one, or that of an earlier export, which is replaced.
+
+    Raises
+    ------
+    InputError
+        If something else is in the folder, or COLMAP's lists cannot hold a name.
+    """
+    verdict = _decided(verdict)
+    found = _asked(verdict, "export", export=os.fspath(folder))
+    by_text = verdict.graph._by_text()
+    return Export(
+        folder=found["folder"],
+        components=found["components"],
+        shared=tuple(by_text[text] for text in found["shared_images"]),
+        outside=found["outside"],
+        commands=tuple(tuple(commands) for commands in found["commands"]),
+    )

@@ -1,0 +1,232 @@
+"""The catalog of small graphs: certified entries, and shards for many machines."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import Iterator, List, Optional
+
+from . import _native
+from ._errors import InputError
+from ._graph import Path
+from ._progress import Progress, shown
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A graph of the catalog with its verdict.
+
+    Attributes
+    ----------
+    graph6 : str
+        The graph; ``networkx.from_graph6_bytes(entry.graph6.encode())`` reads it.
+    value : str
+        As `Verdict.value`.
+    strength : str
+        ``'proof'``, or ``'2^e'``: an error bound. Of minimal graphs that of the minimality.
+    rank : int
+        The generic rank.
+    rank_strength : str
+        As `strength`.
+    components : int
+        The number of maximal components.
+    components_strength : str
+        As `strength`.
+    hub : bool
+        Whether the refutation takes a hub.
+    certificate : bytes
+        For :func:`check`.
+    """
+
+    graph6: str
+    value: str
+    strength: str
+    rank: int
+    rank_strength: str
+    components: int
+    components_strength: str
+    hub: bool
+    certificate: bytes = field(repr=False)
+
+
+def catalog(
+    nodes: int,
+    *,
+    edges: Optional[int] = None,
+    necessary: bool = False,
+    minimal: bool = False,
+    prime: Optional[int] = None,
+    seed: int = 1,
+) -> Iterator[Entry]:
+    """Enumerates all candidates of a size, and decides and certifies them while they are taken.
+
+    Parameters
+    ----------
+    nodes : int
+        How many nodes, 3 at least.
+    edges : int, optional
+        How many pairs; by default the least that can do, ceil((11 nodes - 15) / 7).
+    necessary : bool
+        Whether candidates with adjacent nodes of degree 2 are left out: they are not finite
+        solvable.
+    minimal : bool
+        Whether those are wanted that are finite solvable and not so without any one pair, of any
+        number of pairs; for up to 12 nodes.
+    prime, seed
+        As of :func:`verify`.
+
+    Returns
+    -------
+    iterator of Entry
+        In the order of ``verify catalog --list``.
+
+    Raises
+    ------
+    InputError
+        A size without candidates.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> [(entry.graph6, entry.value) for entry in viewcert.catalog(5)]
+    [('DRo', 'not-finite-solvable'), ('D]o', 'not-finite-solvable')]
+    """
+    found = _native.Candidates(
+        nodes, edges=edges, necessary=necessary, minimal=minimal, prime=prime, seed=seed
+    )
+    return map(_entry, found)
+
+
+def _entry(found: tuple[list[str], bytes]) -> Entry:
+    (graph6, value, strength, rank, rank_strength, components, maximal, hub), certificate = found
+    return Entry(
+        graph6=graph6,
+        value=value,
+        strength=strength,
+        rank=int(rank),
+        rank_strength=rank_strength,
+        components=int(components),
+        components_strength=maximal,
+        hub=hub == "1",
+        certificate=certificate,
+    )
+
+
+@dataclass(frozen=True)
+class Shard:
+    """A share of the work on a size, to be done anywhere that sees the folder; it can be pickled.
+
+    See :func:`catalog_shards`.
+    """
+
+    folder: str
+    nodes: int
+    index: int
+    count: int
+    edges: Optional[int] = None
+    necessary: bool = False
+    minimal: bool = False
+    part: int = 16384
+    solvable_only: bool = False
+    prime: Optional[int] = None
+    seed: int = 1
+
+    def run(self, progress: Progress = None) -> str:
+        """Does the work, or what is left of it: parts that an earlier run has finished stay.
+
+        Returns
+        -------
+        str
+            The folder of the shard.
+
+        Raises
+        ------
+        InputError
+            A folder of another run, or a size without candidates.
+        """
+        with shown(progress) as callback:
+            _native.catalog_shard(
+                self.folder,
+                self.nodes,
+                self.index,
+                self.count,
+                edges=self.edges,
+                necessary=self.necessary,
+                minimal=self.minimal,
+                part=self.part,
+                solvable_only=self.solvable_only,
+                prime=self.prime,
+                seed=self.seed,
+                progress=callback,
+            )
+        return os.path.join(self.folder, f"shard-{self.index}-of-{self.count}")
+
+
+def catalog_shards(
+    folder: Path,
+    nodes: int,
+    count: int,
+    *,
+    edges: Optional[int] = None,
+    necessary: bool = False,
+    minimal: bool = False,
+    part: int = 16384,
+    solvable_only: bool = False,
+    prime: Optional[int] = None,
+    seed: int = 1,
+) -> List[Shard]:
+    """The shares of the work on a size, for many processes or machines with a common folder. They
+    write the files of ``verify catalog --shard I/K --out DIR``, byte for byte.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder for all shards.
+    nodes, edges, necessary, minimal, prime, seed
+        As of :func:`catalog`.
+    count : int
+        How many shares.
+    part : int
+        Candidates in a part file: what is lost at most when a process is killed.
+    solvable_only : bool
+        Whether only lines of finite-solvable graphs and of unproved verdicts are kept.
+
+    Examples
+    --------
+    >>> import tempfile, viewcert
+    >>> folder = tempfile.mkdtemp()
+    >>> for shard in viewcert.catalog_shards(folder, 7, 2):
+    ...     _ = shard.run()
+    >>> print(viewcert.catalog_merge(folder).split()[11:18])
+    ['seconds', '7', 'nodes,', '9', 'edges,', 'biconnected', '20']
+    """
+    if count < 1:
+        raise InputError(f"count={count}: there is one shard at least")
+    return [
+        Shard(
+            folder=os.fspath(folder),
+            nodes=nodes,
+            index=index,
+            count=count,
+            edges=edges,
+            necessary=necessary,
+            minimal=minimal,
+            part=part,
+            solvable_only=solvable_only,
+            prime=prime,
+            seed=seed,
+        )
+        for index in range(1, count + 1)
+    ]
+
+
+def catalog_merge(folder: Path) -> str:
+    """Checks that all shards of a run are there, and returns the table of the whole: what ``verify
+    catalog merge`` prints, and the same for any number of shards.
+
+    Raises
+    ------
+    InputError
+        Shards that are missing, unfinished, or of different runs.
+    """
+    return _native.catalog_merge(os.fspath(folder))

@@ -1,0 +1,156 @@
+# The native part. Users take what `viewcert` exports.
+
+import os
+from collections.abc import Callable
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+@final
+class Graph:
+    @property
+    def name(self) -> str: ...
+    @property
+    def nodes(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def cameras(self) -> int | None: ...
+    @property
+    def is_database(self) -> bool: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def sha256(self) -> str: ...
+    def labels(self) -> list[int] | list[str]: ...
+    def pairs(self) -> NDArray[np.uint32]: ...
+
+def graph_of_integers(pairs: NDArray[np.integer], name: str) -> Graph: ...
+def graph_of_nodes(
+    nodes: int,
+    pairs: NDArray[np.uint32],
+    name: str,
+    *,
+    names: list[str] | None = None,
+    integers: list[int] | None = None,
+) -> Graph: ...
+def read(
+    path: str | os.PathLike[str],
+    *,
+    format: str | None = None,
+    variable: str | None = None,
+    pipeline: str | None = None,
+    min_inliers: int | None = None,
+    min_views: int | None = None,
+) -> list[Graph]: ...
+@final
+class Decided:
+    @property
+    def model(self) -> str: ...
+    @property
+    def value(self) -> str: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def required(self) -> int: ...
+    @property
+    def seconds(self) -> float: ...
+    def strengths(self) -> list[tuple[str, int | None]]: ...
+    def components(self) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]: ...
+    def component_count(self) -> int: ...
+    def component_pairs(self, component: int) -> NDArray[np.uint32]: ...
+    def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes: ...
+    def report(
+        self,
+        kind: str,
+        *,
+        list_components: bool = False,
+        weak: str | None = None,
+        suggest: int | None = None,
+        explain: str | None = None,
+        sweep: list[int] = ...,
+        margin: int | None = None,
+        export: str | os.PathLike[str] | None = None,
+    ) -> bytes: ...
+    def picture(self) -> str: ...
+    @staticmethod
+    def write(path: str | os.PathLike[str], bytes: bytes) -> None: ...
+
+def decide(
+    graph: Graph,
+    *,
+    model: str,
+    seed: int,
+    bounds: tuple[int, int] | None = None,
+    prime: int | None = None,
+    contraction: bool = True,
+    counting: bool = True,
+    time_limit: float | None = None,
+    memory_limit: int | None = None,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> Decided: ...
+@final
+class Verified:
+    @property
+    def value(self) -> str: ...
+    @property
+    def strength(self) -> str: ...
+    @property
+    def error_log2(self) -> int | None: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def required(self) -> int: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def nodes(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def sha256(self) -> str: ...
+    @property
+    def model(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+
+def check(
+    certificate: bytes,
+    *,
+    graph: Graph | None = None,
+    file: str | os.PathLike[str] | None = None,
+    max_operations: int | None = None,
+) -> Verified: ...
+@final
+class Candidates:
+    def __new__(
+        cls,
+        nodes: int,
+        *,
+        edges: int | None = None,
+        necessary: bool = False,
+        minimal: bool = False,
+        prime: int | None = None,
+        seed: int = 1,
+    ) -> Candidates: ...
+    def __iter__(self) -> Candidates: ...
+    def __next__(self) -> tuple[list[str], bytes]: ...
+
+def catalog_shard(
+    folder: str | os.PathLike[str],
+    nodes: int,
+    shard: int,
+    of: int,
+    *,
+    edges: int | None = None,
+    necessary: bool = False,
+    minimal: bool = False,
+    part: int = 16384,
+    solvable_only: bool = False,
+    prime: int | None = None,
+    seed: int = 1,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> None: ...
+def catalog_merge(folder: str | os.PathLike[str]) -> str: ...

@@ -1,0 +1,390 @@
+"""Verdicts."""
+
+from __future__ import annotations
+
+import html
+import json
+import logging
+import os
+from dataclasses import dataclass
+from typing import Any, Dict, FrozenSet, List, NoReturn, Optional, Tuple
+
+from . import _native
+from ._native import Decided
+from ._errors import InputError
+from ._graph import Graph, Node, Path, as_graph
+from ._progress import Progress, shown
+
+_log = logging.getLogger("viewcert")
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Two components that touch.
+
+    Attributes
+    ----------
+    components : tuple of int
+        The two, as places in `Verdict.components`.
+    how : str
+        How they touch, in words.
+    nodes : tuple
+        The nodes where they touch.
+    pairs : tuple of pairs
+        Pairs that lead from the first to the second.
+    through : tuple of triples
+        Nodes in neither, with a pair to each: between the ends of these pairs.
+    inliers : tuple of int, optional
+        Of each pair, in a database.
+    freedom : int
+        How many degrees of freedom the joint leaves.
+    meaning : str
+        The same in words.
+    strength : str
+        ``'proof'`` or ``'error-bound'``.
+    """
+
+    components: Tuple[int, int]
+    how: str
+    nodes: Tuple[Node, ...]
+    pairs: Tuple[Tuple[Node, Node], ...]
+    through: Tuple[Tuple[Node, Node, Node], ...]
+    inliers: Optional[Tuple[int, ...]]
+    freedom: int
+    meaning: str
+    strength: str
+
+
+class Verdict:
+    """What a graph determines. It cannot be changed, and has three values, so that it is neither
+    true nor false.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> verdict = viewcert.verify([(0, 1), (0, 2), (1, 2), (2, 3)])
+    >>> verdict
+    <viewcert.Verdict not-finite-solvable (proof): rank 25 of 29, 2 components>
+    >>> verdict.components
+    [frozenset({0, 1, 2}), frozenset({2, 3})]
+    >>> verdict.pairs_of(1)
+    [(2, 3)]
+    >>> verdict.value == "solvable"
+    False
+    """
+
+    __slots__ = ("_graph", "_native", "_components", "_joints")
+
+    _graph: Graph
+    _native: Decided
+    _components: Optional[List[FrozenSet[Node]]]
+    _joints: Optional[Tuple[Joint, ...]]
+
+    def __init__(self) -> None:
+        raise TypeError("verdicts come from viewcert.verify")
+
+    @classmethod
+    def _of(cls, graph: Graph, native: Decided) -> Verdict:
+        verdict = cls.__new__(cls)
+        for name, value in (("_graph", graph), ("_native", native)):
+            object.__setattr__(verdict, name, value)
+        verdict._keep("_components", None)
+        verdict._keep("_joints", None)
+        return verdict
+
+    def _keep(self, name: str, value: object) -> None:
+        """Remembers what follows from the rest and was asked for."""
+        object.__setattr__(self, name, value)
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a verdict cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a verdict cannot be changed: {name}")
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError(
+            "a verdict has three values: compare `value` with 'solvable', 'finite-solvable' or "
+            "'not-finite-solvable'"
+        )
+
+    @property
+    def graph(self) -> Graph:
+        """The graph that was decided."""
+        return self._graph
+
+    @property
+    def model(self) -> str:
+        """The question: ``'projective'`` or another model."""
+        return self._native.model
+
+    @property
+    def value(self) -> str:
+        """The answer: ``'solvable'`` (the cameras are unique), ``'finite-solvable'`` (finitely
+        many sets of cameras) or ``'not-finite-solvable'`` (infinitely many)."""
+        return self._native.value
+
+    @property
+    def strength(self) -> str:
+        """``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``."""
+        return self._native.strengths()[0][0]
+
+    @property
+    def error_log2(self) -> Optional[int]:
+        """The exponent of the error bound; None if the answer is proved."""
+        return self._native.strengths()[0][1]
+
+    @property
+    def rank(self) -> int:
+        """The generic rank."""
+        return self._native.rank
+
+    @property
+    def required(self) -> int:
+        """The rank of a finite solvable graph with as many nodes."""
+        return self._native.required
+
+    @property
+    def rank_strength(self) -> str:
+        """How strong it is that the rank is not larger."""
+        return self._native.strengths()[1][0]
+
+    @property
+    def components_strength(self) -> str:
+        """How strong it is that the components are maximal."""
+        return self._native.strengths()[2][0]
+
+    @property
+    def components(self) -> List[FrozenSet[Node]]:
+        """The maximal parts that their pairs determine, as sets of nodes, by falling number of
+        pairs. Two share at most one node.
+
+        Of a camera-point graph: their cameras; at the end every camera that sees no point.
+        """
+        if self._components is None:
+            self._keep("_components", self._listed_components())
+        assert self._components is not None
+        return list(self._components)
+
+    def _listed_components(self) -> List[FrozenSet[Node]]:
+        nodes = self._graph.nodes
+        members, ends = self._native.components()
+        numbers = members.tolist()
+        found, start = [], 0
+        cameras = self._graph.cameras
+        seen = set(numbers) if cameras is not None else set()
+        for end in ends.tolist():
+            part = numbers[start:end]
+            if cameras is not None:
+                part = [number for number in part if number < cameras]
+            found.append(frozenset([nodes[number] for number in part]))
+            start = end
+        alone = (number for number in range(cameras or 0) if number not in seen)
+        found.extend(frozenset([nodes[number]]) for number in alone)
+        return found
+
+    def pairs_of(self, component: int) -> List[Tuple[Node, Node]]:
+        """The pairs of a component, of a camera-point graph its observations.
+
+        Parameters
+        ----------
+        component : int
+            Its place in `components`.
+
+        Raises
+        ------
+        IndexError
+            If there is no such component.
+        """
+        count = self._native.component_count()
+        if component < 0 or component >= count:
+            if count <= component < len(self.components):
+                return []
+            raise IndexError(f"no component {component}: there are {len(self.components)}")
+        nodes = self._graph.nodes
+        pairs = self._native.component_pairs(component).tolist()
+        return [(nodes[i], nodes[j]) for i, j in pairs]
+
+    @property
+    def joints(self) -> Tuple[Joint, ...]:
+        """Where components touch, and what that leaves free."""
+        if self._joints is None:
+            by_text = self._graph._by_text()
+
+            def named(texts: List[str]) -> Tuple[Any, ...]:
+                return tuple(by_text[text] for text in texts)
+
+            found = tuple(
+                Joint(
+                    components=(joint["between"][0] - 1, joint["between"][1] - 1),
+                    how=joint["how"],
+                    nodes=named(joint["images"]),
+                    pairs=tuple(named(pair) for pair in joint["pairs"]),
+                    through=tuple(named(path) for path in joint["through"]),
+                    inliers=None if joint["inliers"] is None else tuple(joint["inliers"]),
+                    freedom=joint["freedom"],
+                    meaning=joint["meaning"],
+                    strength=joint["strength"],
+                )
+                for joint in self.to_dict()["joints"]
+            )
+            self._keep("_joints", found)
+        assert self._joints is not None
+        return self._joints
+
+    def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes:
+        """The certificate, which :func:`check` and two independent programs verify.
+
+        Parameters
+        ----------
+        embed_graph : bool
+            Whether a graph of more than 100 nodes is part of it; smaller ones always are.
+        compact : bool
+            Whether it is one line.
+        """
+        return self._native.certificate(embed_graph=embed_graph, compact=compact)
+
+    def save(self, path: Path, *, embed_graph: bool = False) -> None:
+        """Writes the certificate to a file, whole or not at all.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written; the file is then as it was before.
+        """
+        self._native.write(os.fspath(path), self.certificate(embed_graph=embed_graph))
+
+    def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
+        """What ``verify --json`` prints (with `list_components`: and ``--components``). Components
+        are counted from 1 there, and nodes are texts."""
+        answer = self._native.report("json", list_components=list_components)
+        found: Dict[str, Any] = json.loads(answer)
+        return found
+
+    def report(self, *, list_components: bool = False) -> str:
+        """What ``verify`` prints for people."""
+        return self._native.report("text", list_components=list_components).decode()
+
+    def page(self) -> str:
+        """The web page of ``verify --html``, which needs no network."""
+        return self._native.report("html").decode()
+
+    def picture(self) -> str:
+        """The graph with its components in colours, as SVG."""
+        return self._native.picture()
+
+    def __repr__(self) -> str:
+        count = self._native.component_count()
+        components = "1 component" if count == 1 else f"{count} components"
+        return (
+            f"<viewcert.Verdict {self.value} ({self.strength}): rank {self.rank} of "
+            f"{self.required}, {components}>"
+        )
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self.report())}</pre>{self.picture()}"
+
+
+def verify(
+    graph: Any,
+    *,
+    model: Optional[str] = None,
+    seed: int = 1,
+    rational: bool = False,
+    numerator: int = 9,
+    denominator: int = 4,
+    prime: Optional[int] = None,
+    contraction: bool = True,
+    counting: bool = True,
+    name: Optional[str] = None,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[int] = None,
+    progress: Progress = None,
+) -> Verdict:
+    """Decides exactly whether a viewing graph determines its cameras.
+
+    Parameters
+    ----------
+    graph
+        A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
+        of scipy (nodes are its rows), an integer array of shape (m, 2) (nodes are the integers
+        that occur), an iterable of pairs of hashable nodes, or a :class:`Graph`.
+    model : {'projective', 'calibrated'}, optional
+        What is known of the cameras: nothing, or their intrinsics. The default is projective, of
+        camera-point graphs calibrated, as they can be nothing else.
+    seed : int
+        Seed of all random cameras, at least 0. It matters for no proof.
+    rational : bool
+        Compute over the integers, at cameras with small rational entries: numerators up to
+        `numerator`, denominators up to `denominator`. For small graphs.
+    prime : int, optional
+        Compute modulo this prime, 5 <= prime < 2^62; by default 2^61 - 1, and 2^29 - 3 for cores of
+        256 cameras and more.
+    contraction, counting : bool
+        Whether to contract the graph first, and to look for proofs by counting.
+    name : str, optional
+        What reports and certificates call the graph.
+    time_limit : float, optional
+        In seconds.
+    memory_limit : int, optional
+        In bytes, for the large matrices; by default three quarters of the machine's memory.
+    progress : callable or bool, optional
+        Called as ``progress(what, done, total)`` some twenty times a second; True shows a bar.
+
+    Returns
+    -------
+    Verdict
+
+    Raises
+    ------
+    InputError
+        A graph or an option that cannot be used.
+    TooLarge
+        If the method or the limits do not allow to decide.
+    Undecided
+        If a small `prime` leaves the question open, or no cameras can be drawn.
+
+    Notes
+    -----
+    The interpreter's lock is released, and Ctrl-C stops the work. Pairs that occur several times
+    are merged; that and whatever else is guessed is a warning of ``logging.getLogger("viewcert")``
+    and stands in ``to_dict()["notes"]``.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> viewcert.verify([("a", "b"), ("b", "c"), ("c", "a")]).value
+    'solvable'
+    """
+    given = as_graph(graph, name)
+    points = given.cameras is not None
+    if points and model == "projective":
+        raise InputError(
+            "observations are directions of known rotations, which only the calibrated model has; "
+            "leave out model='projective'"
+        )
+    chosen = model or ("calibrated" if points else "projective")
+    if rational and chosen != "projective":
+        raise InputError(
+            f"rational=True: the {chosen} model is decided modulo primes only; leave it out"
+        )
+    if not 0 <= seed < 2**64:
+        raise InputError(f"seed={seed}: a seed is at least 0 and below 2^64")
+    if rational and not (1 <= numerator <= 100 and 1 <= denominator <= 12):
+        raise InputError("numerators are bounded by 1 to 100, and denominators by 1 to 12")
+    with shown(progress) as callback:
+        native = _native.decide(
+            given._native,
+            model=chosen,
+            seed=seed,
+            bounds=(numerator, denominator) if rational else None,
+            prime=prime,
+            contraction=contraction,
+            counting=counting,
+            time_limit=time_limit,
+            memory_limit=memory_limit,
+            progress=callback,
+        )
+    verdict = Verdict._of(given, native)
+    _log.debug("%s: %r in %.3f s", given.name, verdict, native.seconds)
+    return verdict

@@ -1,0 +1,251 @@
+//! The catalog: certified entries one by one, and shards.
+
+use crate::errors::{of_any, of_deciding};
+use crate::work;
+use crate::work::Told;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use rayon::prelude::*;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+use viewcert::watch::{Limits, Watch};
+use viewcert::{Graph, Options, VerdictError, decide};
+use viewcert_cli::front::{Part, Size, merged};
+use viewcert_studies::catalog::mine::Entry;
+use viewcert_studies::catalog::minimal::decide_minimal;
+
+/// Candidates that are decided together.
+const BATCH: usize = 256;
+
+/// Batches that are decided ahead of whoever takes the entries.
+const AHEAD: usize = 2;
+
+/// An entry with its certificate.
+type Certified = (Entry, Vec<u8>);
+
+enum Problem {
+    Verdict(VerdictError),
+    Other(anyhow::Error),
+}
+
+type Batch = Result<Vec<Certified>, Problem>;
+
+/// The entries of a size, decided while they are taken.
+#[pyclass(frozen, module = "viewcert._native")]
+pub(crate) struct Candidates {
+    watch: Watch,
+    entries: Mutex<Entries>,
+}
+
+struct Entries {
+    batches: Receiver<Batch>,
+    waiting: std::vec::IntoIter<Certified>,
+}
+
+#[pymethods]
+impl Candidates {
+    /// Begins the work.
+    #[new]
+    #[pyo3(signature = (nodes, *, edges=None, necessary=false, minimal=false, prime=None, seed=1))]
+    fn new(
+        nodes: usize,
+        edges: Option<usize>,
+        necessary: bool,
+        minimal: bool,
+        prime: Option<u64>,
+        seed: u64,
+    ) -> PyResult<Self> {
+        let size = Size {
+            nodes,
+            edges,
+            necessary,
+            minimal,
+            prime,
+            seed,
+        };
+        let watch = Watch::new(Limits::default());
+        let options = size.options().map_err(|error| of_any(&error))?;
+        let options = options.watch(watch.clone());
+        // What cannot be asked for is refused now and not by the first entry.
+        size.total().map_err(|error| of_any(&error))?;
+        let threads = work::threads()?;
+        let (sender, batches) = sync_channel(AHEAD);
+        std::thread::Builder::new().spawn(move || {
+            let decide = |graphs: &[Graph]| threads.install(|| entries(graphs, minimal, &options));
+            enumerate(&size, &sender, &decide);
+        })?;
+        Ok(Self {
+            watch,
+            entries: Mutex::new(Entries {
+                batches,
+                waiting: Vec::new().into_iter(),
+            }),
+        })
+    }
+
+    fn __iter__(this: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        this
+    }
+
+    /// The next entry: its row of the catalog's table, and its certificate.
+    fn __next__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<Option<([String; 8], Bound<'py, PyBytes>)>> {
+        loop {
+            match py.detach(|| self.next()) {
+                Next::Entry(entry, certificate) => {
+                    return Ok(Some((entry.cells(), PyBytes::new(py, &certificate))));
+                }
+                Next::End => return Ok(None),
+                Next::NotYet => py.check_signals()?,
+                Next::Failed(Problem::Verdict(error)) => return Err(of_deciding(&error)),
+                Next::Failed(Problem::Other(error)) => return Err(of_any(&error)),
+            }
+        }
+    }
+}
+
+/// What is there to be taken.
+enum Next {
+    Entry(Entry, Vec<u8>),
+    NotYet,
+    End,
+    Failed(Problem),
+}
+
+impl Candidates {
+    /// The next entry, if it is there within a moment.
+    fn next(&self) -> Next {
+        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((entry, certificate)) = entries.waiting.next() {
+            return Next::Entry(entry, certificate);
+        }
+        match entries.batches.recv_timeout(Duration::from_millis(50)) {
+            Ok(Ok(batch)) => {
+                entries.waiting = batch.into_iter();
+                Next::NotYet
+            }
+            Ok(Err(problem)) => Next::Failed(problem),
+            Err(RecvTimeoutError::Timeout) => Next::NotYet,
+            Err(RecvTimeoutError::Disconnected) => Next::End,
+        }
+    }
+}
+
+impl Drop for Candidates {
+    /// Nobody takes entries any more.
+    fn drop(&mut self) {
+        self.watch.interrupt();
+    }
+}
+
+/// Sends the entries of all candidates, batch by batch, until nobody takes them.
+fn enumerate(size: &Size, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) -> Batch) {
+    let mut waiting = Vec::with_capacity(BATCH);
+    let mut open = true;
+    let done = size.for_each(&mut |graph| {
+        waiting.push(graph);
+        if waiting.len() == BATCH {
+            open = sender.send(decide(&waiting)).is_ok();
+            waiting.clear();
+        }
+        open
+    });
+    if open {
+        let last = match done {
+            Ok(()) => decide(&waiting),
+            Err(error) => Err(Problem::Other(error)),
+        };
+        // Whoever has gone does not miss it.
+        let _ = sender.send(last);
+    }
+}
+
+/// The entries of some candidates, with certificates; if `minimal`, of those that are minimal.
+fn entries(graphs: &[Graph], minimal: bool, options: &Options) -> Batch {
+    let entry = |graph: &Graph| -> Result<Option<Certified>, VerdictError> {
+        let (verdict, strength) = if minimal {
+            match decide_minimal(graph, options)? {
+                None => return Ok(None),
+                Some((verdict, strength)) => (verdict, Some(strength)),
+            }
+        } else {
+            (decide(graph, options)?, None)
+        };
+        let mut entry = Entry::new(graph, &verdict);
+        // The claim is the minimality.
+        entry.strength = strength.unwrap_or(entry.strength);
+        let certificate = verdict.certificate(graph).named(&entry.graph6).compact();
+        let certificate = certificate.to_string().into_bytes();
+        Ok(Some((entry, certificate)))
+    };
+    let found: Result<Vec<Option<Certified>>, VerdictError> =
+        graphs.par_iter().map(entry).collect();
+    match found {
+        Ok(found) => Ok(found.into_iter().flatten().collect()),
+        Err(error) => Err(Problem::Verdict(error)),
+    }
+}
+
+/// Writes one shard of the catalog, or completes it.
+#[pyfunction]
+#[pyo3(signature = (
+    folder, nodes, shard, of, *, edges=None, necessary=false, minimal=false, part=16384,
+    solvable_only=false, prime=None, seed=1, progress=None
+))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+pub(crate) fn catalog_shard(
+    py: Python<'_>,
+    folder: PathBuf,
+    nodes: usize,
+    shard: u64,
+    of: u64,
+    edges: Option<usize>,
+    necessary: bool,
+    minimal: bool,
+    part: u32,
+    solvable_only: bool,
+    prime: Option<u64>,
+    seed: u64,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<()> {
+    let size = Size {
+        nodes,
+        edges,
+        necessary,
+        minimal,
+        prime,
+        seed,
+    };
+    let part = Part {
+        folder,
+        shard,
+        of,
+        part,
+        solvable_only,
+    };
+    let watch = Watch::new(Limits::default());
+    let (told, stop, threads) = (Arc::new(Told::default()), watch.clone(), work::threads()?);
+    let teller = told.clone();
+    let what = format!("shard {shard}/{of}");
+    let done = work::run(
+        py,
+        &watch,
+        progress.as_ref().map(|callback| (callback, &*told)),
+        move || {
+            let tell = Box::new(move |more| teller.counted(&what, more));
+            threads.install(|| size.write_shard(&part, stop, tell))
+        },
+    )?;
+    done.map_err(|error| of_any(&error))
+}
+
+/// The table of all shards in a folder.
+#[pyfunction]
+pub(crate) fn catalog_merge(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
+    let merged = py.detach(|| merged(&folder));
+    merged.map_err(|error| of_any(&error))
+}

@@ -1,0 +1,122 @@
+//! The independent checker.
+
+use crate::errors::{InputError, of_any, of_checking};
+use crate::graph::Graph;
+use crate::work;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+use viewcert::watch::Watch;
+use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
+use viewcert_cli::front;
+use viewcert_formats::{NamedGraph, ReadOptions};
+
+/// What a certificate proves.
+#[pyclass(frozen, get_all, module = "viewcert._native")]
+pub(crate) struct Verified {
+    /// The answer.
+    value: String,
+    /// `proof` or `error-bound`.
+    strength: &'static str,
+    /// The exponent of the error bound.
+    error_log2: Option<i64>,
+    /// The generic rank.
+    rank: i64,
+    /// The rank of a finite solvable graph with as many nodes.
+    required: i64,
+    /// The number of maximal components.
+    components: usize,
+    /// Nodes of the graph.
+    nodes: usize,
+    /// Its pairs.
+    edges: usize,
+    /// Its hash.
+    sha256: String,
+    /// The question.
+    model: String,
+    /// All of it in words.
+    text: String,
+}
+
+impl From<viewcert_check::Verified> for Verified {
+    fn from(verified: viewcert_check::Verified) -> Self {
+        let (value, strength) = verified.verdict;
+        let (strength, error_log2) = match strength {
+            Strength::Proof => ("proof", None),
+            Strength::ErrorBound(exponent) => ("error-bound", Some(exponent)),
+        };
+        Self {
+            value: value.to_string(),
+            strength,
+            error_log2,
+            rank: verified.rank.0,
+            required: verified.required,
+            components: verified.components.0,
+            nodes: verified.nodes,
+            edges: verified.edges,
+            model: verified.model.to_string(),
+            text: verified.to_string(),
+            sha256: verified.sha256,
+        }
+    }
+}
+
+/// Where the graph comes from that a certificate is checked for.
+enum Given {
+    /// From the certificate.
+    Held,
+    /// From memory.
+    Graph(Arc<NamedGraph>),
+    /// From a file.
+    File(PathBuf),
+}
+
+/// Why a certificate was not verified.
+enum Problem {
+    Failure(Failure),
+    Graph(Unreadable),
+    File(anyhow::Error),
+}
+
+/// Verifies a certificate.
+#[pyfunction]
+#[pyo3(signature = (certificate, *, graph=None, file=None, max_operations=None))]
+pub(crate) fn check(
+    py: Python<'_>,
+    certificate: Vec<u8>,
+    graph: Option<&Graph>,
+    file: Option<PathBuf>,
+    max_operations: Option<u64>,
+) -> PyResult<Verified> {
+    let given = match (graph, file) {
+        (Some(graph), _) => Given::Graph(Arc::clone(&graph.0)),
+        (None, Some(file)) => Given::File(file),
+        (None, None) => Given::Held,
+    };
+    let mut limits = Limits::default();
+    limits.operations = max_operations.unwrap_or(limits.operations);
+    let threads = work::threads()?;
+    let checked = work::run(py, &Watch::default(), None, move || {
+        let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
+        let graph = match given {
+            Given::Held => None,
+            Given::Graph(input) => {
+                let edges = input.graph.edges().iter().copied();
+                let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
+                Some(graph.map_err(Problem::Graph)?)
+            }
+            Given::File(path) => {
+                let graph = front::graph_to_check(&certificate, &path, ReadOptions::default());
+                Some(graph.map_err(Problem::File)?)
+            }
+        };
+        let checked = threads.install(|| certificate.check_within(graph.as_ref(), &limits));
+        checked.map_err(Problem::Failure)
+    })?;
+    match checked {
+        Ok(verified) => Ok(verified.into()),
+        Err(Problem::Failure(failure)) => Err(of_checking(failure)),
+        Err(Problem::Graph(error)) => Err(InputError::new_err(error.to_string())),
+        Err(Problem::File(error)) => Err(of_any(&error)),
+    }
+}

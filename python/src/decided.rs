@@ -1,0 +1,277 @@
+//! Verdicts.
+
+use crate::errors::{InputError, of_any, of_deciding};
+use crate::graph::{Graph, pair_array};
+use crate::work;
+use crate::work::Told;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use viewcert::linalg::prime::PrimeField;
+use viewcert::watch::Watch;
+use viewcert::{Arithmetic, Model, Options, Prime, Verdict};
+use viewcert_cli::front;
+use viewcert_cli::front::{Answer, Questions, Weak};
+use viewcert_formats::NamedGraph;
+
+/// A graph and what was decided about it.
+#[pyclass(frozen, module = "viewcert._native")]
+pub(crate) struct Decided {
+    input: Arc<NamedGraph>,
+    verdict: Arc<Verdict>,
+    rational: bool,
+    seed: u64,
+    time: Duration,
+}
+
+/// Decides a graph.
+#[pyfunction]
+#[pyo3(signature = (
+    graph, *, model, seed, bounds=None, prime=None, contraction=true, counting=true,
+    time_limit=None, memory_limit=None, progress=None
+))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+pub(crate) fn decide(
+    py: Python<'_>,
+    graph: &Graph,
+    model: &str,
+    seed: u64,
+    bounds: Option<(u64, u64)>,
+    prime: Option<u64>,
+    contraction: bool,
+    counting: bool,
+    time_limit: Option<f64>,
+    memory_limit: Option<u64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Decided> {
+    let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
+    let model: Model = model.parse().map_err(|error| wrong(&error))?;
+    let prime = match prime {
+        None => Prime::Auto,
+        Some(prime) => {
+            let field = PrimeField::new(prime);
+            Prime::Fixed(field.map_err(|error| wrong(&format!("prime={prime}: {error}")))?)
+        }
+    };
+    let arithmetic = match bounds {
+        None => Arithmetic::Prime,
+        Some((numerator, denominator)) => Arithmetic::Rational {
+            numerator,
+            denominator,
+        },
+    };
+    let watch = work::watch(time_limit, memory_limit)?;
+    let told = Arc::new(Told::default());
+    let watched = match &progress {
+        Some(_) => watch.observed(told.clone()),
+        None => watch.clone(),
+    };
+    let options = Options::default()
+        .model(model)
+        .arithmetic(arithmetic)
+        .prime(prime)
+        .contraction(contraction)
+        .counting(counting)
+        .seed(seed)
+        .watch(watched);
+    let (input, threads) = (Arc::clone(&graph.0), work::threads()?);
+    let start = Instant::now();
+    let decided = work::run(
+        py,
+        &watch,
+        progress.as_ref().map(|callback| (callback, &*told)),
+        move || threads.install(|| viewcert::decide(&input.graph, &options)),
+    )?;
+    let verdict = decided.map_err(|error| of_deciding(&error))?;
+    Ok(Decided {
+        input: Arc::clone(&graph.0),
+        verdict: Arc::new(verdict),
+        rational: bounds.is_some(),
+        seed,
+        time: start.elapsed(),
+    })
+}
+
+#[pymethods]
+impl Decided {
+    /// The question.
+    #[getter]
+    fn model(&self) -> &'static str {
+        self.verdict.model.name()
+    }
+
+    /// The answer.
+    #[getter]
+    fn value(&self) -> &'static str {
+        self.verdict.value.name()
+    }
+
+    /// The rank that was found.
+    #[getter]
+    fn rank(&self) -> usize {
+        self.verdict.rank
+    }
+
+    /// The rank of a finite solvable graph with as many nodes.
+    #[getter]
+    fn required(&self) -> usize {
+        self.verdict.required
+    }
+
+    /// How strong the answer, the rank and the components are: words, and exponents of error
+    /// bounds.
+    fn strengths(&self) -> [(&'static str, Option<i64>); 3] {
+        let verdict = &self.verdict;
+        [
+            verdict.value_claim().strength,
+            verdict.rank_claim().strength,
+            verdict.components_claim().strength,
+        ]
+        .map(|strength| (strength.name(), strength.error_log2()))
+    }
+
+    /// How long it took, in seconds.
+    #[getter]
+    fn seconds(&self) -> f64 {
+        self.time.as_secs_f64()
+    }
+
+    /// The nodes of all components, one after another, and where each component ends.
+    fn components<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> (Bound<'py, PyArray1<u32>>, Bound<'py, PyArray1<u64>>) {
+        let (nodes, ends) = py.detach(|| {
+            let (mut nodes, mut ends) = (Vec::new(), Vec::new());
+            for component in &self.verdict.components {
+                nodes.extend(component.nodes());
+                ends.push(nodes.len() as u64);
+            }
+            (nodes, ends)
+        });
+        (nodes.into_pyarray(py), ends.into_pyarray(py))
+    }
+
+    /// How many components there are.
+    fn component_count(&self) -> usize {
+        self.verdict.components.len()
+    }
+
+    /// The pairs of a component, an array of shape (k, 2).
+    fn component_pairs<'py>(
+        &self,
+        py: Python<'py>,
+        component: usize,
+    ) -> PyResult<Bound<'py, PyArray2<u32>>> {
+        let edges = py.detach(|| {
+            let component = self.verdict.components.get(component);
+            component.map(|component| component.edges(&self.input.graph))
+        });
+        match edges {
+            Some(edges) => pair_array(py, &edges),
+            None => Err(pyo3::exceptions::PyIndexError::new_err("no such component")),
+        }
+    }
+
+    /// The certificate.
+    #[pyo3(signature = (*, embed_graph=false, compact=false))]
+    fn certificate<'py>(
+        &self,
+        py: Python<'py>,
+        embed_graph: bool,
+        compact: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let written = py.detach(|| -> std::io::Result<Vec<u8>> {
+            let certificate = front::certificate(&self.input, &self.verdict);
+            let mut certificate = certificate.embed_graph(embed_graph);
+            if compact {
+                certificate = certificate.compact();
+            }
+            let mut bytes = Vec::new();
+            certificate.write_to(&mut bytes)?;
+            Ok(bytes)
+        });
+        Ok(PyBytes::new(py, &written?))
+    }
+
+    /// What the program says: `kind` is `json`, `text` or `html`.
+    #[pyo3(signature = (
+        kind, *, list_components=false, weak=None, suggest=None, explain=None, sweep=vec![],
+        margin=None, export=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn report<'py>(
+        &self,
+        py: Python<'py>,
+        kind: &str,
+        list_components: bool,
+        weak: Option<&str>,
+        suggest: Option<u32>,
+        explain: Option<String>,
+        sweep: Vec<u32>,
+        margin: Option<u32>,
+        export: Option<PathBuf>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let weak = match weak {
+            None => None,
+            Some("pairs") => Some(Weak::Pairs),
+            Some("images") => Some(Weak::Images),
+            Some(other) => {
+                return Err(InputError::new_err(format!(
+                    "{other:?}: a component hangs on pairs or on images"
+                )));
+            }
+        };
+        let questions = Questions {
+            weak,
+            suggest,
+            explain,
+            sweep,
+            margin,
+            export,
+            planar: false,
+        };
+        let watch = work::watch(None, None)?;
+        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
+        let (seed, rational, time) = (self.seed, self.rational, self.time);
+        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
+        let answer = move || {
+            let found = questions.ask(&input, &verdict, seed, stop)?;
+            let answer = Answer {
+                input: &input,
+                verdict: &verdict,
+                found: &found,
+                rational,
+                list_components,
+                time,
+            };
+            match &kind[..] {
+                "json" => answer.json(),
+                "text" => answer.text().map(String::into_bytes),
+                _ => answer.page(),
+            }
+        };
+        let answered = work::run(py, &watch, None, move || threads.install(answer))?;
+        match answered {
+            Ok(bytes) => Ok(PyBytes::new(py, &bytes)),
+            Err(error) => Err(of_any(&error)),
+        }
+    }
+
+    /// The graph with its components in colours, as SVG.
+    fn picture(&self, py: Python<'_>) -> PyResult<String> {
+        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
+        let watch = Watch::default();
+        work::run(py, &watch, None, move || front::picture(&input, &verdict))
+    }
+
+    /// Writes a file whole or not at all.
+    #[staticmethod]
+    fn write(path: PathBuf, bytes: &[u8]) -> PyResult<()> {
+        front::save(&path, bytes)
+            .map_err(|error| pyo3::exceptions::PyOSError::new_err(format!("{error:#}")))
+    }
+}

@@ -1,0 +1,35 @@
+//! `viewcert._native`: the libraries as Python sees them.
+//!
+//! In: arrays of pairs, paths, options. Out: graphs, verdicts and certificates as handles, numbers,
+//! bytes and arrays. Nothing is decided or formatted here, but by the libraries and by what the
+//! program shares ([`viewcert_cli::front`]); what a user sees is `lib/viewcert`, in Python. Work is
+//! done without the interpreter's lock, and can be interrupted ([`work`]).
+
+mod catalog;
+mod check;
+mod decided;
+mod errors;
+mod graph;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The module.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::catalog::{Candidates, catalog_merge, catalog_shard};
+    #[pymodule_export]
+    use super::check::{Verified, check};
+    #[pymodule_export]
+    use super::decided::{Decided, decide};
+    #[pymodule_export]
+    use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+
+    use super::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

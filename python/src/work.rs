@@ -1,0 +1,204 @@
+//! Work without the interpreter's lock, which Ctrl-C stops and which tells how far it is.
+//!
+//! Work is done on a thread of its own while the caller's looks, every few hundredths of a second,
+//! for signals, and tells the callback what has happened. Work under the watch ends where it asks
+//! whether it may go on. What does not ask (reading, checking) is left to itself after a moment: it
+//! holds nothing of Python.
+
+use crate::errors::TooLarge;
+use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::collections::VecDeque;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use viewcert::watch::{Limits, Observer, Stage, Watch};
+use viewcert_cli::front;
+
+/// Time between two looks for signals.
+const TICK: Duration = Duration::from_millis(50);
+
+/// How long stopped work may take to end by itself.
+const GRACE: Duration = Duration::from_millis(500);
+
+/// Most stages that are remembered until the callback is told.
+const REMEMBERED: usize = 1000;
+
+/// A watch within limits. `memory` is in bytes; by default it is the program's.
+pub(crate) fn watch(seconds: Option<f64>, memory: Option<u64>) -> PyResult<Watch> {
+    let time = seconds.map(Duration::try_from_secs_f64).transpose();
+    let time = time.map_err(|error| crate::errors::InputError::new_err(error.to_string()))?;
+    Ok(Watch::new(Limits {
+        deadline: time.and_then(|time| Instant::now().checked_add(time)),
+        memory: memory.or_else(front::default_memory_limit),
+    }))
+}
+
+/// Does `work` under the watch. `progress`, if there is one, is called on this thread with what is
+/// being done, how many units of it are done, and how many there are (0 if that is not known).
+///
+/// # Errors
+/// KeyboardInterrupt and what else a signal or the callback raises; a panic of `work` as
+/// RuntimeError.
+pub(crate) fn run<T: Send + 'static>(
+    py: Python<'_>,
+    watch: &Watch,
+    progress: Option<(&Py<PyAny>, &Told)>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let (sender, receiver) = channel();
+    let spawned = std::thread::Builder::new().spawn(move || {
+        // Nobody waits any more for work that was left to itself.
+        let _ = sender.send(work());
+    });
+    spawned.map_err(|error| PyOSError::new_err(error.to_string()))?;
+    let receiver = Mutex::new(receiver);
+    let wait = |time| py.detach(|| unpoisoned(&receiver).recv_timeout(time));
+    let look = || {
+        py.check_signals()?;
+        match progress {
+            Some((callback, told)) => told.tell(py, callback),
+            None => Ok(()),
+        }
+    };
+    loop {
+        match wait(TICK) {
+            Ok(done) => {
+                look()?;
+                return Ok(done);
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err(
+                    "internal error: the message is on standard error",
+                ));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(error) = look() {
+                    watch.interrupt();
+                    // Whatever it ends with, the first error is the one to raise.
+                    let _ = wait(GRACE);
+                    return Err(error);
+                }
+            }
+        }
+    }
+}
+
+/// The threads that `work` computes with, of this process: a process that was forked has none of
+/// those of its parent.
+///
+/// # Errors
+/// If threads cannot be had.
+pub(crate) fn threads() -> PyResult<Arc<ThreadPool>> {
+    static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+    let process = std::process::id();
+    let mut pool = unpoisoned(&POOL);
+    if let Some((owner, pool)) = &*pool
+        && *owner == process
+    {
+        return Ok(Arc::clone(pool));
+    }
+    let new = ThreadPoolBuilder::new().build();
+    let new = Arc::new(new.map_err(|error| TooLarge::new_err(error.to_string()))?);
+    if let Some(of_the_parent) = pool.replace((process, Arc::clone(&new))) {
+        // Its threads are not here to be waited for.
+        std::mem::forget(of_the_parent);
+    }
+    Ok(new)
+}
+
+fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What work tells, until a callback has been told.
+#[derive(Debug, Default)]
+pub(crate) struct Told(Mutex<State>);
+
+#[derive(Debug, Default)]
+struct State {
+    /// What began or ended, in that order.
+    news: VecDeque<News>,
+    /// What goes on, in the order in which it began.
+    works: Vec<(u64, News)>,
+}
+
+/// A step of work: what it is, how much of it is done, and of how much.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct News {
+    what: String,
+    done: u64,
+    total: u64,
+}
+
+impl State {
+    fn remember(&mut self, news: News) {
+        if self.news.len() < REMEMBERED {
+            self.news.push_back(news);
+        }
+    }
+}
+
+impl Told {
+    /// Tells the callback what is new, and how far the work is that began last.
+    fn tell(&self, py: Python<'_>, callback: &Py<PyAny>) -> PyResult<()> {
+        let news: Vec<News> = {
+            let mut state = unpoisoned(&self.0);
+            let going_on = state.works.last().map(|(_, news)| news.clone());
+            let mut news: Vec<News> = state.news.drain(..).collect();
+            news.extend(going_on.filter(|news| news.done > 0));
+            news
+        };
+        for News { what, done, total } in news {
+            callback.call1(py, (what, done, total))?;
+        }
+        Ok(())
+    }
+
+    /// Work of which so many units are done, told by whoever counts them.
+    pub(crate) fn counted(&self, what: &str, more: u64) {
+        let mut state = unpoisoned(&self.0);
+        if state.works.is_empty() {
+            let news = News {
+                what: what.to_owned(),
+                done: 0,
+                total: 0,
+            };
+            state.works.push((0, news));
+        }
+        if let Some((_, news)) = state.works.last_mut() {
+            news.done += more;
+        }
+    }
+}
+
+impl Observer for Told {
+    fn begin(&self, work: u64, stage: Stage, total: u64, _: Option<u64>) {
+        let news = News {
+            what: stage.to_string(),
+            done: 0,
+            total,
+        };
+        let mut state = unpoisoned(&self.0);
+        state.remember(news.clone());
+        state.works.push((work, news));
+    }
+
+    fn done(&self, work: u64, units: u64) {
+        let mut state = unpoisoned(&self.0);
+        if let Some((_, news)) = state.works.iter_mut().rfind(|(number, _)| *number == work) {
+            news.done += units;
+        }
+    }
+
+    fn end(&self, work: u64) {
+        let mut state = unpoisoned(&self.0);
+        if let Some(at) = state.works.iter().rposition(|(number, _)| *number == work) {
+            let (_, news) = state.works.remove(at);
+            if news.total > 0 {
+                state.remember(news);
+            }
+        }
+    }
+}

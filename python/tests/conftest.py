@@ -1,0 +1,60 @@
+"""What the tests share: the program, and the data of others."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import subprocess
+from typing import Any, NoReturn
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def absent(what: str) -> NoReturn:
+    """Says that a test cannot run here: a failure where everything has to be there."""
+    if os.environ.get("VIEWCERT_REQUIRE_DATA") == "1":
+        pytest.fail(f"VIEWCERT_REQUIRE_DATA is set, but {what}")
+    pytest.skip(what)
+
+
+@pytest.fixture(scope="session")
+def data() -> pathlib.Path:
+    """The folder with the published graphs, which is not part of the repository."""
+    path = pathlib.Path(os.environ.get("VIEWCERT_DATA", ROOT / "../shared/data"))
+    if not path.is_dir():
+        absent(f"the published data are not at {path}")
+    return path.resolve()
+
+
+class Program:
+    """`verify`, built from the same sources."""
+
+    def __init__(self, path: pathlib.Path) -> None:
+        self.path = path
+
+    def run(self, *arguments: Any, **options: Any) -> subprocess.CompletedProcess[str]:
+        words = [str(self.path), *map(str, arguments)]
+        return subprocess.run(words, capture_output=True, text=True, **options)
+
+    def json(self, *arguments: Any, **options: Any) -> list[Any]:
+        done = self.run(*arguments, "--json", **options)
+        assert done.returncode in (0, 1), done.stderr
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+@pytest.fixture(scope="session")
+def program() -> Program:
+    """The program: VIEWCERT_PROGRAM, or as cargo builds it."""
+    path = pathlib.Path(os.environ.get("VIEWCERT_PROGRAM", ROOT / "target/debug/verify"))
+    if not path.is_file():
+        absent(f"the program is not at {path}: cargo build --bin verify")
+    return Program(path.resolve())
+
+
+def untimed(answer: dict[str, Any]) -> dict[str, Any]:
+    """An answer without the time that it took."""
+    assert answer.pop("seconds") >= 0
+    return answer

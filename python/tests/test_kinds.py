@@ -1,0 +1,166 @@
+"""Graphs of many kinds: the same verdict, and nodes as they went in."""
+
+from __future__ import annotations
+
+import dataclasses
+from fractions import Fraction
+from typing import Any
+
+import networkx as nx
+import numpy as np
+import pytest
+import rustworkx as rx
+import scipy.sparse
+import viewcert
+
+#: A triangle with a pendant pair: two components.
+PAIRS = [(0, 1), (0, 2), (1, 2), (2, 3)]
+
+
+def kinds() -> dict[str, Any]:
+    graph = nx.Graph(PAIRS)
+    rust = rx.PyGraph()
+    rust.add_nodes_from("abcd")
+    rust.add_edges_from_no_data(PAIRS)
+    array = np.array(PAIRS)
+    matrix = nx.to_scipy_sparse_array(graph, nodelist=range(4))
+    return {
+        "networkx": graph,
+        "networkx, directed": nx.DiGraph(PAIRS),
+        "networkx, several edges": nx.MultiGraph(PAIRS),
+        "rustworkx": rust,
+        "array": array,
+        "array in Fortran's order": np.asfortranarray(array),
+        "array, every second row": np.repeat(array, 2, axis=0)[::2],
+        "list": PAIRS,
+        "iterator": iter(PAIRS),
+        "set": set(PAIRS),
+        "lists": [list(pair) for pair in PAIRS],
+        "rows of an array": list(array),
+        "csr": matrix,
+        "coo": matrix.tocoo(),
+        "csr_matrix": scipy.sparse.csr_matrix(matrix),
+        "Graph": viewcert.Graph(PAIRS),
+    } | {f"array of {kind}": array.astype(kind) for kind in ["i1", "u2", "i4", "u4", "u8", ">i8"]}
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_every_kind_gives_the_same_certificate(kind: str) -> None:
+    expected = viewcert.verify(np.array(PAIRS))
+    assert (expected.value, expected.rank, expected.required) == ("not-finite-solvable", 25, 29)
+    verdict = viewcert.verify(kinds()[kind])
+    assert verdict.certificate() == expected.certificate()
+    assert verdict.components == [{0, 1, 2}, {2, 3}]
+    assert sorted(verdict.pairs_of(0)) == [(0, 1), (0, 2), (1, 2)]
+    assert verdict.pairs_of(1) == [(2, 3)]
+
+
+@dataclasses.dataclass(frozen=True)
+class Photo:
+    path: str
+
+
+def test_nodes_come_back_as_they_went_in() -> None:
+    named: list[list[Any]] = [
+        [Photo("a"), Photo("b"), Photo("c"), Photo("d")],
+        ["a", "b", "c", "d"],
+        ["2", "10", "100", "1000"],
+        [(0, "left"), (0, "right"), (1, "left"), frozenset({1})],
+        [-5, 3, 10**30, 7],
+        [1, "1", 1.5, Fraction(1, 3)],
+        [np.int64(4), np.int64(9), np.int64(11), np.int64(30)],
+        [None, True, "", b"x"],
+    ]
+    for nodes in named:
+        for graph in (nx.Graph, nx.DiGraph, lambda pairs: pairs):
+            pairs = [(nodes[i], nodes[j]) for i, j in PAIRS]
+            verdict = viewcert.verify(graph(pairs))
+            triangle, pair = verdict.components
+            assert triangle == set(nodes[:3]) and pair == set(nodes[2:])
+            back = {id(node) for component in verdict.components for node in component}
+            assert back <= {id(node) for node in nodes}, "the very objects"
+            assert {frozenset(pair) for pair in verdict.pairs_of(1)} == {frozenset(nodes[2:])}
+            [joint] = verdict.joints
+            assert joint.nodes == (nodes[2],) and joint.components == (0, 1)
+            assert viewcert.explain(verdict, nodes[3]).pairs_outside[0].node is nodes[2]
+
+
+def test_nodes_without_pairs_are_nodes() -> None:
+    graph = nx.Graph(PAIRS)
+    graph.add_node(9)
+    rust = rx.PyGraph()
+    rust.add_nodes_from(range(6))
+    rust.add_edges_from_no_data(PAIRS)
+    rust.remove_node(4)
+    matrix = scipy.sparse.coo_array(([1.0] * 8, ([0, 0, 1, 1, 2, 2, 2, 3], [1, 2, 0, 2, 0, 1, 3, 2])), shape=(5, 5))
+    for given, last in [(graph, 9), (rust, 5), (matrix, 4)]:
+        verdict = viewcert.verify(given)
+        assert verdict.graph.nodes == [0, 1, 2, 3, last]
+        assert verdict.required == 11 * 5 - 15
+        assert verdict.components == [{0, 1, 2}, {2, 3}], "an image without a pair is in none"
+
+
+def test_integers_may_be_large_and_far_apart() -> None:
+    large = np.array([[5, 2**40], [2**40, 2**63 + 1], [2**63 + 1, 5]], dtype=np.uint64)
+    verdict = viewcert.verify(large)
+    assert verdict.value == "solvable"
+    assert verdict.components == [{5, 2**40, 2**63 + 1}]
+    sparse = np.array([[5, 4_000_000_000], [4_000_000_000, 9], [9, 5]])
+    assert viewcert.verify(sparse).components == [{5, 9, 4_000_000_000}]
+
+
+def test_merged_pairs_are_noted(caplog: pytest.LogCaptureFixture) -> None:
+    twice = [*PAIRS, (1, 0)]
+    note = "1 pair is given again, the same or reversed, and merged"
+    for given in (np.array(twice), twice, nx.MultiGraph(twice)):
+        caplog.clear()
+        verdict = viewcert.verify(given, name="mine")
+        assert verdict.to_dict()["notes"] == verdict.graph.notes == [note]
+        [record] = [record for record in caplog.records if record.levelname == "WARNING"]
+        assert (record.name, record.getMessage()) == ("viewcert", f"mine: {note}")
+    assert viewcert.verify(kinds()["csr"]).graph.notes == [], "a symmetric matrix says it twice"
+
+
+REFUSED: list[tuple[Any, str]] = [
+    ([], "the graph is empty"),
+    (nx.Graph(), "the graph is empty"),
+    (np.empty((0, 2), dtype=int), "the graph is empty"),
+    ([(0, 1), (2, 2)], "camera 2 is paired with itself"),
+    (np.array([[0, 1], [7, 7]]), "camera 7 is paired with itself"),
+    (np.array([[0, 1], [3, -1]]), "row 1 of the pairs is \\(3, -1\\)"),
+    (np.array([[0.0, 1.0]]), "an array of float64 holds no numbers of images"),
+    (np.zeros((4, 4), dtype=int), "of shape \\(4, 4\\) is no list of pairs"),
+    (np.arange(6), "of shape \\(6,\\) is no list of pairs"),
+    ([(0, 1, {"weight": 2})], "pair 0 has 3 members"),
+    (["ab", "bc"], "a graph is given by pairs of nodes"),
+    ([0, 1], "a graph is given by pairs of nodes"),
+    ([([0], [1])], "a node cannot be told from others"),
+    ("pairs.txt", "viewcert.read reads files"),
+    (3, "int is no graph"),
+    (scipy.sparse.coo_array(np.eye(3)), "node 0 is paired with itself"),
+    (scipy.sparse.coo_array(np.triu(np.ones((3, 3)), 1)), "the matrix is not symmetric: \\(0, 1\\)"),
+    (scipy.sparse.coo_array(np.ones((2, 3))), "not square"),
+]
+
+
+@pytest.mark.parametrize(("graph", "message"), REFUSED, ids=[message for _, message in REFUSED])
+def test_what_is_no_graph_is_refused(graph: Any, message: str) -> None:
+    with pytest.raises(viewcert.InputError, match=message):
+        viewcert.verify(graph)
+    assert issubclass(viewcert.InputError, ValueError)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"model": "perspective"}, "the models are projective"),
+        ({"prime": 15}, "prime=15: "),
+        ({"seed": -1}, "a seed is at least 0"),
+        ({"rational": True, "numerator": 1000}, "bounded by 1 to 100"),
+        ({"rational": True, "model": "calibrated"}, "modulo primes only"),
+        ({"time_limit": -1.0}, "negative"),
+    ],
+)
+def test_options_that_cannot_be_used_are_refused(options: Any, message: str) -> None:
+    with pytest.raises(viewcert.InputError, match=message):
+        viewcert.verify(PAIRS, **options)

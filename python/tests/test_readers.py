@@ -1,0 +1,121 @@
+"""Files, databases and reconstructions."""
+
+from __future__ import annotations
+
+import pathlib
+
+import pycolmap
+import pytest
+import viewcert
+from conftest import Program, untimed
+
+
+def test_files_of_one_and_of_many_graphs(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "graphs.g6"
+    path.write_text("Bw\nCF\n")
+    found = viewcert.read(path)
+    assert [graph.name for graph in found] == [f"{path}:1", f"{path}:2"]
+    assert viewcert.verify(found[0]).value == "solvable"
+    path.write_text("Bw\n")
+    assert viewcert.read(path).nodes == [0, 1, 2]
+    (tmp_path / "loop.txt").write_text("a b\nb b\n")
+    with pytest.raises(viewcert.InputError, match="loop.txt:2: camera b is paired with itself; "):
+        viewcert.read(tmp_path / "loop.txt")
+    with pytest.raises(viewcert.InputError, match="the formats are edges, graph6"):
+        viewcert.read(path, format="xlsx")
+    with pytest.raises(viewcert.InputError, match="missing.txt: cannot be read"):
+        viewcert.read(tmp_path / "missing.txt")
+
+
+def test_what_is_no_database_is_refused(tmp_path: pathlib.Path) -> None:
+    (tmp_path / "pairs.txt").write_text("a b\nb c\n")
+    with pytest.raises(viewcert.InputError, match="this is no database"):
+        viewcert.from_database(tmp_path / "pairs.txt")
+    with pytest.raises(viewcert.InputError, match="cannot be read"):
+        viewcert.from_database(tmp_path / "missing.db")
+    with pytest.raises(viewcert.InputError, match="incremental and global"):
+        viewcert.from_database(tmp_path / "pairs.txt", pipeline="hierarchical")
+    assert not (tmp_path / "missing.db").exists()
+
+
+@pytest.fixture(scope="module")
+def synthetic(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """A database and a model of 8 images, as pycolmap makes them."""
+    folder = tmp_path_factory.mktemp("synthetic")
+    options = pycolmap.SyntheticDatasetOptions()
+    options.num_rigs, options.num_frames_per_rig, options.num_points3D = 1, 8, 60
+    with pycolmap.Database.open(folder / "database.db") as database:
+        reconstruction = pycolmap.synthesize_dataset(options, database)
+    (folder / "model").mkdir()
+    reconstruction.write_binary(folder / "model")
+    return folder
+
+
+def test_a_database_of_pycolmap(synthetic: pathlib.Path, program: Program) -> None:
+    path = synthetic / "database.db"
+    graph = viewcert.from_database(path)
+    with pycolmap.Database.open(path) as database:
+        names = sorted(image.name for image in database.read_all_images())
+    assert graph.nodes == names and len(names) == 8
+    verdict = viewcert.verify(graph)
+    [expected] = program.json(path)
+    assert untimed(verdict.to_dict()) == untimed(expected)
+    assert verdict.value == "solvable", "all images see all others"
+    strict = viewcert.from_database(path, min_inliers=10**6, pipeline="global")
+    assert len(strict.pairs) == 0
+    [expected] = program.json(path, "--min-inliers", 10**6, "--pipeline", "global")
+    assert untimed(viewcert.verify(strict).to_dict()) == untimed(expected)
+
+
+def test_tracks_of_databases_and_reconstructions(
+    synthetic: pathlib.Path, program: Program
+) -> None:
+    by_database = viewcert.tracks_from_database(synthetic / "database.db")
+    reconstruction = pycolmap.Reconstruction(synthetic / "model")
+    by_model = viewcert.tracks_from_reconstruction(reconstruction)
+    for graph, path in [(by_database, "database.db"), (by_model, "model")]:
+        assert graph.cameras == 8
+        verdict = viewcert.verify(graph)
+        assert verdict.model == "calibrated"
+        [expected] = program.json(synthetic / path, "--tracks", "--components")
+        found = verdict.to_dict(list_components=True)
+        for answer in (found, expected):
+            answer["graph"].pop("name")
+        assert untimed(found) == untimed(expected)
+        expected_sets = [set(part["labels"]) for part in expected["components"]]
+        assert verdict.components == expected_sets
+        pairs = verdict.pairs_of(0)
+        assert all(str(point).startswith("point ") for _, point in pairs)
+        assert {camera for camera, _ in pairs} == verdict.components[0]
+    # Every point of the model that enough images see, by pycolmap's own count.
+    tracks = [point.track.length() for point in reconstruction.points3D.values()]
+    points = sum(length >= 3 for length in tracks)
+    assert len(by_model.nodes) == 8 + points
+    few = viewcert.tracks_from_reconstruction(reconstruction, min_views=7)
+    assert len(few.nodes) == 8 + sum(length >= 7 for length in tracks)
+
+
+def test_tracks_have_a_model_of_their_own(synthetic: pathlib.Path) -> None:
+    graph = viewcert.tracks_from_database(synthetic / "database.db")
+    with pytest.raises(viewcert.InputError, match="only the calibrated model"):
+        viewcert.verify(graph, model="projective")
+    with pytest.raises(viewcert.InputError, match="about pairs of images"):
+        viewcert.suggest(graph)
+
+
+def test_cameras_without_points_are_components(tmp_path: pathlib.Path) -> None:
+    # Three cameras, one point that the first two see; the third sees none.
+    path = tmp_path / "problem.txt"
+    path.write_text("3 1 2\n0 0 1.0 2.0\n1 0 1.0 2.0\n")
+    graph = viewcert.read(path, tracks=True, min_views=2)
+    verdict = viewcert.verify(graph)
+    assert sorted(map(sorted, verdict.components)) == [["0"], ["1"], ["2"]]
+    assert verdict.components[-1] == {"2"}
+    assert verdict.pairs_of(len(verdict.components) - 1) == []
+
+
+def test_opening_a_database_changes_nothing(data: pathlib.Path) -> None:
+    folder = data / "colmap"
+    before = sorted((path.name, path.stat().st_mtime_ns) for path in folder.iterdir())
+    viewcert.from_database(folder / "synthetic_exhaustive.db")
+    assert sorted((path.name, path.stat().st_mtime_ns) for path in folder.iterdir()) == before
