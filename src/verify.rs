@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value, Verdict};
+use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};

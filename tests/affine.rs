@@ -7,10 +7,11 @@ use common::{absent, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::process::Command;
-use viewcert::decide::plane_rank;
+use viewcert::decide::{Options, decide, plane_rank};
 use viewcert::geometry::camera::normal_form;
 use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian::{SparseRows, jacobian};
+use viewcert::geometry::model::Model;
 use viewcert::geometry::plane_direction::direction_rows;
 use viewcert::geometry::plane_flow::rigidity_rows;
 use viewcert::graph::{Graph, UnionFind, graph6, sha256};
@@ -145,6 +146,43 @@ fn ranks_at_centres_in_a_plane() {
         graphs(nodes).iter().for_each(in_a_plane);
     }
     random_graphs(1000).for_each(|graph| in_a_plane(&graph));
+}
+
+/// Every certificate of the affine model is verified by the checker, which shares no code with the
+/// prover, and its claim is that of counting.
+fn certified(graph: &Graph) {
+    let options = Options::default().model(Model::Affine);
+    let verdict = decide(graph, &options).unwrap();
+    let text = verdict.certificate(graph).compact().to_string();
+    viewcert_check::check(text.as_bytes(), None)
+        .unwrap_or_else(|error| panic!("{graph:?}: {error}\n{text}"));
+    let counted = plane_rank(graph, &Watch::default()).unwrap();
+    assert_eq!(verdict.rank, 4 * counted);
+}
+
+#[test]
+fn certificates_of_all_small_graphs_are_verified() {
+    for nodes in 1..=6 {
+        graphs(nodes).iter().for_each(certified);
+    }
+    random_graphs(300).for_each(|graph| certified(&graph));
+    // Pieces and cores with many bodies: triangles in rings, some braced.
+    let mut random = ChaCha8Rng::seed_from_u64(14);
+    for _ in 0..50 {
+        let corners = 4 + random.next_u32() % 6;
+        let mut pairs = Vec::new();
+        for v in 0..corners {
+            let (next, tip) = ((v + 1) % corners, corners + v);
+            pairs.extend([(v, next), (v, tip), (next, tip)]);
+        }
+        for _ in 0..random.next_u32() % corners {
+            let [i, j] = [(); 2].map(|()| random.next_u32() % (2 * corners));
+            if i != j {
+                pairs.push((i, j));
+            }
+        }
+        certified(&Graph::new(2 * corners, pairs).unwrap());
+    }
 }
 
 /// Connected graphs with n nodes, and how many of them are affine solvable, finite solvable and

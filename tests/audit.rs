@@ -246,7 +246,39 @@ fn tables_that_are_not_understood_are_refused() {
     assert!(run.out.contains("1 confirmed, 0 refuted"), "{}", run.out);
 }
 
-/// What `verify --json` prints is a table of claims, in both models, of files and of lines of
+/// The column `model`: the 4-cycle in all models, by hand. An affine rank is four times that of R.
+#[test]
+fn claims_in_all_models() {
+    let folder = tempfile::tempdir().unwrap();
+    let audit = |rows: &str| {
+        let table = format!("graph,model,verdict,rank,components\n{rows}");
+        let table = graph_file(folder.path(), "claims.csv", &table);
+        verify(&["audit", "--claims", &table])
+    };
+    let right = "Cl,,not-finite-solvable,28,4\nCl,projective,not-solvable,28,4\n\
+                 Cl,calibrated,solvable,8,1\nCl,affine,not-solvable,16,4\n\
+                 C~,affine,solvable,20,1\n";
+    let run = audit(right);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(run.out.contains("5 confirmed, 0 refuted"), "{}", run.out);
+    for (row, why) in [
+        ("Cl,affine,,17,\n", "claimed rank 17, is 16"),
+        ("Cl,affine,,4,\n", "claimed rank 4, is 16"),
+        ("Cl,affine,solvable,,\n", "claimed solvable"),
+        ("Cl,affine,,,1\n", "claimed components 1, is 4"),
+    ] {
+        let run = audit(row);
+        assert_eq!(run.code, 1, "{row}: {}{}", run.out, run.err);
+        assert!(run.out.contains(why), "{row}: {}", run.out);
+    }
+    let run = audit("Cl,plane,,16,\n");
+    assert_eq!(run.code, 2, "{}", run.out);
+    let said = format!("{}{}", run.out, run.err);
+    let wanted = "\"plane\" is none of projective, calibrated and affine";
+    assert!(said.contains(wanted), "{said}");
+}
+
+/// What `verify --json` prints is a table of claims, in all models, of files and of lines of
 /// files; and one that has been tampered with is refuted.
 #[test]
 fn the_programs_own_lines_are_claims() {
@@ -257,7 +289,12 @@ fn the_programs_own_lines_are_claims() {
         let table = graph_file(folder.path(), "claims.jsonl", claims);
         verify(&["audit", "--json", "--claims", &table])
     };
-    for extra in [&[][..], &["--components"], &["--model", "calibrated"]] {
+    for extra in [
+        &[][..],
+        &["--components"],
+        &["--model", "calibrated"],
+        &["--model", "affine"],
+    ] {
         let own = verify(&[&["--json", &square, &lines], extra].concat());
         let run = audit(&own.out);
         assert_eq!(run.code, 0, "{}{}", run.out, run.err);

@@ -52,6 +52,17 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("calibrated", cycle(5), vec!["--model", "calibrated"]),
         ("small prime", cycle(4), vec!["--prime=101"]),
         (
+            "pinching",
+            "0 3\n0 4\n0 5\n1 3\n1 4\n1 5\n2 3\n2 4\n2 5\n".into(),
+            vec!["--model", "affine"],
+        ),
+        (
+            // K_{3,3} in a ring with three edges.
+            "a rigid class in the plane",
+            "0 3\n0 4\n0 5\n1 3\n1 4\n1 5\n2 3\n2 4\n2 5\n0 6\n6 7\n7 1\n".into(),
+            vec!["--model", "affine"],
+        ),
+        (
             "isolated camera",
             format!("{triangle}d\n"),
             vec!["--format", "edges"],
@@ -103,7 +114,9 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "integer-minor",
         "kernel",
         "minor",
+        "pinching",
         "plane-flow",
+        "plane-minor",
     ];
     assert_eq!(
         kinds.iter().map(String::as_str).collect::<Vec<_>>(),
@@ -234,6 +247,8 @@ fn harmless(path: &str) -> bool {
         "cols",
         "lambda_rows",
         "lambda_cols",
+        "start",
+        "steps",
         "numerator",
         "denominator",
         "kernel",

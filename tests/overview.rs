@@ -98,7 +98,7 @@ fn every_option_keeps_to_the_schema() {
         "--export",
         out.to_str().unwrap(),
     ];
-    for model in ["projective", "calibrated"] {
+    for model in ["projective", "calibrated", "affine"] {
         let options = [&act[..], &["--model", model]].concat();
         let line = valid(&schema, &verify_with(TWO.as_bytes(), &options)).remove(0);
         let asked = [
@@ -121,6 +121,9 @@ fn every_option_keeps_to_the_schema() {
         &["--rational"],
         &["--no-counting"],
         &["--model", "calibrated"],
+        &["--model", "affine"],
+        &["--model", "focal"],
+        &["--planar"],
     ] {
         for graph in ["house.txt", "psi.txt", "minimal.g6", "facade.txt"] {
             let path = format!("examples/{graph}");
@@ -129,6 +132,11 @@ fn every_option_keeps_to_the_schema() {
                 &verify(&[&["--json", path.as_str()], options].concat()),
             );
         }
+    }
+    for graph in ["house.txt", "psi.txt", "minimal.g6"] {
+        let path = format!("examples/{graph}");
+        let line = valid(&schema, &verify(&["models", "--json", path.as_str()])).remove(0);
+        mutilations_are_refused(&schema, &line, &["graph", "notes", "models", "changes"]);
     }
     for graph in [
         "house.txt",

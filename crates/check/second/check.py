@@ -34,6 +34,7 @@ from notation import (
     parse,
     same,
 )
+from pebbles import counted_rank
 from solutions import check_solutions
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
@@ -848,6 +849,11 @@ class Check:
         lower = [(self.core_rank_to_rank(rank, core, piece.nodes), value) for rank, value in lower]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
+        counted = counted_rank(core.n, core.edges, self.model)
+        if counted is not None:
+            # Not a condition of the page: what elimination found must be what counting alone finds.
+            rank = self.core_rank_to_rank(counted, core, piece.nodes)
+            need(piece.lower <= rank <= piece.upper, f"{where}the rank by counting is {rank}")
         draws, seed = (), None
         for value, at in kinds["draws"]:
             rank, seed, draws, piece.error = self.check_draws(value, core, at)

@@ -500,6 +500,60 @@ class Lower(Case):
         self.rejects(BICLIQUE, words, merges, upper=upper([LINEAR]))
 
 
+class Program(Case):
+    """A graph with nine nodes and two solutions, as the program writes it."""
+
+    def setUp(self):
+        with open(os.path.join(HERE, "two_solutions.json"), encoding="utf-8") as file:
+            self.document = json.load(file)
+        self.edges = check.read_graph6(self.document["graph"]["graph6"]).edges
+
+    def test_it_is_verified(self):
+        lines = check.check(json.dumps(self.document).encode()).statements()
+        self.assertIn("projective: finite-solvable (proof)", lines)
+        self.assertIn("solutions: at least 2, at most 2 (proof)", lines)
+
+    def test_it_is_no_part(self):
+        part = {**self.document["solutions"], "lower": None}
+        self.assertEqual(bound(self.edges, upper=part["upper"]), (1, 2))
+        merges = [merge("part", list(range(12)), list(range(9)), part)]
+        self.rejects(self.edges, "(S3) the part is not shown to have one solution", merges)
+
+    def test_changed_numbers(self):
+        """Whatever number is changed: the evidence is refused, or it is evidence for the same."""
+        same = refused = 0
+        for path in list(numbers(self.document["solutions"])):
+            is_residue = "values" in path
+            for step in (1,) if is_residue else (1, -1):
+                changed = copy.deepcopy(self.document)
+                *names, last = path
+                place = changed["solutions"]
+                for name in names:
+                    place = place[name]
+                old = place[last]
+                place[last] = str(int(old) + step) if type(old) is str else old + step
+                try:
+                    check.check(json.dumps(changed).encode())
+                    same += 1
+                except notation.Reject:
+                    refused += 1
+        self.assertGreater(refused, 150)
+        # Other centres and other columns may do as well.
+        self.assertLess(same, refused)
+
+
+def numbers(value, path=()):
+    """The paths of all ints and bigs."""
+    if type(value) is dict:
+        for name, item in value.items():
+            yield from numbers(item, (*path, name))
+    elif type(value) is list:
+        for k, item in enumerate(value):
+            yield from numbers(item, (*path, k))
+    elif type(value) is int or type(value) is str and value.isdigit():
+        yield path
+
+
 def formula(first, second):
     """The paper's formula for F, by permutations."""
     entries = []

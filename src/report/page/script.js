@@ -106,18 +106,21 @@
 
   // ---- The verdict
 
-  const calibrated = report.model === "calibrated";
+  const UNIQUE = {
+    projective: "The fundamental matrices determine all cameras, up to one projective change of the whole scene.",
+    calibrated: "The directions between the cameras determine all their positions, up to one shift and one scale of the whole.",
+    affine: "The affine fundamental matrices determine all cameras, up to one affine change of the whole scene.",
+  };
+  const APART = {
+    calibrated: "Each component is determined by itself, up to shift and scale; how they fit together is not.",
+    affine: "Each component is determined by itself, up to an affine change; how they fit together is not.",
+  };
   const ANSWERS = {
-    solvable: calibrated
-      ? ["Solvable: the cameras are unique",
-        "The directions between the cameras determine all their positions, up to one shift and one scale of the whole."]
-      : ["Solvable: the cameras are unique",
-        "The fundamental matrices determine all cameras, up to one projective change of the whole scene."],
+    solvable: ["Solvable: the cameras are unique", UNIQUE[report.model]],
     "finite-solvable": ["Finite solvable: finitely many sets of cameras",
       "No small change of the cameras fits the fundamental matrices. Whether there is just one set of cameras is left open."],
-    "not-finite-solvable": calibrated
-      ? ["Not solvable: infinitely many sets of cameras",
-        "Each component is determined by itself, up to shift and scale; how they fit together is not."]
+    "not-finite-solvable": report.model in APART
+      ? ["Not solvable: infinitely many sets of cameras", APART[report.model]]
       : ["Not finite solvable: infinitely many sets of cameras",
         "Each component is finite solvable by itself; how they fit together is not determined."],
   };
@@ -609,7 +612,9 @@
   const SHOWN = new Set(["graph", "notes", "model", "verdict", "strength", "error_log2", "rank",
     "rank_required", "rank_strength", "components", "components_strength", "mode", "seconds", "joints"]);
   const TITLES = {
+    conditions: "Conditions",
     database: "Database",
+    planar: "If all centres lie in one plane",
     margin: "Margin",
     weak: "Weak places",
     suggestions: "What would join components",

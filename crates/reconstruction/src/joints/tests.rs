@@ -31,14 +31,14 @@ fn two(more: &[(u32, u32)]) -> Graph {
 }
 
 /// Degrees of freedom by hand: two frames differ by 15 (4), a shared image takes 11 (3), a pair
-/// 7 (2), an image seen from both 14 - 11 (4 - 3).
+/// 7 (2), an image seen from both 14 - 11 (4 - 3). Affine: 12, 8, 4 and 8 - 8.
 #[test]
 fn freedom_by_hand() {
-    let cases: [(&[Pair], [Option<usize>; 2]); 4] = [
-        (&[(0, 4)], [Some(8), Some(2)]),
-        (&[(0, 4), (1, 5)], [Some(1), None]),
-        (&[(0, 4), (1, 5), (2, 6)], [None, None]),
-        (&[(0, 8), (4, 8)], [Some(12), Some(3)]),
+    let cases: [(&[Pair], [Option<usize>; 3]); 4] = [
+        (&[(0, 4)], [Some(8), Some(2), Some(8)]),
+        (&[(0, 4), (1, 5)], [Some(1), None, Some(4)]),
+        (&[(0, 4), (1, 5), (2, 6)], [None, None, None]),
+        (&[(0, 8), (4, 8)], [Some(12), Some(3), Some(12)]),
     ];
     for (more, expected) in cases {
         for (model, expected) in Model::ALL.into_iter().zip(expected) {
@@ -59,7 +59,7 @@ fn freedom_by_hand() {
     }
     // Two triangles at one image.
     let graph = Graph::new(5, [(0, 1), (0, 2), (1, 2), (2, 3), (2, 4), (3, 4)]).unwrap();
-    for (model, freedom) in Model::ALL.into_iter().zip([4, 1]) {
+    for (model, freedom) in Model::ALL.into_iter().zip([4, 1, 4]) {
         let (_, _, joints) = found(&graph, model);
         assert_eq!(joints.joints.len(), 1);
         assert_eq!(joints.joints[0].how, How::shared(2));

@@ -102,10 +102,10 @@ fn two(more: &[Pair]) -> Graph {
 /// is 2 (1) pairs; two leave 1 in the projective model.
 #[test]
 fn as_many_pairs_as_it_takes() {
-    let cases: [(&[Pair], [usize; 2]); 3] = [
-        (&[], [3, 2]),
-        (&[(0, 6)], [2, 1]),
-        (&[(0, 6), (1, 7)], [1, 0]),
+    let cases: [(&[Pair], [usize; 3]); 3] = [
+        (&[], [3, 2, 3]),
+        (&[(0, 6)], [2, 1, 2]),
+        (&[(0, 6), (1, 7)], [1, 0, 1]),
     ];
     for (more, counts) in cases {
         for (model, count) in Model::ALL.into_iter().zip(counts) {

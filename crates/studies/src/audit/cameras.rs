@@ -22,10 +22,8 @@ pub fn normalise<const R: usize, const C: usize>(matrix: &mut [[f64; C]; R]) {
     }
 }
 
-/// Cameras with entries uniform in [0, 1), scaled to norm 10, one a node. The entries have
-/// 53 random bits, so that a camera of rank below 3 or coincident centres do not occur in
-/// practice; they would show as a singular J.
-pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
+/// Numbers uniform in [0, 1), with 53 random bits each.
+pub fn uniform(graph: &Graph, seed: u64, draw: u64, count: usize) -> Vec<f64> {
     let field = PrimeField::mersenne61();
     let key = DrawKey {
         graph_sha256: sha256(graph),
@@ -35,13 +33,20 @@ pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
     };
     let mut residue = key.residues(&field);
     let mut entry = || (field.to_u64(residue()) >> 8) as f64 / (1u64 << 53) as f64;
-    (0..graph.nodes())
-        .map(|_| {
-            let mut camera = std::array::from_fn(|_| std::array::from_fn(|_| entry()));
-            normalise(&mut camera);
-            camera
-        })
-        .collect()
+    (0..count).map(|_| entry()).collect()
+}
+
+/// Cameras with entries uniform in [0, 1), scaled to norm 10, one a node. The entries have
+/// 53 random bits, so that a camera of rank below 3 or coincident centres do not occur in
+/// practice; they would show as a singular J.
+pub fn draw(graph: &Graph, seed: u64, draw: u64) -> Vec<Camera> {
+    let entries = uniform(graph, seed, draw, 12 * graph.nodes());
+    let camera = |entries: &[f64]| {
+        let mut camera = std::array::from_fn(|r| std::array::from_fn(|c| entries[4 * r + c]));
+        normalise(&mut camera);
+        camera
+    };
+    entries.chunks_exact(12).map(camera).collect()
 }
 
 /// The fundamental matrix of

@@ -12,6 +12,7 @@
 //! Nothing outside of this module and the command line uses it: no float is in any verdict
 //! or certificate.
 
+pub mod affine;
 pub mod cameras;
 pub mod claims;
 pub mod components;

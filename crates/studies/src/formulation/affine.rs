@@ -7,7 +7,7 @@
 
 use viewcert::geometry::jacobian::SparseRows;
 use viewcert::graph::Graph;
-use viewcert::linalg::Field;
+use viewcert::linalg::Ring;
 
 /// Where it was published.
 pub const SOURCE: &str = "Solvability of the Viewing Graph under the Affine Camera Model, 2026";
@@ -21,7 +21,7 @@ pub fn size(graph: &Graph) -> (usize, usize) {
 }
 
 /// The viewing direction ker A: the vector product of the rows of A; zero if their rank is below 2.
-pub fn direction<F: Field>(field: &F, camera: &AffineCamera<F::Elem>) -> [F::Elem; 3] {
+pub fn direction<F: Ring>(field: &F, camera: &AffineCamera<F::Elem>) -> [F::Elem; 3] {
     let [a, b] = camera;
     std::array::from_fn(|k| {
         let (r, s) = ((k + 1) % 3, (k + 2) % 3);
@@ -31,7 +31,7 @@ pub fn direction<F: Field>(field: &F, camera: &AffineCamera<F::Elem>) -> [F::Ele
 
 /// The left null vector (b_i, b_j) of [A_i; A_j]: up to sign its 3 x 3 minors. It is zero if the
 /// viewing directions coincide.
-pub fn left_null_vector<F: Field>(
+pub fn left_null_vector<F: Ring>(
     field: &F,
     i: &AffineCamera<F::Elem>,
     j: &AffineCamera<F::Elem>,
@@ -52,7 +52,7 @@ pub fn left_null_vector<F: Field>(
 
 /// The fundamental matrix by Lemma 13.1: b_j in the last column, b_i in the last row, and
 /// -(b_i t_i + b_j t_j) in the corner.
-pub fn fundamental<F: Field>(
+pub fn fundamental<F: Ring>(
     field: &F,
     i: &AffineCamera<F::Elem>,
     j: &AffineCamera<F::Elem>,
@@ -74,7 +74,7 @@ pub fn fundamental<F: Field>(
 
 /// Whether the rows of all A are independent, viewing directions differ on edges, and the rows that
 /// fix the frame do: generic cameras are always admitted.
-pub fn admits<F: Field>(field: &F, graph: &Graph, cameras: &[AffineCamera<F::Elem>]) -> bool {
+pub fn admits<F: Ring>(field: &F, graph: &Graph, cameras: &[AffineCamera<F::Elem>]) -> bool {
     let is_zero = |entries: &[F::Elem]| entries.iter().all(|x| field.is_zero(x));
     let ranks = cameras
         .iter()
@@ -99,7 +99,7 @@ pub fn admits<F: Field>(field: &F, graph: &Graph, cameras: &[AffineCamera<F::Ele
 ///
 /// # Panics
 /// If there is not one camera a node.
-pub fn directions<F: Field>(
+pub fn directions<F: Ring>(
     field: &F,
     graph: &Graph,
     cameras: &[AffineCamera<F::Elem>],
@@ -124,7 +124,7 @@ pub fn directions<F: Field>(
 ///
 /// # Panics
 /// If there is not one camera a node, or there are fewer than two nodes.
-pub fn matrix<F: Field>(
+pub fn matrix<F: Ring>(
     field: &F,
     graph: &Graph,
     cameras: &[AffineCamera<F::Elem>],
@@ -149,7 +149,6 @@ pub fn matrix<F: Field>(
 mod tests {
     use super::*;
     use crate::formulation::rank::RankField;
-    use viewcert::linalg::Ring;
     use viewcert::linalg::rational::{Rational, Rationals};
 
     fn camera(rows: [[i64; 4]; 2]) -> AffineCamera<Rational> {

@@ -33,7 +33,7 @@ pub enum RowError {
     )]
     Verdict(String),
     /// A cell does not hold a model.
-    #[error("model: {0:?} is neither projective nor calibrated")]
+    #[error("model: {0:?} is none of projective, calibrated and affine")]
     Model(String),
     /// Two claims exclude each other, whatever the graph.
     #[error("the claims contradict each other: {0}")]
