@@ -128,13 +128,14 @@ fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> 
         let most = at_most(upper, &left, meter, of);
         most.within(|| "upper".into())
     });
+    let at_most = at_most.transpose()?;
     let at_least = evidence.lower.as_ref().map(|lower| {
         let least = at_least(lower, &left, meter);
         least.within(|| "lower".into())
     });
     Ok(Count {
         at_least: at_least.transpose()?.unwrap_or(1),
-        at_most: at_most.transpose()?,
+        at_most,
     })
 }
 
