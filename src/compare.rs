@@ -5,7 +5,7 @@ use super::input::InputArguments;
 use super::{GOOD, NOT, TOO_LARGE, atomic};
 use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -25,6 +25,9 @@ pub(super) struct CompareArguments {
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
+    /// Of which cameras.
+    #[arg(long, value_enum, default_value_t = CameraName::Projective)]
+    model: CameraName,
     /// Modulo which prime, 5 <= P < 2^62.
     #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME, conflicts_with = "rational")]
     prime: u64,
@@ -47,6 +50,14 @@ pub(super) struct CompareArguments {
     /// table to standard error).
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum CameraName {
+    /// Any cameras, whose pairs have fundamental matrices.
+    Projective,
+    /// Affine cameras.
+    Affine,
 }
 
 /// Compares on every graph in turn; a bad one is reported and does not stop the others.
@@ -112,12 +123,20 @@ fn compare(
             silent: rationals,
             announce: &announce,
         };
-        return compare::rational(&input.graph, bounds, arguments.seed, &limits);
+        let rational = match arguments.model {
+            CameraName::Projective => compare::rational,
+            CameraName::Affine => compare::affine::rational,
+        };
+        return rational(&input.graph, bounds, arguments.seed, &limits);
     }
     let limits = Limits {
         entries: arguments.limit.unwrap_or(MAX_RESIDUES),
         silent: residues,
         announce: &announce,
     };
-    compare::modular(field, &input.graph, arguments.seed, &limits)
+    let modular = match arguments.model {
+        CameraName::Projective => compare::modular,
+        CameraName::Affine => compare::affine::modular,
+    };
+    modular(field, &input.graph, arguments.seed, &limits)
 }

@@ -13,8 +13,10 @@ mod experiment;
 mod input;
 mod man;
 mod manifest;
+mod models;
 mod overview;
 mod pages;
+mod plane;
 mod progress;
 mod report;
 mod running;
@@ -35,7 +37,7 @@ use viewcert_studies::formulation::compare::CompareError;
 ///
 /// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
 /// compare: all agree; conditions: no necessary one fails; overview: all images with a pair are
-/// determined), 1 some are not (check:
+/// determined; models: solvable in every model), 1 some are not (check:
 /// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input, 3 too
 /// large for the method or for the limits of time and memory (compare: nothing could be
 /// compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143 terminated. Of several
@@ -66,6 +68,8 @@ enum Command {
     Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
     Compare(compare::CompareArguments),
+    /// Decide every camera model side by side, and say what changes between them.
+    Models(models::ModelsArguments),
     /// Check the necessary and sufficient conditions of the literature.
     Conditions(conditions::ConditionArguments),
     /// Print the completion script of a shell.
@@ -86,6 +90,7 @@ fn main() -> ExitCode {
         Some(Command::Experiment(arguments)) => experiment::run(&arguments),
         Some(Command::Audit(arguments)) => audit::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Models(arguments)) => models::run(&arguments),
         Some(Command::Conditions(arguments)) => conditions::run(&arguments),
         Some(Command::Completions(arguments)) => man::completions(&arguments),
         Some(Command::Manpage(arguments)) => man::manpage(&arguments),

@@ -161,6 +161,8 @@ fn overview(
         list_components: false,
         time: Duration::ZERO,
         acted,
+        conditions: &[],
+        planar: None,
     };
     let mut found = Overview {
         name: &input.name,

@@ -7,6 +7,7 @@ use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
+use super::plane::{self, Planar};
 use super::{GOOD, NOT, atomic, certificates, running};
 use crate::report;
 use crate::report::Report;
@@ -17,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, Options, Prime, Value};
+use viewcert::decide::{Arithmetic, Options, Prime, Value, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
@@ -49,6 +50,10 @@ pub(super) struct VerifyArguments {
     /// What is known of the cameras [default: projective; with --tracks calibrated].
     #[arg(long, value_enum)]
     model: Option<ModelName>,
+    /// What the graph determines if all centres lie in one plane (one flying height, a vehicle): the
+    /// exit code is that of this case.
+    #[arg(long, conflicts_with = "tracks")]
+    planar: bool,
     /// Compute the Jacobian of the whole graph, as the paper does.
     #[arg(long)]
     no_contraction: bool,
@@ -91,19 +96,29 @@ enum ModelName {
     Projective,
     /// Edges carry essential matrices: known intrinsics.
     Calibrated,
+    /// Edges carry affine fundamental matrices: affine cameras.
+    Affine,
+    /// Unknown focal lengths, everything else known: each pair fixes both, and then as calibrated.
+    Focal,
 }
+
+/// What `--model focal` rests on.
+const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
+                     lengths if pixels are square, principal points are known, and its two optical \
+                     axes do not meet";
 
 impl VerifyArguments {
     /// The model that is given or implied.
     fn model(&self) -> Result<Model> {
         let tracks = self.tracks.options().is_some();
         ensure!(
-            !tracks || !matches!(self.model, Some(ModelName::Projective)),
+            !tracks || matches!(self.model, None | Some(ModelName::Calibrated)),
             "--tracks: observations are directions of known rotations, which only the calibrated \
-             model has; leave out --model projective"
+             model has; leave out --model, or say --model calibrated"
         );
         Ok(match self.model {
-            Some(ModelName::Calibrated) => Model::Calibrated,
+            Some(ModelName::Calibrated | ModelName::Focal) => Model::Calibrated,
+            Some(ModelName::Affine) => Model::Affine,
             None if tracks => Model::Calibrated,
             Some(ModelName::Projective) | None => Model::Projective,
         })
@@ -113,8 +128,17 @@ impl VerifyArguments {
         let model = self.model()?;
         ensure!(
             !self.rational || matches!(model, Model::Projective),
-            "--rational: the calibrated model is decided modulo primes only; leave out --rational, or \
-             --model calibrated and --tracks"
+            "--rational: the calibrated and the affine model are decided without it; leave out \
+             --rational, or --model and --tracks"
+        );
+        ensure!(
+            !self.no_counting || model != Model::Affine,
+            "--no-counting: the affine model is decided by counting alone; leave out one of the two"
+        );
+        ensure!(
+            !self.planar || model != Model::Affine,
+            "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
+             or --model affine"
         );
         let arithmetic = if self.rational {
             Arithmetic::Rational {
@@ -175,10 +199,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
         let decided = decide(arguments, &options, input, target.as_mut(), start, out);
-        Ok(match decided? {
-            Value::NotFiniteSolvable => NOT,
-            _ => GOOD,
-        })
+        Ok(if decided? { GOOD } else { NOT })
     };
     let read = ReadOptions {
         tracks: arguments.tracks.options(),
@@ -188,7 +209,8 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     Ok(ExitCode::from(code))
 }
 
-/// Decides one graph that has been read since `start`, certifies and reports.
+/// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
+/// determines the cameras; with `--planar` whether it does in the plane.
 fn decide(
     arguments: &VerifyArguments,
     options: &Options,
@@ -196,10 +218,11 @@ fn decide(
     target: Option<&mut Target>,
     start: Instant,
     out: &mut impl Write,
-) -> Result<Value> {
+) -> Result<bool> {
     let decided = verdict::decide(&input.graph, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
+    let planar = planar(arguments, input, &verdict)?;
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
@@ -216,6 +239,8 @@ fn decide(
         list_components: arguments.components,
         time,
         acted: &acted,
+        conditions: &conditions(arguments, &verdict, planar.as_ref()),
+        planar: planar.as_ref(),
     };
     arguments.pages.write(&report)?;
     if arguments.json {
@@ -235,7 +260,48 @@ fn decide(
         }
         arguments.pages.say(out)?;
     }
-    Ok(verdict.value)
+    Ok(match &planar {
+        Some(planar) if arguments.planar => planar.is_determined(),
+        _ => verdict.value != Value::NotFiniteSolvable,
+    })
+}
+
+/// What centres in one plane determine: if it is asked for, and if the general answer, which is
+/// good, hides that it is not as good there.
+fn planar(
+    arguments: &VerifyArguments,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<Option<Planar>> {
+    let may_hide = verdict.value != Value::NotFiniteSolvable
+        && verdict.model != Model::Affine
+        && input.cameras.is_none()
+        && !plane::is_rigid_by_triangles(verdict);
+    if !arguments.planar && !may_hide {
+        return Ok(None);
+    }
+    let planar = Planar::new(&input.graph, verdict.model, &running::shown_watch());
+    running::hide();
+    let planar = planar.with_context(|| input.name.clone())?;
+    Ok(Some(planar).filter(|planar| arguments.planar || !planar.is_determined()))
+}
+
+/// What the answer holds for, beyond generic cameras of the model.
+fn conditions(
+    arguments: &VerifyArguments,
+    verdict: &Verdict,
+    planar: Option<&Planar>,
+) -> Vec<String> {
+    let mut conditions = Vec::new();
+    if matches!(arguments.model, Some(ModelName::Focal)) {
+        conditions.push(FOCAL.to_owned());
+    }
+    let is_good = verdict.value != Value::NotFiniteSolvable;
+    if is_good && planar.is_some_and(|planar| !planar.is_determined()) {
+        let condition = "holds for centres in general position; if all lie in one plane: not";
+        conditions.push(condition.to_owned());
+    }
+    conditions
 }
 
 /// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns

@@ -1,5 +1,6 @@
 //! `verify catalog`: candidates, verdicts, a table.
 
+mod census;
 mod merge;
 mod parts;
 mod publish;
@@ -76,6 +77,8 @@ pub(super) struct Arguments {
 enum Command {
     /// Check that all shards of one run are there, and print its table.
     Merge(merge::Arguments),
+    /// Count how many graphs of a list each camera model determines.
+    Census(census::Arguments),
     /// Write the published catalog to a folder.
     Publish(publish::Arguments),
 }
@@ -110,6 +113,7 @@ const BATCH: usize = 4096;
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     match &arguments.command {
         Some(Command::Merge(arguments)) => return merge::run(arguments),
+        Some(Command::Census(arguments)) => return census::run(arguments),
         Some(Command::Publish(arguments)) => return publish::run(arguments),
         None => (),
     }

@@ -28,12 +28,22 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         formulation(out, line)?;
     }
     let pairs = counted(edges, "pair");
-    writeln!(
-        out,
-        "  checks      dPhi/dF has rank 8 and kernel F on {} of {pairs}; dPhi/dF dF/dP = -dPhi/dP on \
-         {} of {edges}",
-        found.kernel_is_f, found.identity
-    )?;
+    match found.affine_f {
+        Some(held) => writeln!(
+            out,
+            "  checks      F by its minors is that of the left null vectors on {held} of {pairs}"
+        )?,
+        None => writeln!(
+            out,
+            "  checks      dPhi/dF has rank 8 and kernel F on {} of {pairs}; dPhi/dF dF/dP = -dPhi/dP on \
+             {} of {edges}",
+            found.kernel_is_f, found.identity
+        )?,
+    }
+    let solvable = match found.affine_f {
+        Some(_) => "affine solvable",
+        None => "finite solvable",
+    };
     let (computed, all) = (found.computed(), found.lines.len());
     let who = if computed == all {
         "all agree".to_owned()
@@ -41,7 +51,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         format!("the {computed} of {all} that were computed agree")
     };
     let verdict = match found.outcome(&input.graph) {
-        Outcome::Agree(0) => format!("{who}: full rank, finite solvable"),
+        Outcome::Agree(0) => format!("{who}: full rank, {solvable}"),
         Outcome::Agree(excess) => {
             let dimensions = counted(excess, "dimension");
             format!("{who}: at these cameras {dimensions} of motions beyond the trivial")
@@ -110,8 +120,12 @@ struct Json<'a> {
     agree: Option<bool>,
     computed: usize,
     excess: Option<usize>,
-    kernel_is_f: usize,
-    implicit_identity: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kernel_is_f: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    implicit_identity: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    affine_f: Option<usize>,
     formulations: Vec<JsonLine>,
 }
 
@@ -192,8 +206,9 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         },
         computed: found.computed(),
         excess: found.excess(),
-        kernel_is_f: found.kernel_is_f,
-        implicit_identity: found.identity,
+        kernel_is_f: found.affine_f.is_none().then_some(found.kernel_is_f),
+        implicit_identity: found.affine_f.is_none().then_some(found.identity),
+        affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
     serde_json::to_writer(&mut *out, &line)?;

@@ -5,6 +5,7 @@ use super::database::DatabaseLine;
 use super::tracks;
 use super::tracks::TrackLine;
 use crate::act::Acted;
+use crate::plane::Planar;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -21,6 +22,10 @@ struct Line<'a> {
     model: &'static str,
     #[serde(flatten)]
     answer: AnswerLine,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    conditions: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    planar: Option<&'a Planar>,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -100,6 +105,8 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
         answer: AnswerLine::from(report),
+        conditions: report.conditions,
+        planar: report.planar,
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         acted: report.acted,

@@ -10,6 +10,7 @@ pub mod force_layout;
 pub mod graph_picture;
 pub mod json;
 pub mod layout;
+pub mod models;
 pub mod overview;
 pub mod page;
 pub mod plot;
@@ -20,6 +21,7 @@ pub mod tracks;
 pub mod values;
 
 use crate::act::Acted;
+use crate::plane::Planar;
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
@@ -62,6 +64,10 @@ pub struct Report<'a> {
     pub time: Duration,
     /// What to do about it.
     pub(crate) acted: &'a Acted,
+    /// What the answer holds for, in words, beyond generic cameras of the model.
+    pub conditions: &'a [String],
+    /// The answer for centres in one plane, if it was looked for.
+    pub(crate) planar: Option<&'a Planar>,
 }
 
 #[cfg(test)]

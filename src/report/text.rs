@@ -29,6 +29,12 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     }
     writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(report))?;
+    for condition in report.conditions {
+        writeln!(out, "  condition   {condition}")?;
+    }
+    if let Some(planar) = report.planar {
+        writeln!(out, "  in a plane  {}", planar.words())?;
+    }
     writeln!(
         out,
         "  rank        {} of {} ({})",
@@ -83,14 +89,15 @@ pub(super) fn answer(report: &Report) -> String {
         (Value::NotFiniteSolvable, Model::Projective) => {
             "not finite solvable: infinitely many sets of cameras"
         }
-        (Value::NotFiniteSolvable, Model::Calibrated) => {
+        (Value::NotFiniteSolvable, Model::Calibrated | Model::Affine) => {
             "not solvable: infinitely many sets of cameras"
         }
     };
     format!("{value} ({})", strength(verdict.value_claim().strength))
 }
 
-fn strength(strength: Strength) -> String {
+/// The strength of a claim in words.
+pub(super) fn strength(strength: Strength) -> String {
     match strength {
         Strength::Proof => "proved".into(),
         Strength::ErrorBound(e) => format!("error at most 2^{e}"),
@@ -142,6 +149,9 @@ pub(super) fn reason(report: &Report) -> String {
             }
             Some(Evidence::PlaneFlow { draw, .. }) => {
                 format!("full rank at one camera set modulo {}", draw.prime)
+            }
+            Some(Evidence::Pinching { rank, .. }) => {
+                format!("counting shows {rank} pairs between bodies independent, all it takes")
             }
             _ => "full rank".into(),
         };

@@ -12,138 +12,34 @@ import gzip
 import hashlib
 import heapq
 import itertools
-import json
 import math
 import re
 import struct
 import sys
 
+from notation import (
+    Reject,
+    TooLarge,
+    Unreadable,
+    a_big,
+    a_list,
+    a_pair,
+    a_string,
+    an_int,
+    distinct,
+    increasing,
+    is_prime,
+    members,
+    need,
+    parse,
+    same,
+)
+from pebbles import counted_rank
+from solutions import check_solutions
+
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
-DIGITS_LIMIT = 100_000  # of a *big*
-if hasattr(sys, "set_int_max_str_digits"):
-    sys.set_int_max_str_digits(0)  # the limit on digits is the one above
 # Exponents of Mersenne primes: moduli for determinants and ranks over Q.
 MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
-
-
-class Reject(Exception):
-    """The certificate does not prove its claim."""
-
-
-class Unreadable(Exception):
-    """A file cannot be read, or does not hold one graph for sure."""
-
-
-class TooLarge(Exception):
-    """The certificate may be right, but is beyond this checker's limits."""
-
-
-def need(condition, reason):
-    if not condition:
-        raise Reject(reason)
-
-
-# Section 1: notation -------------------------------------------------------------------------------------------------
-
-
-def parse(data):
-    """Section 1: one strict JSON text."""
-    try:
-        text = data.decode("utf-8")
-    except UnicodeDecodeError:
-        raise Reject("the text is not UTF-8") from None
-    need(not text.startswith("\ufeff"), "the text begins with a byte order mark")
-    depth = 0
-    for mark in re.findall(r"[\[{\]}]", re.sub(r'"(?:[^"\\]|\\.)*"', "", text, flags=re.S)):
-        depth += 1 if mark in "[{" else -1
-        need(depth <= 127, "objects and lists are nested more than 127 deep")
-
-    def pairs(items):
-        found = dict(items)
-        need(len(found) == len(items), "a member is repeated")
-        return found
-
-    def integer(digits):
-        need(re.fullmatch(r"0|-?[1-9][0-9]{0,15}", digits), f"{digits[:40]} is not an int")
-        need(abs(int(digits)) < 2**53, f"the int {digits} is not below 2^53")
-        return int(digits)
-
-    def refuse(token):
-        raise Reject(f"the number {token[:40]} is not an int")
-
-    try:
-        document = json.loads(
-            text, object_pairs_hook=pairs, parse_int=integer, parse_float=refuse, parse_constant=refuse
-        )
-    except json.JSONDecodeError as error:
-        raise Reject(f"not JSON: {error}") from None
-    if "\\" in text:
-        refuse_half_surrogates(document)
-    return document
-
-
-def refuse_half_surrogates(value):
-    if type(value) is str:
-        need(not re.search("[\ud800-\udfff]", value), "an escape is half of a surrogate pair")
-    elif type(value) is list:
-        for item in value:
-            refuse_half_surrogates(item)
-    elif type(value) is dict:
-        for name, item in value.items():
-            refuse_half_surrogates(name)
-            refuse_half_surrogates(item)
-
-
-def members(value, names, where):
-    """The values of exactly the members `names` (separated by blanks) of an object, in that order."""
-    need(type(value) is dict, f"{where} is not an object")
-    names = names.split()
-    for name in names:
-        need(name in value, f"{where}: the member {name} is missing")
-    for name in value:
-        need(name in names, f"{where}: the member {name} is unknown")
-    return [value[name] for name in names]
-
-
-def a_list(value, where):
-    need(type(value) is list, f"{where} is not a list")
-    return value
-
-
-def a_string(value, where):
-    need(type(value) is str, f"{where} is not a string")
-    return value
-
-
-def an_int(value, where, least=None, below=None):
-    need(type(value) is int, f"{where} is not an int")
-    need(least is None or value >= least, f"{where}: {value} is below {least}")
-    need(below is None or value < below, f"{where}: {value} is out of range")
-    return value
-
-
-def a_big(value, where, least=None, below=None):
-    need(type(value) is str and re.fullmatch(r"0|-?[1-9][0-9]*", value), f"{where} is not a big")
-    if below is not None:
-        need(len(value) <= len(str(below)), f"{where} is out of range")
-    if len(value) > DIGITS_LIMIT:
-        raise TooLarge(f"{where} has more than {DIGITS_LIMIT} digits")
-    number = int(value)
-    need(least is None or number >= least, f"{where}: {number} is below {least}")
-    need(below is None or number < below, f"{where} is out of range")
-    return number
-
-
-def a_pair(value, where):
-    need(type(value) is list and len(value) == 2, f"{where} is not a pair")
-    i, j = (an_int(node, where) for node in value)
-    need(i < j, f"{where}: a pair has the smaller node first")
-    return (i, j)
-
-
-def increasing(values, where):
-    need(all(a < b for a, b in zip(values, values[1:])), f"{where} is not increasing")
-    return values
 
 
 # Section 2: the graph ------------------------------------------------------------------------------------------------
@@ -381,30 +277,6 @@ ROUNDS = (
 DRAW, FLOW = b"viewcert draw 2\n", b"viewcert flow 2\n"
 
 
-@functools.lru_cache(maxsize=1024)
-def is_prime(p):
-    """Strong pseudoprimes to all of these bases are beyond 2^81 (theory, section 7)."""
-    bases = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
-    if p < 2 or any(p % b == 0 for b in bases):
-        return p in bases
-    twos = (p - 1 & 1 - p).bit_length() - 1
-    for base in bases:
-        power = pow(base, p - 1 >> twos, p)
-        if power == 1:
-            continue
-        for _ in range(twos - 1):
-            if power == p - 1:
-                break
-            power = power * power % p
-        if power != p - 1:
-            return False
-    return True
-
-
-def distinct(points):
-    return len(set(points)) == len(points)
-
-
 @functools.lru_cache(maxsize=256)
 def draw_centres(graph_hash, core_hash, n, p, seed, draw):
     """Section 4: centres modulo p, or None if the draw is void."""
@@ -488,11 +360,6 @@ class Core:
         form += struct.pack(f"<{self.n}I", *self.nodes)
         form += struct.pack(f"<{2 * self.m}I", *itertools.chain.from_iterable(self.edges))
         self.hash = hashlib.sha256(form).digest()
-
-
-def same(a, b):
-    """Whether two JSON values are the same; true is not 1."""
-    return type(a) is type(b) and a == b
 
 
 # Section 7: matrices -------------------------------------------------------------------------------------------------
@@ -770,20 +637,22 @@ class Check:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces = members(
-            document, names, "section 3: the document"
+        optional = ["solutions"] if type(document) is dict and "solutions" in document else []
+        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *solutions = members(
+            document, " ".join([names, *optional]), "section 3: the document"
         )
         need(form == "viewcert certificate", "section 3: the format is another")
         a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data, edges_format)
-        self.check_claim_form()
+        self.check_claim_form(optional)
         self.bodies, self.final = [], set()
         self.check_bodies(bodies)
         everything = self.cover()
-        pieces, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
-        self.evidence_claim = self.claim_of(pieces, rigid_count)
+        found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
+        numbers = [self.count_solutions(value, pieces, found) for value in solutions]
+        self.evidence_claim = self.claim_of(found, rigid_count, *numbers)
 
     def read_graph(self, value, graph_data, edges_format):
         """Section 3: the graph."""
@@ -804,19 +673,24 @@ class Check:
         need(self.graph.n == nodes, "section 3: the number of nodes is another")
         need(len(self.graph.edges) == edges, "section 3: the number of edges is another")
 
-    def check_claim_form(self):
+    def check_claim_form(self, optional):
         """Section 3: the claim, as far as it can be judged without the evidence."""
-        claim = members(self.claim, "verdict rank components", "section 3: claim")
-        for name, part in zip(("verdict", "rank", "components"), claim):
+        parts = ["verdict", "rank", "components", *optional]
+        claim = members(self.claim, " ".join(parts), "section 3: claim")
+        own = {"rank": "value required", "solutions": "at_least at_most"}
+        for name, part in zip(parts, claim):
             where = f"section 3: {name}"
-            names = "value required strength error_log2" if name == "rank" else "value strength error_log2"
-            value, *required, strength, error = members(part, names, where)
+            *values, strength, error = members(part, own.get(name, "value") + " strength error_log2", where)
             if name == "verdict":
-                need(value in ("solvable", "finite-solvable", "not-finite-solvable"), f"{where}: no such value")
+                known = values[0] in ("solvable", "finite-solvable", "not-finite-solvable")
+                need(known, f"{where}: no such value")
+            elif name == "solutions":
+                an_int(values[0], f"{where}: at_least")
+                if values[1] is not None:
+                    an_int(values[1], f"{where}: at_most")
             else:
-                an_int(value, f"{where}: value")
-            for number in required:
-                an_int(number, f"{where}: required")
+                for value, member in zip(values, ("value", "required")):
+                    an_int(value, f"{where}: {member}")
             need(strength in ("proof", "error-bound"), f"{where}: no such strength")
             if strength == "proof":
                 need(error is None, f"{where}: a proof has no error bound")
@@ -969,6 +843,11 @@ class Check:
         lower = [(self.core_rank_to_rank(rank, core, piece.nodes), value) for rank, value in lower]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
+        counted = counted_rank(core.n, core.edges, self.model)
+        if counted is not None:
+            # Not a condition of the page: what elimination found must be what counting alone finds.
+            rank = self.core_rank_to_rank(counted, core, piece.nodes)
+            need(piece.lower <= rank <= piece.upper, f"{where}the rank by counting is {rank}")
         draws, seed = (), None
         for value, at in kinds["draws"]:
             rank, seed, draws, piece.error = self.check_draws(value, core, at)
@@ -1226,8 +1105,18 @@ class Check:
 
     # Section 8 -------------------------------------------------------------------------------------------------------
 
-    def claim_of(self, pieces, singles):
-        """Section 8: the claim that the evidence gives."""
+    def count_solutions(self, value, pieces, found):
+        """Section 12: at_least and at_most, where the graph is finite solvable and is one piece that is no member."""
+        where = "section 12"
+        need(self.projective, f"{where}: projective model only")
+        whole = len(found) == len(pieces) == 1 and found[0].nodes == self.graph.n
+        need(whole, f"{where}: there is not one piece of `pieces` that has all nodes")
+        need(found[0].lower == found[0].required, f"{where}: the piece is not shown to be finite solvable")
+        group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
+        return check_solutions(value, [frozenset(self.nodes(member)) for member in group], where)
+
+    def claim_of(self, pieces, singles, numbers=None):
+        """Section 8: the claim that the evidence gives; `numbers` are those of solutions, if they are bounded."""
         n = self.graph.n
         required = self.required(n) if n > 1 else 0
         if n == 1:
@@ -1235,7 +1124,8 @@ class Check:
         lower, upper = sum(piece.lower for piece in pieces), sum(piece.upper for piece in pieces)
         whole = len(pieces) == 1 and pieces[0].nodes == n
         low = [piece for piece in pieces if piece.drawn is not None and piece.drawn < piece.upper]
-        if whole and (singles or not self.projective and lower == required):
+        unique = singles or not self.projective and lower == required or numbers is not None and numbers[1] == 1
+        if whole and unique:
             verdict = stated("solvable")
         elif whole and lower == required:
             verdict = stated("finite-solvable")
@@ -1249,7 +1139,10 @@ class Check:
         rank = stated(lower, bound_sum([piece.error for piece in gaps]) if gaps else None)
         errors = [error for piece in pieces for error in piece.errors]
         components = stated(sum(piece.components for piece in pieces), bound_sum(errors) if errors else None)
-        return {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
+        claim = {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
+        if numbers is not None:
+            claim["solutions"] = {"at_least": numbers[0], "at_most": numbers[1], "strength": "proof", "error_log2": None}
+        return claim
 
     def compare_claim(self):
         """Section 8: value, strength and error are exactly what the evidence gives."""
@@ -1266,12 +1159,17 @@ class Check:
             return "proof" if part["error_log2"] is None else f"error at most 2^{part['error_log2']} over the draws"
 
         verdict, rank, components = (self.claim[name] for name in ("verdict", "rank", "components"))
-        graph = self.graph
+        graph, numbers = self.graph, self.claim.get("solutions")
+        number = []
+        if numbers:
+            at_most = "no upper bound" if numbers["at_most"] is None else f"at most {numbers['at_most']}"
+            number.append(f"solutions: at least {numbers['at_least']}, {at_most} ({strength(numbers)})")
         return [
             f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
             f"{self.model}: {verdict['value']} ({strength(verdict)})",
             f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
             f"components: {components['value']} maximal ({strength(components)})",
+            *number,
         ]
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Is there a test for each condition of check.py? Runs the tests, and lists the places where it can refuse something and never did.
+"""Is there a test for each condition? Runs the tests, and lists the places where the checker can refuse something and never did.
 
 Exit code 1 if there is a place without a test that README.md does not argue for, or if a test fails.
 """
@@ -14,8 +14,13 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import check  # noqa: E402
+import notation  # noqa: E402
+import solutions  # noqa: E402
 import test_check  # noqa: E402
+import test_pebbles  # noqa: E402
+import test_solutions  # noqa: E402
 
+CHECKER, TESTS = (check, notation, solutions), (test_check, test_pebbles, test_solutions)
 REFUSALS = (check.Reject, check.Unreadable, check.TooLarge)
 
 
@@ -23,11 +28,11 @@ def places(source):
     """The lines that call `need` or raise a refusal, each with its text."""
     found = {}
     names = {refusal.__name__ for refusal in REFUSALS}
-    inside = next(node for node in ast.parse(source).body if getattr(node, "name", "") == "need")
+    own = [node for node in ast.parse(source).body if getattr(node, "name", "") == "need"]
     for node in ast.walk(ast.parse(source)):
         called = getattr(node, "func", None) if type(node) is ast.Call else None
         if type(called) is ast.Name and called.id in names | {"need"}:
-            if not inside.lineno <= node.lineno <= inside.end_lineno:
+            if not any(need.lineno <= node.lineno <= need.end_lineno for need in own):
                 found[node.lineno] = source.splitlines()[node.lineno - 1].strip()
     return found
 
@@ -40,8 +45,7 @@ def watch(reached):
         frame = sys._getframe(1)
         if frame.f_code is check.need.__code__:
             frame = frame.f_back
-        if frame.f_code.co_filename == check.__file__:
-            reached.add(frame.f_lineno)
+        reached.add((os.path.basename(frame.f_code.co_filename), frame.f_lineno))
 
     for refusal in REFUSALS:
         refusal.__init__ = remember
@@ -54,15 +58,20 @@ def argued():
 
 
 def main():
-    with open(check.__file__, encoding="utf-8") as file:
-        all_places = places(file.read())
+    all_places = {}
+    for module in CHECKER:
+        with open(module.__file__, encoding="utf-8") as file:
+            found = places(file.read())
+        all_places.update({(os.path.basename(module.__file__), line): text for line, text in found.items()})
     reached, excused, bad = set(), argued(), 0
     watch(reached)
-    done = unittest.TextTestRunner(verbosity=0).run(unittest.defaultTestLoader.loadTestsFromModule(test_check))
-    for line in sorted(all_places.keys() - reached):
-        known = any(text in all_places[line] for text in excused)
+    load = unittest.defaultTestLoader.loadTestsFromModule
+    done = unittest.TextTestRunner(verbosity=0).run(unittest.TestSuite(map(load, TESTS)))
+    for name, line in sorted(all_places.keys() - reached):
+        text = all_places[name, line]
+        known = any(one in text for one in excused)
         bad += not known
-        print(f"{'argued' if known else 'NO TEST'}: check.py:{line}: {all_places[line]}")
+        print(f"{'argued' if known else 'NO TEST'}: {name}:{line}: {text}")
     print(f"{len(all_places)} places, {bad} without a test and without a reason")
     sys.exit(bad > 0 or not done.wasSuccessful())
 

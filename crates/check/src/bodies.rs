@@ -1,5 +1,5 @@
-//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1 and
-//! 4.9).
+//! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9
+//! and 13.9).
 
 use crate::document::{Body, Merge, Model, Source};
 use crate::graph::Graph;

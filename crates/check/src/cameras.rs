@@ -116,6 +116,19 @@ pub(crate) fn centres(stream: &mut Stream, field: &Field, nodes: usize) -> Check
     Ok(centres)
 }
 
+/// Plane points modulo p.
+pub(crate) fn plane_points(
+    stream: &mut Stream,
+    field: &Field,
+    nodes: usize,
+) -> Checked<Vec<[u64; 2]>> {
+    let points: Vec<_> = (0..nodes)
+        .map(|_| [(); 2].map(|()| field.element(stream.below(field.p))))
+        .collect();
+    check_different(points.iter().copied().map(Some))?;
+    Ok(points)
+}
+
 /// General cameras modulo p.
 pub(crate) fn general(
     stream: &mut Stream,

@@ -77,7 +77,7 @@ pub struct Verified {
 
 /// Compares the claim with what follows from the pieces and from what was shown of the number of
 /// solutions: its verdict, its rank, its components and this number.
-/// Ranks add up over pieces (theory, Corollaries 4.6 and 4.12).
+/// Ranks add up over pieces (theory, Corollaries 4.6, 4.12 and 13.12).
 pub(crate) fn verify(
     claims: &Claims,
     graph: &GraphName,
@@ -117,7 +117,7 @@ pub(crate) fn verify(
     })
 }
 
-/// The verdict (theory, Theorems 1.3 and 4.8, Corollary 4.2).
+/// The verdict (theory, Theorems 1.3, 4.8 and 13.2, Corollary 4.2).
 fn check_verdict(
     claim: &VerdictClaim,
     model: Model,
@@ -208,7 +208,7 @@ fn decide(
     if let [piece] = pieces
         && (piece.nodes as i64, piece.lower) == (nodes, required)
     {
-        let unique = piece.is_rigid || model == Model::Calibrated;
+        let unique = piece.is_rigid || model != Model::Projective;
         let verdict = match unique {
             true => Verdict::Solvable,
             false => Verdict::FiniteSolvable,
@@ -285,10 +285,10 @@ impl Display for Verified {
             solutions,
             notes,
         } = self;
-        let given = if *model == Model::Projective {
-            "fundamental"
-        } else {
-            "essential"
+        let (given, cameras) = match model {
+            Model::Projective => ("fundamental", "cameras"),
+            Model::Calibrated => ("essential", "cameras"),
+            Model::Affine => ("fundamental", "affine cameras"),
         };
         let answer = match verdict {
             Verdict::NotFiniteSolvable => "leave infinitely many possibilities for",
@@ -297,7 +297,7 @@ impl Display for Verified {
         };
         writeln!(
             f,
-            "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}\n{verdict}: generic {given} matrices {answer} the cameras ({by})"
+            "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}\n{verdict}: generic {given} matrices {answer} the {cameras} ({by})"
         )?;
         writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;
         write!(f, "components: {} maximal ({})", components.0, components.1)?;

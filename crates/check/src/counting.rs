@@ -19,7 +19,8 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
         ensure!(block.hubs.len() <= 1, "blocks[{k}] has more than one hub");
         ensure!(
             block.hubs.is_empty() || setting.model == Model::Projective,
-            "blocks[{k}] has a hub in the calibrated model"
+            "blocks[{k}] has a hub in the {} model",
+            setting.model
         );
         for hub in &block.hubs {
             let less = check_hub(hub, structure, part);

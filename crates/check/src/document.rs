@@ -78,13 +78,15 @@ impl Value for Version {
     }
 }
 
-/// The question: unknown or known intrinsic parameters.
+/// The question: unknown or known intrinsic parameters, or affine cameras.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// Finite or unique solvability from fundamental matrices.
     Projective,
     /// Solvability from essential matrices: parallel rigidity in space.
     Calibrated,
+    /// Solvability of affine cameras from their fundamental matrices: rigidity in the plane.
+    Affine,
 }
 
 impl fmt::Display for Model {
@@ -92,6 +94,7 @@ impl fmt::Display for Model {
         f.write_str(match self {
             Model::Projective => "projective",
             Model::Calibrated => "calibrated",
+            Model::Affine => "affine",
         })
     }
 }
@@ -101,8 +104,9 @@ impl Value for Model {
         match String::read(from)?.as_str() {
             "projective" => Ok(Model::Projective),
             "calibrated" => Ok(Model::Calibrated),
+            "affine" => Ok(Model::Affine),
             other => Err(D::Error::custom(format!(
-                "`{other}` is not a model: `projective` or `calibrated`"
+                "`{other}` is not a model: `projective`, `calibrated` or `affine`"
             ))),
         }
     }
@@ -146,12 +150,15 @@ pub(crate) enum Evidence {
     Minor(Minor),
     IntegerMinor(IntegerMinor),
     PlaneFlow(PlaneFlow),
+    Pinching(Pinching),
+    PlaneMinor(Minor),
     Counting(Counting),
     Draws(Draws),
     Classes(Classes),
     Kernel(Kernel),
 }
 
+/// Pivots at a draw modulo a prime: `minor` and `plane-minor`.
 #[derive(Debug)]
 pub(crate) struct Minor {
     pub prime: u64,
@@ -187,6 +194,13 @@ pub(crate) struct PlaneFlow {
 }
 
 #[derive(Debug)]
+pub(crate) struct Pinching {
+    pub start: Pair,
+    pub steps: Vec<Vec<usize>>,
+    pub rank: i64,
+}
+
+#[derive(Debug)]
 pub(crate) struct Counting {
     pub blocks: Vec<Block>,
     pub bound: i64,
@@ -218,6 +232,8 @@ impl Evidence {
             Evidence::Minor(_) => "minor",
             Evidence::IntegerMinor(_) => "integer-minor",
             Evidence::PlaneFlow(_) => "plane-flow",
+            Evidence::Pinching(_) => "pinching",
+            Evidence::PlaneMinor(_) => "plane-minor",
             Evidence::Counting(_) => "counting",
             Evidence::Draws(_) => "draws",
             Evidence::Classes(_) => "classes",
@@ -269,7 +285,7 @@ any_members! {
     kernel: Vec<Vec<Big<String>>>,
     flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
     blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
-    vector: Vec<Big<u64>>,
+    vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
 }
 
 /// Takes a member that the kind has.
@@ -286,6 +302,12 @@ impl AnyMembers {
             "minor" => Evidence::Minor(self.minor()?),
             "integer-minor" => Evidence::IntegerMinor(self.integer_minor()?),
             "plane-flow" => Evidence::PlaneFlow(self.plane_flow()?),
+            "pinching" => Evidence::Pinching(Pinching {
+                start: own!(self, start),
+                steps: own!(self, steps),
+                rank: own!(self, rank),
+            }),
+            "plane-minor" => Evidence::PlaneMinor(self.minor()?),
             "counting" => Evidence::Counting(Counting {
                 blocks: own!(self, blocks),
                 bound: own!(self, bound),

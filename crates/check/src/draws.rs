@@ -24,7 +24,8 @@ pub(crate) struct Drawn {
 pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> Checked<Drawn> {
     ensure!(
         setting.model == Model::Projective,
-        "not evidence in the calibrated model"
+        "not evidence in the {} model",
+        setting.model
     );
     let bits = u64::from((setting.model.required(core.nodes) as u64).ilog2()) + 1;
     ensure!(

@@ -72,7 +72,7 @@ fn parts_of_pieces(pieces: &[document::Piece], setting: &Setting) -> Checked<Vec
 }
 
 /// Sees that pieces are a partition of the whole without a cycle, so that ranks add up over them
-/// and no component lies in two (theory, Lemma 4.7, Theorems 4.3 and 4.10).
+/// and no component lies in two (theory, Lemma 4.7, Theorems 4.3, 4.10 and 13.10).
 fn check_division(parts: &[Part], setting: &Setting, whole: &Part) -> Checked<()> {
     setting.structure.owners(whole, parts)?;
     setting.structure.check_acyclic(parts)
@@ -152,7 +152,7 @@ struct Sizes {
 
 impl Sizes {
     /// The rank of the piece if that of the core is given: the same number is missing to what is
-    /// required (theory, Corollaries 4.5 and 4.12).
+    /// required (theory, Corollaries 4.5, 4.12 and 13.12).
     fn of_piece(&self, rank: i64) -> i64 {
         self.required - (self.core_required - rank)
     }
@@ -188,7 +188,11 @@ impl Shown {
     /// Verifies one evidence.
     fn add(&mut self, one: &Evidence, setting: &Setting, piece: &Part, core: &Core) -> Checked<()> {
         match one {
-            Evidence::Minor(_) | Evidence::IntegerMinor(_) | Evidence::PlaneFlow(_) => {
+            Evidence::Minor(_)
+            | Evidence::IntegerMinor(_)
+            | Evidence::PlaneFlow(_)
+            | Evidence::Pinching(_)
+            | Evidence::PlaneMinor(_) => {
                 self.bounds.push(check_lower(one, setting, core)?);
             }
             Evidence::Counting(blocks) => {
@@ -275,8 +279,8 @@ impl Shown {
 
     /// The errors with which the classes of the piece are separated: none if that is proved, by a
     /// motion at cameras where the rank is the generic one; that of the draws if there is a motion
-    /// at each of them; `None` otherwise (sections 7 and 9; theory, Theorems 6.4 and 6.8,
-    /// Proposition 7.4).
+    /// at each of them; `None` otherwise (sections 7 and 9; theory, Theorems 6.4, 6.8
+    /// and 13.13, Proposition 7.4).
     fn separation(&self, is_generic: impl Fn(&Lower) -> bool) -> Option<Vec<i64>> {
         let at_generic = |place: &Place| match place {
             Place::Named(at) => {
@@ -345,8 +349,8 @@ fn check_class(
     Ok(None)
 }
 
-/// Verifies the pieces of a class that is not rigid by itself (theory, Theorem 6.3); in the
-/// calibrated model there is none (Theorem 6.8).
+/// Verifies the pieces of a class that is not rigid by itself (theory, Theorem 6.3); only the
+/// projective model has such classes (Theorems 6.8 and 13.13).
 fn check_split(
     class: &document::Class,
     split: &document::Split,
@@ -355,7 +359,8 @@ fn check_split(
 ) -> Checked<Vec<Piece>> {
     ensure!(
         setting.model == Model::Projective,
-        "a split class in the calibrated model"
+        "a split class in the {} model",
+        setting.model
     );
     ensure!(
         class.evidence.is_empty(),

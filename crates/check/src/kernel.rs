@@ -28,7 +28,7 @@ struct Centres {
 }
 
 /// Verifies `kernel`, for classes of which `owner` has that of each member; returns where it tells
-/// them apart (theory, Proposition 6.7 and Theorem 6.8).
+/// them apart (theory, Proposition 6.7, Theorems 6.8 and 13.13).
 pub(crate) fn check_kernel(
     kernel: &Kernel,
     setting: &Setting,
@@ -37,15 +37,53 @@ pub(crate) fn check_kernel(
     drawn: Option<&Drawn>,
 ) -> Checked<Place> {
     setting.charge_draw(core)?;
+    if setting.model == Model::Affine {
+        return check_plane_kernel(kernel, setting, core, (owner, classes));
+    }
     let Centres {
         field,
         centres,
         place,
     } = centres(kernel, setting, core, drawn)?;
-    let vector = residues(kernel, setting, core, &field)?;
-    let mut motions: Vec<Option<Vec<u64>>> = vec![None; classes];
+    let columns = match setting.model {
+        Model::Projective => 4,
+        _ => 1,
+    };
+    let vector = residues(kernel, 3 * columns * core.nodes, &field)?;
+    let motion = |edge| edge_motion(&field, setting, core, &centres, &vector, edge);
+    check_apart(core, (owner, classes), motion)?;
+    Ok(place)
+}
+
+/// Verifies `kernel` in the affine model: a motion of plane points (theory, Theorem 13.13).
+fn check_plane_kernel(
+    kernel: &Kernel,
+    setting: &Setting,
+    core: &Core,
+    classes: (&[usize], usize),
+) -> Checked<Place> {
+    let Kernel {
+        prime, seed, draw, ..
+    } = *kernel;
+    let field = Field::new(prime).within(|| "prime".into())?;
+    let mut stream = Stream::new("draw", setting.hashes(core), seed, draw);
+    let points = cameras::plane_points(&mut stream, &field, core.nodes)?;
+    let vector = residues(kernel, 2 * core.nodes, &field)?;
+    check_apart(core, classes, |edge| {
+        plane_motion(&field, core, &points, &vector, edge)
+    })?;
+    Ok(Place::Named((prime, seed, draw)))
+}
+
+/// Sees that every class moves as one, and no two classes alike, given how each core edge moves.
+fn check_apart<M: Clone + Ord>(
+    core: &Core,
+    (owner, classes): (&[usize], usize),
+    edge_motion: impl Fn(usize) -> Checked<M>,
+) -> Checked<()> {
+    let mut motions: Vec<Option<M>> = vec![None; classes];
     for (edge, &member) in core.member.iter().enumerate() {
-        let motion = edge_motion(&field, setting, core, &centres, &vector, edge)?;
+        let motion = edge_motion(edge)?;
         let class = owner[member];
         let same = *motions[class].get_or_insert_with(|| motion.clone()) == motion;
         ensure!(same, "class {class} does not move as one");
@@ -55,7 +93,7 @@ pub(crate) fn check_kernel(
         motions.windows(2).all(|pair| pair[0] != pair[1]),
         "two classes move alike"
     );
-    Ok(place)
+    Ok(())
 }
 
 /// The centres at which the motion is: those of a draw of `draws` if the certificate names one of
@@ -91,12 +129,8 @@ fn centres(
     })
 }
 
-/// The entries of the vector.
-fn residues(kernel: &Kernel, setting: &Setting, core: &Core, field: &Field) -> Checked<Vec<u64>> {
-    let width = match setting.model {
-        Model::Projective => 12 * core.nodes,
-        Model::Calibrated => 3 * core.nodes,
-    };
+/// The entries of the vector, of which there are `width`.
+fn residues(kernel: &Kernel, width: usize, field: &Field) -> Checked<Vec<u64>> {
     let vector = &kernel.vector;
     ensure!(
         vector.len() == width,
@@ -149,4 +183,29 @@ fn edge_motion(
         }
     }
     Ok(x)
+}
+
+/// How a kernel vector moves an edge in the plane: (s, t) with y = s p + t at both ends (theory,
+/// (13.1)).
+fn plane_motion(
+    field: &Field,
+    core: &Core,
+    points: &[[u64; 2]],
+    vector: &[u64],
+    edge: usize,
+) -> Checked<[u64; 3]> {
+    let (i, j) = core.edges[edge];
+    let moved = |v: usize| [vector[2 * v], vector[2 * v + 1]];
+    let minus = |x: [u64; 2], y: [u64; 2]| [0, 1].map(|k| field.sub(x[k], y[k]));
+    let times = |s: u64, x: [u64; 2]| x.map(|entry| field.mul(s, entry));
+    let (difference, change) = (minus(points[i], points[j]), minus(moved(i), moved(j)));
+    // One entry is not zero, as the two points are different.
+    let q = usize::from(difference[0] == 0);
+    let s = field.mul(change[q], field.inverse(difference[q]));
+    ensure!(
+        times(s, difference) == change,
+        "not a kernel vector at the core edge {edge}"
+    );
+    let [x, y] = minus(moved(i), times(s, points[i]));
+    Ok([s, x, y])
 }

@@ -12,17 +12,18 @@
 //! |---|---|---|---|
 //! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
-//! | bodies come from merges | 5 | 4.1, 4.9 | `bodies` |
+//! | bodies come from merges | 5 | 4.1, 4.9, 13.9 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
-//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10 | `evidence` |
-//! | cores are formed | 6 | 4.4, 4.11 | `structure` |
+//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10 | `evidence` |
+//! | cores are formed | 6 | 4.4, 4.11, 13.11 | `structure` |
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
+//! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
 //! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5 | `counting` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
-//! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8 | `kernel` |
+//! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13 | `kernel` |
 //! | the number of solutions | 12 | 10.2 to 10.11 | `solutions`, a file for each kind |
-//! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12 | `claim` |
+//! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
 //! 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds what that may cost (section
@@ -44,8 +45,10 @@ mod kernel;
 mod limits;
 mod lower;
 mod matrices;
+mod pinching;
 mod pivots;
 mod plane_flow;
+mod plane_minor;
 pub mod program;
 mod rejection;
 mod setting;

@@ -7,8 +7,10 @@ use crate::document::{Evidence, Minor, Model};
 use crate::elimination::Echelon;
 use crate::integer_minor::check_integer_minor;
 use crate::matrices::jacobian;
+use crate::pinching::check_pinching;
 use crate::pivots::{Pivots, eliminate};
 use crate::plane_flow::check_plane_flow;
+use crate::plane_minor::check_plane_minor;
 use crate::rejection::{Checked, Failure, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
@@ -17,13 +19,13 @@ use crate::structure::Core;
 /// 1.4).
 pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -> Checked<Lower> {
     setting.charge_draw(core)?;
+    check_model(evidence, setting.model)?;
     let lower = match evidence {
-        Evidence::PlaneFlow(flow) => check_plane_flow(flow, setting, core)?,
-        Evidence::Minor(_) | Evidence::IntegerMinor(_) if setting.model == Model::Calibrated => {
-            return Err(Failure::rejected("not evidence in the calibrated model"));
-        }
         Evidence::Minor(minor) => check_minor(minor, setting, core)?,
         Evidence::IntegerMinor(minor) => check_integer_minor(minor, setting, core)?,
+        Evidence::PlaneFlow(flow) => check_plane_flow(flow, setting, core)?,
+        Evidence::Pinching(pinching) => check_pinching(pinching, setting, core)?,
+        Evidence::PlaneMinor(minor) => check_plane_minor(minor, setting, core)?,
         _ => return Err(Failure::rejected("not a lower bound")),
     };
     let most = setting.model.required(core.nodes);
@@ -34,6 +36,18 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
         core.nodes
     );
     Ok(lower)
+}
+
+/// Each matrix belongs to a question.
+fn check_model(evidence: &Evidence, model: Model) -> Checked<()> {
+    let fits = match evidence {
+        Evidence::Minor(_) | Evidence::IntegerMinor(_) => model == Model::Projective,
+        Evidence::PlaneFlow(_) => model != Model::Affine,
+        Evidence::Pinching(_) | Evidence::PlaneMinor(_) => model == Model::Affine,
+        _ => true,
+    };
+    ensure!(fits, "not evidence in the {model} model");
+    Ok(())
 }
 
 /// A minor of J_P that does not vanish modulo p.

@@ -1,5 +1,5 @@
-//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, and the
-//! motions that change no fundamental matrix.
+//! The matrices of section 7: the paper's Jacobian J_P over any ring, the bearing matrix N, the
+//! plane direction matrix R, and the motions that change no fundamental matrix.
 
 use crate::algebra::{Field, Ring};
 use crate::cameras::{Camera, centre};
@@ -98,6 +98,23 @@ pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<
         }
     }
     rows
+}
+
+/// Row `row` of the plane direction matrix R: entries with their columns.
+pub(crate) fn plane_direction(
+    field: &Field,
+    core: &Core,
+    points: &[[u64; 2]],
+    row: usize,
+) -> [(usize, u64); 4] {
+    let (i, j) = core.edges[row];
+    let [x, y] = [0, 1].map(|k| field.sub(points[i][k], points[j][k]));
+    [
+        (2 * i, y),
+        (2 * i + 1, field.neg(x)),
+        (2 * j, field.neg(y)),
+        (2 * j + 1, x),
+    ]
 }
 
 /// The motion P_v X of some cameras, or as many columns of it, where X has a one in entry (a, b) =

@@ -44,7 +44,7 @@ pub(crate) fn check_plane_flow(
     );
     let rank = match setting.model {
         Model::Projective => 4 * a + b - m,
-        Model::Calibrated => a,
+        _ => a,
     };
     let at = Some((*prime, *seed, *draw));
     Ok(Lower {

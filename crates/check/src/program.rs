@@ -33,7 +33,7 @@ the certificate must hold the graph.
 
 What the certificate must be about (verified, but something else: exit code 1):
   --expect VERDICT     solvable, finite-solvable or not-finite-solvable
-  --model MODEL        projective or calibrated
+  --model MODEL        projective, calibrated or affine
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
@@ -194,7 +194,8 @@ fn model(text: &str) -> Result<Model, &'static str> {
     match text {
         "projective" => Ok(Model::Projective),
         "calibrated" => Ok(Model::Calibrated),
-        _ => Err("it is projective or calibrated"),
+        "affine" => Ok(Model::Affine),
+        _ => Err("it is projective, calibrated or affine"),
     }
 }
 

@@ -13,6 +13,7 @@ impl Model {
             _ if nodes == 1 => 0,
             Model::Projective => 11 * nodes as i64 - 15,
             Model::Calibrated => 3 * nodes as i64 - 4,
+            Model::Affine => 8 * nodes as i64 - 12,
         }
     }
 }
@@ -46,7 +47,7 @@ pub(crate) type Draw = (u64, u64, u64);
 /// A lower bound on the rank of a core.
 pub(crate) struct Lower {
     pub rank: i64,
-    /// Where the rank is reached, if centres modulo p were drawn.
+    /// Where the rank is reached, if centres or plane points modulo p were drawn.
     pub at: Option<Draw>,
     /// For people: what else was verified.
     pub note: Option<String>,

@@ -216,7 +216,7 @@ impl<'a> Structure<'a> {
         Ok(())
     }
 
-    /// The core of a part (section 6; theory, Theorems 4.4 and 4.11).
+    /// The core of a part (section 6; theory, Theorems 4.4, 4.11 and 13.11).
     pub fn core(&self, part: &Part) -> Checked<Core> {
         let nodes = self.core_nodes(part);
         self.meter.allow_core(nodes.len())?;

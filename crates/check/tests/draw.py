@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fills in what a certificate has from its draws of cameras: pivots, determinants and kernel vectors.
+"""Fills in what a certificate has from its draws of cameras: pivots, determinants and kernel vectors;
+and pinching sequences, by looking at all sets of nodes.
 
     draw.py CERTIFICATE...            rewrites each file in place
     draw.py --check CERTIFICATE...    changes nothing; exit code 1 if something would change
@@ -87,6 +88,12 @@ def own_prime(stream):
 
 def centres(stream, p, nodes):
     drawn = [[stream.below(p) for _ in range(3)] for _ in range(nodes)]
+    assert len(set(map(tuple, drawn))) == nodes, "a void draw: take another"
+    return drawn
+
+
+def plane_points(stream, p, nodes):
+    drawn = [[stream.below(p) for _ in range(2)] for _ in range(nodes)]
     assert len(set(map(tuple, drawn))) == nodes, "a void draw: take another"
     return drawn
 
@@ -277,15 +284,59 @@ def bearings(core, drawn, p):
     return matrix, directions
 
 
+def plane_directions(core, points, p):
+    """The rows of R."""
+    matrix = []
+    for i, j in core.edges:
+        x, y = (points[i][k] - points[j][k] for k in range(2))
+        row = [0] * (2 * core.nodes)
+        row[2 * i:2 * i + 2], row[2 * j:2 * j + 2] = [y % p, -x % p], [-y % p, x % p]
+        matrix.append(row)
+    return matrix
+
+
 def camera_at(c, p):
     return [[int(r == k) for k in range(3)] + [-c[r] % p] for r in range(3)]
+
+
+# --- section 7: pinching, by the definition of sparse sets of edges ----------------------------
+
+def is_sparse(nodes, edges):
+    """Every set of at least two nodes spans at most 2 |X| - 3 edges."""
+    sets = (set(one) for size in range(2, len(nodes) + 1) for one in combinations(nodes, size))
+    return all(sum(i in one and j in one for i, j in edges) <= 2 * len(one) - 3 for one in sets)
+
+
+def pinching(core):
+    """Start, steps and rank: a largest sparse set of core edges, more edges until there are 2 n - 3,
+    and Henneberg's steps backwards."""
+    nodes, edges = list(range(core.nodes)), []
+    for edge in core.edges + list(combinations(nodes, 2)):
+        if edge not in edges and is_sparse(nodes, edges + [edge]):
+            edges.append(edge)
+    assert len(edges) == 2 * core.nodes - 3
+    rank, steps = sum(edge in core.edges for edge in edges), []
+    while len(nodes) > 2:
+        degree = {node: sum(node in edge for edge in edges) for node in nodes}
+        z = max((node for node in nodes if degree[node] <= 3), key=lambda node: (-degree[node], node))
+        ends = sorted(sum(edge) - z for edge in edges if z in edge)
+        nodes, edges = [node for node in nodes if node != z], [edge for edge in edges if z not in edge]
+        if len(ends) == 3:
+            a, b = next(pair for pair in combinations(ends, 2)
+                        if pair not in edges and is_sparse(nodes, edges + [pair]))
+            edges.append((a, b))
+            ends = [a, b] + [c for c in ends if c not in (a, b)]
+        steps.append([z] + ends)
+    assert edges == [tuple(nodes)]
+    return nodes, steps[::-1], rank
 
 
 # --- the evidence ---------------------------------------------------------------------------
 
 class Filler:
     def __init__(self, document):
-        self.calibrated = document["model"] == "calibrated"
+        self.model = document["model"]
+        self.calibrated = self.model == "calibrated"
         self.nodes, self.edges = graph6(document["graph"]["graph6"])
         self.hash = graph_hash(self.nodes, self.edges)
         document["version"] = 2
@@ -324,7 +375,8 @@ class Filler:
                     self.kernel(core, evidence, owner, draws)
 
     def lower(self, core, evidence):
-        kind = {"minor": self.minor, "integer-minor": self.integer_minor, "plane-flow": self.plane_flow}
+        kind = {"minor": self.minor, "integer-minor": self.integer_minor, "plane-flow": self.plane_flow,
+                "pinching": self.pinching, "plane-minor": self.plane_minor}
         if evidence["kind"] in kind:
             kind[evidence["kind"]](core, evidence)
 
@@ -411,6 +463,14 @@ class Filler:
                                    for omega, (_, j) in zip(omegas, core.edges)])
         evidence["lambda_rows"], evidence["lambda_cols"] = pivots(rows_of_lambda, p)
 
+    def pinching(self, core, evidence):
+        evidence["start"], evidence["steps"], evidence["rank"] = pinching(core)
+
+    def plane_minor(self, core, evidence):
+        p = int(evidence["prime"])
+        points = plane_points(self.stream(b"draw", core, evidence), p, core.nodes)
+        evidence["rows"], evidence["cols"] = pivots(plane_directions(core, points, p), p)
+
     def own(self, core, seed, draw):
         stream = Stream(b"draw", self.hash, core.hash, seed, draw)
         p = own_prime(stream)
@@ -432,32 +492,33 @@ class Filler:
             p, drawn = at
             evidence["prime"] = str(p)
         else:
-            p = int(evidence["prime"])
-            drawn = centres(self.stream(b"draw", core, evidence), p, core.nodes)
-        cameras = [camera_at(c, p) for c in drawn]
-        columns = 1 if self.calibrated else 4
-        if self.calibrated:
-            matrix, width = bearings(core, drawn, p)[0], 3 * core.nodes
-        else:
-            matrix, width = jacobian(core, cameras), 12 * core.nodes
+            p, draw = int(evidence["prime"]), plane_points if self.model == "affine" else centres
+            drawn = draw(self.stream(b"draw", core, evidence), p, core.nodes)
+        # With [ I | -p ] for plane points the motion of an edge is y = [ I | -p ] X, X = (t, -s), too.
+        dimensions = len(drawn[0])
+        cameras = [[[int(r == k) for k in range(dimensions)] + [-c[r] % p] for r in range(dimensions)] for c in drawn]
+        columns = 4 if self.model == "projective" else 1
+        matrix = {"projective": lambda: jacobian(core, cameras), "calibrated": lambda: bearings(core, drawn, p)[0],
+                  "affine": lambda: plane_directions(core, drawn, p)}[self.model]()
+        width = dimensions * columns * core.nodes
         basis = null_space(matrix, width, p)
 
         def motion(vector, edge):
             """X, less a multiple of I."""
             i, j = core.edges[edge]
-            size = 3 * columns
+            size, unknowns = dimensions * columns, (dimensions + 1) * columns
             units = []
-            for ab in range(4 * columns):
+            for ab in range(unknowns):
                 a, b = divmod(ab, columns)
                 unit = [0] * (2 * size)
                 for half, v in enumerate((i, j)):
-                    for r in range(3):
-                        unit[half * size + 3 * b + r] = cameras[v][r][a]
+                    for r in range(dimensions):
+                        unit[half * size + dimensions * b + r] = cameras[v][r][a]
                 units.append(unit)
             if columns == 4:
                 units.append([0] * size + [cameras[j][k % 3][k // 3] for k in range(size)])
             wanted = vector[size * i:size * i + size] + vector[size * j:size * j + size]
-            x = solve(units, wanted, p)[:4 * columns]
+            x = solve(units, wanted, p)[:unknowns]
             if columns == 4:
                 last = x[15]
                 x = [(entry - last if k % 5 == 0 else entry) % p for k, entry in enumerate(x)]
@@ -471,7 +532,7 @@ class Filler:
             other = first.setdefault(owner[member], edge)
             if other != edge:
                 conditions += [[(one[edge][k] - one[other][k]) % p for one in of_basis]
-                               for k in range(4 * columns)]
+                               for k in range((dimensions + 1) * columns)]
         fine = null_space(conditions, len(basis), p)
         for attempt in count(1):
             weights = [pow(3, attempt * (k + 1), p) + k for k in range(len(fine))]
@@ -488,7 +549,7 @@ def written(document):
     """One line, but for a line feed before each list and claim that is worth one."""
     text = json.dumps(document, separators=(",", ":"))
     for name in ('"model"', '"rank":{', '"components":{', '"bodies"', '"rigid"', '"edges":[', '"pieces"',
-                 '"evidence"', '"cols"', '"determinant"', '"flows"', '"lambda_rows"', '"lambda_cols"', '"split"'):
+                 '"evidence"', '"steps"', '"cols"', '"determinant"', '"flows"', '"lambda_rows"', '"lambda_cols"', '"split"'):
         text = text.replace("," + name, ",\n " + name)
     return text + "\n"
 

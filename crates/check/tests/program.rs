@@ -119,7 +119,7 @@ fn bad_usage() {
         &[&square, &square, &square],
         &[&square, "--expect", "maybe"],
         &[&square, "--expect"],
-        &[&square, "--model", "affine"],
+        &[&square, "--model", "plane"],
         &[&square, "--nodes", "four"],
         &[&square, "--nodes", "-4"],
         &[&square, "--sha256", "9ac8"],

@@ -33,7 +33,8 @@
 //!
 //! Data flows one way: a [`graph`] is contracted to bodies and cut into pieces ([`contract`]);
 //! each piece is decided with exact arithmetic ([`linalg`]) at drawn cameras ([`geometry`]), its
-//! components are found and upper bounds are counted ([`mod@decide`]); the verdict leaves with its
+//! components are found and upper bounds are counted ([`mod@decide`]), or counting alone decides
+//! ([`sparsity`]); the verdict leaves with its
 //! evidence as a [`certificate`]. Nothing here reads a file, prints, or computes in floating point.
 
 pub mod certificate;
@@ -43,6 +44,7 @@ pub mod geometry;
 pub mod graph;
 pub mod linalg;
 pub mod solutions;
+pub mod sparsity;
 pub mod watch;
 pub mod wording;
 

@@ -107,12 +107,13 @@ impl Contraction {
     /// O(m * arboricity) for the search of cycles of edges at worst.
     pub fn new(graph: &Graph, model: Model) -> Self {
         match model {
-            Model::Projective => Self::by_triangles(graph),
+            // Four bodies around a cycle move against each other in the plane.
+            Model::Projective | Model::Affine => Self::by_triangles(graph),
             Model::Calibrated => Self::by_cycles(graph),
         }
     }
 
-    /// Closed under cycles of two and three (Theorem 4.1).
+    /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9).
     fn by_triangles(graph: &Graph) -> Self {
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);

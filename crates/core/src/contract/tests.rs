@@ -1,7 +1,8 @@
 //! Contraction, replayed step by step and compared with the rules applied naively.
 
 use super::*;
-use crate::geometry::draw::{DrawKey, centres_mod};
+use crate::geometry::draw::{DrawKey, centres_mod, points_mod};
+use crate::geometry::plane_direction::PlaneDirections;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::sha256;
 use crate::linalg::prime::PrimeField;
@@ -148,7 +149,7 @@ fn check(graph: &Graph, model: Model) {
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
     assert_eq!(parts.len(), finals.len() + contraction.loose.len());
     let longest = match model {
-        Model::Projective => 3,
+        Model::Projective | Model::Affine => 3,
         Model::Calibrated => 4,
     };
     assert_eq!(parts, naive(graph, longest));
@@ -159,14 +160,36 @@ fn check(graph: &Graph, model: Model) {
         if model == Model::Calibrated {
             assert_eq!(rigidity_rank(nodes, &covered), 3 * nodes.len() - 4);
         }
+        if model == Model::Affine {
+            assert_eq!(plane_rank(nodes, &covered), 2 * nodes.len() - 3);
+        }
     }
+}
+
+/// Some nodes as a graph of their own.
+fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
+    let number = |v: u32| nodes.range(..v).count() as u32;
+    let pairs = edges.iter().map(|&(i, j)| (number(i), number(j))).collect();
+    Graph::from_pairs(nodes.len() as u32, pairs).unwrap().0
+}
+
+/// The rank of R at drawn points modulo 2^61 - 1.
+fn plane_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+    let graph = alone(nodes, edges);
+    let key = DrawKey {
+        graph_sha256: sha256(&graph),
+        core_sha256: None,
+        seed: 5,
+        draw: 0,
+    };
+    let field = PrimeField::mersenne61();
+    let points = points_mod(&field, graph.nodes(), &key).unwrap().values;
+    unwatched(|task| PlaneDirections::new(&field, &graph, &points, task)).rank()
 }
 
 /// The rank of N at drawn centres modulo 2^61 - 1.
 fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
-    let number = |v: u32| nodes.range(..v).count() as u32;
-    let pairs = edges.iter().map(|&(i, j)| (number(i), number(j))).collect();
-    let (graph, _) = Graph::from_pairs(nodes.len() as u32, pairs).unwrap();
+    let graph = alone(nodes, edges);
     let key = DrawKey {
         graph_sha256: sha256(&graph),
         core_sha256: None,
@@ -300,8 +323,9 @@ proptest! {
         pairs in prop::collection::vec((0u32..14, 0u32..14), 1..34),
     ) {
         let graph = among(nodes, pairs);
-        check(&graph, Model::Projective);
-        check(&graph, Model::Calibrated);
+        for model in Model::ALL {
+            check(&graph, model);
+        }
     }
 
     #[test]

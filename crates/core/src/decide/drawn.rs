@@ -79,13 +79,12 @@ impl<'a> Ranks<'a> {
         }
         let flows = PlaneFlows::new(&at.field, &core.graph, &at.values, &task)?;
         let rigidity = flows.rigidity_rank();
-        let (lambda, rank) = match model {
-            Model::Calibrated => (None, rigidity),
-            Model::Projective => {
-                let lambda = flows.lambda(at.key.flow_weights(&at.field), &task)?;
-                let rank = 4 * rigidity + lambda.rank() - core.graph.edges().len();
-                (Some(lambda), rank)
-            }
+        let (lambda, rank) = if model == Model::Projective {
+            let lambda = flows.lambda(at.key.flow_weights(&at.field), &task)?;
+            let rank = 4 * rigidity + lambda.rank() - core.graph.edges().len();
+            (Some(lambda), rank)
+        } else {
+            (None, rigidity)
         };
         Ok(Self {
             core,

@@ -8,6 +8,7 @@ use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
+use crate::sparsity::Pinching;
 
 /// Where the cameras of a piece of evidence come from: a prime and a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,20 @@ pub enum Evidence {
         /// The pivots.
         rank: PlaneFlowRank,
     },
+    /// A sequence of pinchings on the nodes of the core (affine model).
+    Pinching {
+        /// The sequence.
+        pinching: Pinching,
+        /// How many of its last edges are edges of the core.
+        rank: usize,
+    },
+    /// Pivots of R modulo p (affine model).
+    PlaneMinor {
+        /// The points.
+        draw: ModularDraw,
+        /// Rows and columns.
+        pivots: Pivots,
+    },
     /// An upper bound by counting.
     Counting(Counting),
     /// The rank at draws that nobody can choose.
@@ -49,7 +64,7 @@ pub enum Evidence {
     Kernel {
         /// The centres.
         draw: ModularDraw,
-        /// Entry `12 v + 3 c + r` (calibrated: `3 v + r`), residues.
+        /// Entry `12 v + 3 c + r` (calibrated: `3 v + r`, affine: `2 v + r`), residues.
         vector: Vec<u64>,
     },
 }

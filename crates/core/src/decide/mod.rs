@@ -16,7 +16,8 @@
 //!   conclude   ranks add up; the verdict, and the components                4.6
 //! ```
 //!
-//! Pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in
+//! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
+//! pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in
 //! `motion_class`, bounds in `counting`, the paper's own matrix (`--no-contraction`,
 //! `--rational`) in `whole_matrix`. What goes in is in `options`, what is found in [`evidence`],
 //! what comes out in `verdict`.
@@ -30,6 +31,7 @@ mod error;
 mod motion_class;
 mod one_piece;
 mod options;
+mod plane_piece;
 mod verdict;
 mod whole_matrix;
 
@@ -37,6 +39,7 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
 pub use options::{Arithmetic, Options, Prime};
+pub use plane_piece::plane_rank;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
 use crate::contract::Contraction;
@@ -71,7 +74,11 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         assembly.whole(&all)
     };
     drop(work);
-    let pieces = one_piece::decide_all(&assembly, &pieces, &sha256, options)?;
+    let pieces = if options.model == Model::Affine {
+        plane_piece::decide_all(&assembly, &pieces, &sha256, options)?
+    } else {
+        one_piece::decide_all(&assembly, &pieces, &sha256, options)?
+    };
     let found = Found {
         graph,
         model: options.model,
@@ -95,7 +102,7 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// Sums up over the pieces (Theorem 4.3 and Corollary 4.6 of docs/theory.md; calibrated:
-    /// Theorem 4.10 and Corollary 4.12).
+    /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12).
     fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Verdict {
         let rigid_rank = self.rigid_rank();
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
@@ -129,7 +136,7 @@ impl Found<'_> {
     }
 
     /// The answer: one body is unique (Corollary 4.2), one piece of full rank is finite
-    /// (Theorem 1.3) and in the calibrated model unique (Theorem 4.8).
+    /// (Theorem 1.3) and in the other models unique (Theorems 4.8 and 13.2).
     fn value(&self, rank: usize) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
         let all_nodes =
@@ -142,7 +149,7 @@ impl Found<'_> {
                 .is_some_and(|piece| all_nodes(&piece.members));
         match self.model {
             _ if is_body || self.graph.nodes() == 1 => Value::Solvable,
-            Model::Calibrated if is_full => Value::Solvable,
+            Model::Calibrated | Model::Affine if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
             _ => Value::NotFiniteSolvable,
         }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// The cameras are unique up to a projective map (calibrated: up to scale and
-    /// translation).
+    /// translation; affine: up to an affine map).
     Solvable,
     /// Finitely many sets of cameras.
     FiniteSolvable,
@@ -137,7 +137,7 @@ pub struct Verdict {
     pub sha256: [u8; 32],
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.
     pub value: Value,
-    /// The generic rank of J_P (calibrated: of N), with [`rank_claim`](Self::rank_claim).
+    /// The generic rank of J_P (calibrated: of N; affine: four times that of R), with [`rank_claim`](Self::rank_claim).
     pub rank: usize,
     /// The rank of a finite solvable graph with as many nodes.
     pub required: usize,

@@ -23,6 +23,7 @@
 //! | centres modulo p | 3 coordinates | uniform below p |
 //! | cameras modulo p | 12 entries, row by row | uniform below p |
 //! | rational cameras, bounds A, B | 12 entries, row by row | numerator: uniform below 2A + 1, less A; then denominator: uniform below B, plus 1 |
+//! | points modulo p | 2 coordinates | uniform below p |
 //! | integer centres, bound C | 3 coordinates | uniform below 2C + 1, less C |
 //!
 //! A rational camera is then multiplied by the least common multiple of the twelve
@@ -200,6 +201,21 @@ pub fn centres_mod(
         std::array::from_fn(|_| field.from_u64(uniform(generator, field.modulus())))
     };
     key.draw(nodes, draw, |&centre: &[u64; 3]| Some(centre))
+}
+
+/// Distinct points in the plane modulo p, as elements of `field`, one a node.
+///
+/// # Errors
+/// The prime is too small for so many distinct points.
+pub fn points_mod(
+    field: &PrimeField,
+    nodes: usize,
+    key: &DrawKey,
+) -> Result<Drawn<Vec<[u64; 2]>>, DrawError> {
+    let draw = |generator: &mut ChaCha20Rng| {
+        std::array::from_fn(|_| field.from_u64(uniform(generator, field.modulus())))
+    };
+    key.draw(nodes, draw, |&point: &[u64; 2]| Some(point))
 }
 
 /// As [`centres_mod`], modulo a prime that the draw itself chooses: words w of the stream

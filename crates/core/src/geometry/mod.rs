@@ -3,10 +3,11 @@
 //! In: a graph, a field or ring, a key of random draws. Out: cameras and centres ([`camera`],
 //! [`draw`]),
 //! the paper's Jacobian J_P ([`jacobian`]), the bearing matrix N with plane flows and Lambda
-//! ([`plane_flow`]); and the questions that are asked of them ([`model`]).
+//! ([`plane_flow`]), its counterpart for points in the plane ([`plane_direction`]); and the questions that are asked of them ([`model`]).
 
 pub mod camera;
 pub mod draw;
 pub mod jacobian;
 pub mod model;
+pub mod plane_direction;
 pub mod plane_flow;

@@ -12,19 +12,24 @@ pub enum Model {
     /// The intrinsics: edges carry essential matrices, rotations follow, and what is
     /// left is parallel rigidity of the centres in space (docs/theory.md, section 5).
     Calibrated,
+    /// The cameras are affine: edges carry affine fundamental matrices, and what is left is
+    /// rigidity in the plane (docs/theory.md, section 13).
+    Affine,
 }
 
 impl Model {
     /// All models.
-    pub const ALL: [Self; 2] = [Self::Projective, Self::Calibrated];
+    pub const ALL: [Self; 3] = [Self::Projective, Self::Calibrated, Self::Affine];
 
     /// The rank of a finite solvable graph, or of a body, with n >= 2 nodes: 11 n - 15 of J_P
     /// (Theorem 1.3 of docs/theory.md; Theorem 1 of the paper), in the calibrated model
-    /// 3 n - 4 of N (Lemma 4.8). One camera leaves nothing to determine: 0.
+    /// 3 n - 4 of N (Lemma 4.8), in the affine model 8 n - 12, four times that of R (Theorem
+    /// 13.2). One camera leaves nothing to determine: 0.
     pub const fn required(self, n: usize) -> usize {
         match self {
             Self::Projective => (11 * n).saturating_sub(15),
             Self::Calibrated => (3 * n).saturating_sub(4),
+            Self::Affine => (8 * n).saturating_sub(12),
         }
     }
 
@@ -33,6 +38,7 @@ impl Model {
         match self {
             Self::Projective => "projective",
             Self::Calibrated => "calibrated",
+            Self::Affine => "affine",
         }
     }
 }
@@ -49,7 +55,7 @@ pub struct UnknownModel;
 
 impl fmt::Display for UnknownModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the models are projective and calibrated")
+        f.write_str("the models are projective, calibrated and affine")
     }
 }
 
@@ -76,10 +82,11 @@ mod tests {
         assert_eq!("Projective".parse::<Model>(), Err(UnknownModel));
     }
 
-    /// A pair has a fundamental matrix with 7 and a bearing with 2 degrees of freedom.
+    /// A pair has a fundamental matrix with 7 and a bearing with 2 degrees of freedom; an affine
+    /// fundamental matrix has 4.
     #[test]
     fn required_ranks_of_small_graphs() {
         let ranks = |n| Model::ALL.map(|model| model.required(n));
-        assert_eq!([1, 2, 3].map(ranks), [[0, 0], [7, 2], [18, 5]]);
+        assert_eq!([1, 2, 3].map(ranks), [[0, 0, 0], [7, 2, 4], [18, 5, 12]]);
     }
 }

@@ -10,8 +10,8 @@
 //! | `name` | a name in the folder of graphs, with or without what follows the dot |
 //! | `verdict` | `solvable`, `finite-solvable`, `not-finite-solvable`, `not-solvable` |
 //! | `components`, `components_...` | a number of maximal finite-solvable components |
-//! | `rank` | the generic rank of J_P (calibrated: of N) |
-//! | `model` | `projective`, which is meant where it is not said, or `calibrated` |
+//! | `rank` | the generic rank of J_P (calibrated: of N; affine: four times that of R) |
+//! | `model` | `projective`, which is meant where it is not said, `calibrated` or `affine` |
 //! | `nodes`, `edges`, `sha256` | size and hash, to tell whether it is the graph that was meant |
 //! | `seconds`, `seconds_...`, `density_...` | how long it took, how dense it is: no claim |
 //!
@@ -309,7 +309,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 23] = [
+const REPORTED: [&str; 25] = [
     "graph",
     "notes",
     "database",
@@ -323,6 +323,8 @@ const REPORTED: [&str; 23] = [
     "rank_strength",
     "components",
     "components_strength",
+    "conditions",
+    "planar",
     "mode",
     "seconds",
     "joints",

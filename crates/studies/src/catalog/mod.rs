@@ -4,10 +4,11 @@
 //! one of each isomorphism class: from [`kernel`]s by [`subdivide`]-ing, or node by node
 //! ([`grow`]) where there are many edges. [`mine`] decides them; [`minimal`] finds the
 //! graphs that are finite solvable and not so without any one edge; [`random`] samples
-//! connected random graphs; [`invariants`] describes what was found.
+//! connected random graphs; [`invariants`] describes what was found; a [`census`] counts by model.
 
 pub mod candidates;
 pub mod canonical;
+pub mod census;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;

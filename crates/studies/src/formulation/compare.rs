@@ -1,5 +1,7 @@
 //! Every formulation at the same cameras: sizes, ranks, and whether they agree.
 
+pub mod affine;
+
 use crate::formulation::plane_ranks;
 use crate::formulation::plane_ranks::Shape;
 use crate::formulation::rank::RankField;
@@ -106,6 +108,9 @@ pub struct Comparison {
     pub kernel_is_f: usize,
     /// On how many edges the identity of Proposition 2 holds.
     pub identity: usize,
+    /// Of affine cameras, for which the two checks above are not made (and are 0): on how many edges
+    /// F is that of Lemma 13.1 of docs/theory.md.
+    pub affine_f: Option<usize>,
     /// The draw that gave the cameras.
     pub draw: u64,
 }
@@ -138,10 +143,11 @@ impl Comparison {
     /// Whether what was computed agrees.
     pub fn outcome(&self, graph: &Graph) -> Outcome {
         let edges = graph.edges().len();
-        let (checked, computed) = (
-            self.kernel_is_f == edges && self.identity == edges,
-            self.computed(),
-        );
+        let checked = match self.affine_f {
+            Some(held) => held == edges,
+            None => self.kernel_is_f == edges && self.identity == edges,
+        };
+        let computed = self.computed();
         match self.excess() {
             None if computed > 0 => Outcome::Disagree,
             _ if !checked => Outcome::Disagree,
@@ -196,10 +202,17 @@ pub fn modular(
     seed: u64,
     limits: &Limits,
 ) -> Result<Comparison, CompareError> {
-    compare(field, graph, seed, limits, |key| {
+    compare(field, graph, seed, limits, drawn_mod(field, graph))
+}
+
+fn drawn_mod(
+    field: &PrimeField,
+    graph: &Graph,
+) -> impl Fn(&DrawKey) -> Result<Draw<u64>, DrawError> {
+    |key| {
         let drawn = draw::cameras_mod(field, graph.nodes(), key)?;
         Ok((drawn.values, drawn.draw))
-    })
+    }
 }
 
 /// Compares over Q at cameras with small rational entries.
@@ -208,16 +221,39 @@ pub fn modular(
 /// See [`CompareError`].
 pub fn rational(
     graph: &Graph,
-    (numerator, denominator): (u64, u64),
+    bounds: (u64, u64),
     seed: u64,
     limits: &Limits,
 ) -> Result<Comparison, CompareError> {
-    compare(&Rationals, graph, seed, limits, |key| {
+    compare(
+        &Rationals,
+        graph,
+        seed,
+        limits,
+        drawn_rational(graph, bounds),
+    )
+}
+
+fn drawn_rational(
+    graph: &Graph,
+    (numerator, denominator): (u64, u64),
+) -> impl Fn(&DrawKey) -> Result<Draw<Rational>, DrawError> {
+    move |key| {
         let drawn = draw::cameras_rational(graph.nodes(), numerator, denominator, key)?;
         let whole = drawn.values.into_iter();
         let cameras = whole.map(|camera| camera.map(|row| row.map(Rational::from)));
         Ok((cameras.collect(), drawn.draw))
-    })
+    }
+}
+
+/// The key of the first draw.
+fn key(graph: &Graph, seed: u64) -> DrawKey {
+    DrawKey {
+        graph_sha256: sha256(graph),
+        core_sha256: None,
+        seed,
+        draw: 0,
+    }
 }
 
 /// Cameras, one a node, and the number of their draw.
@@ -233,12 +269,7 @@ fn compare<F: RankField>(
     if graph.edges().is_empty() {
         return Err(CompareError::NoPairs);
     }
-    let mut key = DrawKey {
-        graph_sha256: sha256(graph),
-        core_sha256: None,
-        seed,
-        draw: 0,
-    };
+    let mut key = key(graph, seed);
     let formulations = all::<F>();
     let sizes = formulations
         .iter()
@@ -273,6 +304,7 @@ fn compare<F: RankField>(
                     .collect(),
                 kernel_is_f,
                 identity,
+                affine_f: None,
                 draw,
             });
         }

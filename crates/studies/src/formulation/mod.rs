@@ -5,6 +5,7 @@
 //! same cameras all of them have the same *excess*: the dimension of that space modulo
 //! trivial motions, zero exactly for finite solvable graphs at generic cameras.
 
+pub mod affine;
 pub mod augmented;
 pub mod compare;
 pub mod edge_based;

@@ -49,8 +49,9 @@ pub struct Block {
 }
 
 impl Counting {
-    /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8).
-    fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
+    /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8; affine:
+    /// Corollary 13.8).
+    pub(super) fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
         Self {
             bound: blocks
                 .iter()

@@ -1,0 +1,755 @@
+"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S23).
+
+In comes what the piece is made of (the nodes of its members) and the member `solutions`; out come `at_least` and
+`at_most`. Rows of matrices are dicts from column to residue; only what has to vanish, or not to, is computed.
+"""
+
+import itertools
+
+from notation import TooLarge, a_big, a_list, an_int, distinct, increasing, is_prime, members, need
+
+EXPONENTS = 4096  # (S12)
+WORK_LIMIT = 2 * 10**8  # multiplications for the minors of one list; plain Python needs minutes beyond
+
+
+# Linear algebra modulo p ---------------------------------------------------------------------------------------------
+
+
+def echelon(rows, p, extra=0):
+    """Rows reduced by the rows before them, with 1 at their pivots, and the rows that are left without a column.
+
+    Columns from `extra` on (if it is not 0) are carried along and are no pivots.
+    """
+    done, left = [], []
+    for row in rows:
+        row = {c: v % p for c, v in row.items() if v % p}
+        for pivot, other in done:
+            factor = row.get(pivot, 0)
+            if factor:
+                for c, v in other.items():
+                    value = (row.get(c, 0) - factor * v) % p
+                    if value:
+                        row[c] = value
+                    else:
+                        row.pop(c, None)
+        pivot = min((c for c in row if not extra or c < extra), default=None)
+        if pivot is None:
+            left.append(row)
+            continue
+        unit = pow(row[pivot], -1, p)
+        done.append((pivot, {c: v * unit % p for c, v in row.items()}))
+    return done, left
+
+
+def rank_of(rows, p):
+    return len(echelon(rows, p)[0])
+
+
+def left_kernel(rows, width, p):
+    """A basis of the vectors w with w M = 0."""
+    rows = list(rows)
+    marked = [{**row, width + k: 1} for k, row in enumerate(rows)]
+    left = echelon(marked, p, extra=width)[1]
+    return [[row.get(width + k, 0) for k in range(len(rows))] for row in left]
+
+
+def kernel(rows, width, p):
+    """A basis of the vectors y with M y = 0."""
+    done = dict(echelon(rows, p)[0])
+    basis = []
+    for free in (c for c in range(width) if c not in done):
+        y = [0] * width
+        y[free] = 1
+        # The rows found last have no pivots of the rows found first, so they go first.
+        for pivot, row in reversed(done.items()):
+            y[pivot] = -sum(v * y[c] for c, v in row.items() if c != pivot) % p
+        basis.append(y)
+    return basis
+
+
+def determinant(matrix, p):
+    """Of a list of lists, which is used up."""
+    value = 1
+    for k in range(len(matrix)):
+        pivot = next((t for t in range(k, len(matrix)) if matrix[t][k] % p), None)
+        if pivot is None:
+            return 0
+        if pivot != k:
+            matrix[k], matrix[pivot] = matrix[pivot], matrix[k]
+            value = -value
+        top = matrix[k]
+        value = value * top[k] % p
+        unit = pow(top[k], -1, p)
+        for row in matrix[k + 1 :]:
+            factor = row[k] * unit % p
+            if factor:
+                for c in range(k, len(row)):
+                    row[c] = (row[c] - factor * top[c]) % p
+    return value % p
+
+
+def cross(x, y, p):
+    return [(x[1] * y[2] - x[2] * y[1]) % p, (x[2] * y[0] - x[0] * y[2]) % p, (x[0] * y[1] - x[1] * y[0]) % p]
+
+
+def minus(x, y, p):
+    return [(a - b) % p for a, b in zip(x, y)]
+
+
+# Members -------------------------------------------------------------------------------------------------------------
+
+PAIRS = {
+    "shared": [(0, 1)],
+    "triangle": [(0, 1), (0, 2), (1, 2)],
+    "biclique": [(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)],
+}
+
+
+def shared_nodes(sets):
+    """Of each set of nodes those that lie in two of the sets at least."""
+    times = {}
+    for nodes in sets:
+        for node in nodes:
+            times[node] = times.get(node, 0) + 1
+    return [frozenset(node for node in nodes if times[node] > 1) for nodes in sets]
+
+
+def a_residue(value, p, where, least=0):
+    return a_big(value, where, least=least, below=p)
+
+
+def check_solutions(value, sets, where):
+    """Section 12: at_least and at_most (or None), for members with these nodes."""
+    merges, upper, lower = members(value, "merges upper lower", where)
+    left = merged(merges, shared_nodes(sets), where)
+    if len(left) == 1:
+        need(upper is None and lower is None, f"{where}: one member is left, so upper and lower are null")
+        return 1, 1
+    need(upper is not None or lower is not None, f"{where}: neither upper nor lower, and {len(left)} members are left")
+    core = shared_nodes(left)
+    at_most = None if upper is None else check_upper(upper, core, f"{where}: upper")
+    at_least = 1 if lower is None else check_lower(lower, core, f"{where}: lower")
+    need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
+    return at_least, at_most
+
+
+def merged(merges, sets, where):
+    """(S1) to (S3): the members that are left after the merges."""
+    sets, used = list(sets), set()
+    for k, merge in enumerate(a_list(merges, f"{where}: merges")):
+        at = f"{where}: merge {k}"
+        rule, sources, nodes, inner = members(merge, "rule with at solutions", at)
+        sources = [an_int(member, f"{at}: with", 0, len(sets)) for member in a_list(sources, f"{at}: with")]
+        need(len(sources) >= 2, f"{at}: (S1) less than two members")
+        increasing(sources, f"{at}: (S1) with")
+        need(not used & set(sources), f"{at}: (S1) a member was used up")
+        nodes = [an_int(node, f"{at}: at") for node in a_list(nodes, f"{at}: at")]
+        chosen = [sets[member] for member in sources]
+        if rule == "part":
+            check_part(inner, nodes, chosen, at)
+        else:
+            check_rule(rule, inner, nodes, chosen, at)
+        used.update(sources)
+        sets.append(frozenset().union(*chosen))
+    return [nodes for member, nodes in enumerate(sets) if member not in used]
+
+
+def check_rule(rule, inner, nodes, chosen, where):
+    """(S2): two shared nodes, the triangle, or K_{2,3}."""
+    need(type(rule) is str and rule in PAIRS, f"{where}: (S2) no such rule")
+    need(inner is None, f"{where}: (S2) solutions is not null")
+    need(len(nodes) == max(max(pair) for pair in PAIRS[rule]) + 1, f"{where}: (S2) at has another length")
+    need(distinct(nodes), f"{where}: (S2) the nodes of at are not different")
+    pairs = [{nodes[i], nodes[j]} for i, j in PAIRS[rule]]
+    need(all(any(pair <= nodes_of for nodes_of in chosen) for pair in pairs), f"{where}: (S2) a pair lies in no member")
+    fits = all(any(pair <= nodes_of for pair in pairs) for nodes_of in chosen)
+    need(fits, f"{where}: (S2) a member contains none of the pairs")
+
+
+def check_part(inner, nodes, chosen, where):
+    """(S3): a part with one solution."""
+    increasing(nodes, f"{where}: (S3) at")
+    inside = [nodes_of & set(nodes) for nodes_of in chosen]
+    need(all(len(nodes_of) >= 2 for nodes_of in inside), f"{where}: (S3) a member has less than two of the nodes")
+    need(inner is not None, f"{where}: (S3) solutions is null")
+    merges, upper, lower = members(inner, "merges upper lower", f"{where}: solutions")
+    need(lower is None, f"{where}: (S3) lower is not null")
+    at_most = check_solutions(inner, inside, f"{where}: solutions")[1]
+    need(at_most == 1, f"{where}: (S3) the part is not shown to have one solution")
+    if upper is not None:
+        # The chart and the centres were read before: they are right in every other respect.
+        core = shared_nodes(merged(merges, shared_nodes(inside), f"{where}: solutions"))
+        chart = Chart(upper["chart"], core, f"{where}: solutions: upper: chart")
+        rows = Rows(chart, upper["centres"], f"{where}: solutions: upper: centres")
+        check_independent(rows, f"{where}: (S3)")
+        check_point(rows, [1] * len(chart.unknowns), f"{where}: (S3) the part is not shown to be finite solvable")
+
+
+# Charts --------------------------------------------------------------------------------------------------------------
+
+
+class Chart:
+    """(S4) to (S6): chains, half-edges, and which scales are unknown."""
+
+    def __init__(self, value, core, where):
+        chains, half_edges, unknowns = members(value, "chains half_edges unknowns", where)
+        self.chains = [self.read_nodes(chain, f"{where}: chains") for chain in a_list(chains, f"{where}: chains")]
+        half_edges = a_list(half_edges, f"{where}: half_edges")
+        self.half_edges = [self.read_nodes(triple, f"{where}: half_edges") for triple in half_edges]
+        need(all(len(one) == 3 for one in self.half_edges), f"{where}: a half-edge is not [v, a, b]")
+        self.check_members(core, where)
+        self.check_half_edges(where)
+        self.all_nodes = sorted(frozenset().union(*core))
+        gone = {one[0] for one in self.half_edges}
+        self.nodes = [node for node in self.all_nodes if node not in gone]
+        self.place = {node: k for k, node in enumerate(self.nodes)}
+        self.width = 3 * len(self.nodes)
+        self.check_unknowns(unknowns, where)
+
+    @staticmethod
+    def read_nodes(value, where):
+        return [an_int(node, where) for node in a_list(value, where)]
+
+    def check_members(self, core, where):
+        """(S4)."""
+        need(len(core) >= 2, f"{where}: (S4) less than two members")
+        need(all(len(nodes) >= 2 for nodes in core), f"{where}: (S4) a member has less than two nodes")
+        need(all(map(distinct, self.chains)), f"{where}: (S4) a node is in a chain twice")
+        mine = self.chains + [[one[0], end] for one in self.half_edges for end in one[1:]]
+        fits = sorted(map(sorted, mine)) == sorted(map(sorted, core))
+        need(fits, f"{where}: (S4) the chains and half-edges are not the members")
+        self.sizes = [len(nodes) for nodes in core]
+
+    def check_half_edges(self, where):
+        """(S5)."""
+        need(all(map(distinct, self.half_edges)), f"{where}: (S5) the nodes of a half-edge are not different")
+        times = {}
+        for node in itertools.chain(*self.chains, *self.half_edges):
+            times[node] = times.get(node, 0) + 1
+        need(all(times[one[0]] == 1 for one in self.half_edges), f"{where}: (S5) the v of a half-edge is elsewhere too")
+
+    def check_unknowns(self, unknowns, where):
+        """(S6)."""
+        self.unknowns = {}
+        for k, unknown in enumerate(a_list(unknowns, f"{where}: unknowns")):
+            at = f"{where}: unknown {k}"
+            need(type(unknown) is list and len(unknown) == 2, f"{at} is not [k, v]")
+            member = an_int(unknown[0], at, 0, len(self.chains) + len(self.half_edges))
+            node = an_int(unknown[1], at)
+            half = member - len(self.chains)
+            fits = node == self.half_edges[half][2] if half >= 0 else node in self.chains[member]
+            need(fits, f"{at}: (S6) not a node of this chain, or not the b of this half-edge")
+            need((member, node) not in self.unknowns, f"{at}: (S6) it is listed twice")
+            self.unknowns[member, node] = k
+        # The members, as [name, nodes], and what connects them to nodes without an unknown between.
+        named = [(("chain", k), chain, k) for k, chain in enumerate(self.chains)]
+        for k, (v, a, b) in enumerate(self.half_edges):
+            named += [(("near", k), [v, a], None), (("far", k), [v, b], len(self.chains) + k)]
+        leader, links = {}, 0
+
+        def find(x):
+            while leader.setdefault(x, x) != x:
+                x = leader[x]
+            return x
+
+        for name, nodes, member in named:
+            for node in nodes:
+                if (member, node) not in self.unknowns:
+                    ours, theirs = find(name), find(node)
+                    need(ours != theirs, f"{where}: (S6) a cycle of scales that are 1")
+                    leader[ours], links = theirs, links + 1
+        need(links == len(named) + len(self.all_nodes) - 1, f"{where}: (S6) the scales that are 1 are no spanning tree")
+
+
+class Side:
+    """One side of a row: its entries, the unknown that is its scale (or None), and where it is not zero generically."""
+
+    def __init__(self, node, entries, unknown, generic):
+        self.entries = {3 * node + k: entry for k, entry in enumerate(entries)}
+        self.generic = {3 * node + k for k in generic}
+        self.unknown = unknown
+
+    def scaled(self, scale):
+        return {c: scale * v for c, v in self.entries.items()}
+
+
+class Rows:
+    """(S7), (S8), and the rows of N(u), each as its two sides."""
+
+    def __init__(self, chart, centres, where):
+        prime, values = members(centres, "prime values", where)
+        self.chart = chart
+        self.p = p = a_big(prime, f"{where}: prime", least=5, below=2**62)
+        need(is_prime(p), f"{where}: (S7) {p} is not a prime")
+        need(len(a_list(values, f"{where}: values")) == len(chart.all_nodes), f"{where}: (S7) another number of centres")
+        self.centres = {}
+        for node, value in zip(chart.all_nodes, values):
+            need(type(value) is list and len(value) == 3, f"{where}: (S7) a centre has three residues")
+            self.centres[node] = [a_residue(entry, p, f"{where}: (S7) a centre") for entry in value]
+        self.sides, self.of_chain = [], []
+        for k, chain in enumerate(chart.chains):
+            first = len(self.sides)
+            for j in range(1, len(chain)):
+                self.add_pair(k, chain[j - 1], chain[j], 2, where)
+                if j > 1:
+                    self.add_pair(k, chain[j - 2], chain[j], 1, where)
+            self.of_chain.append(range(first, len(self.sides)))
+        for k, (v, a, b) in enumerate(chart.half_edges, len(chart.chains)):
+            c = self.centres
+            x = cross(minus(c[a], c[v], p), minus(c[b], c[v], p), p)
+            need(any(x), f"{where}: (S8) the centres of the half-edge at node {v} are collinear")
+            self.add_row((a, b), x, (None, chart.unknowns.get((k, b))), (0, 1, 2))
+
+    def add_pair(self, k, v, w, count, where):
+        """The rows of two nodes of chain k."""
+        d = minus(self.centres[v], self.centres[w], self.p)
+        need(d[0], f"{where}: (S8) the centres of {v} and {w} have the same first coordinate")
+        unknowns = [self.chart.unknowns.get((k, node)) for node in (v, w)]
+        for t in (1, 2)[:count]:
+            a = [-d[t] % self.p, 0, 0]
+            a[t] = d[0]
+            self.add_row((v, w), a, unknowns, (0, t))
+
+    def add_row(self, nodes, entries, unknowns, generic):
+        places = [self.chart.place[node] for node in nodes]
+        self.sides.append([Side(place, entries, f, generic) for place, f in zip(places, unknowns)])
+
+    def unknowns_of(self, row):
+        return [side.unknown for side in self.sides[row] if side.unknown is not None]
+
+    def at(self, row, values):
+        """A row of N(u), where `values` has those of its unknowns."""
+        first, second = (side.scaled(1 if side.unknown is None else values[side.unknown]) for side in self.sides[row])
+        return {c: v % self.p for c, v in [*first.items(), *((c, -v) for c, v in second.items())]}
+
+    def matrix(self, values):
+        return [self.at(row, values) for row in range(len(self.sides))]
+
+
+# An upper bound ------------------------------------------------------------------------------------------------------
+
+
+def check_upper(value, core, where):
+    """Section 12, an upper bound: the number of solutions at most."""
+    chart, centres, steps, points = members(value, "chart centres steps points", where)
+    chart = Chart(chart, core, f"{where}: chart")
+    rows = Rows(chart, centres, f"{where}: centres")
+    known = {}
+    for k, step in enumerate(a_list(steps, f"{where}: steps")):
+        at = f"{where}: step {k}"
+        need(type(step) is dict and step.get("kind") in ("linear", "support"), f"{at} has no such kind")
+        if step["kind"] == "linear":
+            check_linear(step, rows, known, at)
+        else:
+            unknowns = check_support(step, rows, known, at)
+            known.update((f, 1) for f in unknowns)
+    if points is not None:
+        return check_points(points, chart, known, f"{where}: points")
+    need(len(known) == len(chart.unknowns), f"{where}: an unknown is not known after the steps")
+    return 1
+
+
+def check_linear(value, rows, known, where):
+    """(S9) to (S11): the unknowns that become known are added to `known`, with their values."""
+    _, freed, settled = members(value, "kind freed settled", where)
+    p, width = rows.p, rows.chart.width
+    freed = [an_int(row, f"{where}: freed", 0, len(rows.sides)) for row in a_list(freed, f"{where}: freed")]
+    increasing(freed, f"{where}: (S9) freed")
+    need(1 <= len(freed) <= 4, f"{where}: (S9) one to four rows are freed")
+    own = []  # for each freed row which side has an unknown that is not known
+    for row in freed:
+        open_sides = [k for k, side in enumerate(rows.sides[row]) if side.unknown not in known and side.unknown is not None]
+        need(len(open_sides) == 1, f"{where}: (S9) row {row} has {len(open_sides)} sides that are not known")
+        own.append(open_sides[0])
+    constant = [row for row in range(len(rows.sides)) if all(f in known for f in rows.unknowns_of(row))]
+    matrix = [rows.at(row, known) for row in constant]
+    for row in freed:
+        matrix += [side.scaled(known.get(side.unknown, 1)) for side in rows.sides[row]]
+    due = len(constant) + len(freed) - (width - 4)
+    need(due > 0, f"{where}: (S10) too few rows")
+    vectors = left_kernel(matrix, width, p)
+    need(len(vectors) == due, f"{where}: (S10) the left kernel has the dimension {len(vectors)}, not {due}")
+    settled = a_list(settled, f"{where}: settled")
+    settled = [an_int(f, f"{where}: settled", 0, len(rows.chart.unknowns)) for f in settled]
+    need(settled and distinct(settled), f"{where}: (S11) settled lists no unknown, or one twice")
+    for f in settled:
+        need(f not in known, f"{where}: (S11) the unknown {f} is known already")
+        seen = []  # entries at the own and at the other side
+        for k, (row, side) in enumerate(zip(freed, own)):
+            if rows.sides[row][side].unknown == f:
+                at = [len(constant) + 2 * k + side, len(constant) + 2 * k + 1 - side]
+                seen += [[vector[place] for place in at] for vector in vectors]
+        found = next(((x, y) for x, y in seen if y), None)
+        need(found, f"{where}: (S11) nothing is said about the unknown {f}")
+        quotient = -found[0] * pow(found[1], -1, p) % p
+        need(all((x + quotient * y) % p == 0 for x, y in seen), f"{where}: (S11) two values of the unknown {f}")
+        known[f] = quotient
+
+
+class Support:
+    """(S12) to (S14): unknowns, degree bounds, exponents, and the coefficients of all shifts of all minors."""
+
+    def __init__(self, unknowns, bounds, absent, minors, rows, known, where):
+        self.rows, self.known, self.where = rows, known, where
+        count = len(rows.chart.unknowns)
+        self.unknowns = [an_int(f, f"{where}: unknowns", 0, count) for f in a_list(unknowns, f"{where}: unknowns")]
+        need(self.unknowns and distinct(self.unknowns), f"{where}: (S12) no unknown, or one twice")
+        need(not any(f in known for f in self.unknowns), f"{where}: (S12) an unknown is known already")
+        self.bounds = [an_int(bound, f"{where}: bounds", 0) for bound in a_list(bounds, f"{where}: bounds")]
+        need(len(self.bounds) == len(self.unknowns), f"{where}: (S12) another number of bounds")
+        size = 1
+        for bound in self.bounds:
+            size *= bound + 1
+            need(size <= EXPONENTS, f"{where}: (S12) more than {EXPONENTS} exponents")
+        absent = [self.read_exponent(one) for one in a_list(absent, f"{where}: absent")]
+        self.absent = increasing(absent, f"{where}: (S12) absent")
+        gone = set(absent)
+        self.exponents = [a for a in itertools.product(*(range(d + 1) for d in self.bounds)) if a not in gone]
+        self.coefficients, self.work = [], 0
+        for k, minor in enumerate(a_list(minors, f"{where}: minors")):
+            self.add_minor(minor, f"{where}: minor {k}")
+
+    def read_exponent(self, value):
+        value = a_list(value, f"{self.where}: absent")
+        need(len(value) == len(self.bounds), f"{self.where}: (S12) an exponent has another length")
+        return tuple(an_int(e, f"{self.where}: absent", 0, d + 1) for e, d in zip(value, self.bounds))
+
+    def add_minor(self, value, where):
+        rows, plus, minus_rows, cols = members(value, "rows plus minus cols", where)
+        limit, width = len(self.rows.sides), self.rows.chart.width
+
+        def indices(listed, below, name):
+            listed = [an_int(k, f"{where}: {name}", 0, below) for k in a_list(listed, f"{where}: {name}")]
+            return increasing(listed, f"{where}: {name}")
+
+        rows, plus = indices(rows, limit, "rows"), indices(plus, limit, "plus")
+        minus_rows, cols = indices(minus_rows, limit, "minus"), indices(cols, width, "cols")
+        freed = set(plus) | set(minus_rows)
+        size = len(rows) + len(plus) + len(minus_rows)
+        need(size == len(cols), f"{where}: (S13) it is not square")
+        need(size >= width - 3 + len(freed), f"{where}: (S13) it is too small")
+        need(not freed & set(rows), f"{where}: (S13) a row is in rows and in plus or minus")
+        counts = [0] * len(self.unknowns)  # of rows with each unknown
+        for row in rows:
+            for f in self.rows.unknowns_of(row):
+                need(f in self.known or f in self.unknowns, f"{where}: (S13) row {row} has an unknown that is not listed")
+                if f in self.unknowns:
+                    counts[self.unknowns.index(f)] += 1
+        degrees = [min(count, 3) for count in counts]
+        need(all(d <= bound for d, bound in zip(degrees, self.bounds)), f"{where}: (S13) a degree is above its bound")
+        shifts = list(itertools.product(*(range(bound - d + 1) for d, bound in zip(degrees, self.bounds))))
+        inside = {tuple(a - b for a, b in zip(exponent, shift)) for exponent in self.absent for shift in shifts}
+        for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
+            fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
+            need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
+        polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
+        for shift in shifts:
+            self.coefficients.append({tuple(map(sum, zip(e, shift))): v for e, v in polynomial.items()})
+
+    def has_transversal(self, rows, plus, minus_rows, cols, counts, exponent):
+        """(S14): a choice of one entry in each row that may be in a term of this exponent, in different columns."""
+        wanted = set(cols)
+        choices = [self.rows.sides[row][0].generic & wanted for row in plus]
+        choices += [self.rows.sides[row][1].generic & wanted for row in minus_rows]
+        for row in rows:
+            open_columns = set()
+            for side, other in (self.rows.sides[row], self.rows.sides[row][::-1]):
+                struck = False
+                if side.unknown in self.unknowns:
+                    struck |= exponent[self.unknowns.index(side.unknown)] == 0
+                if other.unknown in self.unknowns:
+                    place = self.unknowns.index(other.unknown)
+                    struck |= exponent[place] == counts[place]
+                open_columns |= set() if struck else side.generic & wanted
+            choices.append(open_columns)
+        taken = {}
+
+        def place_row(k, seen):
+            for column in choices[k] - seen:
+                seen.add(column)
+                if column not in taken or place_row(taken[column], seen):
+                    taken[column] = k
+                    return True
+            return False
+
+        return all(place_row(k, set()) for k in range(len(choices)))
+
+    def polynomial(self, rows, plus, minus_rows, cols, degrees):
+        """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""
+        p, sides = self.rows.p, self.rows.sides
+        number = {column: k for k, column in enumerate(cols)}
+
+        def within(entries):
+            return {number[c]: v % p for c, v in entries.items() if c in number}
+
+        # Rows without unknowns are eliminated once; the others are reduced by them, each side for itself.
+        fixed = [within(sides[row][0].entries) for row in plus] + [within(sides[row][1].entries) for row in minus_rows]
+        moving = []
+        for row in rows:
+            if any(f in self.unknowns for f in self.rows.unknowns_of(row)):
+                moving.append(row)
+            else:
+                fixed.append(within(self.rows.at(row, self.known)))
+        done, _ = echelon(fixed, p)
+        if len(done) < len(fixed):
+            return {}
+        free = [c for c in range(len(cols)) if c not in dict(done)]
+        split = []
+        for row in moving:
+            pair = []
+            for side, sign in zip(sides[row], (1, -1)):
+                scale = sign * self.known.get(side.unknown, 1)
+                rest = reduced(within(side.scaled(scale)), done, p)
+                unknown = self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
+                pair.append(([rest.get(c, 0) for c in free], unknown))
+            split.append(pair)
+        grid = list(itertools.product(*(range(d + 1) for d in degrees)))
+        self.work += len(grid) * (len(free) ** 3 + 1) + len(fixed) ** 3
+        if self.work > WORK_LIMIT:
+            raise TooLarge(f"{self.where}: minors take more than {WORK_LIMIT} multiplications")
+        values = {}
+        for point in grid:
+            matrix = []
+            for (x, f), (y, g) in split:
+                s, t = (1 if h is None else point[h] for h in (f, g))
+                matrix.append([(s * a + t * b) % p for a, b in zip(x, y)])
+            values[point] = determinant(matrix, p)
+        return interpolated(values, degrees, p)
+
+    def matrix(self):
+        """(S16): the coefficients at the exponents, as rows."""
+        number = {a: k for k, a in enumerate(self.exponents)}
+        return [{number[e]: v for e, v in row.items() if e in number and v} for row in self.coefficients]
+
+    def neighbours(self):
+        """For each unknown the exponents to which 1 can be added at its place."""
+        inside = set(self.exponents)
+
+        def up(a, f):
+            return a[:f] + (a[f] + 1,) + a[f + 1 :]
+
+        return [{a for a in inside if up(a, f) in inside} for f in range(len(self.unknowns))]
+
+
+def reduced(row, done, p):
+    """A row less what makes it vanish at the pivots of others."""
+    for pivot, other in done:
+        factor = row.get(pivot, 0)
+        if factor:
+            for c, v in other.items():
+                row[c] = (row.get(c, 0) - factor * v) % p
+    return row
+
+
+def interpolated(values, degrees, p):
+    """The coefficients of the polynomial with these values at the points with entries 0, 1, .., d_f."""
+    for place, degree in enumerate(degrees):
+        weights = lagrange(degree, p)
+        turned = {}
+        for point in values:
+            turned[point] = sum(
+                weights[point[place]][x] * values[point[:place] + (x,) + point[place + 1 :]] for x in range(degree + 1)
+            ) % p
+        values = turned
+    return values
+
+
+def lagrange(degree, p):
+    """Row e: the weights of the values at 0, 1, .., degree in the coefficient of u^e."""
+    columns = []
+    for x in range(degree + 1):
+        coefficients, scale = [1], 1
+        for other in range(degree + 1):
+            if other != x:
+                scale = scale * (x - other) % p
+                shifted = [0] + coefficients
+                coefficients = [(a - other * b) % p for a, b in zip(shifted, coefficients + [0])]
+        unit = pow(scale, -1, p)
+        columns.append([a * unit % p for a in coefficients])
+    return [[column[e] for column in columns] for e in range(degree + 1)]
+
+
+def check_support(value, rows, known, where):
+    """(S12) to (S16): the unknowns that are 1."""
+    _, unknowns, bounds, absent, minors = members(value, "kind unknowns bounds absent minors", where)
+    support = Support(unknowns, bounds, absent, minors, rows, known, where)
+    need(all(support.neighbours()), f"{where}: (S15) an unknown that the exponents do not tell apart")
+    rank, due = rank_of(support.matrix(), rows.p), len(support.exponents) - 1
+    need(rank == due, f"{where}: (S16) the coefficients have the rank {rank}, not {due}")
+    return support.unknowns
+
+
+def check_points(value, chart, known, where):
+    """(S17), (S18): the number of points."""
+    centres, unknowns, bounds, absent, minors, points = members(
+        value, "centres unknowns bounds absent minors points", where
+    )
+    rows = Rows(chart, centres, f"{where}: centres")
+    p = rows.p
+    support = Support(unknowns, bounds, absent, minors, rows, known, where)
+    parsed = []
+    for k, point in enumerate(a_list(points, f"{where}: points")):
+        values, steps = members(point, "values steps", f"{where}: point {k}")
+        values = [a_residue(w, p, f"{where}: point {k}") for w in a_list(values, f"{where}: point {k}: values")]
+        need(len(values) == len(support.unknowns), f"{where}: point {k}: (S17) another number of values")
+        parsed.append((tuple(values), a_list(steps, f"{where}: point {k}: steps")))
+    need(distinct([values for values, _ in parsed]), f"{where}: (S17) two points are the same")
+    matrix = support.matrix()
+    inner = set(support.exponents).intersection(*support.neighbours())
+    vectors = []
+    for values, _ in parsed:
+        vector = [power(values, a, p) for a in support.exponents]
+        fits = all(sum(v * vector[c] for c, v in row.items()) % p == 0 for row in matrix)
+        need(fits, f"{where}: (S17) a minor does not vanish at a point")
+        vectors.append({c: v for c, (a, v) in enumerate(zip(support.exponents, vector)) if a in inner})
+    need(rank_of(vectors, p) == len(parsed), f"{where}: (S17) the points are not independent")
+    free = len(support.exponents) - rank_of(matrix, p)
+    need(free == len(parsed), f"{where}: (S17) {len(parsed)} points, but {free} dimensions")
+    for k, (values, steps) in enumerate(parsed):
+        at = f"{where}: point {k}"
+        here = {**known, **dict(zip(support.unknowns, values))}
+        for t, step in enumerate(steps):
+            need(type(step) is dict and step.get("kind") == "linear", f"{at}: step {t}: (S18) not a linear step")
+            check_linear(step, rows, here, f"{at}: step {t}")
+        need(len(here) == len(chart.unknowns), f"{at}: (S18) an unknown is not known after the steps")
+    return len(parsed)
+
+
+def power(values, exponent, p):
+    """The product of the powers, with 0^0 = 1."""
+    result = 1
+    for value, e in zip(values, exponent):
+        result = result * pow(value, e, p) % p
+    return result
+
+
+# A lower bound -------------------------------------------------------------------------------------------------------
+
+
+def check_lower(value, core, where):
+    """(S19) to (S23): the number of solutions at least."""
+    chart, centres, points = members(value, "chart centres points", where)
+    chart = Chart(chart, core, f"{where}: chart")
+    rows = Rows(chart, centres, f"{where}: centres")
+    check_independent(rows, where)
+    parsed = []
+    for k, point in enumerate(a_list(points, f"{where}: points")):
+        point = a_list(point, f"{where}: point {k}")
+        parsed.append(tuple(a_residue(z, rows.p, f"{where}: point {k}", least=1) for z in point))
+        need(len(point) == len(chart.unknowns), f"{where}: point {k} has another number of residues")
+    need(parsed and distinct(parsed), f"{where}: (S23) there is no point, or two are the same")
+    families = [check_point(rows, values, f"{where}: point {k}") for k, values in enumerate(parsed)]
+    excess = sum(11 * size - 15 for size in chart.sizes) - (11 * len(chart.all_nodes) - 15)
+    need(excess == 0, f"{where}: (S23) the core is not tight")
+    identity = tuple(1 for _ in chart.unknowns)
+    if identity not in parsed:
+        families.append({node: [[1, 0, 0, -c[0]], [0, 1, 0, -c[1]], [0, 0, 1, -c[2]]] for node, c in rows.centres.items()})
+    check_cameras(rows, families, where)
+    return len(families)
+
+
+def check_independent(rows, where):
+    """(S19)."""
+    ones = [1] * len(rows.chart.unknowns)
+    for k, own in enumerate(rows.of_chain):
+        rank = rank_of([rows.at(row, ones) for row in own], rows.p)
+        need(rank == len(own), f"{where}: (S19) the rows of chain {k} are not independent")
+
+
+def check_point(rows, values, where):
+    """(S20) to (S22) at a point: the cameras Q_v there."""
+    p, chart = rows.p, rows.chart
+    matrix = rows.matrix(values)
+    right = kernel(matrix, chart.width, p)
+    need(len(right) == 4, f"{where}: (S20) the kernel of N(u) has the dimension {len(right)}, not 4")
+    cameras = {}
+    for node, place in chart.place.items():
+        cameras[node] = [[y[3 * place + r] for y in right] for r in range(3)]
+    for k, (v, a, b) in enumerate(chart.half_edges, len(chart.chains)):
+        unknown = chart.unknowns.get((k, b))
+        s = 1 if unknown is None else values[unknown]
+        cameras[v] = meeting(rows, cameras, (v, a, b), s)
+    centre = {node: camera_centre(camera, p) for node, camera in cameras.items()}
+    need(None not in centre.values(), f"{where}: (S21) a camera has rank below 3")
+    groups = chart.chains + [[v, end] for v, *ends in chart.half_edges for end in ends]
+    apart = all(distinct([centre[node] for node in group]) for group in groups)
+    need(apart, f"{where}: (S21) two centres in a member agree")
+    left = left_kernel(matrix, chart.width, p)
+    columns = derivative(rows, left, right)
+    need(rank_of(columns, p) == len(chart.unknowns), f"{where}: (S22) the point is not simple")
+    return cameras
+
+
+def meeting(rows, cameras, nodes, s):
+    """(S21): the camera at the v of a half-edge, column by column: where two lines meet."""
+    p, c = rows.p, rows.centres
+    v, a, b = nodes
+    x, y = minus(c[a], c[v], p), minus(c[b], c[v], p)
+    normal = cross(x, y, p)
+    # y_a + t x = s y_b + t' y: the product with y leaves t, in a coordinate where `normal` is not 0.
+    q = next(k for k in range(3) if normal[k])
+    columns = []
+    for k in range(4):
+        near = [cameras[a][r][k] for r in range(3)]
+        gap = [(s * cameras[b][r][k] - near[r]) % p for r in range(3)]
+        t = cross(gap, y, p)[q] * pow(normal[q], -1, p) % p
+        columns.append([(near[r] + t * x[r]) % p for r in range(3)])
+    return [[column[r] for column in columns] for r in range(3)]
+
+
+def camera_centre(camera, p):
+    """The kernel of a 3 x 4 matrix, with 1 as its first entry that is not 0; None if the rank is below 3."""
+    basis = kernel([dict(enumerate(row)) for row in camera], 4, p)
+    if len(basis) != 1:
+        return None
+    unit = pow(next(x for x in basis[0] if x), -1, p)
+    return tuple(x * unit % p for x in basis[0])
+
+
+def derivative(rows, left, right):
+    """(S22): for each unknown the values w^T (dN/du) y, for all w and y, as a row."""
+    found = [{} for _ in rows.chart.unknowns]
+    for row, sides in enumerate(rows.sides):
+        for side, sign in zip(sides, (1, -1)):
+            if side.unknown is not None:
+                for k, y in enumerate(right):
+                    product = sign * sum(v * y[c] for c, v in side.entries.items())
+                    for t, w in enumerate(left):
+                        at = 4 * t + k
+                        found[side.unknown][at] = (found[side.unknown].get(at, 0) + w[row] * product) % rows.p
+    return found
+
+
+# What (S23) means, in the words of the paper -------------------------------------------------------------------------
+
+
+def fundamental(first, second, p):
+    """The paper's formula: entry (h, k) is (-1)^(h+k) det [P_i without row k; P_j without row h]; scaled, or None if 0."""
+    entries = []
+    for h in range(3):
+        for k in range(3):
+            rows = [first[r] for r in range(3) if r != k] + [second[r] for r in range(3) if r != h]
+            entries.append((-1) ** (h + k) * determinant([row[:] for row in rows], p) % p)
+    lead = next((x for x in entries if x), None)
+    return None if lead is None else tuple(x * pow(lead, -1, p) % p for x in entries)
+
+
+def check_cameras(rows, families, where):
+    """A guard that follows from (S19) to (S23): the families of cameras give the fundamental matrices of the centres on
+    all pairs within a member, and no two families give the same ones on all other pairs: they are different solutions."""
+    p, chart = rows.p, rows.chart
+    nodes = chart.all_nodes
+    given = {node: [[1, 0, 0, -c[0]], [0, 1, 0, -c[1]], [0, 0, 1, -c[2]]] for node, c in rows.centres.items()}
+    groups = chart.chains + [[v, end] for v, *ends in chart.half_edges for end in ends]
+    inside = {pair for group in groups for pair in itertools.combinations(sorted(group), 2)}
+    others = [pair for pair in itertools.combinations(nodes, 2) if pair not in inside]
+
+    def matrix(cameras, pair):
+        return fundamental(cameras[pair[0]], cameras[pair[1]], p)
+
+    for cameras in families:
+        same = all(matrix(cameras, pair) == matrix(given, pair) != None for pair in inside)  # noqa: E711
+        need(same, f"{where}: cameras of a point do not give the fundamental matrices")
+    for one, two in itertools.combinations(families, 2):
+        apart = any(matrix(one, pair) != matrix(two, pair) for pair in others)
+        need(apart, f"{where}: cameras of two points are projectively equivalent")

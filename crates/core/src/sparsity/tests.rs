@@ -1,0 +1,224 @@
+use super::*;
+use crate::geometry::draw::DrawKey;
+use crate::geometry::plane_direction::direction_rows;
+use crate::geometry::plane_flow::rigidity_rows;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::prime::PrimeField;
+use crate::linalg::textbook::eliminate;
+use crate::watch::unwatched;
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+fn sparsity(k: usize, graph: &Graph) -> Sparsity {
+    unwatched(|task| Sparsity::new(k, graph, task))
+}
+
+/// The rank of R (k = 2) or N (k = 3) at points modulo 2^61 - 1, by textbook elimination.
+fn rank(k: usize, graph: &Graph) -> usize {
+    let field = PrimeField::mersenne61();
+    let key = DrawKey {
+        graph_sha256: [7; 32],
+        core_sha256: None,
+        seed: 1,
+        draw: 0,
+    };
+    let mut random = key.residues(&field);
+    let nodes = graph.nodes();
+    let rows = if k == 2 {
+        let points: Vec<[u64; 2]> = (0..nodes).map(|_| [random(), random()]).collect();
+        direction_rows(&field, graph, &points)
+    } else {
+        let centres: Vec<[u64; 3]> = (0..nodes).map(|_| [random(), random(), random()]).collect();
+        rigidity_rows(&field, graph, &centres)
+    };
+    let mut matrix = Matrix::new(rows.len(), k * nodes, vec![0; rows.len() * k * nodes]);
+    for (r, row) in rows.iter().enumerate() {
+        for &(c, value) in row {
+            matrix[(r, c)] = value;
+        }
+    }
+    eliminate(&field, &matrix).rank()
+}
+
+/// The subgraph that a set of nodes spans, on the same nodes.
+fn spanned(graph: &Graph, set: u32) -> Graph {
+    let inside = |&&(i, j): &&(u32, u32)| set >> i & 1 == 1 && set >> j & 1 == 1;
+    let edges = graph.edges().iter().filter(inside).copied();
+    Graph::new(graph.nodes() as u32, edges).unwrap()
+}
+
+/// The maximal sets of nodes, as bits, whose edges have full rank for them.
+fn maximal_rigid(k: usize, graph: &Graph) -> BTreeSet<u32> {
+    let sets = (0u32..1 << graph.nodes()).filter(|set| set.count_ones() >= 2);
+    let full = |set: &u32| {
+        let size = set.count_ones() as usize;
+        rank(k, &spanned(graph, *set)) == k * size - (k + 1)
+    };
+    let rigid: Vec<u32> = sets.filter(full).collect();
+    let maximal = |&&set: &&u32| {
+        !rigid
+            .iter()
+            .any(|&other| other != set && other & set == set)
+    };
+    rigid.iter().filter(maximal).copied().collect()
+}
+
+fn component_sets(graph: &Graph, found: &Sparsity) -> BTreeSet<u32> {
+    let mut sets = vec![0u32; found.components()];
+    for (&(i, j), &component) in graph.edges().iter().zip(found.component_of_edges()) {
+        sets[component as usize] |= 1 << i | 1 << j;
+    }
+    let count = sets.len();
+    let sets: BTreeSet<u32> = sets.into_iter().collect();
+    assert_eq!(sets.len(), count, "components are different");
+    sets
+}
+
+/// Follows the rules of Lemma 13.5 with k = 2, and returns the edges at the end.
+fn replayed(nodes: usize, pinching: &Pinching) -> BTreeSet<(u32, u32)> {
+    let pair = |a: u32, b: u32| (a.min(b), a.max(b));
+    let [a, b] = pinching.start;
+    let mut present = vec![false; nodes];
+    let mut edges = BTreeSet::new();
+    assert!(a < b);
+    edges.insert((a, b));
+    for v in [a, b] {
+        assert!(!std::mem::replace(&mut present[v as usize], true));
+    }
+    for step in &pinching.steps {
+        let mut at = step.ends.clone();
+        if let Some((a, b)) = step.pinched {
+            assert!(a < b && edges.remove(&(a, b)), "a pinched edge is there");
+            at.extend([a, b]);
+        }
+        let further = 2 - usize::from(step.pinched.is_some());
+        assert!(step.ends.len() <= further);
+        assert!(step.ends.is_sorted_by(|a, b| a < b));
+        for v in at {
+            assert!(present[v as usize], "ends are there");
+            assert!(edges.insert(pair(v, step.node)), "no edge comes twice");
+        }
+        assert!(!std::mem::replace(&mut present[step.node as usize], true));
+    }
+    assert!(present.into_iter().all(|there| there), "all nodes join");
+    edges
+}
+
+/// Rank, copies and pinching sequence of a graph.
+fn check(graph: &Graph) {
+    for k in [2, 3] {
+        assert_eq!(sparsity(k, graph).rank(), rank(k, graph), "{k}: {graph:?}");
+    }
+    let found = sparsity(2, graph);
+    let kept = graph.edges().iter().zip(found.copies());
+    let kept: BTreeSet<(u32, u32)> = kept
+        .filter(|&(_, &copies)| copies > 0)
+        .map(|(&edge, _)| edge)
+        .collect();
+    if graph.nodes() >= 2 {
+        let pinching = unwatched(|task| found.pinching(task));
+        let mut edges = replayed(graph.nodes(), &pinching);
+        edges.retain(|edge| graph.edges().binary_search(edge).is_ok());
+        assert_eq!(edges, kept);
+    }
+}
+
+/// All graphs with the given nodes, each with every numbering.
+fn all_graphs(nodes: u32) -> impl Iterator<Item = Graph> {
+    let pairs: Vec<(u32, u32)> = (0..nodes)
+        .flat_map(|j| (0..j).map(move |i| (i, j)))
+        .collect();
+    (0u32..1 << pairs.len()).map(move |chosen| {
+        let edges = pairs.iter().enumerate();
+        let edges = edges.filter(|(bit, _)| chosen >> bit & 1 == 1);
+        Graph::new(nodes, edges.map(|(_, &edge)| edge)).unwrap()
+    })
+}
+
+#[test]
+fn ranks_of_all_graphs_with_up_to_six_nodes() {
+    for nodes in 1..=6 {
+        all_graphs(nodes).for_each(|graph| check(&graph));
+    }
+}
+
+#[test]
+fn components_of_all_graphs_with_up_to_five_nodes() {
+    for nodes in 2..=5 {
+        for graph in all_graphs(nodes) {
+            for k in [2, 3] {
+                let found = sparsity(k, &graph);
+                let sets = component_sets(&graph, &found);
+                assert_eq!(sets, maximal_rigid(k, &graph), "{k}: {graph:?}");
+            }
+        }
+    }
+}
+
+/// An orientation with few out-edges proves nothing: K_4 with a pendant edge has 7 edges and
+/// rank 6 (docs/theory.md, section 13).
+#[test]
+fn the_complete_graph_on_four_nodes_with_a_pendant_edge() {
+    let pairs = (0..4).flat_map(|j| (0..j).map(move |i| (i, j)));
+    let graph = Graph::new(5, pairs.chain([(3, 4)])).unwrap();
+    let found = sparsity(2, &graph);
+    assert_eq!((found.rank(), found.components()), (6, 2));
+    // In space: 3 * 4 - 4 = 8, and 2 more.
+    assert_eq!(sparsity(3, &graph).rank(), 10);
+}
+
+/// K_{3,3} has 9 = 2 * 6 - 3 edges, and is a Laman graph.
+#[test]
+fn the_utility_graph_is_rigid_in_the_plane() {
+    let graph = Graph::new(6, (0..3).flat_map(|a| (3..6).map(move |b| (a, b)))).unwrap();
+    let found = sparsity(2, &graph);
+    assert_eq!((found.rank(), found.components()), (9, 1));
+}
+
+/// A ring of 100,000 nodes, and a grid: searches stay local.
+#[test]
+fn large_sparse_graphs_take_no_quadratic_time() {
+    let n = 100_000;
+    let ring = Graph::new(n, (0..n).map(|v| (v, (v + 1) % n))).unwrap();
+    let found = sparsity(2, &ring);
+    assert_eq!((found.rank(), found.components()), (n as usize, n as usize));
+    let pinching = unwatched(|task| found.pinching(task));
+    let edges = replayed(n as usize, &pinching);
+    assert!(ring.edges().iter().all(|edge| edges.contains(edge)));
+}
+
+fn random_graph() -> impl Strategy<Value = Graph> {
+    let pairs = prop::collection::vec((0u32..14, 0u32..14), 1..50);
+    (3u32..14, pairs).prop_map(|(nodes, pairs)| {
+        let fits = |&(i, j): &(u32, u32)| i != j && i < nodes && j < nodes;
+        Graph::new(nodes, pairs.into_iter().filter(fits)).unwrap()
+    })
+}
+
+proptest! {
+    #[test]
+    fn ranks_of_random_graphs(graph in random_graph()) {
+        check(&graph);
+    }
+
+    /// The bound by the components is the rank (Corollary 13.8), components share at most one
+    /// node, and a larger graph has no fewer edges together.
+    #[test]
+    fn components_of_random_graphs(graph in random_graph()) {
+        for k in [2, 3] {
+            let found = sparsity(k, &graph);
+            let sets: Vec<u32> = component_sets(&graph, &found).into_iter().collect();
+            let bound: usize = sets
+                .iter()
+                .map(|set| k * set.count_ones() as usize - (k + 1))
+                .sum();
+            prop_assert_eq!(bound, found.rank());
+            for (at, a) in sets.iter().enumerate() {
+                for b in &sets[..at] {
+                    prop_assert!((a & b).count_ones() <= 1);
+                }
+                prop_assert_eq!(rank(k, &spanned(&graph, *a)), k * a.count_ones() as usize - (k + 1));
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! `verify catalog census`: how many graphs of a list each camera model determines.
+
+use super::super::{BAD_INPUT, GOOD, running};
+use super::BATCH;
+use anyhow::{Context, Result};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use viewcert::decide::Options;
+use viewcert::graph::Graph;
+use viewcert_formats::{Format, ReadOptions, read_graphs};
+use viewcert_studies::catalog::census::{Census, MODELS, Row};
+
+/// What to count.
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// Graphs of graph6, a graph a line, as nauty's `geng -c` writes them; `-` is standard input.
+    #[arg(value_name = "FILE")]
+    from: PathBuf,
+    /// One JSON object for each number of nodes, with the counts by numbers of edges.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Decides all graphs in every model, and prints the counts.
+pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let options = Options::default().watch(running::watch());
+    let read = ReadOptions {
+        format: Some(Format::Graph6),
+        ..ReadOptions::default()
+    };
+    let mut census = Census::default();
+    let mut batch: Vec<Graph> = Vec::with_capacity(BATCH);
+    let mut bad_lines = 0;
+    for input in read_graphs(&arguments.from, &read) {
+        match input {
+            Ok(input) => batch.push(input.graph),
+            Err(error) => {
+                writeln!(std::io::stderr(), "verify: {error:#}")?;
+                bad_lines += 1;
+            }
+        }
+        if batch.len() == BATCH {
+            census.add(&batch, &options)?;
+            batch.clear();
+        }
+    }
+    census.add(&batch, &options)?;
+    write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
+    Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
+}
+
+/// For each model how many graphs it determines, and, of these, how many have the least number of
+/// edges.
+fn write(out: &mut impl Write, arguments: &Arguments, census: &Census) -> std::io::Result<()> {
+    if !arguments.json {
+        let names = MODELS.map(|model| format!(" {model} | least edges |"));
+        writeln!(out, "| n | graphs |{}", names.concat())?;
+        writeln!(out, "|---:|---:|{}", "---:|---:|".repeat(MODELS.len()))?;
+    }
+    for (&nodes, row) in &census.0 {
+        if arguments.json {
+            json(out, nodes, row)?;
+            continue;
+        }
+        write!(out, "| {nodes} | {} |", row.graphs)?;
+        for model in 0..MODELS.len() {
+            let least = row.least(model).map_or_else(
+                || "none".to_owned(),
+                |(edges, count)| format!("{count} with {edges}"),
+            );
+            write!(out, " {} | {least} |", row.total(model))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn json(out: &mut impl Write, nodes: usize, row: &Row) -> std::io::Result<()> {
+    let mut line = serde_json::Map::new();
+    line.insert("nodes".into(), nodes.into());
+    line.insert("graphs".into(), row.graphs.into());
+    for (model, by_edges) in MODELS.iter().zip(&row.determined) {
+        let counts = by_edges
+            .iter()
+            .map(|(edges, &count)| (edges.to_string(), count.into()));
+        line.insert(
+            model.name().into(),
+            serde_json::Value::Object(counts.collect()),
+        );
+    }
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

@@ -1,0 +1,63 @@
+//! `verify models GRAPH...`: every camera model side by side.
+
+use super::input::InputArguments;
+use super::{GOOD, NOT, running};
+use crate::report::models as report;
+use anyhow::{Context, Result};
+use clap::Args;
+use std::io::BufWriter;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use viewcert::decide::{Options, Value, Verdict, decide};
+use viewcert::geometry::model::Model;
+use viewcert_formats::NamedGraph;
+
+/// Options of the comparison of models.
+#[derive(Args)]
+pub(super) struct ModelsArguments {
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
+    /// matrices, also compressed by gzip, and COLMAP's databases; `-` is standard input.
+    #[arg(required = true, value_name = "GRAPH")]
+    graphs: Vec<PathBuf>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON object a graph.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The models, each of which determines no more than the next one: affine solvable implies finite
+/// solvable, and that implies solvable with known intrinsics (Corollary 13.4 of docs/theory.md).
+const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
+
+/// Decides every graph in every model; a bad one is reported and does not stop the others.
+pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        let decided = |model: Model| -> Result<Verdict> {
+            let options = Options::default().model(model).seed(arguments.seed);
+            let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
+            running::hide();
+            verdict.with_context(|| format!("{}, {model} model", input.name))
+        };
+        let verdicts: Vec<Verdict> = ORDER.into_iter().map(decided).collect::<Result<_>>()?;
+        let changes: Vec<report::Change> = verdicts
+            .windows(2)
+            .flat_map(|pair| report::changes(&pair[0], &pair[1]))
+            .collect();
+        if arguments.json {
+            report::json(out, input, &verdicts, &changes)?;
+        } else {
+            report::text(out, input, &verdicts, &changes)?;
+        }
+        let good = |verdict: &Verdict| verdict.value != Value::NotFiniteSolvable;
+        Ok(if verdicts.iter().all(good) { GOOD } else { NOT })
+    };
+    let code = arguments
+        .input
+        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
+    Ok(ExitCode::from(code))
+}

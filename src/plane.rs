@@ -1,0 +1,83 @@
+//! What a graph determines if all centres lie in one plane (docs/theory.md, Theorem 13.3 and
+//! Corollary 13.4).
+
+use serde::Serialize;
+use viewcert::contract::Merge;
+use viewcert::decide::{Verdict, plane_rank};
+use viewcert::geometry::model::Model;
+use viewcert::graph::{Graph, UnionFind};
+use viewcert::watch::{Stopped, Watch};
+
+/// The answer for centres that are generic in one plane. All of it is proved.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Planar {
+    verdict: &'static str,
+    rank: usize,
+    rank_required: usize,
+    #[serde(skip)]
+    model: Model,
+}
+
+impl Planar {
+    /// Counts, with rank R the generic rank of the plane direction matrix: 4 rank R + 3 (n - k)
+    /// for J_P and rank R + n - k for N, k the number of connected components.
+    ///
+    /// # Errors
+    /// If the work was stopped.
+    pub(crate) fn new(graph: &Graph, model: Model, watch: &Watch) -> Result<Self, Stopped> {
+        let plane = plane_rank(graph, watch)?;
+        let mut parts = UnionFind::new(graph.nodes());
+        let unions = graph.edges().iter();
+        let unions = unions.filter(|&&(i, j)| parts.union(i as usize, j as usize));
+        // n - k: the edges of a spanning forest.
+        let joined = unions.count();
+        let rank = match model {
+            Model::Projective => 4 * plane + 3 * joined,
+            Model::Calibrated => plane + joined,
+            Model::Affine => 4 * plane,
+        };
+        let rank_required = model.required(graph.nodes());
+        let verdict = match model {
+            _ if rank < rank_required => "not-finite-solvable",
+            Model::Projective => "isolated",
+            Model::Calibrated | Model::Affine => "solvable",
+        };
+        Ok(Self {
+            verdict,
+            rank,
+            rank_required,
+            model,
+        })
+    }
+
+    /// Whether no motion is left, beyond the trivial ones.
+    pub(crate) fn is_determined(&self) -> bool {
+        self.rank == self.rank_required
+    }
+
+    /// The answer in words.
+    pub(crate) fn words(&self) -> String {
+        let answer = match (self.is_determined(), self.model) {
+            (false, _) => "not solvable: infinitely many sets of cameras",
+            (true, Model::Projective) => {
+                "isolated: the cameras cannot move (that there are finitely many sets is not proved)"
+            }
+            (true, _) => "solvable: the cameras are unique",
+        };
+        let Self {
+            rank,
+            rank_required,
+            ..
+        } = self;
+        format!("{answer} (proved), rank {rank} of {rank_required}")
+    }
+}
+
+/// Whether a verdict shows already that nothing is lost in a plane: one body, by the merge rules
+/// that hold there as well.
+pub(crate) fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
+    let merges = verdict.contraction.bodies.iter();
+    let mut merges = merges.flat_map(|body| &body.merge);
+    verdict.pieces.is_empty()
+        && merges.all(|merge| matches!(merge, Merge::Shared { .. } | Merge::Triangle { .. }))
+}

@@ -1,0 +1,233 @@
+//! Every camera model side by side, for people and for programs.
+
+use super::{size, text};
+use serde::Serialize;
+use std::collections::{BTreeMap, HashMap};
+use std::io::{self, Write};
+use viewcert::certificate::hex;
+use viewcert::decide::{Component, Strength, Verdict};
+use viewcert_formats::NamedGraph;
+
+/// How many changes between two models people are shown.
+const SHOWN: usize = 8;
+
+/// Components of one model that are one in the next.
+pub struct Change {
+    from: &'static str,
+    to: &'static str,
+    /// The component of the model `to`, from 1 on, and how many cameras it has...
+    component: usize,
+    cameras: usize,
+    /// ... the components of the model `from` that it consists of, from 1 on...
+    joins: Vec<usize>,
+    /// ... and the cameras at which these touch: those that lie in several of them.
+    at: Vec<u32>,
+}
+
+/// What changes from one model to one that determines at least as much.
+///
+/// The components of the first refine those of the second: a part that is determined in the first
+/// is in the second, so it lies in a component there. Two components of a graph share at most one
+/// node, so two nodes of a part tell in which. O(n + sizes of components).
+pub fn changes(from: &Verdict, to: &Verdict) -> Vec<Change> {
+    let mut of_node: HashMap<u32, Vec<usize>> = HashMap::new();
+    for (k, component) in to.components.iter().enumerate() {
+        for v in component.nodes() {
+            of_node.entry(v).or_default().push(k);
+        }
+    }
+    let mut inside: BTreeMap<usize, Vec<(usize, Vec<u32>)>> = BTreeMap::new();
+    for (k, component) in from.components.iter().enumerate() {
+        let nodes = component.nodes();
+        let [first, second] = [nodes[0], nodes[1]].map(|v| &of_node[&v]);
+        let common = first.iter().find(|k| second.contains(k));
+        let common = common.expect("what one model determines lies in a component of the next");
+        inside.entry(*common).or_default().push((k, nodes));
+    }
+    let several = inside.into_iter().filter(|(_, parts)| parts.len() > 1);
+    several
+        .map(|(component, parts)| {
+            let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+            for &v in parts.iter().flat_map(|(_, nodes)| nodes) {
+                *count.entry(v).or_default() += 1;
+            }
+            let shared = count.into_iter().filter(|&(_, count)| count > 1);
+            Change {
+                from: from.model.name(),
+                to: to.model.name(),
+                component: component + 1,
+                cameras: to.components[component].node_count(),
+                joins: parts.iter().map(|(k, _)| k + 1).collect(),
+                at: shared.map(|(v, _)| v).collect(),
+            }
+        })
+        .collect()
+}
+
+/// The first few of a list, and how many more there are.
+fn first<T: ToString>(items: impl ExactSizeIterator<Item = T>) -> String {
+    let count = items.len();
+    let mut words: Vec<String> = items.take(SHOWN).map(|item| item.to_string()).collect();
+    if count > SHOWN {
+        words.push(format!("and {} more", count - SHOWN));
+    }
+    words.join(", ")
+}
+
+/// Writes a line a model, and what changes between them.
+///
+/// # Errors
+/// Those of the writer.
+pub fn text(
+    out: &mut impl Write,
+    input: &NamedGraph,
+    verdicts: &[Verdict],
+    changes: &[Change],
+) -> io::Result<()> {
+    writeln!(out, "{}", input.name)?;
+    writeln!(out, "  graph       {}", size(&input.graph))?;
+    for note in &input.notes {
+        writeln!(out, "  note        {note}")?;
+    }
+    for verdict in verdicts {
+        let (rank, required) = (verdict.rank, verdict.required);
+        let components = super::counted(verdict.components.len(), "component");
+        let answer = verdict.value.name();
+        let claims = [
+            verdict.value_claim().strength,
+            verdict.rank_claim().strength,
+            verdict.components_claim().strength,
+        ];
+        let strength = text::strength(Strength::all(claims));
+        writeln!(
+            out,
+            "  {:<12}{answer}, rank {rank} of {required}, {components} ({strength})",
+            verdict.model.name()
+        )?;
+    }
+    for change in changes.iter().take(SHOWN) {
+        let at = change.at.iter().map(|&v| input.labels.display(v));
+        writeln!(
+            out,
+            "  change      {} component {} ({}) joins the {} components {} at {}",
+            change.to,
+            change.component,
+            super::counted(change.cameras, "camera"),
+            change.from,
+            first(change.joins.iter()),
+            first(at)
+        )?;
+    }
+    if changes.len() > SHOWN {
+        writeln!(out, "  change      and {} more", changes.len() - SHOWN)?;
+    }
+    Ok(())
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    graph: GraphLine<'a>,
+    notes: &'a [String],
+    models: Vec<ModelLine>,
+    changes: Vec<ChangeLine>,
+}
+
+#[derive(Serialize)]
+struct GraphLine<'a> {
+    name: &'a str,
+    nodes: usize,
+    edges: usize,
+    sha256: String,
+}
+
+#[derive(Serialize)]
+struct ModelLine {
+    model: &'static str,
+    verdict: &'static str,
+    strength: &'static str,
+    error_log2: Option<i64>,
+    rank: usize,
+    rank_required: usize,
+    rank_strength: &'static str,
+    components: Vec<ComponentLine>,
+    components_strength: &'static str,
+}
+
+#[derive(Serialize)]
+struct ComponentLine {
+    nodes: usize,
+    edges: usize,
+}
+
+impl From<&Component> for ComponentLine {
+    fn from(component: &Component) -> Self {
+        Self {
+            nodes: component.node_count(),
+            edges: component.edge_count(),
+        }
+    }
+}
+
+impl From<&Verdict> for ModelLine {
+    fn from(verdict: &Verdict) -> Self {
+        let strength = verdict.value_claim().strength;
+        Self {
+            model: verdict.model.name(),
+            verdict: verdict.value.name(),
+            strength: strength.name(),
+            error_log2: strength.error_log2(),
+            rank: verdict.rank,
+            rank_required: verdict.required,
+            rank_strength: verdict.rank_claim().strength.name(),
+            components: verdict.components.iter().map(ComponentLine::from).collect(),
+            components_strength: verdict.components_claim().strength.name(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct ChangeLine {
+    from: &'static str,
+    to: &'static str,
+    component: usize,
+    cameras: usize,
+    joins: Vec<usize>,
+    at: Vec<String>,
+}
+
+/// Writes everything as one line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn json(
+    out: &mut impl Write,
+    input: &NamedGraph,
+    verdicts: &[Verdict],
+    changes: &[Change],
+) -> io::Result<()> {
+    let changes = changes.iter().map(|change| ChangeLine {
+        from: change.from,
+        to: change.to,
+        component: change.component,
+        cameras: change.cameras,
+        joins: change.joins.clone(),
+        at: change
+            .at
+            .iter()
+            .map(|&v| input.labels.label(v).into_owned())
+            .collect(),
+    });
+    let line = Line {
+        graph: GraphLine {
+            name: &input.name,
+            nodes: input.graph.nodes(),
+            edges: input.graph.edges().len(),
+            sha256: hex(&verdicts[0].sha256),
+        },
+        notes: &input.notes,
+        models: verdicts.iter().map(ModelLine::from).collect(),
+        changes: changes.collect(),
+    };
+    serde_json::to_writer(&mut *out, &line)?;
+    out.write_all(b"\n")
+}

@@ -1,0 +1,238 @@
+//! The affine model and centres in a plane against matrices and lists of all small graphs: the
+//! published formulation, Theorem 13.3, and the census.
+
+mod common;
+
+use common::{absent, verify_with};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::process::Command;
+use viewcert::decide::plane_rank;
+use viewcert::geometry::camera::normal_form;
+use viewcert::geometry::draw::DrawKey;
+use viewcert::geometry::jacobian::{SparseRows, jacobian};
+use viewcert::geometry::plane_direction::direction_rows;
+use viewcert::geometry::plane_flow::rigidity_rows;
+use viewcert::graph::{Graph, UnionFind, graph6, sha256};
+use viewcert::linalg::Ring;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::sparse_lu::Factorisation;
+use viewcert::sparsity::Sparsity;
+use viewcert::watch::{Watch, unwatched};
+use viewcert_studies::formulation::affine;
+
+/// All connected graphs with so many nodes, a graph6 line each, from nauty's geng.
+fn connected(nodes: usize) -> Option<String> {
+    for program in ["geng", "nauty-geng"] {
+        let made = Command::new(program)
+            .args(["-cq", &nodes.to_string()])
+            .output();
+        if let Ok(made) = made {
+            assert!(made.status.success(), "{program}");
+            return Some(String::from_utf8(made.stdout).unwrap());
+        }
+    }
+    absent("neither geng nor nauty-geng is installed");
+    None
+}
+
+fn graphs(nodes: usize) -> Vec<Graph> {
+    let lines = connected(nodes).unwrap_or_default();
+    let decode = |line: &str| graph6::decode(line.as_bytes()).unwrap();
+    lines.lines().map(decode).collect()
+}
+
+/// A connected random graph with `nodes` nodes, with about as many edges as rigidity takes.
+fn random_graph(nodes: u32, random: &mut ChaCha8Rng) -> Graph {
+    let mut next = |below: u32| random.next_u32() % below;
+    let mut pairs: Vec<(u32, u32)> = (1..nodes).map(|v| (next(v), v)).collect();
+    for _ in 0..next(2 * nodes) {
+        let (i, j) = (next(nodes), next(nodes));
+        if i != j {
+            pairs.push((i, j));
+        }
+    }
+    Graph::new(nodes, pairs).unwrap()
+}
+
+fn random_graphs(count: u32) -> impl Iterator<Item = Graph> {
+    let mut random = ChaCha8Rng::seed_from_u64(13);
+    (0..count).map(move |k| random_graph(3 + k % 10, &mut random))
+}
+
+fn rank(field: &PrimeField, rows: SparseRows<u64>, cols: usize) -> usize {
+    unwatched(|task| Factorisation::new(field, rows, cols, task)).rank()
+}
+
+fn residues(field: &PrimeField, graph: &Graph) -> impl FnMut() -> u64 {
+    let key = DrawKey {
+        graph_sha256: sha256(graph),
+        core_sha256: None,
+        seed: 3,
+        draw: 0,
+    };
+    key.residues(field)
+}
+
+/// The published matrix has 12 + 4 rank R, and rank R is what counting says.
+fn published(graph: &Graph) {
+    let field = PrimeField::mersenne61();
+    let mut random = residues(&field, graph);
+    let mut camera = || std::array::from_fn(|_| std::array::from_fn(|_| random()));
+    let cameras: Vec<_> = (0..graph.nodes()).map(|_| camera()).collect();
+    let counted = plane_rank(graph, &Watch::default()).unwrap();
+    let directions = affine::directions(&field, graph, &cameras);
+    assert_eq!(rank(&field, directions, 2 * graph.nodes()), counted);
+    let rows = affine::matrix(&field, graph, &cameras);
+    assert_eq!(
+        rank(&field, rows, 8 * graph.nodes()),
+        4 * counted + 12,
+        "{graph:?}"
+    );
+}
+
+/// Theorem 13.3 at random centres in a plane, and the pebble game with three pebbles at random
+/// centres in space.
+fn in_a_plane(graph: &Graph) {
+    let field = PrimeField::mersenne61();
+    let mut random = residues(&field, graph);
+    let nodes = graph.nodes();
+    let points: Vec<[u64; 2]> = (0..nodes).map(|_| [random(), random()]).collect();
+    // The plane z = 3 x + 5 y + 7.
+    let height = |[x, y]: [u64; 2]| {
+        let terms = [(3, x), (5, y)].map(|(a, x)| field.mul(&field.from_u64(a), &x));
+        terms
+            .iter()
+            .fold(field.from_u64(7), |sum, x| field.add(&sum, x))
+    };
+    let centres: Vec<[u64; 3]> = points.iter().map(|&p| [p[0], p[1], height(p)]).collect();
+    let cameras: Vec<_> = centres.iter().map(|c| normal_form(&field, c)).collect();
+    let in_plane = rank(&field, direction_rows(&field, graph, &points), 2 * nodes);
+    let mut parts = UnionFind::new(nodes);
+    let joined = graph.edges().iter();
+    let joined = joined
+        .filter(|(i, j)| parts.union(*i as usize, *j as usize))
+        .count();
+    let of_n = rank(&field, rigidity_rows(&field, graph, &centres), 3 * nodes);
+    assert_eq!(of_n, in_plane + joined, "{graph:?}");
+    let of_j = rank(&field, jacobian(&field, graph, &cameras), 12 * nodes);
+    assert_eq!(of_j, 4 * in_plane + 3 * joined, "{graph:?}");
+    assert_eq!(plane_rank(graph, &Watch::default()), Ok(in_plane));
+    let generic: Vec<[u64; 3]> = (0..nodes).map(|_| [random(), random(), random()]).collect();
+    let generic = rank(&field, rigidity_rows(&field, graph, &generic), 3 * nodes);
+    let counted = unwatched(|task| Sparsity::new(3, graph, task)).rank();
+    assert_eq!(counted, generic, "{graph:?}");
+}
+
+#[test]
+fn the_published_matrix_on_all_small_graphs() {
+    for nodes in 2..=7 {
+        graphs(nodes).iter().for_each(published);
+    }
+    random_graphs(300).for_each(|graph| published(&graph));
+}
+
+/// The same with 8 nodes.
+#[test]
+#[ignore = "a minute"]
+fn the_published_matrix_with_eight_nodes() {
+    graphs(8).iter().for_each(published);
+}
+
+#[test]
+fn ranks_at_centres_in_a_plane() {
+    for nodes in 2..=7 {
+        graphs(nodes).iter().for_each(in_a_plane);
+    }
+    random_graphs(1000).for_each(|graph| in_a_plane(&graph));
+}
+
+/// Connected graphs with n nodes, and how many of them are affine solvable, finite solvable and
+/// solvable with known intrinsics; numbers of separate scripts. Those of affine solvable graphs
+/// with the least number of edges are the published numbers of Laman graphs.
+const CENSUS: [(u64, [u64; 4], u64); 4] = [
+    (5, [21, 7, 8, 9], 3),
+    (6, [112, 42, 46, 54], 13),
+    (7, [853, 377, 409, 457], 70),
+    (8, [11_117, 6199, 6542, 7053], 608),
+];
+
+#[test]
+fn census_of_connected_graphs() {
+    let sizes = 5..=8;
+    let Some(lines) = sizes.map(connected).collect::<Option<Vec<String>>>() else {
+        return;
+    };
+    let run = verify_with(
+        lines.concat().as_bytes(),
+        &["catalog", "census", "-", "--json"],
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = run.json();
+    assert_eq!(rows.len(), CENSUS.len());
+    for (row, (nodes, counts, laman)) in rows.iter().zip(CENSUS) {
+        assert_eq!(row["nodes"], nodes);
+        assert_eq!(row["graphs"], counts[0]);
+        let models = ["affine", "projective", "calibrated"];
+        for (model, count) in models.iter().zip(&counts[1..]) {
+            let by_edges = row[model].as_object().unwrap().values();
+            let total: u64 = by_edges.map(|count| count.as_u64().unwrap()).sum();
+            assert_eq!(total, *count, "{model}, {nodes} nodes");
+        }
+        let least = (2 * nodes - 3).to_string();
+        assert_eq!(row["affine"][least], laman);
+    }
+    // The table has a line for each number of nodes.
+    let run = verify_with(b"D~{\nC]\n", &["catalog", "census", "-"]);
+    assert!(
+        run.out
+            .contains("| 5 | 1 | 1 | 1 with 10 | 1 | 1 with 10 |"),
+        "{}",
+        run.out
+    );
+    assert!(
+        run.out
+            .contains("| 4 | 1 | 0 | none | 0 | none | 1 | 1 with 4 |"),
+        "{}",
+        run.out
+    );
+    assert_eq!(
+        verify_with(b"D~{\n!\n", &["catalog", "census", "-"]).code,
+        2
+    );
+}
+
+/// `verify compare --model affine`: the published matrix of the 4-cycle has rank 4 * 4 + 12 of 32.
+#[test]
+fn the_published_matrix_in_the_comparison() {
+    let cycle = common::cycle(4);
+    for field in [&["--rational"][..], &["--prime", "1000003"], &[]] {
+        let arguments = [&["compare", "-", "--model", "affine"], field].concat();
+        let run = verify_with(cycle.as_bytes(), &arguments);
+        assert_eq!(run.code, 0, "{}", run.err);
+        for words in [
+            "28 x 32",
+            "4 x 8",
+            "on 4 of 4 pairs",
+            "4 dimensions of motions",
+        ] {
+            assert!(run.out.contains(words), "{words}: {}", run.out);
+        }
+        let run = verify_with(cycle.as_bytes(), &[&arguments[..], &["--json"]].concat());
+        let line = &run.json()[0];
+        assert_eq!((&line["agree"], &line["excess"]), (&true.into(), &4.into()));
+        assert_eq!(line["affine_f"], 4);
+        assert!(line.get("kernel_is_f").is_none());
+        let of = |k: usize| line["formulations"][k]["rank"].as_u64().unwrap();
+        assert_eq!((of(0), of(1)), (28, 16));
+    }
+    let run = verify_with(
+        common::cycle(3).as_bytes(),
+        &["compare", "-", "--model", "affine"],
+    );
+    assert!(
+        run.out.contains("full rank, affine solvable"),
+        "{}",
+        run.out
+    );
+}
