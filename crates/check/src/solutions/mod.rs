@@ -4,7 +4,7 @@
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`), a lower one from simple points of a tight core (`simple`).
+//! solutions are near to (`points`, less those `outside`), a lower one from simple points of a tight core (`simple`).
 //! `dense` has the linear algebra, `grammar` the text.
 
 mod chart;
@@ -13,6 +13,7 @@ pub(crate) mod grammar;
 mod linear;
 mod members;
 mod minors;
+mod outside;
 mod points;
 mod simple;
 mod support;
