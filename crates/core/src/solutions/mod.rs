@@ -9,8 +9,11 @@
 mod chart;
 mod count;
 mod echelon;
+mod exponents;
 mod linear;
 mod members;
+mod minors;
+mod outside;
 mod points;
 mod roots;
 mod simple;
@@ -18,10 +21,12 @@ mod support;
 mod system;
 #[cfg(test)]
 mod tests;
+mod zeros;
 
 pub use chart::{Chart, Scale};
 pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
 pub use linear::Linear;
 pub use members::{MOST_NODES, Merge, Rule};
+pub use minors::{Minor, Part};
+pub use outside::{Limit, Outside};
 pub use points::AtMost;
-pub use support::{Minor, Part};
