@@ -278,10 +278,10 @@ DRAW, FLOW = b"viewcert draw 2\n", b"viewcert flow 2\n"
 
 
 @functools.lru_cache(maxsize=256)
-def draw_centres(graph_hash, core_hash, n, p, seed, draw):
-    """Section 4: centres modulo p, or None if the draw is void."""
+def draw_centres(graph_hash, core_hash, n, p, seed, draw, coordinates=3):
+    """Section 4: centres modulo p (with two coordinates plane points), or None if the draw is void."""
     stream = Stream(DRAW, graph_hash, core_hash, seed, draw)
-    points = tuple(tuple(stream.below(p) for _ in range(3)) for _ in range(n))
+    points = tuple(tuple(stream.below(p) for _ in range(coordinates)) for _ in range(n))
     return points if distinct(points) else None
 
 
@@ -420,6 +420,16 @@ def bearing_rows(core, centres, p):
             rows.append(row)
         directions.append(pair)
     return rows, directions
+
+
+def plane_rows(core, points, p):
+    """Section 7: the rows of R as dicts."""
+    rows = []
+    for i, j in core.edges:
+        x, y = ((a - b) % p for a, b in zip(points[i], points[j]))
+        row = {2 * i: y, 2 * i + 1: -x % p, 2 * j: -y % p, 2 * j + 1: x}
+        rows.append({column: entry for column, entry in row.items() if entry})
+    return rows
 
 
 class Elimination:
@@ -591,14 +601,15 @@ def edge_motion(core, edge, centres, vector, p):
 
 
 def edge_translation(edge, centres, vector, p):
-    """Section 7, kernel, calibrated: (s_e, t_e), or None."""
-    (ci, yi), (cj, yj) = ((centres[v], vector[3 * v : 3 * v + 3]) for v in edge)
+    """Section 7, kernel, calibrated and affine: (s_e, t_e), or None."""
+    size = len(centres[0])
+    (ci, yi), (cj, yj) = ((centres[v], vector[size * v : size * v + size]) for v in edge)
     d = [(x - y) % p for x, y in zip(ci, cj)]
-    q = next(k for k in range(3) if d[k])
+    q = next(k for k in range(size) if d[k])
     s = (yi[q] - yj[q]) * pow(d[q], -1, p) % p
-    if any((yi[k] - yj[k] - s * d[k]) % p for k in range(3)):
+    if any((yi[k] - yj[k] - s * d[k]) % p for k in range(size)):
         return None
-    return (s, *((yi[k] - s * ci[k]) % p for k in range(3)))
+    return (s, *((yi[k] - s * ci[k]) % p for k in range(size)))
 
 
 # Sections 5 to 9: the certificate ------------------------------------------------------------------------------------
@@ -643,7 +654,7 @@ class Check:
         )
         need(form == "viewcert certificate", "section 3: the format is another")
         a_string(program, "section 3: program")
-        need(self.model in ("projective", "calibrated"), "section 3: no such model")
+        need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data, edges_format)
         self.check_claim_form(optional)
@@ -699,7 +710,8 @@ class Check:
 
     def required(self, n):
         """Section 6: the rank of a rigid graph with n nodes."""
-        return 11 * n - 15 if self.projective else 3 * n - 4
+        a, b = {"projective": (11, 15), "calibrated": (3, 4), "affine": (8, 12)}[self.model]
+        return a * n - b
 
     def nodes(self, member):
         return self.bodies[member] if type(member) is int else member
@@ -726,8 +738,8 @@ class Check:
                 at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
                 size = len(a_list(others, f"{where}: with"))
                 need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
-                need(size != 3 or not self.projective, f"{where}: a cycle of four is no body in the projective model")
-                need(size != 5 or self.projective, f"{where}: six bodies are merged in the projective model only")
+                need(size != 3 or self.model == "calibrated", f"{where}: a cycle of four is no body in the {self.model} model")
+                need(size != 5 or self.model == "projective", f"{where}: six bodies are merged in the projective model only")
                 need(len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
                 need(distinct(at), f"{where}: the nodes of at are not different")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
@@ -952,6 +964,7 @@ class Check:
 
     def check_plane_flow(self, value, core, where):
         """Section 7, plane-flow."""
+        need(self.model != "affine", f"{where}: no evidence in the affine model")
         names = "kind prime seed draw rows cols flows lambda_rows lambda_cols"
         _, prime, seed, draw, rows, cols, flows, lambda_rows, lambda_cols = members(value, names, where)
         p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
@@ -976,7 +989,52 @@ class Check:
         Elimination([matrix[row] for row in lambda_rows], lambda_cols, p, f"{where}: Lambda")
         return 4 * len(rows) + len(lambda_rows) - core.m
 
-    LOWER = {"minor": check_minor, "integer-minor": check_integer_minor, "plane-flow": check_plane_flow}
+    def plane_points(self, core, p, seed, draw, where):
+        """Section 4: the plane points of a draw."""
+        points = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw, 2)
+        need(points, f"{where}: the draw is void, two points agree")
+        return points
+
+    def check_plane_minor(self, value, core, where):
+        """Section 7, plane-minor."""
+        need(self.model == "affine", f"{where}: affine model only")
+        _, prime, seed, draw, rows, cols = members(value, "kind prime seed draw rows cols", where)
+        p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
+        rows, cols = self.pivots(rows, cols, core.m, 2 * core.n, where)
+        matrix = plane_rows(core, self.plane_points(core, p, seed, draw, where), p)
+        Elimination([matrix[row] for row in rows], cols, p, where)
+        return 4 * len(rows)
+
+    def check_pinching(self, value, core, where):
+        """Section 7, pinching: a set of edges that is (2,3)-sparse after each step."""
+        need(self.model == "affine", f"{where}: affine model only")
+        _, start, steps, rank = members(value, "kind start steps rank", where)
+        start = a_pair(start, f"{where}: start")
+        self.indices(list(start), core.n, f"{where}: start")
+        there, edges = set(start), {start}
+        for k, step in enumerate(a_list(steps, f"{where}: steps")):
+            at = f"{where}: step {k}"
+            need(1 <= len(a_list(step, at)) <= 4, f"{at} has not one to four nodes")
+            z, *ends = self.indices(step, core.n, at)
+            need(z not in there, f"{at}: node {z} is there already")
+            need(all(end in there for end in ends), f"{at}: a node to be joined is not there")
+            if len(ends) == 3:
+                pinched = (min(ends[:2]), max(ends[:2]))
+                need(pinched in edges, f"{at}: the edge {pinched} to be deleted is not there")
+                edges.remove(pinched)
+            there.add(z)
+            edges.update((min(z, end), max(z, end)) for end in ends)
+        found = len(edges & set(core.edges))
+        need(an_int(rank, f"{where}: rank") == found, f"{where}: {found} core edges are there at the end, not {rank}")
+        return 4 * found
+
+    LOWER = {
+        "minor": check_minor,
+        "integer-minor": check_integer_minor,
+        "plane-flow": check_plane_flow,
+        "plane-minor": check_plane_minor,
+        "pinching": check_pinching,
+    }
 
     def check_counting(self, value, group, where):
         """Section 7, counting."""
@@ -1089,11 +1147,13 @@ class Check:
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
         _, prime, seed, draw, vector = members(value, "kind prime seed draw vector", where)
         p, seed, draw = key = self.prime_seed_draw(prime, seed, draw, where)
-        per_node = 12 if self.projective else 3
+        per_node = {"projective": 12, "calibrated": 3, "affine": 2}[self.model]
         need(len(a_list(vector, f"{where}: vector")) == per_node * core.n, f"{where}: the vector has another length")
         vector = [a_big(entry, f"{where}: vector", least=0, below=p) for entry in vector]
         drawn = next((k for k, (d, q, _) in enumerate(draws) if (seed, draw, p) == (seed_of_draws, d, q)), None)
-        if drawn is None:
+        if self.model == "affine":
+            centres = self.plane_points(core, p, seed, draw, where)
+        elif drawn is None:
             centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
             need(centres, f"{where}: the draw is void, two centres agree")
         else:
@@ -1181,7 +1241,7 @@ class Check:
 
 def flow_key(value):
     """The prime, seed and number of a draw of centres that lower-bound evidence was computed at, if any."""
-    return (int(value["prime"]), int(value["seed"]), value["draw"]) if value["kind"] == "plane-flow" else None
+    return (int(value["prime"]), int(value["seed"]), value["draw"]) if value["kind"] in ("plane-flow", "plane-minor") else None
 
 
 def primitive(row):

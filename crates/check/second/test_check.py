@@ -1075,6 +1075,170 @@ class Calibrated(Case):
         self.broken(document, lambda d: d["claim"]["verdict"].update(value="finite-solvable"), "verdict")
 
 
+class Affine(Case):
+    """The affine model, on certificates that were written by hand or by another program."""
+
+    @staticmethod
+    def certificate(name):
+        with open(os.path.join(HERE, "..", "tests", "certificates", f"affine-{name}.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_claims(self):
+        for name, verdict, rank, components in (
+            ("bars", "solvable", "52 of 52", 1),
+            ("bipartite", "solvable", "36 of 36", 1),
+            ("hinges", "not-finite-solvable", "48 of 52", 4),
+            ("square", "not-finite-solvable", "16 of 20", 4),
+            ("triangle", "not-finite-solvable", "24 of 28", 4),
+        ):
+            statements = self.verifies(self.certificate(name)).statements()[1:]
+            self.assertEqual(statements[0], f"affine: {verdict} (proof)")
+            self.assertEqual(statements[1], f"rank: {rank} required (proof)")
+            self.assertEqual(statements[2], f"components: {components} maximal (proof)")
+
+    def test_the_claim_is_that_of_the_evidence(self):
+        def claim(part, member, value):
+            return lambda c: c["claim"][part].update({member: value})
+
+        bars, square = self.certificate("bars"), self.certificate("square")
+        self.broken(bars, claim("verdict", "value", "finite-solvable"), "verdict: value is claimed finite-solvable")
+        self.broken(bars, claim("rank", "required", 84), "rank: required is claimed 84")
+        self.broken(square, claim("rank", "value", 4), "rank: value is claimed 4")
+        self.broken(square, claim("components", "value", 1), "components: value is claimed 1")
+
+    def test_of_this_model_only(self):
+        bipartite, square = self.certificate("bipartite"), self.certificate("square")
+
+        def model(value):
+            return lambda c: c.update(model=value)
+
+        self.broken(bipartite, model("calibrated"), "pinching", "affine model only")
+        self.broken(square, model("projective"), "bound is 28")
+        self.broken(square, lambda c: (c.update(model="projective"), c["pieces"][0]["evidence"].pop(1)), "affine model")
+
+    def test_no_evidence_in_this_model(self):
+        others = {
+            "minor": {"prime": "11", "seed": "1", "draw": 0, "rows": [], "cols": []},
+            "plane-flow": {
+                "prime": "11", "seed": "1", "draw": 0, "rows": [], "cols": [], "flows": 0, "lambda_rows": [], "lambda_cols": []
+            },
+            "draws": {"seed": "1", "count": 3, "rank": 16},
+        }
+        for kind, rest in others.items():
+            self.broken(
+                self.certificate("square"),
+                lambda c: c["pieces"][0]["evidence"].append({"kind": kind, **rest}),
+                kind,
+                "no evidence in the affine model" if kind == "plane-flow" else "projective model only",
+            )
+        node = {"node": 0, "parts": [], "split": [], "groups": [], "components": 1, "less": 1}
+        self.broken(
+            self.certificate("square"),
+            lambda c: evidence(c, "counting")["blocks"][0]["hubs"].append(node),
+            "hub: projective model only",
+        )
+
+    def test_bodies(self):
+        """Four edges on a cycle are no body in the plane, nor is the class that they are split into."""
+        merge = {"with": [[0, 1], [1, 2], [2, 3]], "at": [0, 1, 2, 3]}
+        self.broken(
+            self.certificate("square"),
+            lambda c: c["bodies"].append({"seed": [0, 3], "add": [], "merge": [merge]}),
+            "a cycle of four is no body in the affine model",
+        )
+        self.broken(
+            self.certificate("triangle"),
+            lambda c: evidence(c, "classes")["classes"][0].update(split={"rigid": {}, "pieces": []}, evidence=[]),
+            "split is for the projective model only",
+        )
+
+    def test_pinching(self):
+        def step(k, value):
+            return lambda c: evidence(c, "pinching")["steps"].__setitem__(k, value)
+
+        bipartite = self.certificate("bipartite")
+        self.assertEqual(evidence(bipartite, "pinching")["steps"][3], [5, 0, 1, 2])
+        for change, *words in (
+            (lambda c: evidence(c, "pinching").update(start=[1, 0]), "start", "smaller node first"),
+            (lambda c: evidence(c, "pinching").update(start=[0, 6]), "start", "out of range"),
+            (step(3, []), "step 3 has not one to four nodes"),
+            (step(3, [5, 0, 1, 2, 3]), "step 3 has not one to four nodes"),
+            (step(3, [6, 0, 1, 2]), "step 3: 6 is out of range"),
+            (step(3, [5, 0, 1, 1]), "step 3: an index is listed twice"),
+            (step(3, [4, 0, 1, 2]), "step 3: node 4 is there already"),
+            (step(2, [2, 3, 5]), "step 2: a node to be joined is not there"),
+            (step(3, [5, 0, 2, 1]), "step 3: the edge (0, 2) to be deleted is not there"),
+            (step(3, [5, 0, 1]), "8 core edges are there at the end, not 9"),
+            (step(3, [5]), "6 core edges are there at the end, not 9"),
+            (lambda c: evidence(c, "pinching").update(rank=8), "9 core edges are there at the end, not 8"),
+        ):
+            self.broken(bipartite, change, *words)
+
+        def weaker(c):
+            step(3, [5, 0, 1])(c)
+            evidence(c, "pinching").update(rank=8)
+
+        self.broken(bipartite, weaker, "neither rigid nor divided into classes")
+        # The edge 0-1 is deleted once: a second step would count an edge too much.
+        self.broken(bipartite, step(2, [2, 0, 1, 3]), "step 3: the edge (0, 1) to be deleted is not there")
+
+    def test_plane_minor(self):
+        square = self.certificate("square")
+
+        def change(**values):
+            return lambda c: evidence(c, "plane-minor").update(values)
+
+        for values, *words in (
+            ({"rows": [0, 1, 2, 4]}, "rows: 4 is out of range"),
+            ({"cols": [0, 1, 2, 8]}, "cols: 8 is out of range"),
+            ({"cols": [0, 1, 2, 2]}, "cols: an index is listed twice"),
+            ({"cols": [0, 1, 2]}, "rows and cols differ in length"),
+            ({"cols": [4, 1, 2, 0]}, "pivot", "is zero"),
+            ({"prime": "1000001"}, "1000001 is not a prime"),
+        ):
+            self.broken(square, change(**values), "plane-minor", *words)
+        # Modulo 5 four points of 25 soon agree.
+        seeds = (str(seed) for seed in range(100))
+        void = next(
+            seed
+            for seed in seeds
+            if len(set(self.drawn_points(5, int(seed)))) < 4
+        )
+        self.broken(square, change(prime="5", seed=void), "the draw is void, two points agree")
+
+    @staticmethod
+    def drawn_points(p, seed):
+        graph = check.read_graph6("Cl")
+        core = check.Core(make.Maker(graph), graph.edges, "")
+        stream = check.Stream(check.DRAW, graph.hash, core.hash, seed, 0)
+        return [(stream.below(p), stream.below(p)) for _ in range(4)]
+
+    def test_a_row_by_hand(self):
+        """The points (1, 2) and (4, 1): d = (-3, 1), and the row is orthogonal to motions along d."""
+        core = check.Core(make.Maker(check.Graph(2, [(0, 1)])), [(0, 1)], "")
+        self.assertEqual(check.plane_rows(core, [(1, 2), (4, 1)], 11), [{0: 1, 1: 3, 2: 10, 3: 8}])
+        self.assertEqual(check.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 2], 11), (2, 0, 0))
+        self.assertIsNone(check.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 3], 11))
+
+    def test_kernel(self):
+        square = self.certificate("square")
+
+        def entry(k, value):
+            return lambda c: evidence(c, "kernel")["vector"].__setitem__(k, value)
+
+        self.broken(square, entry(0, "1"), "kernel", "no motion on the core edge")
+        self.broken(square, lambda c: evidence(c, "kernel")["vector"].pop(), "the vector has another length")
+        self.broken(
+            square, lambda c: evidence(c, "kernel").update(vector=["0"] * 8), "two classes move as one"
+        )
+        # At other points than those of the lower bound it is no proof.
+        points = self.drawn_points(1000003, 1)
+        vector = [str((2 * x + 5) % 1000003) for point in points for x in point]
+        self.broken(square, lambda c: evidence(c, "kernel").update(vector=vector), "two classes move as one")
+        self.broken(square, lambda c: c["pieces"][0]["evidence"].pop(), "the classes are not separated")
+        self.broken(square, lambda c: evidence(c, "plane-minor").update(seed="2"), "the classes are not separated")
+
+
 class Claims(Case):
     """Section 8."""
 

@@ -1,7 +1,7 @@
 //! The text of section 12 as typed values.
 
 use crate::document::any_members;
-use crate::json::{Big, Name, Value, fill, objects, present, unknown};
+use crate::json::{Big, Name, Optional, Value, fill, objects, present, unknown};
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
@@ -17,7 +17,12 @@ objects! {
     Minor { rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize> }
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
-        minors: Vec<Minor>, points: Vec<Point>,
+        minors: Vec<Minor>, points: Vec<Point>, form: Optional<Vec<Term>>,
+        outside: Optional<Vec<Outside>>,
+    }
+    Term { exponent: Vec<usize>, weight: Big<u64> }
+    Outside {
+        values: Vec<Option<Big<u64>>>, blocks: Vec<Vec<usize>>, dependent: Vec<Vec<usize>>,
     }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
 }

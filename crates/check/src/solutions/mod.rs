@@ -4,7 +4,7 @@
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`), a lower one from simple points of a tight core (`simple`).
+//! solutions are near to (`points`, less those `outside`), a lower one from simple points of a tight core (`simple`).
 //! `dense` has the linear algebra, `grammar` the text.
 
 mod chart;
@@ -13,6 +13,7 @@ pub(crate) mod grammar;
 mod linear;
 mod members;
 mod minors;
+mod outside;
 mod points;
 mod simple;
 mod support;
@@ -128,13 +129,14 @@ fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> 
         let most = at_most(upper, &left, meter, of);
         most.within(|| "upper".into())
     });
+    let at_most = at_most.transpose()?;
     let at_least = evidence.lower.as_ref().map(|lower| {
         let least = at_least(lower, &left, meter);
         least.within(|| "lower".into())
     });
     Ok(Count {
         at_least: at_least.transpose()?.unwrap_or(1),
-        at_most: at_most.transpose()?,
+        at_most,
     })
 }
 

@@ -1,24 +1,21 @@
 //! The points to which solutions come near, at one assignment of centres: conditions (S17) and (S18)
-//! of section 12 (theory, Theorem 10.8).
+//! of section 12 (theory, Theorems 10.8 and 10.13).
 
 use super::chart::Chart;
 use super::dense::Space;
-use super::grammar::{Point, Points, Step};
+use super::grammar::{Point, Points, Step, Term};
 use super::linear;
-use super::support::{Span, Text};
+use super::outside;
+use super::support::{Span, Text, sum};
 use super::system::{Known, System, ensure_all_known};
 use crate::algebra::{Field, Ring};
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, Within, ensure};
+use std::collections::HashSet;
 
 /// Verifies that there are no more solutions than points, and returns how many these are.
-pub(super) fn check(
-    points: &Points,
-    chart: &Chart,
-    known: &Known,
-    meter: &Meter,
-) -> Checked<usize> {
-    let system = System::new(chart, &points.centres, meter).within(|| "centres".into())?;
+pub(super) fn check(text: &Points, chart: &Chart, known: &Known, meter: &Meter) -> Checked<usize> {
+    let system = System::new(chart, &text.centres, meter).within(|| "centres".into())?;
     // What steps made known is one, at these centres as well.
     let one = system.field.one;
     let known: Known = known.iter().map(|value| value.map(|_| one)).collect();
@@ -26,61 +23,168 @@ pub(super) fn check(
         &system,
         &known,
         Text {
-            unknowns: &points.unknowns,
-            bounds: &points.bounds,
-            absent: &points.absent,
-            minors: &points.minors,
+            unknowns: &text.unknowns,
+            bounds: &text.bounds,
+            absent: &text.absent,
+            minors: &text.minors,
         },
     )?;
-    let mut inner = Space::new(&system.field, span.is_present.len(), meter);
-    for (k, point) in points.points.iter().enumerate() {
-        let checked = check_point(point, points, &known, (&system, &span));
-        let evaluation = checked.within(|| format!("points[{k}]"))?;
-        inner.insert(restricted(&span, evaluation))?;
+    let mut found = Found {
+        form: Form::new(text.form.0.as_deref(), &system, &span)?,
+        values: Vec::new(),
+        ratios: HashSet::new(),
+        system: &system,
+        span: &span,
+    };
+    for (k, point) in text.points.iter().enumerate() {
+        let checked = found.add_point(point, text, &known);
+        checked.within(|| format!("points[{k}]"))?;
     }
-    ensure!(
-        inner.rank() == points.points.len(),
-        "the points are not independent on the inner exponents"
-    );
-    ensure!(
-        span.shifts.rank() + points.points.len() == span.present(),
-        "{} points, where {} exponents less a rank of {} are asked for",
-        points.points.len(),
-        span.present(),
-        span.shifts.rank()
-    );
-    Ok(points.points.len())
+    for (k, point) in text.outside.0.iter().flatten().enumerate() {
+        let limits = outside::check(point, &text.unknowns, &known, &system);
+        let added = limits.and_then(|limits| found.add(&limits));
+        added.within(|| format!("outside[{k}]"))?;
+    }
+    found.conclude()?;
+    Ok(text.points.len())
 }
 
-/// A point is one of the minors, and all other unknowns follow; returns the values of the monomials
-/// in A, and zero at all others.
-fn check_point(
-    point: &Point,
-    points: &Points,
-    known: &Known,
-    (system, span): (&System, &Span),
-) -> Checked<Vec<u64>> {
-    let values = system.residues(&point.values)?;
-    ensure!(
-        values.len() == points.unknowns.len(),
-        "{} values for {} unknowns",
-        values.len(),
-        points.unknowns.len()
-    );
-    let mut evaluation = vec![0; span.is_present.len()];
-    for exponent in span.all_present() {
-        evaluation[span.exponents.place(&exponent)] = monomial(&system.field, &exponent, &values);
+/// A form, by which kernel vectors are told apart.
+struct Form {
+    /// Monomials without squares, with their weights.
+    terms: Vec<(Vec<usize>, u64)>,
+    /// The exponents of which the products with all these monomials are in A: A'.
+    inner: Vec<Vec<usize>>,
+}
+
+impl Form {
+    fn new(text: Option<&[Term]>, system: &System, span: &Span) -> Checked<Form> {
+        let unknowns = span.exponents.bounds.len();
+        let unit =
+            |f: usize| -> Vec<usize> { (0..unknowns).map(|g| usize::from(f == g)).collect() };
+        // The last of these is zero.
+        let least: Vec<Vec<usize>> = (0..=unknowns).map(unit).collect();
+        let terms = match text {
+            None => {
+                let weight = |k: usize| if k == unknowns { system.field.one } else { 0 };
+                let terms = least.into_iter().enumerate();
+                terms.map(|(k, exponent)| (exponent, weight(k))).collect()
+            }
+            Some(text) => {
+                check_form(text, &least)?;
+                let weights = text.iter().map(|term| {
+                    let weight = system.residues(std::slice::from_ref(&term.weight))?;
+                    Ok((term.exponent.clone(), weight[0]))
+                });
+                weights.collect::<Checked<Vec<_>>>()?
+            }
+        };
+        system
+            .meter
+            .charge((span.is_present.len() * terms.len()) as u64)?;
+        let mut inner = span.all_present();
+        inner.retain(|a| terms.iter().all(|(d, _)| span.has_sum(a, d)));
+        Ok(Form { terms, inner })
     }
+}
+
+/// Monomials without squares, each once, among them one and all unknowns.
+fn check_form(text: &[Term], least: &[Vec<usize>]) -> Checked<()> {
+    let listed: HashSet<&Vec<usize>> = text.iter().map(|term| &term.exponent).collect();
+    let unknowns = least.len() - 1;
     ensure!(
-        span.shifts.annihilate(&evaluation)?,
-        "a minor does not vanish at the point"
+        listed.len() == text.len()
+            && least.iter().all(|exponent| listed.contains(exponent))
+            && listed
+                .iter()
+                .all(|d| d.len() == unknowns && d.iter().all(|&e| e <= 1)),
+        "`form` has not one, each unknown and other products of different unknowns, each once"
     );
-    let mut known = known.clone();
-    for (&f, &value) in points.unknowns.iter().zip(&values) {
-        known[f] = Some(value);
+    Ok(())
+}
+
+/// Points, of which each has a vector that all minors annihilate.
+struct Found<'a> {
+    form: Form,
+    /// What the form gives at each.
+    values: Vec<Vec<u64>>,
+    /// What the monomials of the form are, divided by it, at each.
+    ratios: HashSet<Vec<u64>>,
+    system: &'a System<'a>,
+    span: &'a Span<'a>,
+}
+
+impl Found<'_> {
+    /// A point to which solutions may come near: all other unknowns follow (S18).
+    fn add_point(&mut self, point: &Point, text: &Points, known: &Known) -> Checked<()> {
+        let values = self.system.residues(&point.values)?;
+        ensure!(
+            values.len() == text.unknowns.len(),
+            "{} values for {} unknowns",
+            values.len(),
+            text.unknowns.len()
+        );
+        let limits: Vec<Option<u64>> = values.iter().copied().map(Some).collect();
+        self.add(&limits)?;
+        let mut known = known.clone();
+        for (&f, &value) in text.unknowns.iter().zip(&values) {
+            known[f] = Some(value);
+        }
+        settle(&point.steps, self.system, &mut known)
     }
-    settle(&point.steps, system, &mut known)?;
-    Ok(evaluation)
+
+    /// (S17) for a point, of which values may be infinite.
+    fn add(&mut self, limits: &[Option<u64>]) -> Checked<()> {
+        let (field, span) = (&self.system.field, self.span);
+        let mut vector = vec![0; span.is_present.len()];
+        for exponent in span.all_present() {
+            let bounds = span.exponents.bounds;
+            vector[span.exponents.place(&exponent)] = monomial(field, &exponent, limits, bounds);
+        }
+        ensure!(
+            span.shifts.annihilate(&vector)?,
+            "a minor does not vanish at the point"
+        );
+        let at = |a: &[usize], d: &[usize]| vector[span.exponents.place(&sum(a, d))];
+        let value = |a: &Vec<usize>| {
+            let terms = self.form.terms.iter();
+            terms.fold(0, |sum, (d, weight)| {
+                field.add(sum, field.mul(*weight, at(a, d)))
+            })
+        };
+        let values: Vec<u64> = self.form.inner.iter().map(value).collect();
+        let nonzero = self.form.inner.iter().zip(&values);
+        let nonzero = nonzero.into_iter().find(|&(_, &value)| value != 0);
+        let missing = || Failure::rejected("the form vanishes at the point");
+        let (a, &value) = nonzero.ok_or_else(missing)?;
+        let inverse = field.inverse(value);
+        let ratio = |(d, _): &(Vec<usize>, u64)| field.mul(inverse, at(a, d));
+        let ratios: Vec<u64> = self.form.terms.iter().map(ratio).collect();
+        ensure!(
+            self.ratios.insert(ratios),
+            "the form does not tell the point from another one"
+        );
+        self.values.push(values);
+        Ok(())
+    }
+
+    /// (S17) for all points together.
+    fn conclude(self) -> Checked<()> {
+        let (system, span, points) = (self.system, self.span, self.values.len());
+        let width = self.form.inner.len();
+        let space = Space::of(&system.field, width, system.meter, self.values)?;
+        ensure!(
+            space.rank() == points,
+            "the points are not independent on the inner exponents"
+        );
+        ensure!(
+            span.shifts.rank() + points == span.present(),
+            "{points} points, where {} exponents less a rank of {} are asked for",
+            span.present(),
+            span.shifts.rank()
+        );
+        Ok(())
+    }
 }
 
 /// (S18): at the point, steps make all other unknowns known.
@@ -94,21 +198,13 @@ fn settle(steps: &[Step], system: &System, known: &mut Known) -> Checked<()> {
     ensure_all_known(known)
 }
 
-/// The value of a monomial; zero to the power of zero is one.
-fn monomial(field: &Field, exponent: &[usize], values: &[u64]) -> u64 {
-    let powers = exponent.iter().zip(values);
-    powers.fold(field.one, |product, (&e, &value)| {
-        (0..e).fold(product, |product, _| field.mul(product, value))
+/// The value of a monomial. Zero to the power of zero is one; of an infinite value the highest power
+/// is one, and the others are zero.
+fn monomial(field: &Field, exponent: &[usize], limits: &[Option<u64>], bounds: &[usize]) -> u64 {
+    let powers = exponent.iter().zip(limits).zip(bounds);
+    powers.fold(field.one, |product, ((&e, limit), &bound)| match *limit {
+        Some(value) => (0..e).fold(product, |product, _| field.mul(product, value)),
+        None if e == bound => product,
+        None => 0,
     })
-}
-
-/// A vector on A', the exponents with all their next ones in A; zero elsewhere.
-fn restricted(span: &Span, mut vector: Vec<u64>) -> Vec<u64> {
-    for exponent in span.all_present() {
-        let inner = (0..exponent.len()).all(|f| span.next(&exponent, f).is_some());
-        if !inner {
-            vector[span.exponents.place(&exponent)] = 0;
-        }
-    }
-    vector
 }

@@ -85,12 +85,10 @@ impl<'t> Span<'t> {
         self.is_present.iter().filter(|&&present| present).count()
     }
 
-    /// The exponent with one added at a place, if that is in A.
-    pub fn next(&self, exponent: &[usize], f: usize) -> Option<Vec<usize>> {
-        let mut next = exponent.to_vec();
-        next[f] += 1;
-        let inside = self.exponents.contain(&next);
-        (inside && self.is_present[self.exponents.place(&next)]).then_some(next)
+    /// Whether the sum of two exponents is in A.
+    pub fn has_sum(&self, a: &[usize], b: &[usize]) -> bool {
+        let sum = sum(a, b);
+        self.exponents.contain(&sum) && self.is_present[self.exponents.place(&sum)]
     }
 
     /// A.
@@ -151,8 +149,11 @@ impl<'t> Span<'t> {
     fn check_differences(&self, unknowns: &[usize]) -> Checked<()> {
         let present = self.all_present();
         for (place, f) in unknowns.iter().enumerate() {
+            let unit: Vec<usize> = (0..unknowns.len())
+                .map(|other| usize::from(other == place))
+                .collect();
             ensure!(
-                present.iter().any(|e| self.next(e, place).is_some()),
+                present.iter().any(|e| self.has_sum(e, &unit)),
                 "no two exponents differ by one in unknown {f}"
             );
         }
@@ -190,6 +191,7 @@ fn is_present(exponents: &Exponents, count: usize, absent: &[Vec<usize>]) -> Che
     Ok(is_present)
 }
 
-fn sum(a: &[usize], b: &[usize]) -> Vec<usize> {
+/// The sum of two exponents.
+pub(super) fn sum(a: &[usize], b: &[usize]) -> Vec<usize> {
     a.iter().zip(b).map(|(a, b)| a + b).collect()
 }

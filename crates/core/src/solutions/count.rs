@@ -3,9 +3,10 @@
 use super::chart::{Chart, Core};
 use super::linear::{Linear, settle};
 use super::members::{Members, Merge, Set, bits, shared};
+use super::minors::Minor;
 use super::points::{AtMost, NoBound, at_most};
 use super::simple::{self, Point};
-use super::support::{Minor, Span};
+use super::support::Span;
 use super::system::{System, Values, subsets};
 use crate::contract::Contraction;
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -97,11 +98,30 @@ pub struct Effort {
     pub unknowns: usize,
 }
 
+impl Effort {
+    /// What costs little in every chart comes before what costs more in any: few unknowns at
+    /// the first centres, more unknowns, other centres.
+    fn rounds(self) -> Vec<Self> {
+        let few = Self {
+            draws: self.draws.min(1),
+            unknowns: self.unknowns.min(3),
+            ..self
+        };
+        let first = Self {
+            draws: self.draws.min(1),
+            ..self
+        };
+        let mut rounds = vec![few, first, self];
+        rounds.dedup();
+        rounds
+    }
+}
+
 impl Default for Effort {
     fn default() -> Self {
         Self {
             charts: 6,
-            draws: 24,
+            draws: 8,
             unknowns: 4,
         }
     }
@@ -238,17 +258,19 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws) -> Option<Soluti
         best.at_most = Some(1);
         return Some(best);
     }
-    for chart in 0..effort.charts {
-        let core = Core::new(members, chart)?;
-        let attempt = Attempt {
-            core: &core,
-            effort,
-            draws,
-        };
-        let found = attempt.run()?;
-        best.improve(found);
-        if best.exactly().is_some() {
-            break;
+    for effort in effort.rounds() {
+        for chart in 0..effort.charts {
+            let core = Core::new(members, chart)?;
+            let attempt = Attempt {
+                core: &core,
+                effort,
+                draws,
+            };
+            let found = attempt.run()?;
+            best.improve(found);
+            if best.exactly().is_some() {
+                return Some(best);
+            }
         }
     }
     Some(best)
@@ -278,6 +300,13 @@ struct Bounds {
     upper: Option<(usize, Upper)>,
 }
 
+impl Bounds {
+    fn meet(&self) -> bool {
+        let most = self.upper.as_ref().map(|&(most, _)| most);
+        most == Some(self.at_least)
+    }
+}
+
 struct Attempt<'a> {
     core: &'a Core,
     effort: Effort,
@@ -295,7 +324,7 @@ impl Attempt<'_> {
             return None;
         }
         let mut values: Values = vec![None; self.core.unknowns];
-        let ones = self.ones(&system, &mut values);
+        let (ones, spans) = self.ones(&system, &mut values);
         let upper = Upper {
             place: self.place(&system),
             ones,
@@ -310,7 +339,7 @@ impl Attempt<'_> {
             bounds.upper = Some((1, upper));
             return Some(bounds);
         }
-        self.points(&values, &upper, &mut bounds);
+        self.points(&system, &values, spans, &upper, &mut bounds);
         Some(bounds)
     }
 
@@ -329,24 +358,30 @@ impl Attempt<'_> {
         }
     }
 
-    /// Shows that unknowns are one, as many as it can, and enters them.
-    fn ones(&self, system: &System<'_>, values: &mut Values) -> Vec<One> {
+    /// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the
+    /// unknowns that are left, as far as they were looked at.
+    fn ones(&self, system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
         let mut steps = Vec::new();
         loop {
             steps.extend(settle(system, values).into_iter().map(One::Linear));
             let open = self.open(values);
             let mut found = None;
+            let mut others = Vec::new();
             for size in 1..=self.effort.unknowns.min(3).min(open.len()) {
                 subsets(&open, size, &mut |unknowns| {
-                    let span = Span::new(system, values, unknowns);
-                    found = span.filter(Span::is_unique);
+                    match Span::new(system, values, unknowns) {
+                        Some(span) if span.is_unique() => found = Some(span),
+                        span => others.extend(span),
+                    }
                     found.is_none()
                 });
                 if found.is_some() {
                     break;
                 }
             }
-            let Some(span) = found else { break };
+            let Some(span) = found else {
+                return (steps, others);
+            };
             for &f in &span.unknowns {
                 values[f] = Some(system.field.from_u64(1));
             }
@@ -356,56 +391,77 @@ impl Attempt<'_> {
                 minors: span
                     .generators
                     .iter()
-                    .map(|generator| generator.minor.clone())
+                    .map(|generator| generator.polynomial.minor.clone())
                     .collect(),
                 unknowns: span.unknowns,
             });
         }
-        steps
     }
 
     fn open(&self, values: &Values) -> Vec<usize> {
         (0..values.len()).filter(|&f| values[f].is_none()).collect()
     }
 
-    /// Bounds by points, from few unknowns to many, until they meet.
-    fn points(&self, values: &Values, upper: &Upper, bounds: &mut Bounds) {
+    /// Bounds by points, from few unknowns to many, until they meet. `spans` are those of up to
+    /// three unknowns in this system.
+    fn points(
+        &self,
+        system: &System<'_>,
+        values: &Values,
+        spans: Vec<Span>,
+        upper: &Upper,
+        bounds: &mut Bounds,
+    ) {
+        for span in &spans {
+            self.points_of(system, values, span, upper, bounds);
+            if bounds.meet() {
+                return;
+            }
+        }
         let open = self.open(values);
-        for size in 1..=self.effort.unknowns.min(open.len()) {
+        for size in 4..=self.effort.unknowns.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
-                self.points_of(values, unknowns, upper, bounds);
-                bounds
-                    .upper
-                    .as_ref()
-                    .is_none_or(|(most, _)| *most != bounds.at_least)
+                if let Some(span) = Span::new(system, values, unknowns) {
+                    self.points_of(system, values, &span, upper, bounds);
+                }
+                !bounds.meet()
             });
-            if bounds
-                .upper
-                .as_ref()
-                .is_some_and(|(most, _)| *most == bounds.at_least)
-            {
-                break;
+            if bounds.meet() {
+                return;
             }
         }
     }
 
-    fn points_of(&self, values: &Values, unknowns: &[usize], upper: &Upper, bounds: &mut Bounds) {
-        for draw in 0..self.effort.draws {
+    /// The points of some unknowns, first at the centres of a system, then at others until all
+    /// points are rational.
+    fn points_of(
+        &self,
+        system: &System<'_>,
+        values: &Values,
+        span: &Span,
+        upper: &Upper,
+        bounds: &mut Bounds,
+    ) {
+        if self.effort.draws == 0 {
+            return;
+        }
+        match at_most(system, values, span, &mut self.draws.residues(0)) {
+            Ok(found) => return self.enter(system, found, upper, bounds),
+            Err(NoBound::Short) => return,
+            Err(NoBound::Irrational) => {}
+        }
+        for draw in 1..self.effort.draws {
             let Some(centres) = self.draws.centres(self.core.nodes.len(), draw) else {
                 return;
             };
             let Some(system) = System::new(self.draws.field, self.core, &centres) else {
                 continue;
             };
-            let Some(span) = Span::new(&system, values, unknowns) else {
+            let Some(span) = Span::new(&system, values, &span.unknowns) else {
                 return;
             };
-            let mut residues = self.draws.residues(draw);
-            match at_most(&system, values, &span, &mut residues) {
-                Ok(found) => {
-                    self.enter(&system, found, upper, bounds);
-                    return;
-                }
+            match at_most(&system, values, &span, &mut self.draws.residues(draw)) {
+                Ok(found) => return self.enter(&system, found, upper, bounds),
                 Err(NoBound::Short) => return,
                 Err(NoBound::Irrational) => {}
             }

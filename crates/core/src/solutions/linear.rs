@@ -101,9 +101,12 @@ fn apply(
             continue;
         };
         let value = field.negate(field.times(vector[unknown], field.inverse(vector[known])?));
-        // The other row of an edge may have said so before.
-        if settled.iter().all(|&(g, _)| g != f) {
-            settled.push((f, value));
+        // The other row of an edge may have said so before; where it says something else, no
+        // solution is near.
+        match settled.iter().find(|&&(g, _)| g == f) {
+            Some(&(_, said)) if said != value => return None,
+            Some(_) => {}
+            None => settled.push((f, value)),
         }
     }
     if settled.is_empty() {

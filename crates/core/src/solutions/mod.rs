@@ -10,8 +10,11 @@
 mod chart;
 mod count;
 mod echelon;
+mod exponents;
 mod linear;
 mod members;
+mod minors;
+mod outside;
 mod points;
 mod roots;
 mod simple;
@@ -20,12 +23,14 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod witness;
+mod zeros;
 
 pub use chart::{Chart, Scale};
 pub(crate) use count::count_in;
 pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
 pub use linear::Linear;
 pub use members::{MOST_NODES, Merge, Rule};
+pub use minors::{Minor, Part};
+pub use outside::{Limit, Outside};
 pub use points::AtMost;
-pub use support::{Minor, Part};
 pub use witness::Witness;

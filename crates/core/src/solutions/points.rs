@@ -1,11 +1,13 @@
 //! All points that solutions can come near, at one assignment of centres (docs/theory.md,
-//! Theorem 10.8): an upper bound for the number of solutions.
+//! Theorems 10.8, 10.13 and 10.14): an upper bound for the number of solutions.
 
-use super::echelon::Echelon;
+use super::exponents::Exponents;
 use super::linear::{Linear, settle};
-use super::roots::{left_eigenvectors, transport};
-use super::support::{Exponents, Minor, Span};
-use super::system::{System, Values};
+use super::minors::Minor;
+use super::outside::{Outside, outside};
+use super::roots::{NoVectors, left_eigenvectors, transport};
+use super::support::Span;
+use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
 
 /// The points of the theorem, with the other unknowns settled at each.
@@ -23,6 +25,11 @@ pub struct AtMost {
     pub points: Vec<Vec<u64>>,
     /// How the other unknowns are settled at each point.
     pub settled: Vec<Vec<Linear>>,
+    /// The form of Theorem 10.13: monomials, 1 and the unknowns first, and their weights as least
+    /// residues. It is 1 itself (Theorem 10.8) where no point is infinite.
+    pub form: Vec<(Vec<usize>, u64)>,
+    /// Points on the boundary that no solution comes near; they do not count.
+    pub outside: Vec<Outside>,
 }
 
 /// Why there is no upper bound.
@@ -44,106 +51,237 @@ pub(super) fn at_most(
     span: &Span,
     draw: &mut impl FnMut() -> u64,
 ) -> Result<AtMost, NoBound> {
-    let field = &system.field;
-    let (exponents, absent, kernel) = span.annihilated(field, 1);
-    if kernel.is_empty() || kernel.len() > MOST_POINTS {
-        return Err(NoBound::Short);
-    }
-    let inner_places = inner_places(&exponents, &absent);
-    let inner = restriction(&exponents, &inner_places, &kernel, None);
-    let mut echelon = Echelon::default();
-    if !inner.iter().all(|row| echelon.insert(field, row.clone())) {
-        return Err(NoBound::Short);
-    }
-    let mut matrix = vec![vec![0; kernel.len()]; kernel.len()];
-    let mut multiplications = Vec::new();
-    for f in 0..span.unknowns.len() {
-        let images = restriction(&exponents, &inner_places, &kernel, Some(f));
-        // The kernel is no space of points if multiplication leads out of it.
-        let by_unknown = transport(field, &inner, &images).ok_or(NoBound::Short)?;
-        let weight = draw();
-        for (sum, row) in matrix.iter_mut().zip(&by_unknown) {
-            field.axpy(sum, weight, row);
+    // Degrees as they are may do; one more for each unknown is more work and has less kernel.
+    let mut found = Err(NoBound::Short);
+    for more in 0..=1 {
+        let space = Space::new(&system.field, span, more)?;
+        for infinite in 0..=2.min(span.unknowns.len()) {
+            found = space.points(system, values, span, infinite, draw);
+            if found != Err(NoBound::Short) {
+                return found;
+            }
         }
-        multiplications.push(by_unknown);
     }
-    let vectors = left_eigenvectors(field, &matrix, draw).ok_or(NoBound::Irrational)?;
-    let mut points = Vec::new();
-    let mut settled = Vec::new();
-    for vector in vectors {
-        let point: Option<Vec<u64>> = multiplications
-            .iter()
-            .map(|matrix| eigenvalue(field, matrix, &vector))
-            .collect();
-        let point = point.ok_or(NoBound::Short)?;
-        if !evaluates(field, &exponents, &absent, &kernel, &vector, &point) {
+    found
+}
+
+/// The vectors that all polynomials of a span annihilate.
+struct Space {
+    exponents: Exponents,
+    absent: Vec<bool>,
+    kernel: Vec<Vec<u64>>,
+}
+
+/// A form, and the places of the exponents that are present with all their products with its
+/// monomials.
+struct Form {
+    monomials: Vec<Vec<usize>>,
+    weights: Vec<u64>,
+    inner: Vec<usize>,
+}
+
+impl Space {
+    fn new(field: &PrimeField, span: &Span, more: usize) -> Result<Self, NoBound> {
+        let (exponents, absent, kernel) = span.annihilated(field, more);
+        if kernel.is_empty() {
             return Err(NoBound::Short);
         }
-        let mut values = values.clone();
-        for (&f, &x) in span.unknowns.iter().zip(&point) {
-            values[f] = Some(x);
-        }
-        let steps = settle(system, &mut values);
-        let all: Option<Vec<u64>> = values.iter().copied().collect();
-        let all = all.ok_or(NoBound::Short)?;
-        points.push(all.into_iter().map(|x| field.to_u64(x)).collect());
-        settled.push(steps);
-    }
-    Ok(AtMost {
-        unknowns: span.unknowns.clone(),
-        absent: exponents.marked(&absent),
-        bounds: exponents.bounds,
-        minors: span
-            .generators
-            .iter()
-            .map(|generator| generator.minor.clone())
-            .collect(),
-        points,
-        settled,
-    })
-}
-
-/// The exponents a that are present with every a + e_f.
-fn inner_places(exponents: &Exponents, absent: &[bool]) -> Vec<Vec<usize>> {
-    let present = |exponent: &[usize]| {
-        exponent
-            .iter()
-            .zip(&exponents.bounds)
-            .all(|(e, bound)| e <= bound)
-            && !absent[exponents.index(exponent)]
-    };
-    let inner = |exponent: &Vec<usize>| {
-        present(exponent)
-            && (0..exponent.len()).all(|f| {
-                let mut next = exponent.clone();
-                next[f] += 1;
-                present(&next)
-            })
-    };
-    exponents.all().into_iter().filter(inner).collect()
-}
-
-/// The entries of vectors at some exponents, or at these plus e_f for one f.
-fn restriction(
-    exponents: &Exponents,
-    inner: &[Vec<usize>],
-    kernel: &[Vec<u64>],
-    shift: Option<usize>,
-) -> Vec<Vec<u64>> {
-    let places: Vec<usize> = inner
-        .iter()
-        .map(|exponent| {
-            let mut exponent = exponent.clone();
-            if let Some(f) = shift {
-                exponent[f] += 1;
-            }
-            exponents.index(&exponent)
+        Ok(Self {
+            exponents,
+            absent,
+            kernel,
         })
-        .collect();
-    kernel
-        .iter()
-        .map(|vector| places.iter().map(|&k| vector[k]).collect())
-        .collect()
+    }
+
+    /// 1 with the unknowns, or a drawn form if some points may have up to so many infinite values:
+    /// products of up to so many unknowns.
+    fn form(&self, field: &PrimeField, infinite: usize, draw: &mut impl FnMut() -> u64) -> Form {
+        let unknowns = self.exponents.bounds.len();
+        let mut monomials = vec![vec![0; unknowns]];
+        for size in 1..=infinite.max(1) {
+            let all: Vec<usize> = (0..unknowns).collect();
+            subsets(&all, size, &mut |chosen| {
+                monomials.push(
+                    (0..unknowns)
+                        .map(|f| usize::from(chosen.contains(&f)))
+                        .collect(),
+                );
+                true
+            });
+        }
+        let mut weights = vec![0; monomials.len()];
+        weights[0] = field.from_u64(1);
+        if infinite > 0 {
+            weights.iter_mut().for_each(|weight| *weight = draw());
+        }
+        let shifts: Vec<usize> = monomials.iter().map(|m| self.exponents.index(m)).collect();
+        let smaller: Vec<usize> = self
+            .exponents
+            .bounds
+            .iter()
+            .map(|bound| bound - 1)
+            .collect();
+        let present = |place: &usize| shifts.iter().all(|shift| !self.absent[place + shift]);
+        let inner = self.exponents.places(&smaller).into_iter().filter(present);
+        Form {
+            inner: inner.collect(),
+            monomials,
+            weights,
+        }
+    }
+
+    /// The points of the space by a form.
+    fn points(
+        &self,
+        system: &System<'_>,
+        values: &Values,
+        span: &Span,
+        infinite: usize,
+        draw: &mut impl FnMut() -> u64,
+    ) -> Result<AtMost, NoBound> {
+        let field = &system.field;
+        let form = self.form(field, infinite, draw);
+        if self.kernel.len() > MOST_POINTS.min(form.inner.len()) {
+            return Err(NoBound::Short);
+        }
+        let multiplications = self.multiplications(field, &form)?;
+        let vectors = common_eigenvectors(field, &multiplications, draw)?;
+        let mut bound = AtMost {
+            unknowns: span.unknowns.clone(),
+            absent: self.exponents.marked(&self.absent),
+            bounds: self.exponents.bounds.clone(),
+            minors: span
+                .generators
+                .iter()
+                .map(|generator| generator.polynomial.minor.clone())
+                .collect(),
+            points: Vec::new(),
+            settled: Vec::new(),
+            form: form
+                .monomials
+                .into_iter()
+                .zip(form.weights.iter().map(|&weight| field.to_u64(weight)))
+                .collect(),
+            outside: Vec::new(),
+        };
+        for combination in vectors {
+            let mut vector = vec![0; self.exponents.len()];
+            for (&factor, row) in combination.iter().zip(&self.kernel) {
+                field.axpy(&mut vector, factor, row);
+            }
+            let homogeneous: Option<Vec<u64>> = multiplications
+                .iter()
+                .map(|matrix| eigenvalue(field, matrix, &combination))
+                .collect();
+            let homogeneous = homogeneous.ok_or(NoBound::Short)?;
+            if homogeneous[..=span.unknowns.len()].contains(&0) {
+                let (exponents, absent) = (&self.exponents, &self.absent);
+                let beyond = outside(system, values, &span.unknowns, exponents, absent, &vector);
+                if let Some(beyond) = beyond {
+                    bound.outside.push(beyond);
+                    continue;
+                }
+            }
+            let point =
+                finite(field, &homogeneous[..=span.unknowns.len()]).ok_or(NoBound::Short)?;
+            if !self.evaluates(field, &vector, &point) {
+                return Err(NoBound::Short);
+            }
+            let mut values = values.clone();
+            for (&f, &x) in span.unknowns.iter().zip(&point) {
+                values[f] = Some(x);
+            }
+            let steps = settle(system, &mut values);
+            let all: Option<Vec<u64>> = values.iter().copied().collect();
+            let all = all.ok_or(NoBound::Short)?;
+            bound
+                .points
+                .push(all.into_iter().map(|x| field.to_u64(x)).collect());
+            bound.settled.push(steps);
+        }
+        Ok(bound)
+    }
+
+    /// The matrices of multiplication by the monomials of a form, divided by the form.
+    fn multiplications(
+        &self,
+        field: &PrimeField,
+        form: &Form,
+    ) -> Result<Vec<Vec<Vec<u64>>>, NoBound> {
+        let images: Vec<Vec<Vec<u64>>> = form
+            .monomials
+            .iter()
+            .map(|monomial| {
+                let shift = self.exponents.index(monomial);
+                let at = |vector: &Vec<u64>| form.inner.iter().map(|k| vector[k + shift]).collect();
+                self.kernel.iter().map(at).collect()
+            })
+            .collect();
+        let mut value = vec![vec![0; form.inner.len()]; self.kernel.len()];
+        for (image, &weight) in images.iter().zip(&form.weights) {
+            for (sum, row) in value.iter_mut().zip(image) {
+                field.axpy(sum, weight, row);
+            }
+        }
+        // The form has to be injective, and the kernel is no space of points if
+        // multiplication leads out of it.
+        let all = images.iter().map(|image| transport(field, &value, image));
+        all.collect::<Option<_>>().ok_or(NoBound::Short)
+    }
+
+    /// Whether a vector is a multiple of the values of all monomials at a point.
+    fn evaluates(&self, field: &PrimeField, vector: &[u64], point: &[u64]) -> bool {
+        let one = field.from_u64(1);
+        let mut monomials = vec![one];
+        for (&x, &bound) in point.iter().zip(&self.exponents.bounds) {
+            let mut powers = vec![one];
+            for k in 0..bound {
+                powers.push(field.times(powers[k], x));
+            }
+            let longer = monomials
+                .iter()
+                .flat_map(|&m| powers.iter().map(move |&power| field.times(m, power)));
+            monomials = longer.collect();
+        }
+        for (monomial, _) in monomials.iter_mut().zip(&self.absent).filter(|(_, a)| **a) {
+            *monomial = 0;
+        }
+        let Some(at) = monomials.iter().position(|&x| x != 0) else {
+            return false;
+        };
+        vector[at] != 0
+            && vector
+                .iter()
+                .zip(&monomials)
+                .all(|(&x, &y)| field.times(x, monomials[at]) == field.times(vector[at], y))
+    }
+}
+
+/// The points as they are, if they are finite.
+fn finite(field: &PrimeField, homogeneous: &[u64]) -> Option<Vec<u64>> {
+    let inverse = field.inverse(homogeneous[0])?;
+    let rest = homogeneous[1..].iter();
+    Some(rest.map(|&x| field.times(x, inverse)).collect())
+}
+
+/// Left eigenvectors of all matrices, which commute.
+fn common_eigenvectors(
+    field: &PrimeField,
+    matrices: &[Vec<Vec<u64>>],
+    draw: &mut impl FnMut() -> u64,
+) -> Result<Vec<Vec<u64>>, NoBound> {
+    let n = matrices[0].len();
+    let mut sum = vec![vec![0; n]; n];
+    for matrix in matrices {
+        let weight = draw();
+        for (sum, row) in sum.iter_mut().zip(matrix) {
+            field.axpy(sum, weight, row);
+        }
+    }
+    left_eigenvectors(field, &sum, draw).map_err(|why| match why {
+        NoVectors::Irrational => NoBound::Irrational,
+        NoVectors::Repeated => NoBound::Short,
+    })
 }
 
 /// The eigenvalue of a left eigenvector, `None` if it is none.
@@ -159,46 +297,4 @@ fn eigenvalue(field: &PrimeField, matrix: &[Vec<u64>], vector: &[u64]) -> Option
         .zip(&image)
         .all(|(&x, &y)| field.times(value, x) == y);
     holds.then_some(value)
-}
-
-/// Whether a combination of the vectors is a multiple of the values of all monomials at a point.
-fn evaluates(
-    field: &PrimeField,
-    exponents: &Exponents,
-    absent: &[bool],
-    kernel: &[Vec<u64>],
-    combination: &[u64],
-    point: &[u64],
-) -> bool {
-    let mut vector = vec![0; exponents.len()];
-    for (&factor, row) in combination.iter().zip(kernel) {
-        field.axpy(&mut vector, factor, row);
-    }
-    let monomials = exponents
-        .all()
-        .into_iter()
-        .zip(absent)
-        .map(|(exponent, &absent)| {
-            let powers = exponent
-                .iter()
-                .zip(point)
-                .map(|(&e, &x)| field.pow(x, e as u64));
-            let product = powers.fold(field.from_u64(1), |product, power| {
-                field.times(product, power)
-            });
-            if absent { 0 } else { product }
-        });
-    let monomials: Vec<u64> = monomials.collect();
-    let Some(at) = monomials.iter().position(|&x| x != 0) else {
-        return false;
-    };
-    let Some(inverse) = field.inverse(monomials[at]) else {
-        return false;
-    };
-    let scale = field.times(vector[at], inverse);
-    scale != 0
-        && vector
-            .iter()
-            .zip(&monomials)
-            .all(|(&x, &y)| x == field.times(scale, y))
 }

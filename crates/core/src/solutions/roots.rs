@@ -59,29 +59,48 @@ fn power_modulo(field: &PrimeField, base: &[u64], mut e: u64, modulus: &[u64]) -
     power
 }
 
-/// The roots of a polynomial with as many different ones as its degree; otherwise `None`.
+/// Why a matrix has not as many different eigenvalues in the field as rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NoVectors {
+    /// They are different, and not all in the field.
+    Irrational,
+    /// They are not different.
+    Repeated,
+}
+
+/// The root of a polynomial of degree 1.
+fn root(field: &PrimeField, f: &[u64]) -> u64 {
+    let inverse = field.inverse(f[1]).unwrap_or_default();
+    field.negate(field.times(f[0], inverse))
+}
+
+/// The roots of a polynomial of degree 1 or more with as many different ones as its degree.
 /// Cantor and Zassenhaus, with offsets from `draw`.
 fn all_roots(
     field: &PrimeField,
     f: Polynomial,
     draw: &mut impl FnMut() -> u64,
-) -> Option<Vec<u64>> {
+) -> Result<Vec<u64>, NoVectors> {
     let one = field.from_u64(1);
-    if f.len() < 2 {
-        return None;
-    }
     if f.len() == 2 {
-        return Some(vec![field.negate(field.times(f[0], field.inverse(f[1])?))]);
+        return Ok(vec![root(field, &f)]);
+    }
+    let derivative = (1..)
+        .zip(&f[1..])
+        .map(|(k, &x)| field.times(field.from_u64(k), x))
+        .collect();
+    if gcd(field, f.clone(), trimmed(derivative)).len() > 1 {
+        return Err(NoVectors::Repeated);
     }
     let frobenius = power_modulo(field, &[0, one], field.modulus(), &f);
     if frobenius != [0, one] {
-        return None;
+        return Err(NoVectors::Irrational);
     }
     let mut roots = Vec::new();
     let mut open = vec![f];
     while let Some(f) = open.pop() {
         if f.len() == 2 {
-            roots.push(field.negate(field.times(f[0], field.inverse(f[1])?)));
+            roots.push(root(field, &f));
             continue;
         }
         loop {
@@ -99,17 +118,20 @@ fn all_roots(
             }
         }
     }
-    Some(roots)
+    Ok(roots)
 }
 
 /// Left eigenvectors of a square matrix with as many different eigenvalues, all of them in the
-/// field; otherwise `None`.
+/// field.
 pub(super) fn left_eigenvectors(
     field: &PrimeField,
     matrix: &[Vec<u64>],
     draw: &mut impl FnMut() -> u64,
-) -> Option<Vec<Vec<u64>>> {
+) -> Result<Vec<Vec<u64>>, NoVectors> {
     let n = matrix.len();
+    if n == 1 {
+        return Ok(vec![vec![field.from_u64(1)]]);
+    }
     // v, vX, .. as rows; the first combination that is zero is the minimal polynomial, if v is
     // drawn, with all eigenvalues.
     let mut iterates = vec![(0..n).map(|_| draw()).collect::<Vec<u64>>()];
@@ -124,7 +146,7 @@ pub(super) fn left_eigenvectors(
         iterates.push(next);
     }
     let [polynomial] = &left_kernel(field, &iterates, n)[..] else {
-        return None;
+        return Err(NoVectors::Repeated);
     };
     let roots = all_roots(field, trimmed(polynomial.clone()), draw)?;
     let vectors = roots.into_iter().map(|root| {
@@ -134,8 +156,10 @@ pub(super) fn left_eigenvectors(
         }
         left_kernel(field, &shifted, n).pop()
     });
-    let vectors: Vec<Vec<u64>> = vectors.collect::<Option<_>>()?;
-    (vectors.len() == n).then_some(vectors)
+    vectors
+        .collect::<Option<_>>()
+        .filter(|vectors: &Vec<_>| vectors.len() == n)
+        .ok_or(NoVectors::Repeated)
 }
 
 /// The matrix X with `X rows = images`, for independent rows; `None` if there is none.
@@ -196,10 +220,13 @@ mod tests {
         expected.sort_unstable();
         assert_eq!(roots, expected);
         // 2^61 - 1 is 3 modulo 4: -1 is not a square. A double root is refused as well.
-        assert_eq!(all_roots(&f, [1, 0, 1].map(e).to_vec(), &mut drawn()), None);
+        assert_eq!(
+            all_roots(&f, [1, 0, 1].map(e).to_vec(), &mut drawn()),
+            Err(NoVectors::Irrational)
+        );
         assert_eq!(
             all_roots(&f, [1, -2, 1].map(e).to_vec(), &mut drawn()),
-            None
+            Err(NoVectors::Repeated)
         );
     }
 

@@ -2,8 +2,10 @@ use super::chart::Core;
 use super::count::{Draws, unique_part};
 use super::echelon::Echelon;
 use super::members::{Members, Rule, bits};
+use super::minors::Part;
+use super::outside::{Limit, is_outside};
 use super::simple;
-use super::support::{Part, Span};
+use super::support::Span;
 use super::system::{System, Values};
 use super::{Effort, Solutions, count};
 use crate::contract::Contraction;
@@ -19,6 +21,9 @@ use crate::watch::unwatched;
 
 /// Two solutions each; every node has two neighbours or more and there is no triangle.
 const TWO: [&str; 3] = ["HBQkcP_", "HBjCaOc", "H@ZccPO"];
+
+/// Two solutions each; in some unknowns there is a point on the boundary at all centres.
+const OUTSIDE: [&str; 2] = ["IIU_TaA@_", "IIScLaCA_"];
 
 fn graph(name: &str) -> Graph {
     graph6::decode(name.as_bytes()).unwrap()
@@ -151,19 +156,30 @@ fn minors_vanish_at_solutions() {
         assert!(span.generators.len() > 3);
         for generator in &span.generators {
             assert_eq!(
-                generator.minor.rows.len(),
-                system.target + generator.minor.freed + 1
+                generator.polynomial.minor.rows.len(),
+                system.target + generator.polynomial.minor.freed + 1
             );
-            assert_eq!(generator.minor.rows.len(), generator.minor.columns.len());
+            assert_eq!(
+                generator.polynomial.minor.rows.len(),
+                generator.polynomial.minor.columns.len()
+            );
             for point in &lower.points {
                 let point: Vec<u64> = point.iter().map(|&x| field.from_u64(x)).collect();
-                assert_eq!(minor_value(&system, &generator.minor, &point), 0, "{name}");
+                assert_eq!(
+                    minor_value(&system, &generator.polynomial.minor, &point),
+                    0,
+                    "{name}"
+                );
             }
             let other: Vec<u64> = (2..)
                 .take(core.unknowns)
                 .map(|x| field.from_u64(x * x))
                 .collect();
-            assert_eq!(minor_value(&system, &generator.minor, &other), 1, "{name}");
+            assert_eq!(
+                minor_value(&system, &generator.polynomial.minor, &other),
+                1,
+                "{name}"
+            );
         }
     }
 }
@@ -185,7 +201,11 @@ fn coefficients_without_transversal_are_zero_at_other_centres() {
             for g in 0..f {
                 let span = Span::new(&systems[0], &values, &[g, f]).unwrap();
                 for generator in &span.generators {
-                    absent += generator.check_zeros(&systems[1], &[g, f]);
+                    let elsewhere = generator.polynomial.elsewhere(&systems[1], &[g, f]);
+                    for (&zero, &coefficient) in generator.zero.iter().zip(&elsewhere) {
+                        assert!(!zero || coefficient == 0, "{name}: {g} {f}");
+                        absent += usize::from(zero);
+                    }
                 }
             }
         }
@@ -216,7 +236,7 @@ fn lower_and_core<'a>(graph: &Graph, found: &'a Solutions) -> (&'a super::Lower,
 #[test]
 fn explicit_cameras_of_a_second_solution() {
     let field = PrimeField::mersenne61();
-    for name in TWO {
+    for name in TWO.into_iter().chain(OUTSIDE) {
         let graph = graph(name);
         let found = count(&graph, Effort::default(), 1).unwrap();
         assert_eq!(found.exactly(), Some(2), "{name}");
@@ -365,4 +385,53 @@ fn a_part_with_one_solution_becomes_a_member() {
     expected[0] = Rule::Grown;
     assert_eq!(rules, expected);
     assert!(members.merges[0].grown.is_some());
+}
+
+/// Points on the boundary are there at other centres as well, with other values of the unknowns
+/// that are neither 0, 1 nor infinite, and just for these.
+#[test]
+fn points_outside_do_not_count() {
+    let field = PrimeField::mersenne61();
+    for name in OUTSIDE {
+        let graph = graph(name);
+        let found = [1, 2].map(|seed| count(&graph, Effort::default(), seed).unwrap());
+        let mut kinds = Vec::new();
+        let mut free = Vec::new();
+        for found in &found {
+            assert_eq!(found.exactly(), Some(2), "{name}");
+            let (place, points) = found.upper.as_ref().unwrap().points.as_ref().unwrap();
+            assert_eq!(
+                (points.points.len(), points.outside.len()),
+                (2, 1),
+                "{name}"
+            );
+            let cores = (0..6).map(|chart| Core::new(&members(&graph), chart).unwrap());
+            let core = cores.into_iter().find(|core| core.chart() == place.chart);
+            let core = core.unwrap();
+            let at = residues(&field, &place.centres);
+            let system = System::new(field, &core, &at).unwrap();
+            let outside = &points.outside[0];
+            assert!(is_outside(&system, &outside.values));
+            let mut kind = Vec::new();
+            for (f, &value) in outside.values.iter().enumerate() {
+                kind.push(match value {
+                    Limit::Finite(x @ (0 | 1)) => Some(x),
+                    Limit::Infinite => None,
+                    Limit::Finite(x) => {
+                        free.push(x);
+                        let mut changed = outside.values.clone();
+                        changed[f] = Limit::Finite(x - 1);
+                        assert!(!is_outside(&system, &changed), "{name}");
+                        Some(2)
+                    }
+                });
+            }
+            kinds.push((place.chart.clone(), points.unknowns.clone(), kind));
+        }
+        assert_eq!(kinds[0], kinds[1], "{name}");
+        // Each value is another one at the other centres.
+        assert!(!free.is_empty());
+        free.sort_unstable();
+        assert!(free.windows(2).all(|pair| pair[0] != pair[1]), "{name}");
+    }
 }

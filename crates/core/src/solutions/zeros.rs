@@ -1,0 +1,93 @@
+//! Coefficients of minors that are zero at all centres, for want of a transversal (docs/theory.md,
+//! Theorem 10.7).
+
+use super::minors::{Minor, Part};
+use super::system::System;
+
+/// Whether the rows and columns of a minor can be matched where the coefficient of `exponent` has
+/// entries that are not the zero polynomial: without the sides with an unknown of exponent 0,
+/// and with these alone where every row with the unknown must give it (Theorem 10.7).
+pub(super) fn has_transversal(
+    system: &System<'_>,
+    minor: &Minor,
+    unknowns: &[usize],
+    exponent: &[usize],
+) -> bool {
+    let place = |f: usize| unknowns.iter().position(|&g| g == f);
+    let of_row = |row: usize, f: usize| system.rows[row].unknowns().any(|g| g == f);
+    let whole = |part: &Part| match part {
+        Part::Whole(row) => Some(*row),
+        _ => None,
+    };
+    let counts: Vec<usize> = unknowns
+        .iter()
+        .map(|&f| {
+            minor
+                .rows
+                .iter()
+                .filter_map(whole)
+                .filter(|&row| of_row(row, f))
+                .count()
+        })
+        .collect();
+    let entries = |row: usize, which: usize| {
+        let side = &system.rows[row].sides[which];
+        (0..3)
+            .filter(|&k| side.pattern[k])
+            .map(|k| 3 * side.node + k)
+            .collect::<Vec<_>>()
+    };
+    let columns_of = |part: &Part| -> Vec<usize> {
+        match *part {
+            Part::Plus(row) => entries(row, 0),
+            Part::Minus(row) => entries(row, 1),
+            Part::Whole(row) => {
+                let kept = |which: usize| {
+                    let [own, other] =
+                        [which, 1 - which].map(|k| system.rows[row].sides[k].scale.and_then(place));
+                    own.is_none_or(|f| exponent[f] > 0)
+                        && other.is_none_or(|f| exponent[f] < counts[f])
+                };
+                (0..2)
+                    .filter(|&which| kept(which))
+                    .flat_map(|which| entries(row, which))
+                    .collect()
+            }
+        }
+    };
+    let mut row_of = vec![None; system.columns];
+    let allowed: Vec<Vec<usize>> = minor
+        .rows
+        .iter()
+        .map(|part| {
+            let columns = columns_of(part).into_iter();
+            columns
+                .filter(|column| minor.columns.contains(column))
+                .collect()
+        })
+        .collect();
+    (0..allowed.len()).all(|row| {
+        let mut seen = vec![false; system.columns];
+        augment(row, &allowed, &mut row_of, &mut seen)
+    })
+}
+
+/// Finds a column for a row, moving other rows to other columns if need be.
+fn augment(
+    row: usize,
+    allowed: &[Vec<usize>],
+    row_of: &mut [Option<usize>],
+    seen: &mut [bool],
+) -> bool {
+    for &column in &allowed[row] {
+        if seen[column] {
+            continue;
+        }
+        seen[column] = true;
+        if row_of[column].is_none_or(|other| augment(other, allowed, row_of, seen)) {
+            row_of[column] = Some(row);
+            return true;
+        }
+    }
+    false
+}
