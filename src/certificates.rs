@@ -60,10 +60,17 @@ impl Target {
         } else {
             bail!("{}", too_many(OPTION, &self.path, "several graphs"));
         };
-        atomic::write(&path, |out| {
-            let certificate = verdict.certificate(&input.graph).named(&input.name);
-            certificate.embed_graph(self.embed).write_to(out)
-        })?;
+        let certificate = verdict.certificate(&input.graph).named(&input.name);
+        let certificate = certificate.embed_graph(self.embed);
+        let counted = verdict
+            .solutions
+            .as_ref()
+            .and_then(|count| count.evidence.as_deref());
+        let certificate = match counted {
+            Some(solutions) => certificate.with_solutions(solutions)?,
+            None => certificate,
+        };
+        atomic::write(&path, |out| certificate.write_to(out))?;
         Ok(path)
     }
 

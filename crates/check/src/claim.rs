@@ -1,8 +1,11 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
-use crate::document::{Claims, ComponentsClaim, GraphName, Model, RankClaim, VerdictClaim};
+use crate::document::{
+    Claims, ComponentsClaim, GraphName, Model, RankClaim, SolutionsClaim, VerdictClaim,
+};
 use crate::evidence::Piece;
 use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::solutions::Count;
 use std::fmt::{self, Display};
 
 /// Whether the cameras are determined by the pairs of the graph.
@@ -66,23 +69,26 @@ pub struct Verified {
     pub required: i64,
     /// The number of maximal components and its strength.
     pub components: (usize, Strength),
+    /// The number of solutions, as a proof, if more was shown than the verdict says.
+    pub solutions: Option<Count>,
     /// For people: what else was verified.
     pub notes: Vec<String>,
 }
 
-/// Compares the claim with what follows from the pieces: its verdict, its rank, and its components.
+/// Compares the claim with what follows from the pieces and from what was shown of the number of
+/// solutions: its verdict, its rank, its components and this number.
 /// Ranks add up over pieces (theory, Corollaries 4.6 and 4.12).
 pub(crate) fn verify(
     claims: &Claims,
     graph: &GraphName,
     model: Model,
-    pieces: &[Piece],
+    (pieces, count): (&[Piece], Option<Count>),
 ) -> Checked<Verified> {
     let required = model.required(graph.nodes);
     let verdict = check_verdict(
         &claims.verdict,
         model,
-        pieces,
+        (pieces, count),
         [required, graph.nodes as i64],
     );
     let verdict = verdict.within(|| "verdict".into())?;
@@ -94,6 +100,8 @@ pub(crate) fn verify(
     let rank = check_rank(&claims.rank, pieces).within(|| "rank".into())?;
     let components = check_components(&claims.components, pieces);
     let components = components.within(|| "components".into())?;
+    let solutions = check_solutions(claims.solutions.0.as_ref(), count);
+    let solutions = solutions.within(|| "solutions".into())?;
     let notes = pieces.iter().flat_map(|piece| piece.notes.clone());
     Ok(Verified {
         nodes: graph.nodes,
@@ -104,6 +112,7 @@ pub(crate) fn verify(
         rank,
         required,
         components,
+        solutions,
         notes: notes.collect(),
     })
 }
@@ -112,10 +121,15 @@ pub(crate) fn verify(
 fn check_verdict(
     claim: &VerdictClaim,
     model: Model,
-    pieces: &[Piece],
+    (pieces, count): (&[Piece], Option<Count>),
     sizes: [i64; 2],
 ) -> Checked<(Verdict, Strength)> {
-    let (found, errors) = decide(model, pieces, sizes)?;
+    let (found, errors) = match decide(model, pieces, sizes)? {
+        (Verdict::FiniteSolvable, errors) if count.is_some_and(|count| count.is_one()) => {
+            (Verdict::Solvable, errors)
+        }
+        decided => decided,
+    };
     compare(
         (&claim.value, found),
         (&claim.strength, claim.error_log2),
@@ -156,6 +170,29 @@ fn check_components(claim: &ComponentsClaim, pieces: &[Piece]) -> Checked<(usize
         (&claim.strength, claim.error_log2),
         errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated")),
     )
+}
+
+/// The number of solutions (theory, section 10), which is claimed if and only if there is evidence.
+fn check_solutions(claim: Option<&SolutionsClaim>, found: Option<Count>) -> Checked<Option<Count>> {
+    let (claim, found) = match (claim, found) {
+        (Some(claim), Some(found)) => (claim, found),
+        (None, None) => return Ok(None),
+        _ => {
+            return Err(Failure::rejected(
+                "claim and document have `solutions`, or neither has",
+            ));
+        }
+    };
+    let claimed = Count {
+        at_least: claim.at_least,
+        at_most: claim.at_most,
+    };
+    compare(
+        (&claimed, found),
+        (&claim.strength, claim.error_log2),
+        Ok(Vec::new()),
+    )?;
+    Ok(Some(found))
 }
 
 /// The verdict that the pieces give, with the errors on which it rests; for a required rank and a
@@ -245,6 +282,7 @@ impl Display for Verified {
             rank,
             required,
             components,
+            solutions,
             notes,
         } = self;
         let given = if *model == Model::Projective {
@@ -263,6 +301,9 @@ impl Display for Verified {
         )?;
         writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;
         write!(f, "components: {} maximal ({})", components.0, components.1)?;
+        if let Some(count) = solutions {
+            write!(f, "\nsolutions: {count} ({})", Strength::Proof)?;
+        }
         notes
             .iter()
             .try_for_each(|note| write!(f, "\nalso: {note}"))

@@ -1,7 +1,8 @@
 //! The JSON text as typed values, by the grammar of sections 1, 3 and 5 to 7 of the specification.
 
-use crate::json::{Big, Name, Strict, Value, fill, objects, present, unknown};
+use crate::json::{Big, Name, Optional, Strict, Value, fill, objects, present, unknown};
 use crate::rejection::{Checked, Failure};
+use crate::solutions::grammar::Solutions;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
@@ -19,12 +20,19 @@ objects! {
     Document {
         format: Format, version: Version, program: String, graph: GraphName, model: Model,
         claim: Claims, bodies: Vec<Body>, rigid: Members, pieces: Vec<Piece>,
+        solutions: Optional<Solutions>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }
-    Claims { verdict: VerdictClaim, rank: RankClaim, components: ComponentsClaim }
+    Claims {
+        verdict: VerdictClaim, rank: RankClaim, components: ComponentsClaim,
+        solutions: Optional<SolutionsClaim>,
+    }
     VerdictClaim { value: String, strength: String, error_log2: Option<i64> }
     RankClaim { value: i64, required: i64, strength: String, error_log2: Option<i64> }
     ComponentsClaim { value: usize, strength: String, error_log2: Option<i64> }
+    SolutionsClaim {
+        at_least: usize, at_most: Option<usize>, strength: String, error_log2: Option<i64>,
+    }
     Body { seed: Source, add: Vec<[u32; 3]>, merge: Vec<Merge> }
     Merge { with: Vec<Source>, at: Vec<u32> }
     Members { bodies: Vec<u32>, edges: Vec<Pair> }
@@ -253,6 +261,7 @@ macro_rules! any_members {
         }
     };
 }
+pub(crate) use any_members;
 
 any_members! {
     prime: Option<Big<u64>>, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,

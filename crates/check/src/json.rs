@@ -10,6 +10,25 @@ use std::str::FromStr;
 /// A value of the certificate's grammar.
 pub(crate) trait Value: Sized {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error>;
+
+    /// What a missing member amounts to, if it may be missing.
+    fn missing() -> Option<Self> {
+        None
+    }
+}
+
+/// A member that may be missing.
+#[derive(Debug)]
+pub(crate) struct Optional<T>(pub Option<T>);
+
+impl<T: Value> Value for Optional<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        T::read(from).map(|value| Optional(Some(value)))
+    }
+
+    fn missing() -> Option<Self> {
+        Some(Optional(None))
+    }
 }
 
 /// A value where `serde` reads it: an entry of a list, or the value of a member.
@@ -214,8 +233,9 @@ pub(crate) fn unknown<E: Error>(name: &str) -> E {
     Error::custom(format!("the member `{name}` does not belong there"))
 }
 
-/// The value of a member, which must be there.
-pub(crate) fn present<T, E: Error>(value: Option<T>, name: &str) -> Result<T, E> {
+/// The value of a member, which must be there unless it is optional.
+pub(crate) fn present<T: Value, E: Error>(value: Option<T>, name: &str) -> Result<T, E> {
+    let value = value.or_else(T::missing);
     value.ok_or_else(|| Error::custom(format!("the member `{name}` is missing")))
 }
 

@@ -21,6 +21,7 @@
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8 | `kernel` |
+//! | the number of solutions | 12 | 10.2 to 10.11 | `solutions`, a file for each kind |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
@@ -48,6 +49,7 @@ mod plane_flow;
 pub mod program;
 mod rejection;
 mod setting;
+mod solutions;
 mod structure;
 
 pub use claim::{Strength, Verdict, Verified};
@@ -55,6 +57,7 @@ pub use document::Model;
 pub use graph::Graph;
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
+pub use solutions::Count;
 
 use rejection::Within;
 
@@ -134,6 +137,12 @@ impl Certificate {
             &setting,
             &structure.everything,
         )?;
-        claim::verify(&document.claim, name, model, &pieces).within(|| "claim".into())
+        let evidence = document.solutions.0.as_ref().map(|evidence| {
+            let members = (&structure.everything, name.nodes);
+            let count = solutions::check(evidence, &setting, &pieces, members);
+            count.within(|| "solutions".into())
+        });
+        let count = evidence.transpose()?;
+        claim::verify(&document.claim, name, model, (&pieces, count)).within(|| "claim".into())
     }
 }

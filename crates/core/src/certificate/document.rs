@@ -1,36 +1,50 @@
 //! The members of the certificate, borrowed from a verdict.
 
+use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
 use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
-use crate::decide::{Block, Claim, Counting, Hub, Verdict};
+use crate::decide::{Block, Claim, Counting, Hub, Value, Verdict};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
+use crate::solutions::Solutions;
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
 use std::fmt::Display;
 
-/// Declares objects by their members, in the order in which these are written.
+/// Declares objects by their members, in the order in which these are written; those behind
+/// `optional` are left out if there are none.
 macro_rules! objects {
-    ($($name:ident $(<$($parameter:tt),+>)? { $($member:ident: $type:ty),* $(,)? })*) => {$(
-        pub(super) struct $name $(<$($parameter),+>)? { $($member: $type),* }
+    ($($name:ident $(<$($parameter:tt),+>)? {
+        $($member:ident: $type:ty),* $(,)? $(; optional $($more:ident: $more_type:ty),*)?
+    })*) => {$(
+        pub(super) struct $name $(<$($parameter),+>)? {
+            $($member: $type,)*
+            $($($more: Option<$more_type>),*)?
+        }
 
         impl $(<$($parameter),+>)? Serialize for $name $(<$($parameter),+>)?
         where
-            $($type: Serialize),*
+            $($type: Serialize,)*
+            $($($more_type: Serialize),*)?
         {
-            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                use serde::ser::SerializeMap as _;
                 let mut map = serializer.serialize_map(None)?;
                 $(map.serialize_entry(stringify!($member), &self.$member)?;)*
+                $($(if let Some(more) = &self.$more {
+                    map.serialize_entry(stringify!($more), more)?;
+                })*)?
                 map.end()
             }
         }
     )*};
 }
+pub(super) use objects;
 
 objects! {
     Document<'a> {
@@ -43,6 +57,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
+        ; optional solutions: SolutionsView<'a>
     }
 
     GraphView<'a> {
@@ -57,6 +72,7 @@ objects! {
         verdict: Valued<&'static str>,
         rank: Rank,
         components: Valued<usize>,
+        ; optional solutions: ClaimedSolutions
     }
 
     Valued<T> {
@@ -106,11 +122,17 @@ impl<'a> Document<'a> {
         graph: &Graph,
         graph6: Option<String>,
         verdict: &'a Verdict,
-    ) -> Self {
+        solutions: Option<&'a Solutions>,
+    ) -> Result<Self, ForeignSolutions> {
         let (mut value, rank) = (verdict.value_claim(), verdict.rank_claim());
         value.value = verdict.value_by_rank();
         let components = verdict.components_claim();
-        Self {
+        let known = solutions.map(|solutions| solutions::view(verdict, solutions));
+        let (claimed, evidence) = known.transpose()?.flatten().unzip();
+        if evidence.is_some() && solutions.and_then(Solutions::exactly) == Some(1) {
+            value.value = Value::Solvable;
+        }
+        Ok(Self {
             format: "viewcert certificate",
             version: 2,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
@@ -131,6 +153,7 @@ impl<'a> Document<'a> {
                     error_log2: rank.strength.error_log2(),
                 },
                 components: Valued::new(components, <[_]>::len),
+                solutions: claimed,
             },
             bodies: verdict
                 .contraction
@@ -140,7 +163,8 @@ impl<'a> Document<'a> {
                 .collect(),
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
-        }
+            solutions: evidence,
+        })
     }
 }
 
@@ -160,7 +184,7 @@ pub fn hex(bytes: &[u8]) -> String {
 }
 
 /// A number that other readers might round, as a string.
-struct Big<T>(T);
+pub(super) struct Big<T>(pub(super) T);
 
 impl<T: Display> Serialize for Big<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -303,7 +327,7 @@ impl Serialize for View<'_, Evidence> {
     }
 }
 
-fn bigs<T: Display>(values: &[T]) -> Vec<Big<&T>> {
+pub(super) fn bigs<T: Display>(values: &[T]) -> Vec<Big<&T>> {
     values.iter().map(Big).collect()
 }
 

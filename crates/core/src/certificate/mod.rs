@@ -1,15 +1,19 @@
 //! The certificate as written: docs/certificate.md, version 2.
 //!
 //! In: a graph and its verdict. Out: the JSON text that both checkers read, as a [`Certificate`]
-//! that is written or displayed. Nothing is computed here.
+//! that is written or displayed; with `solutions`, what is known of their number. Nothing is
+//! computed here.
 
 mod document;
 mod lines;
+mod solutions;
 
 pub use document::hex;
+pub use solutions::ForeignSolutions;
 
 use crate::decide::Verdict;
 use crate::graph::{Graph, graph6};
+use crate::solutions::Solutions;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -25,6 +29,7 @@ pub struct Certificate<'a> {
     name: &'a str,
     embed: bool,
     compact: bool,
+    solutions: Option<&'a Solutions>,
 }
 
 impl Verdict {
@@ -46,6 +51,7 @@ impl Verdict {
             name: "",
             embed: false,
             compact: false,
+            solutions: None,
         }
     }
 }
@@ -73,6 +79,32 @@ impl<'a> Certificate<'a> {
         self
     }
 
+    /// Adds what is known of the number of solutions (section 12 of the specification): nothing if
+    /// the graph is one body or not finite solvable, or nothing is known. Where it is proved that
+    /// there is one solution, the verdict of the certificate is `solvable`.
+    ///
+    /// ```
+    /// use viewcert::graph::graph6;
+    /// use viewcert::solutions::{Effort, count};
+    /// use viewcert::{Options, decide};
+    ///
+    /// let graph = graph6::decode(b"HBQkcP_").unwrap();
+    /// let verdict = decide(&graph, &Options::default())?;
+    /// let solutions = count(&graph, Effort::default(), 1).unwrap();
+    /// let certificate = verdict.certificate(&graph).with_solutions(&solutions)?.compact();
+    /// let claimed = "\"solutions\":{\"at_least\":2,\"at_most\":2,\"strength\":\"proof\"";
+    /// assert!(certificate.to_string().contains(claimed));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the solutions are those of another graph, or of other members than the verdict has.
+    pub fn with_solutions(mut self, solutions: &'a Solutions) -> Result<Self, ForeignSolutions> {
+        solutions::view(self.verdict, solutions)?;
+        self.solutions = Some(solutions);
+        Ok(self)
+    }
+
     /// Writes the text, which ends with a line feed.
     ///
     /// # Errors
@@ -80,7 +112,14 @@ impl<'a> Certificate<'a> {
     pub fn write_to(&self, mut out: impl Write) -> io::Result<()> {
         let embed = self.embed || self.graph.nodes() <= EMBED_NODES;
         let embedded = embed.then(|| graph6::encode(self.graph));
-        let document = document::Document::new(self.name, self.graph, embedded, self.verdict);
+        let document = document::Document::new(
+            self.name,
+            self.graph,
+            embedded,
+            self.verdict,
+            self.solutions,
+        )
+        .map_err(io::Error::other)?;
         if self.compact {
             serde_json::to_writer(&mut out, &document)?;
         } else {

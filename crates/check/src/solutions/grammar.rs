@@ -1,0 +1,105 @@
+//! The text of section 12 as typed values.
+
+use crate::document::any_members;
+use crate::json::{Big, Name, Value, fill, objects, present, unknown};
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use std::fmt;
+
+objects! {
+    Solutions { merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower> }
+    Merge {
+        rule: String, with: Vec<usize>, at: Vec<u32>, solutions: Option<Box<Solutions>>,
+    }
+    Chart { chains: Vec<Vec<u32>>, half_edges: Vec<[u32; 3]>, unknowns: Vec<[u32; 2]> }
+    Centres { prime: Big<u64>, values: Vec<Vec<Big<u64>>> }
+    Upper { chart: Chart, centres: Centres, steps: Vec<Step>, points: Option<Points> }
+    Lower { chart: Chart, centres: Centres, points: Vec<Vec<Big<u64>>> }
+    Minor { rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize> }
+    Points {
+        centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
+        minors: Vec<Minor>, points: Vec<Point>,
+    }
+    Point { values: Vec<Big<u64>>, steps: Vec<Step> }
+}
+
+impl<T: Value> Value for Box<T> {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        T::read(from).map(Box::new)
+    }
+}
+
+/// A step that makes unknowns known.
+#[derive(Debug)]
+pub(crate) enum Step {
+    Linear(Linear),
+    Support(Support),
+}
+
+#[derive(Debug)]
+pub(crate) struct Linear {
+    pub freed: Vec<usize>,
+    pub settled: Vec<usize>,
+}
+
+#[derive(Debug)]
+pub(crate) struct Support {
+    pub unknowns: Vec<usize>,
+    pub bounds: Vec<usize>,
+    pub absent: Vec<Vec<usize>>,
+    pub minors: Vec<Minor>,
+}
+
+impl Step {
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Step::Linear(_) => "linear",
+            Step::Support(_) => "support",
+        }
+    }
+}
+
+any_members! {
+    freed: Vec<usize>, settled: Vec<usize>, unknowns: Vec<usize>, bounds: Vec<usize>,
+    absent: Vec<Vec<usize>>, minors: Vec<Minor>,
+}
+
+impl AnyMembers {
+    fn into_step<E: Error>(mut self) -> Result<Step, E> {
+        let kind: String = present(self.kind.take(), "kind")?;
+        let step = match kind.as_str() {
+            "linear" => Step::Linear(Linear {
+                freed: present(self.freed.take(), "freed")?,
+                settled: present(self.settled.take(), "settled")?,
+            }),
+            "support" => Step::Support(Support {
+                unknowns: present(self.unknowns.take(), "unknowns")?,
+                bounds: present(self.bounds.take(), "bounds")?,
+                absent: present(self.absent.take(), "absent")?,
+                minors: present(self.minors.take(), "minors")?,
+            }),
+            other => return Err(E::custom(format!("`{other}` is no kind of step"))),
+        };
+        self.nothing_left()?;
+        Ok(step)
+    }
+}
+
+impl Value for Step {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct OfAnyKind;
+
+        impl<'de> Visitor<'de> for OfAnyKind {
+            type Value = Step;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Step, A::Error> {
+                AnyMembers::read(object)?.into_step()
+            }
+        }
+
+        from.deserialize_map(OfAnyKind)
+    }
+}

@@ -1,0 +1,96 @@
+//! Steps by linear algebra: conditions (S9) to (S11) of section 12 (theory, Theorem 10.6).
+
+use super::dense::left_kernel;
+use super::grammar::Linear;
+use super::system::{Known, System};
+use crate::algebra::Ring;
+use crate::rejection::{Checked, Failure, ensure};
+
+/// A row of which both sides stand for themselves.
+struct Freed {
+    /// The unknown that is not known, and at which side.
+    unknown: usize,
+    side: usize,
+}
+
+/// Verifies a step, and makes its unknowns known.
+pub(super) fn check(step: &Linear, system: &System, known: &mut Known) -> Checked<()> {
+    let freed = freed_rows(step, system, known)?;
+    let kernel = kernel(step, system, known)?;
+    ensure!(!step.settled.is_empty(), "no unknown is settled");
+    for &f in &step.settled {
+        let value = value(f, &freed, &kernel, system)?;
+        let place = known.get_mut(f).filter(|place| place.is_none());
+        let wrong = || Failure::rejected(format!("unknown {f} is known already"));
+        *place.ok_or_else(wrong)? = Some(value);
+    }
+    Ok(())
+}
+
+/// (S9): one to four rows, with one unknown each.
+fn freed_rows(step: &Linear, system: &System, known: &Known) -> Checked<Vec<Freed>> {
+    let rows = &step.freed;
+    ensure!(
+        (1..=4).contains(&rows.len())
+            && rows.is_sorted_by(|a, b| a < b)
+            && rows.iter().all(|&row| row < system.rows.len()),
+        "`freed` is not an increasing list of one to four rows"
+    );
+    let mut freed = Vec::new();
+    for &row in rows {
+        let sides = system.rows[row].iter().enumerate();
+        let open = sides.filter_map(|(side, of_node)| {
+            let unknown = of_node.unknown.filter(|&f| known[f].is_none())?;
+            Some(Freed { unknown, side })
+        });
+        let mut open: Vec<Freed> = open.collect();
+        ensure!(
+            open.len() == 1,
+            "row {row} has {} unknowns that are not known, and not one",
+            open.len()
+        );
+        freed.append(&mut open);
+    }
+    Ok(freed)
+}
+
+/// (S10): the left kernel of the constant rows and the sides of freed ones, which are the last
+/// entries of its vectors. It is not larger than at any solution.
+fn kernel(step: &Linear, system: &System, known: &Known) -> Checked<Vec<Vec<u64>>> {
+    let constant = system.constant(known).map(|row| system.row(row, known));
+    let mut rows: Vec<Vec<u64>> = constant.collect();
+    let least = rows.len() + step.freed.len();
+    for &row in &step.freed {
+        rows.extend([0, 1].map(|side| system.side(row, side, known)));
+    }
+    let kernel = left_kernel(&system.field, system.meter, &rows, system.columns)?;
+    ensure!(
+        kernel.len() + system.target == least,
+        "the left kernel has dimension {}, where {least} less {} is asked for",
+        kernel.len(),
+        system.target
+    );
+    Ok(kernel)
+}
+
+/// (S11): the value of an unknown, which follows from the entries at both sides of its freed rows.
+fn value(f: usize, freed: &[Freed], kernel: &[Vec<u64>], system: &System) -> Checked<u64> {
+    let field = &system.field;
+    let mut entries = Vec::new();
+    for (k, row) in freed.iter().enumerate().filter(|(_, row)| row.unknown == f) {
+        entries.extend(kernel.iter().map(|vector| {
+            let sides = &vector[vector.len() - 2 * (freed.len() - k)..];
+            (sides[row.side], sides[1 - row.side])
+        }));
+    }
+    let given = entries.iter().find(|&&(_, other)| other != 0);
+    let missing = || Failure::rejected(format!("unknown {f} does not follow from the left kernel"));
+    let &(own, other) = given.ok_or_else(missing)?;
+    let value = field.neg(field.mul(own, field.inverse(other)));
+    let agrees = |&(own, other): &(u64, u64)| field.add(own, field.mul(value, other)) == 0;
+    ensure!(
+        entries.iter().all(agrees),
+        "the left kernel gives two values for unknown {f}"
+    );
+    Ok(value)
+}

@@ -1,0 +1,180 @@
+//! How many solutions a finite solvable graph has (section 12 of the specification; theory, section
+//! 10).
+//!
+//! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
+//! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
+//! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
+//! solutions are near to (`points`), a lower one from simple points of a tight core (`simple`).
+//! `dense` has the linear algebra, `grammar` the text.
+
+mod chart;
+mod dense;
+pub(crate) mod grammar;
+mod linear;
+mod members;
+mod minors;
+mod points;
+mod simple;
+mod support;
+mod system;
+mod zeros;
+
+use crate::document::Model;
+use crate::evidence::Piece;
+use crate::limits::Meter;
+use crate::rejection::{Checked, Within, ensure};
+use crate::setting::Setting;
+use crate::structure::Part;
+use chart::Chart;
+use grammar::{Lower, Solutions, Upper};
+use members::Members;
+use std::fmt;
+use system::{Known, System};
+
+/// What is known of the number of solutions, as a proof.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// There are as many solutions at least.
+    pub at_least: usize,
+    /// There are no more, if that was shown.
+    pub at_most: Option<usize>,
+}
+
+impl Count {
+    /// Whether there is just one solution.
+    pub fn is_one(self) -> bool {
+        self.at_most == Some(1)
+    }
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.at_least, self.at_most) {
+            (least, Some(most)) if least == most => write!(f, "exactly {least}"),
+            (least, Some(most)) => write!(f, "{least} to {most}"),
+            (least, None) => write!(f, "at least {least}"),
+        }
+    }
+}
+
+/// Verifies the evidence about a graph that falls into these pieces, with these members and so many
+/// nodes.
+pub(crate) fn check(
+    evidence: &Solutions,
+    setting: &Setting,
+    pieces: &[Piece],
+    (members, all): (&Part, usize),
+) -> Checked<Count> {
+    let is_finite = |piece: &Piece| {
+        let required = setting.model.required(piece.nodes);
+        !piece.is_rigid && piece.lower == required
+    };
+    ensure!(
+        setting.model == Model::Projective
+            && matches!(pieces, [piece] if is_finite(piece) && piece.nodes == all),
+        "the graph is not one piece that is finite solvable, in the projective model"
+    );
+    let nodes = members
+        .iter()
+        .map(|&member| setting.structure.nodes_of(member).to_vec());
+    let found = bounds(
+        evidence,
+        Members::new(nodes.collect()),
+        setting.meter,
+        Of::Graph,
+    )?;
+    ensure!(
+        found.at_most.is_none_or(|most| most >= found.at_least),
+        "the bounds contradict each other"
+    );
+    Ok(found)
+}
+
+/// What the evidence is about.
+#[derive(Clone, Copy, PartialEq)]
+enum Of {
+    /// The graph, which is known to be finite solvable.
+    Graph,
+    /// A part, of which that is to be shown.
+    Part,
+}
+
+/// What the evidence about some members gives.
+fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> Checked<Count> {
+    ensure!(
+        of == Of::Graph || evidence.lower.is_none(),
+        "a lower bound for a part, of which one solution is to be shown"
+    );
+    for (k, merge) in evidence.merges.iter().enumerate() {
+        let merged = members.merge(merge, meter);
+        merged.within(|| format!("merges[{k}]"))?;
+    }
+    let left = members.left();
+    if left.len() == 1 {
+        ensure!(
+            evidence.upper.is_none() && evidence.lower.is_none(),
+            "one member is left, and nothing else is to be shown"
+        );
+        return Ok(Count {
+            at_least: 1,
+            at_most: Some(1),
+        });
+    }
+    ensure!(
+        evidence.upper.is_some() || evidence.lower.is_some(),
+        "neither an upper nor a lower bound"
+    );
+    let at_most = evidence.upper.as_ref().map(|upper| {
+        let most = at_most(upper, &left, meter, of);
+        most.within(|| "upper".into())
+    });
+    let at_least = evidence.lower.as_ref().map(|lower| {
+        let least = at_least(lower, &left, meter);
+        least.within(|| "lower".into())
+    });
+    Ok(Count {
+        at_least: at_least.transpose()?.unwrap_or(1),
+        at_most: at_most.transpose()?,
+    })
+}
+
+/// An upper bound (theory, Theorems 10.5, 10.6 and 10.8).
+fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<usize> {
+    let chart = Chart::new(&upper.chart, left, meter).within(|| "chart".into())?;
+    let system = System::new(&chart, &upper.centres, meter).within(|| "centres".into())?;
+    if of == Of::Part {
+        simple::check_identity(&system).within(|| "u = 1".into())?;
+    }
+    let mut known: Known = vec![None; chart.unknowns];
+    for (k, step) in upper.steps.iter().enumerate() {
+        let checked = match step {
+            grammar::Step::Linear(step) => linear::check(step, &system, &mut known),
+            grammar::Step::Support(step) => support::check(step, &system, &mut known),
+        };
+        checked.within(|| format!("steps[{k}] ({})", step.kind()))?;
+    }
+    if let Some(points) = &upper.points {
+        return points::check(points, &chart, &known, meter).within(|| "points".into());
+    }
+    system::ensure_all_known(&known)?;
+    Ok(1)
+}
+
+/// A lower bound (theory, Theorem 10.10).
+fn at_least(lower: &Lower, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
+    let chart = Chart::new(&lower.chart, left, meter).within(|| "chart".into())?;
+    let system = System::new(&chart, &lower.centres, meter).within(|| "centres".into())?;
+    simple::check_chains(&system)?;
+    simple::check_points(&lower.points, &system)
+}
+
+/// Sees that a part is finite solvable and has one solution (theory, Proposition 10.11).
+fn check_part(evidence: &Solutions, members: Vec<Vec<u32>>, meter: &Meter) -> Checked<()> {
+    let found = bounds(evidence, Members::new(members), meter, Of::Part);
+    let found = found.within(|| "solutions".into())?;
+    ensure!(
+        found.at_most == Some(1),
+        "the part is not shown to have one solution"
+    );
+    Ok(())
+}

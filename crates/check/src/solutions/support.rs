@@ -1,0 +1,195 @@
+//! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
+
+use super::dense::{ENTRY, Space};
+use super::grammar::{Minor, Support};
+use super::minors::{Exponents, Place};
+use super::system::{Known, System};
+use super::zeros::Pattern;
+use crate::rejection::{Checked, Failure, Within, ensure};
+use std::collections::HashSet;
+
+/// Verifies a step, and makes its unknowns known to be one.
+pub(super) fn check(step: &Support, system: &System, known: &mut Known) -> Checked<()> {
+    let span = Span::new(
+        system,
+        known,
+        Text {
+            unknowns: &step.unknowns,
+            bounds: &step.bounds,
+            absent: &step.absent,
+            minors: &step.minors,
+        },
+    )?;
+    span.check_differences(&step.unknowns)?;
+    ensure!(
+        span.shifts.rank() + 1 == span.present(),
+        "the coefficients have rank {} for {} exponents",
+        span.shifts.rank(),
+        span.present()
+    );
+    for &f in &step.unknowns {
+        known[f] = Some(system.field.one);
+    }
+    Ok(())
+}
+
+/// What steps and points have in common.
+pub(super) struct Text<'t> {
+    pub unknowns: &'t [usize],
+    pub bounds: &'t [usize],
+    pub absent: &'t [Vec<usize>],
+    pub minors: &'t [Minor],
+}
+
+/// The coefficients of minors and their shifts.
+pub(super) struct Span<'t> {
+    pub exponents: Exponents<'t>,
+    /// Which exponents are in A, in their order.
+    pub is_present: Vec<bool>,
+    pub shifts: Space<'t>,
+}
+
+impl<'t> Span<'t> {
+    pub fn new(system: &'t System, known: &Known, text: Text<'t>) -> Checked<Span<'t>> {
+        check_unknowns(text.unknowns, known)?;
+        ensure!(
+            text.bounds.len() == text.unknowns.len(),
+            "{} bounds for {} unknowns",
+            text.bounds.len(),
+            text.unknowns.len()
+        );
+        let exponents = Exponents {
+            bounds: text.bounds,
+        };
+        let many = || Failure::rejected("there are more than 4096 exponents");
+        let count = exponents.count().ok_or_else(many)?;
+        let mut span = Span {
+            is_present: is_present(&exponents, count, text.absent)?,
+            shifts: Space::new(&system.field, count, system.meter),
+            exponents,
+        };
+        let place = Place {
+            system,
+            known,
+            unknowns: text.unknowns,
+        };
+        for (k, minor) in text.minors.iter().enumerate() {
+            let added = span.add(minor, &place);
+            added.within(|| format!("minors[{k}]"))?;
+        }
+        Ok(span)
+    }
+
+    /// |A|.
+    pub fn present(&self) -> usize {
+        self.is_present.iter().filter(|&&present| present).count()
+    }
+
+    /// The exponent with one added at a place, if that is in A.
+    pub fn next(&self, exponent: &[usize], f: usize) -> Option<Vec<usize>> {
+        let mut next = exponent.to_vec();
+        next[f] += 1;
+        let inside = self.exponents.contain(&next);
+        (inside && self.is_present[self.exponents.place(&next)]).then_some(next)
+    }
+
+    /// A.
+    pub fn all_present(&self) -> Vec<Vec<usize>> {
+        let all = self.exponents.all().into_iter().zip(&self.is_present);
+        all.filter_map(|(exponent, &present)| present.then_some(exponent))
+            .collect()
+    }
+
+    /// Adds the coefficients of all shifts of a minor.
+    fn add(&mut self, minor: &Minor, place: &Place) -> Checked<()> {
+        let degrees = place.check(minor, self.exponents.bounds)?;
+        let room = self.exponents.bounds.iter().zip(&degrees);
+        let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
+        let shifts = Exponents { bounds: &room }.all();
+        let own = Exponents { bounds: &degrees }.all();
+        let work = shifts.len() * own.len() * (degrees.len() + 1);
+        place.system.meter.charge(ENTRY * work as u64)?;
+        self.check_absent(minor, place, (&shifts, &own))?;
+        let coefficients = place.coefficients(minor, &degrees)?;
+        for shift in &shifts {
+            let mut row = vec![0; self.is_present.len()];
+            for (exponent, &coefficient) in own.iter().zip(&coefficients) {
+                row[self.exponents.place(&sum(exponent, shift))] = coefficient;
+            }
+            self.shifts.insert(row)?;
+        }
+        Ok(())
+    }
+
+    /// (S14): no shift has a coefficient at an exponent that is absent.
+    fn check_absent(
+        &self,
+        minor: &Minor,
+        place: &Place,
+        (shifts, own): (&[Vec<usize>], &[Vec<usize>]),
+    ) -> Checked<()> {
+        if self.is_present.iter().all(|&present| present) {
+            return Ok(());
+        }
+        let pattern = Pattern::new(minor, place);
+        let entries = 6 * minor.cols.len() * minor.cols.len();
+        for exponent in own {
+            let mut shifted = shifts.iter().map(|shift| sum(exponent, shift));
+            let Some(absent) = shifted.find(|e| !self.is_present[self.exponents.place(e)]) else {
+                continue;
+            };
+            place.system.meter.charge(ENTRY * entries as u64)?;
+            ensure!(
+                !pattern.has_transversal(exponent),
+                "the exponent {absent:?} is said to be absent, but there may be a coefficient"
+            );
+        }
+        Ok(())
+    }
+
+    /// (S15): the differences of A generate all exponents.
+    fn check_differences(&self, unknowns: &[usize]) -> Checked<()> {
+        let present = self.all_present();
+        for (place, f) in unknowns.iter().enumerate() {
+            ensure!(
+                present.iter().any(|e| self.next(e, place).is_some()),
+                "no two exponents differ by one in unknown {f}"
+            );
+        }
+        Ok(())
+    }
+}
+
+/// (S12): unknowns that are not known, each once.
+fn check_unknowns(unknowns: &[usize], known: &Known) -> Checked<()> {
+    let mut listed = HashSet::new();
+    for &f in unknowns {
+        let is_open = known.get(f).is_some_and(Option::is_none);
+        ensure!(
+            is_open && listed.insert(f),
+            "unknown {f} is listed twice, or known, or none"
+        );
+    }
+    Ok(())
+}
+
+/// Which exponents are in A (S12).
+fn is_present(exponents: &Exponents, count: usize, absent: &[Vec<usize>]) -> Checked<Vec<bool>> {
+    ensure!(
+        absent.is_sorted_by(|a, b| a < b),
+        "`absent` is not increasing"
+    );
+    let mut is_present = vec![true; count];
+    for exponent in absent {
+        ensure!(
+            exponents.contain(exponent),
+            "the exponent {exponent:?} of `absent` is not within the bounds"
+        );
+        is_present[exponents.place(exponent)] = false;
+    }
+    Ok(is_present)
+}
+
+fn sum(a: &[usize], b: &[usize]) -> Vec<usize> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
+}

@@ -1,0 +1,98 @@
+//! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
+//! Theorem 10.7).
+
+use super::grammar::Minor;
+use super::minors::Place;
+use super::system::Side;
+
+/// What may be in the rows of a minor: columns, by their places among those of the minor.
+pub(super) struct Pattern {
+    /// For each row its sides, with the places of their unknowns.
+    rows: Vec<Vec<(Vec<usize>, Option<usize>)>>,
+    columns: usize,
+    /// How many rows have each unknown.
+    with: Vec<usize>,
+}
+
+impl Pattern {
+    pub fn new(minor: &Minor, place: &Place) -> Pattern {
+        let columns_of = |side: &Side| {
+            let generic = (0..3).filter(|&k| side.is_generic[k]);
+            let columns = generic.map(|k| side.column + k);
+            let places = columns.filter_map(|column| minor.cols.binary_search(&column).ok());
+            places.collect::<Vec<usize>>()
+        };
+        let rows = &place.system.rows;
+        let mut pattern = Pattern {
+            rows: Vec::new(),
+            columns: minor.cols.len(),
+            with: vec![0; place.unknowns.len()],
+        };
+        for &row in &minor.rows {
+            let listed = place.listed(row);
+            listed.iter().flatten().for_each(|&f| pattern.with[f] += 1);
+            let sides = [0, 1].map(|which| (columns_of(&rows[row][which]), listed[which]));
+            pattern.rows.push(sides.into());
+        }
+        for (list, which) in [(&minor.plus, 0), (&minor.minus, 1)] {
+            let sides = list
+                .iter()
+                .map(|&row| vec![(columns_of(&rows[row][which]), None)]);
+            pattern.rows.extend(sides);
+        }
+        pattern
+    }
+
+    /// Whether there is a choice of one entry in each row, in different columns, among those that
+    /// terms with this exponent may have.
+    pub fn has_transversal(&self, exponent: &[usize]) -> bool {
+        let rows = self
+            .rows
+            .iter()
+            .map(|sides| self.columns_left(sides, exponent));
+        let rows: Vec<Vec<usize>> = rows.collect();
+        let mut row_at = vec![None; self.columns];
+        (0..rows.len())
+            .all(|row| place_row(row, &rows, &mut row_at, &mut vec![false; self.columns]))
+    }
+
+    /// The columns of the sides of a row that are not struck out: a side with an unknown whose
+    /// exponent is zero is, and so is the other one if all rows with the unknown must give it.
+    fn columns_left(
+        &self,
+        sides: &[(Vec<usize>, Option<usize>)],
+        exponent: &[usize],
+    ) -> Vec<usize> {
+        let is_out = |which: usize| {
+            let own = sides[which].1;
+            let others = sides
+                .iter()
+                .enumerate()
+                .filter(|&(other, _)| other != which);
+            own.is_some_and(|f| exponent[f] == 0)
+                || others
+                    .filter_map(|(_, (_, unknown))| *unknown)
+                    .any(|f| exponent[f] == self.with[f])
+        };
+        let left = (0..sides.len()).filter(|&which| !is_out(which));
+        left.flat_map(|which| sides[which].0.iter().copied())
+            .collect()
+    }
+}
+
+/// Finds a column for a row; rows that have one may move to others.
+fn place_row(
+    row: usize,
+    rows: &[Vec<usize>],
+    row_at: &mut [Option<usize>],
+    seen: &mut [bool],
+) -> bool {
+    rows[row].iter().any(|&column| {
+        let new = !std::mem::replace(&mut seen[column], true);
+        let found = new && row_at[column].is_none_or(|other| place_row(other, rows, row_at, seen));
+        if found {
+            row_at[column] = Some(row);
+        }
+        found
+    })
+}
