@@ -1,4 +1,5 @@
-//! `verify experiment solutions`, through the program.
+//! The number of solutions, through the program: its table, certificates, and a second solution to
+//! look at.
 
 use std::process::{Command, Output};
 
@@ -37,4 +38,117 @@ fn bad_sizes_are_bad_usage() {
     }
     let run = verify(&["experiment", "solutions", "--nodes", "99"]);
     assert_eq!(run.status.code(), Some(2));
+}
+
+/// Writes graph6 to a file in a folder and returns its path.
+fn graph_file(folder: &std::path::Path, graph6: &str) -> String {
+    let path = folder.join("graph.g6");
+    std::fs::write(&path, format!("{graph6}\n")).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// A certificate claims that there is one solution only where it shows it.
+#[test]
+fn certificates_say_what_they_show() {
+    use viewcert_check::Verdict::{FiniteSolvable, Solvable};
+    let folder = tempfile::tempdir().unwrap();
+    let certificate = folder.path().join("certificate.json");
+    // One solution, two solutions (published), and K_{2,3}, which is one body.
+    for (graph6, arguments, verdict, count) in [
+        ("G@TclO", &[][..], Solvable, Some((1, Some(1)))),
+        ("G@TclO", &["--no-solutions"], FiniteSolvable, None),
+        ("HBQkcP_", &[], FiniteSolvable, Some((2, Some(2)))),
+        ("HBQkcP_", &["--no-solutions"], FiniteSolvable, None),
+        ("D]o", &[], Solvable, None),
+        ("D]o", &["--no-solutions"], Solvable, None),
+    ] {
+        let graph = graph_file(folder.path(), graph6);
+        let to = ["--certificate", certificate.to_str().unwrap()];
+        let run = verify(&[&[graph.as_str()], &to[..], arguments].concat());
+        assert_eq!(run.status.code(), Some(0), "{graph6}");
+        let text = std::fs::read(&certificate).unwrap();
+        let verified = viewcert_check::check(&text, None).unwrap();
+        assert_eq!(verified.verdict.0, verdict, "{graph6} {arguments:?}");
+        let counted = verified
+            .solutions
+            .map(|count| (count.at_least, count.at_most));
+        assert_eq!(counted, count, "{graph6} {arguments:?}");
+        // Without contraction nothing is counted, and nothing is claimed.
+        let whole = verify(&[&[graph.as_str()], &to[..], &["--no-contraction"]].concat());
+        assert_eq!(whole.status.code(), Some(0));
+        let verified = viewcert_check::check(&std::fs::read(&certificate).unwrap(), None);
+        assert_eq!(verified.unwrap().verdict.0, FiniteSolvable, "{graph6}");
+    }
+}
+
+/// What is written is checked by a script that shares nothing with the program, and changed it is
+/// none any more.
+#[test]
+fn a_second_solution_to_look_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = graph_file(folder.path(), "HBQkcP_");
+    let witness = folder.path().join("witness.json");
+    let path = witness.to_str().unwrap();
+    let run = verify(&[&graph, "--witness", path]);
+    assert_eq!(run.status.code(), Some(0));
+    assert!(
+        String::from_utf8(run.stdout)
+            .unwrap()
+            .contains("  witness     ")
+    );
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/crates/check/second/witness.py"
+    );
+    let checked = || {
+        let run = Command::new(&python).args([script, path]).output().unwrap();
+        (run.status.code(), String::from_utf8(run.stdout).unwrap())
+    };
+    let (code, said) = checked();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.starts_with("VERIFIED"), "{said}");
+    let text = std::fs::read_to_string(&witness).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(found["first"].as_array().unwrap().len(), 9);
+    let rejected = |change: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let mut other = found.clone();
+        change(&mut other);
+        std::fs::write(&witness, other.to_string()).unwrap();
+        let (code, said) = checked();
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains(words), "{words}: {said}");
+    };
+    rejected(
+        &|other| other["second"] = other["first"].clone(),
+        "are equivalent",
+    );
+    rejected(&|other| other["second"][0][0][0] = "1".into(), "differ");
+    rejected(
+        &|other| other["prime"] = "2305843009213693953".into(),
+        "is not a prime",
+    );
+    rejected(
+        &|other| other["second"][0][0][0] = "-1".into(),
+        "is no residue",
+    );
+    rejected(
+        &|other| other["edges"][0] = serde_json::json!([0, 1]),
+        "differ",
+    );
+    rejected(&|other| other["version"] = 2.into(), "not a witness");
+
+    // One solution only: nothing is written, and why is said.
+    let graph = graph_file(folder.path(), "G@TclO");
+    let none = folder.path().join("none.json");
+    let run = verify(&[&graph, "--witness", none.to_str().unwrap()]);
+    assert_eq!(run.status.code(), Some(0));
+    let said = String::from_utf8(run.stderr).unwrap();
+    assert!(
+        said.contains("no witness: there is one solution only"),
+        "{said}"
+    );
+    assert!(!none.exists());
+    let run = verify(&[&graph, "--witness", &graph]);
+    assert_eq!(run.status.code(), Some(2), "the graph itself");
 }

@@ -66,6 +66,10 @@ pub(super) struct Arguments {
     /// With --out: keep the lines of finite-solvable graphs and of unproved verdicts only.
     #[arg(long, requires = "out")]
     solvable_only: bool,
+    /// Count the solutions of the finite-solvable graphs: the last column of --list and --out has
+    /// their number, or the least and the largest one that it can be.
+    #[arg(long)]
+    solutions: bool,
     /// Compute modulo this prime, 5 <= P < 2^62.
     #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME)]
     prime: u64,
@@ -239,7 +243,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime {}", arguments.prime))?;
     let options = Options::default()
-        .solutions(CountSolutions::Off)
+        .solutions(match arguments.solutions {
+            true => CountSolutions::Quick,
+            false => CountSolutions::Off,
+        })
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
         .watch(running::watch());

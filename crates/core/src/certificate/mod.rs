@@ -33,7 +33,9 @@ pub struct Certificate<'a> {
 }
 
 impl Verdict {
-    /// The certificate of this verdict on `graph`, which has to be the graph that was decided.
+    /// The certificate of this verdict on `graph`, which has to be the graph that was decided. The
+    /// evidence that the verdict has for the number of solutions is part of it, if its members are
+    /// those of the verdict (they are not without contraction: then `finite-solvable` is claimed).
     ///
     /// ```
     /// use viewcert::{Graph, Options, decide};
@@ -45,13 +47,15 @@ impl Verdict {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn certificate<'a>(&'a self, graph: &'a Graph) -> Certificate<'a> {
+        let counted = self.solutions.as_ref();
+        let own = counted.and_then(|count| count.evidence.as_deref());
         Certificate {
             graph,
             verdict: self,
             name: "",
             embed: false,
             compact: false,
-            solutions: None,
+            solutions: own.filter(|solutions| solutions::view(self, solutions).is_ok()),
         }
     }
 }
@@ -79,17 +83,19 @@ impl<'a> Certificate<'a> {
         self
     }
 
-    /// Adds what is known of the number of solutions (section 12 of the specification): nothing if
+    /// Says what is known of the number of solutions (section 12 of the specification), in the place
+    /// of what the verdict knows: nothing if
     /// the graph is one body or not finite solvable, or nothing is known. Where it is proved that
     /// there is one solution, the verdict of the certificate is `solvable`.
     ///
     /// ```
     /// use viewcert::graph::graph6;
     /// use viewcert::solutions::{Effort, count};
+    /// use viewcert::decide::CountSolutions;
     /// use viewcert::{Options, decide};
     ///
     /// let graph = graph6::decode(b"HBQkcP_").unwrap();
-    /// let verdict = decide(&graph, &Options::default())?;
+    /// let verdict = decide(&graph, &Options::default().solutions(CountSolutions::Off))?;
     /// let solutions = count(&graph, Effort::default(), 1).unwrap();
     /// let certificate = verdict.certificate(&graph).with_solutions(&solutions)?.compact();
     /// let claimed = "\"solutions\":{\"at_least\":2,\"at_most\":2,\"strength\":\"proof\"";

@@ -41,6 +41,10 @@ pub(super) fn merge(
     nodes: usize,
     steps: &Steps,
 ) -> bool {
+    let left = bodies.iter().filter(|body| !body.nodes.is_empty()).count() + loose.len();
+    if left < 6 {
+        return false;
+    }
     let mut search = Search::new(bodies, loose, nodes, steps);
     search.from_bodies();
     search.from_edges();

@@ -13,6 +13,11 @@ pub struct Entry {
     pub graph6: String,
     /// The answer.
     pub value: Value,
+    /// Whether contraction alone proves that there is one solution.
+    pub contracts: bool,
+    /// How many solutions there are at least and, if a bound is known, at most; `None` if
+    /// infinitely many.
+    pub solutions: Option<(usize, Option<usize>)>,
     /// How strong it is.
     pub strength: Strength,
     /// The generic rank.
@@ -28,7 +33,7 @@ pub struct Entry {
 }
 
 /// The names of [`Entry::cells`].
-pub const COLUMNS: [&str; 8] = [
+pub const COLUMNS: [&str; 9] = [
     "graph6",
     "verdict",
     "strength",
@@ -37,6 +42,7 @@ pub const COLUMNS: [&str; 8] = [
     "components",
     "components_strength",
     "hub",
+    "solutions",
 ];
 
 impl Entry {
@@ -45,6 +51,11 @@ impl Entry {
         Self {
             graph6: graph6::encode(graph),
             value: verdict.value,
+            contracts: verdict.value_by_rank() == Value::Solvable,
+            solutions: verdict
+                .solutions
+                .as_ref()
+                .map(|count| (count.at_least, count.at_most)),
             strength: verdict.value_claim().strength,
             rank: verdict.rank,
             rank_strength: verdict.rank_claim().strength,
@@ -61,7 +72,7 @@ impl Entry {
     }
 
     /// The entry as a row of a table with [`COLUMNS`].
-    pub fn cells(&self) -> [String; 8] {
+    pub fn cells(&self) -> [String; 9] {
         let strength = |strength: Strength| match strength {
             Strength::Proof => "proof".into(),
             Strength::ErrorBound(e) => format!("2^{e}"),
@@ -75,6 +86,12 @@ impl Entry {
             self.components.to_string(),
             strength(self.components_strength),
             u8::from(self.hub).to_string(),
+            match self.solutions {
+                None => String::new(),
+                Some((least, Some(most))) if least == most => least.to_string(),
+                Some((least, Some(most))) => format!("{least}-{most}"),
+                Some((least, None)) => format!("{least}-"),
+            },
         ]
     }
 }
@@ -114,7 +131,7 @@ pub struct Summary {
     pub candidates: u64,
     /// Solvable: proved unique by contraction.
     pub unique: u64,
-    /// Finite solvable, and not proved unique.
+    /// Finite solvable, and not proved unique by contraction.
     pub finite: u64,
     /// Proved not to be finite solvable.
     pub refuted: u64,
@@ -138,8 +155,8 @@ impl Summary {
     pub fn count(&mut self, entry: &Entry) {
         self.candidates += 1;
         match (entry.value, entry.strength) {
-            (Value::Solvable, _) => self.unique += 1,
-            (Value::FiniteSolvable, _) => self.finite += 1,
+            (Value::Solvable, _) if entry.contracts => self.unique += 1,
+            (Value::Solvable | Value::FiniteSolvable, _) => self.finite += 1,
             (Value::NotFiniteSolvable, Strength::Proof) => {
                 self.refuted += 1;
                 self.hub += u64::from(entry.hub);
@@ -167,6 +184,7 @@ impl Summary {
 mod tests {
     use super::*;
     use crate::catalog::{Candidates, least_edges};
+    use viewcert::decide::CountSolutions;
 
     fn entries(nodes: usize) -> Vec<Entry> {
         let mut graphs = Vec::new();
@@ -199,6 +217,27 @@ mod tests {
         }
     }
 
+    /// The columns of the number of solutions: infinitely many, one by contraction and one by
+    /// counting, two; without counting it is not known that there is no second one.
+    #[test]
+    fn numbers_of_solutions() {
+        let found = |effort| {
+            let graphs = ["Cl", "C~", "G@TclO", "HBQkcP_"];
+            let graphs = graphs.map(|graph| graph6::decode(graph.as_bytes()).unwrap());
+            let options = Options::default().solutions(effort);
+            let entries = decide_all(&graphs, &options).unwrap();
+            let mut summary = Summary::default();
+            entries.iter().for_each(|entry| summary.count(entry));
+            assert_eq!([summary.unique, summary.finite, summary.refuted], [1, 2, 1]);
+            entries
+                .iter()
+                .map(|entry| entry.cells()[8].clone())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(found(CountSolutions::Quick), ["", "1", "1", "2"]);
+        assert_eq!(found(CountSolutions::Off), ["", "1", "1-", "1-"]);
+    }
+
     /// Two triangles on a common edge: one body, rank 11 * 4 - 15.
     #[test]
     fn an_entry_as_a_row() {
@@ -207,7 +246,7 @@ mod tests {
         };
         let [graph, rest @ ..] = entry.cells();
         assert_eq!(graph6::decode(graph.as_bytes()).unwrap().edges().len(), 5);
-        let expected = ["solvable", "proof", "29", "proof", "1", "proof", "0"];
+        let expected = ["solvable", "proof", "29", "proof", "1", "proof", "0", "1"];
         assert_eq!(rest, expected);
     }
 }
