@@ -483,11 +483,8 @@ fn commands_name_the_database() {
     let path = folder.join("clusters_nothing.db");
     let path = path.to_str().unwrap();
     for options in [&["--tracks"][..], &[]] {
-        let arguments = [
-            &[path, "--json", "--export", out.to_str().unwrap()],
-            options,
-        ]
-        .concat();
+        let export = ["--json", "--export", out.to_str().unwrap(), path];
+        let arguments = [&export[..], options].concat();
         let line = verify(&arguments).json().remove(0);
         let parts = line["export"]["commands"].as_array().unwrap();
         assert_eq!(parts.len(), 2);
