@@ -387,3 +387,179 @@ fn a_large_list_is_exported_whole() {
     };
     assert_eq!((lines("images.txt"), lines("pairs.txt")), (4328, pairs));
 }
+
+/// A problem of bundle adjustment: cameras, points, and which camera sees which point.
+fn problem(cameras: usize, points: usize, seen: &[(usize, usize)]) -> String {
+    let lines = seen.iter().map(|(c, p)| format!("{c} {p} 0.5 0.5\n"));
+    let numbers = "0.5\n".repeat(9 * cameras + 3 * points);
+    let lines: String = lines.collect();
+    format!("{cameras} {points} {}\n{lines}{numbers}", seen.len())
+}
+
+/// Cameras 0 to 3 see the points 0 to 3, 4 to 7 the points 4 to 7; 8 is a camera; and more.
+fn two_of_tracks(more: &[(usize, usize)]) -> String {
+    let group =
+        |k: usize| (4 * k..4 * k + 4).flat_map(move |c| (4 * k..4 * k + 4).map(move |p| (c, p)));
+    let mut seen: Vec<(usize, usize)> = group(0).chain(group(1)).collect();
+    seen.extend(more);
+    problem(9, 8, &seen)
+}
+
+/// What is suggested is observed, and decided; it does not matter which points they are.
+#[test]
+fn suggestions_for_tracks_join_what_they_say() {
+    let none: &[(usize, usize)] = &[];
+    // An observation of each other's points; with a shared camera, 1, which sees 4 and 5, one.
+    let cases: [(&[(usize, usize)], usize); 2] = [(none, 2), (&[(1, 4), (1, 5)], 1)];
+    let images = 8;
+    for (more, count) in cases {
+        let line = report(&two_of_tracks(more), &["--tracks", "--suggest"]);
+        let best = &line["suggestions"][0];
+        assert_eq!(
+            (&best["joins"], &best["images"]),
+            (&json!([1, 2]), &json!(images))
+        );
+        assert_eq!(
+            (&best["inliers"], &best["enough"]["matched"]),
+            (&Value::Null, &json!(false))
+        );
+        // Two points that become one take three of four degrees of freedom, as a shared camera does.
+        assert_eq!(best["enough"]["merged"], count, "{best}");
+        let further = best["enough"]["observations"].as_array().unwrap();
+        assert_eq!(further.len(), count, "{best}");
+        for points in [[1, 6], [2, 7], [3, 6]] {
+            let seen = further.iter().map(|one| {
+                assert_eq!(one["points"], 1);
+                let image: usize = one["image"].as_str().unwrap().parse().unwrap();
+                // A point of the other group.
+                (image, points[usize::from(image < 4)])
+            });
+            let all: Vec<(usize, usize)> = more.iter().copied().chain(seen).collect();
+            let joined = report(&two_of_tracks(&all), &["--tracks"]);
+            assert_eq!(joined["components"][0]["cameras"], images, "{best}");
+        }
+    }
+    let out = text(&two_of_tracks(none), &["--tracks", "--suggest=1"]);
+    let expected =
+        "0 4: joins components 1, 2, 8 images together\n      enough: 4 sees 1 more point of";
+    assert!(out.contains(expected), "{out}");
+    assert!(
+        out.contains(", or 2 points of each are found to be the same\n"),
+        "{out}"
+    );
+    // Two observations of different ends join them: there is nothing left but camera 8.
+    let line = report(
+        &two_of_tracks(&[(0, 4), (5, 1)]),
+        &["--tracks", "--suggest"],
+    );
+    assert_eq!(line["components"][0]["cameras"], 8);
+    assert_eq!(line["suggestions"], json!([]));
+}
+
+#[test]
+fn a_camera_is_explained() {
+    let graph = two_of_tracks(&[(8, 1)]);
+    let line = report(&graph, &["--tracks", "--explain", "8"]);
+    let explain = &line["explain"];
+    assert_eq!(explain["components"], json!([]));
+    assert_eq!(explain["pairs_outside"][0]["image"], "point 2");
+    // One point more of the group of that point; it has a direction to one already.
+    let best = &explain["suggestions"][0];
+    let further = best["enough"]["observations"].as_array().unwrap();
+    assert_eq!((further.len(), &further[0]["image"]), (1, &json!("8")));
+    assert_eq!(
+        (&best["gain"], &best["enough"]["merged"]),
+        (&json!(1), &Value::Null)
+    );
+    let out = text(&graph, &["--tracks", "--explain", "8"]);
+    assert!(
+        out.contains("it sees point 2, which is in component"),
+        "{out}"
+    );
+    let expected = "for which one observation is not enough";
+    assert!(out.contains(expected), "{out}");
+    let out = text(&two_of_tracks(&[]), &["--tracks", "--explain", "8"]);
+    assert!(out.contains("8 sees no track that counts"), "{out}");
+    assert!(out.contains("8 sees 2 more points of component"), "{out}");
+    let out = text(&graph, &["--tracks", "--explain", "0"]);
+    assert!(out.contains("    it sees 4 points inside"), "{out}");
+    let run = verify_with(graph.as_bytes(), &["-", "--tracks", "--explain", "point 1"]);
+    refused(&run, "no image has this name");
+}
+
+/// A path of cameras and points that is rigid without any one observation to spare: the 4-cycles
+/// of three cameras and two points, and one more observation.
+#[test]
+fn weak_observations_are_called_so() {
+    let square = [(0, 0), (0, 1), (1, 0), (1, 1)];
+    let line = report(
+        &problem(2, 2, &square),
+        &["--tracks", "--min-views", "2", "--weak"],
+    );
+    assert_eq!(line["weak"]["of"], "observations");
+    // A 4-cycle has four edges of two equations each, and 3 * 4 - 4 = 8 are needed.
+    assert_eq!(line["weak"]["items"].as_array().unwrap().len(), 4);
+    assert!(
+        line["weak"]["items"][0]["why"]
+            .as_str()
+            .unwrap()
+            .ends_with("one observation left")
+    );
+    let out = text(
+        &problem(2, 2, &square),
+        &["--tracks", "--min-views", "2", "--weak=images"],
+    );
+    assert!(out.contains("cameras and points"), "{out}");
+    let run = verify_with(
+        two_of_tracks(&[]).as_bytes(),
+        &["-", "--tracks", "--sweep", "10"],
+    );
+    refused(&run, "leave out --tracks");
+}
+
+/// Twelve groups: all have a margin, eight are printed.
+#[test]
+fn all_components_have_a_margin() {
+    let mut graph = String::new();
+    for k in 0..12 {
+        let names: Vec<String> = (0..5).map(|v| format!("i{k}-{v}")).collect();
+        graph += &complete(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    }
+    let line = report(&graph, &["--margin=4"]);
+    let found = line["margin"]["components"].as_array().unwrap();
+    assert_eq!(found.len(), 12);
+    let numbers: Vec<u64> = found
+        .iter()
+        .map(|one| one["component"].as_u64().unwrap())
+        .collect();
+    assert_eq!(numbers, (1..=12).collect::<Vec<_>>());
+    assert!(text(&graph, &["--margin=4"]).contains("and 4 more (--json lists them)"));
+}
+
+/// An export replaces a whole folder: what it holds is neither read nor written besides.
+#[test]
+fn nothing_of_the_same_run_is_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (graph, out) = (at("graph.txt"), at("out"));
+    std::fs::write(&graph, complete(&WEST)).unwrap();
+    for option in ["--html", "--svg", "--write-graph", "--certificate"] {
+        for place in ["out", "out/report", "./out/report"] {
+            let run = verify(&[&graph, "--export", &out, option, &at(place)]);
+            refused(&run, "is in the folder of --export");
+            assert!(run.err.contains(option), "{}", run.err);
+            assert!(!Path::new(&out).exists());
+        }
+    }
+    assert_eq!(verify(&[&graph, "--export", &out]).code, 0);
+    let list = at("out/components/001/pairs.txt");
+    let before = read(Path::new(&list));
+    refused(
+        &verify(&[&list, "--export", &out]),
+        "which would be replaced; name another folder",
+    );
+    assert_eq!(read(Path::new(&list)), before);
+    // Beside it is no harm done.
+    let run = verify(&[&list, "--export", &at("out2"), "--html", &at("out.html")]);
+    assert_eq!(run.code, 0, "{}", run.err);
+}

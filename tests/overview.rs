@@ -4,7 +4,8 @@ mod common;
 
 use common::{Run, data, verify, verify_with};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// The folder with the samples of databases, which is not part of the repository.
 fn samples() -> Option<PathBuf> {
@@ -172,6 +173,8 @@ fn databases_keep_to_the_schema() {
             &schema,
             &verify(&["--json", "--tracks", "--components", "--margin=2", path]),
         );
+        let act = ["--json", "--tracks", "--suggest", "--weak"];
+        valid(&schema, &verify(&[&act[..], &[path]].concat()));
         let line = valid(&schema, &verify(&["overview", "--json", path])).remove(0);
         mutilations_are_refused(
             &schema,
@@ -319,4 +322,182 @@ fn tracks_without_pairs() {
     let run = verify_with(&bytes, &["overview", "-"]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("name the file"), "{}", run.err);
+}
+
+/// Everything in a folder, by name, with the time of the last change.
+fn contents(folder: &Path) -> BTreeMap<PathBuf, (std::time::SystemTime, Vec<u8>)> {
+    let mut found = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(contents(&path));
+        } else {
+            let changed = std::fs::metadata(&path).unwrap().modified().unwrap();
+            let bytes = std::fs::read(&path).unwrap();
+            found.insert(path, (changed, bytes));
+        }
+    }
+    found
+}
+
+/// The pairs and the cameras of the largest component of tracks that an overview tells.
+fn overviewed(path: &Path) -> (u64, u64) {
+    let run = verify(&["overview", "--json", path.to_str().unwrap()]);
+    assert!(run.code <= 1, "{}", run.err);
+    let line = run.json().remove(0);
+    let pairs = line["pairs"]["pairs"].as_u64().unwrap();
+    (pairs, sizes(&line["tracks"]["positions"], "cameras")[0])
+}
+
+/// The overview reads every database twice, and leaves all as it is; changes that are in the log
+/// alone are seen both times.
+#[test]
+fn the_samples_stay_as_they_are() {
+    let Some(folder) = samples() else { return };
+    let before = contents(&folder);
+    let databases = before
+        .keys()
+        .filter(|path| path.extension().is_some_and(|is| is == "db"));
+    for database in databases {
+        assert!(verify(&["overview", database.to_str().unwrap()]).code <= 2);
+    }
+    let logged = folder.join("wal/copy.db");
+    assert_eq!(overviewed(&logged), (28, 8));
+    let run = verify(&["overview", logged.to_str().unwrap()]);
+    let notes = run.out.matches("in the -wal file beside it").count();
+    assert_eq!((run.code, notes), (0, 1), "{}", run.out);
+    assert!(contents(&folder) == before, "something has changed");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_read_only_file_system() {
+    let Some(folder) = samples() else { return };
+    let place = tempfile::tempdir().unwrap();
+    let mount = |options: &[&str]| common::mounted(options, place.path());
+    if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
+        return;
+    }
+    std::fs::create_dir(place.path().join("wal")).unwrap();
+    for name in ["names.db", "wal/copy.db", "wal/copy.db-wal"] {
+        std::fs::copy(folder.join(name), place.path().join(name)).unwrap();
+    }
+    let sealed = mount(&["-o", "remount,ro"]);
+    let found = std::panic::catch_unwind(|| {
+        assert!(sealed);
+        assert!(std::fs::write(place.path().join("new"), "").is_err());
+        assert_eq!(overviewed(&place.path().join("names.db")), (21, 7));
+        assert_eq!(overviewed(&place.path().join("wal/copy.db")), (28, 8));
+    });
+    let unmount = std::process::Command::new("umount")
+        .arg(place.path())
+        .status();
+    assert!(unmount.unwrap().success());
+    found.unwrap();
+}
+
+/// Another program has the database open and has written to its log; it goes on writing.
+#[test]
+fn a_database_that_is_open_elsewhere() {
+    let Some(folder) = samples() else { return };
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("names.db");
+    std::fs::copy(folder.join("names.db"), &path).unwrap();
+    let writer = rusqlite::Connection::open(&path).unwrap();
+    writer.pragma_update(None, "journal_mode", "wal").unwrap();
+    let one = "delete from two_view_geometries where pair_id in
+               (select pair_id from two_view_geometries limit 1)";
+    writer.execute_batch(one).unwrap();
+    let of_writer = |found: BTreeMap<PathBuf, _>| -> BTreeMap<PathBuf, _> {
+        // What readers share with the writer is in the third file, and is the writer's to remove.
+        found
+            .into_iter()
+            .filter(|(path, _)| !path.ends_with("names.db-shm"))
+            .collect()
+    };
+    let names: Vec<PathBuf> = contents(place.path()).into_keys().collect();
+    assert_eq!(names.len(), 3);
+    let before = of_writer(contents(place.path()));
+    assert_eq!(overviewed(&path), (20, 7));
+    // What is not committed is not there.
+    writer.execute_batch(&format!("begin; {one}")).unwrap();
+    assert_eq!(overviewed(&path), (20, 7));
+    writer.execute_batch("rollback").unwrap();
+    assert!(
+        of_writer(contents(place.path())) == before,
+        "something has changed"
+    );
+    assert_eq!(
+        contents(place.path()).into_keys().collect::<Vec<_>>(),
+        names
+    );
+    writer.execute_batch(one).unwrap();
+    assert_eq!(overviewed(&path), (19, 7));
+    writer.close().map_err(|(_, error)| error).unwrap();
+    assert_eq!(overviewed(&path), (19, 7));
+    assert_eq!(contents(place.path()).len(), 1);
+}
+
+/// What is suggested for the tracks of a sample: one observation each way, proved; the pair has
+/// matches already.
+#[test]
+fn tracks_of_samples_have_suggestions() {
+    let Some(folder) = samples() else { return };
+    let schema = schema();
+    let suggested = |name: &str| {
+        let path = folder.join(name);
+        let path = path.to_str().unwrap();
+        let run = verify(&["--tracks", "--suggest", "--json", path]);
+        valid(&schema, &run).remove(0)["suggestions"].clone()
+    };
+    // Points of two images each join the pair A_000 B_006, 30 of them: tracks too short to count.
+    let found = suggested("clusters_one_edge_private.db");
+    let best = &found[0];
+    assert_eq!(best["pairs"], json!([["A_000.jpg", "B_006.jpg"]]));
+    assert_eq!(
+        (&best["inliers"], &best["images"]),
+        (&json!([30]), &json!(12))
+    );
+    assert_eq!(
+        (&best["enough"]["matched"], &best["enough"]["merged"]),
+        (&json!(true), &json!(2))
+    );
+    assert_eq!(best["enough"]["observations"].as_array().unwrap().len(), 2);
+    // A shared image leaves the scale alone: one observation takes it.
+    let found = suggested("clusters_shared_image.db");
+    assert_eq!(
+        (&found[0]["images"], &found[0]["enough"]["merged"]),
+        (&json!(11), &json!(1))
+    );
+    assert_eq!(
+        found[0]["enough"]["observations"].as_array().unwrap().len(),
+        1
+    );
+    // Nothing is known between the groups; what is whole needs nothing.
+    let found = suggested("clusters_nothing.db");
+    assert_eq!(
+        (&found[0]["inliers"], &found[0]["images"]),
+        (&Value::Null, &json!(12))
+    );
+    assert_eq!(suggested("clusters_one_edge_tracks.db"), json!([]));
+}
+
+/// The commands for an export name the database that was read, for pairs and for tracks.
+#[test]
+fn commands_name_the_database() {
+    let Some(folder) = samples() else { return };
+    let place = tempfile::tempdir().unwrap();
+    let out = place.path().join("out");
+    let path = folder.join("clusters_nothing.db");
+    let path = path.to_str().unwrap();
+    for options in [&["--tracks"][..], &[]] {
+        let export = ["--json", "--export", out.to_str().unwrap(), path];
+        let arguments = [&export[..], options].concat();
+        let line = verify(&arguments).json().remove(0);
+        let parts = line["export"]["commands"].as_array().unwrap();
+        assert_eq!(parts.len(), 2);
+        for command in parts.iter().flat_map(|part| part.as_array().unwrap()) {
+            assert!(command.as_str().unwrap().contains(path), "{command}");
+        }
+    }
 }

@@ -72,6 +72,11 @@ impl Browser {
         let (page, said) = self.dump(path, view);
         assert!(!said.contains("CONSOLE"), "{said}");
         assert!(page.contains(r#"role="alert" hidden"#), "{page}");
+        // What a script shows of something that has no words.
+        for nothing in ["[object ", ">undefined<", ">NaN<"] {
+            let (body, _) = page.split_once("<script").unwrap_or((&page, ""));
+            assert!(!body.contains(nothing), "{nothing}: {body}");
+        }
         page
     }
 
@@ -328,6 +333,134 @@ fn real_graphs_have_pages() {
         assert_eq!(drawn == nodes, detailed, "{name}: {drawn} of {nodes}");
         assert!(section(&opened, "adjacency").contains("data:image/png;base64,"));
         assert!(fs::metadata(page.path()).unwrap().len() < 3 << 20, "{name}");
+    }
+}
+
+/// Two groups of four cameras and four points each, which share camera 3, and a camera that sees
+/// nothing, as a problem of bundle adjustment.
+fn tracks() -> String {
+    let group = |cameras: [u32; 4], first: u32| {
+        cameras
+            .into_iter()
+            .flat_map(move |c| (first..first + 4).map(move |p| (c, p)))
+    };
+    let seen: Vec<(u32, u32)> = group([0, 1, 2, 3], 0)
+        .chain(group([3, 4, 5, 6], 4))
+        .collect();
+    let lines: String = seen
+        .iter()
+        .map(|(c, p)| format!("{c} {p} 0.5 0.5\n"))
+        .collect();
+    format!(
+        "8 8 {}\n{lines}{}",
+        seen.len(),
+        "0.5\n".repeat(9 * 8 + 3 * 8)
+    )
+}
+
+/// A page of cameras and points: its numbers are those of the JSON, and of the graph by hand.
+#[test]
+fn cameras_and_points_have_a_page() {
+    let asked = [
+        "-",
+        "--tracks",
+        "--json",
+        "--components",
+        "--weak",
+        "--suggest",
+        "--margin=2",
+    ];
+    let page = Page::of(
+        tracks().as_bytes(),
+        &[&asked[..], &["--explain", "7"]].concat(),
+    );
+    let report = page.report();
+    // With what was asked for: the page shows it, and nothing else.
+    assert_eq!(page.run.json(), std::slice::from_ref(&report));
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let opened = page.opened(&browser, "");
+    agrees(&opened, &report);
+    let facts = facts(&opened);
+    for (name, value) in [
+        ("cameras", "8"),
+        ("/graph/nodes", "16"),
+        // Two groups, and a camera that is one of its own.
+        ("components", "3"),
+        ("hinges", "1"),
+        ("isolated", "1"),
+    ] {
+        assert_eq!(facts[name], value, "{name}");
+    }
+    // Cameras, points and observations of each.
+    let shown = rows(&opened, "components");
+    let sizes: Vec<&[String]> = shown.iter().map(|row| &row[1..4]).collect();
+    assert_eq!(sizes, [["4", "4", "16"], ["4", "4", "16"], ["1", "0", "0"]]);
+    let joints = rows(&opened, "joints");
+    assert_eq!(
+        (joints.len(), joints[0][1].as_str()),
+        (1, "a shared camera")
+    );
+    // The best suggestion, as the JSON has it.
+    let first = &rows(&opened, "part-suggestions")[0];
+    let best = &report["suggestions"][0];
+    let pair = format!("{}, {}", best["pairs"][0][0], best["pairs"][0][1]).replace('"', "");
+    assert!(first.contains(&pair), "{first:?}");
+    assert!(
+        first.iter().any(|cell| cell.contains("merged")),
+        "{first:?}"
+    );
+    let margins = rows(&opened, "part-margin-components");
+    assert_eq!(margins.len(), 2);
+    // Every camera, with what it sees.
+    let cameras = rows(&opened, "cameras");
+    let seen: Vec<(&str, &str)> = cameras.iter().map(|row| (&*row[0], &*row[1])).collect();
+    assert_eq!(
+        (cameras.len(), seen[3], seen[7]),
+        (8, ("3", "8"), ("7", "0"))
+    );
+}
+
+/// A database as it is, with a hinge between its two groups.
+#[test]
+fn tracks_of_a_database_have_a_page() {
+    let Some(folder) = data() else {
+        return;
+    };
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    for (name, parts, hinges) in [
+        ("clusters_shared_image", 2, "1"),
+        ("real_sceaux_421", 1, "0"),
+        ("names", 1, "0"),
+    ] {
+        let path = folder.join(format!("colmap/{name}.db"));
+        let page = Page::of(
+            b"",
+            &[path.to_str().unwrap(), "--tracks", "--suggest", "--margin"],
+        );
+        let report = page.report();
+        let opened = page.opened(&browser, "");
+        agrees(&opened, &report);
+        let images = report["database"]["images"].to_string();
+        let facts = facts(&opened);
+        assert_eq!(
+            (&facts["cameras"], &*facts["hinges"]),
+            (&images, hinges),
+            "{name}"
+        );
+        let shown = rows(&opened, "components");
+        let components = report["components"].as_array().unwrap();
+        let sizes: Vec<Vec<String>> = components
+            .iter()
+            .map(|part| vec![part["cameras"].to_string(), part["points"].to_string()])
+            .collect();
+        assert_eq!(shown.len(), parts, "{name}");
+        for (row, size) in shown.iter().zip(sizes) {
+            assert_eq!(row[1..3], size, "{name}");
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 mod common;
 
 use common::absent;
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
@@ -44,4 +45,157 @@ fn the_global_mapper_places_right_what_tracks_determine() {
     assert_eq!(cells[1], "63", "{said}");
     // The mapper does fail silently; a run in which it never does shows nothing.
     assert_ne!(cells[2], "0", "{said}");
+}
+
+/// A database of two clusters that share an image, as mappers.py makes it; a list of matches for
+/// every pair.
+fn clusters(python: &OsStr, folder: &Path) {
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction");
+    let script = "import mappers; mappers.Scene('one image shared', 'private', 7).write('x.db')";
+    let run = Command::new(python)
+        .args(["-c", script])
+        .env("PYTHONPATH", scripts)
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+}
+
+fn verify_in(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let run = Command::new(env!("CARGO_BIN_EXE_verify"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (run.status.code(), text(run.stdout), text(run.stderr))
+}
+
+/// The commands for pycolmap run as they are printed, on the lists of an export, and reconstruct
+/// the images of those lists and no other.
+#[test]
+fn printed_commands_reconstruct_what_is_exported() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    clusters(&python, folder.path());
+    std::fs::create_dir(folder.path().join("images")).unwrap();
+    let export = ["--tracks", "--json", "--export", "it's out", "x.db"];
+    let (code, out, err) = verify_in(folder.path(), &export);
+    assert_eq!(code, Some(1), "{err}");
+    let line: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let parts = line["export"]["commands"].as_array().unwrap();
+    assert_eq!(parts.len(), 2);
+    for (k, commands) in (1..).zip(parts) {
+        let commands: Vec<&str> = commands
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|command| command.as_str().unwrap())
+            .filter(|command| command.contains("pycolmap"))
+            .collect();
+        assert_eq!(commands.len(), 2, "one for each mapper");
+        for command in commands {
+            assert!(command.contains(" python3 -c "), "{command}");
+            let command = command.replace(" python3 -c ", " \"$PYTHON\" -c ");
+            let run = Command::new("sh")
+                .args(["-c", &command])
+                .env("PYTHON", &python)
+                .current_dir(folder.path())
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&run.stderr);
+            assert!(run.status.success(), "{command}: {said}");
+            let model = folder.path().join(format!("sparse/{k:03}/0"));
+            let script = "import pycolmap, sys
+model = pycolmap.Reconstruction(sys.argv[1])
+print(*sorted(image.name for image in model.images.values() if image.has_pose), sep='\\n')";
+            let run = Command::new(&python)
+                .args(["-c", script])
+                .arg(&model)
+                .output()
+                .unwrap();
+            let placed = String::from_utf8(run.stdout).unwrap();
+            let list = format!("it's out/components/{k:03}/images.txt");
+            let list = std::fs::read_to_string(folder.path().join(list)).unwrap();
+            assert_eq!(placed, list, "{command}");
+            std::fs::remove_dir_all(folder.path().join("sparse")).unwrap();
+        }
+    }
+}
+
+/// Matches that are not verified: the remedy is named, and it helps.
+#[test]
+fn the_remedy_for_unverified_matches_helps() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    clusters(&python, folder.path());
+    let database = rusqlite::Connection::open(folder.path().join("x.db")).unwrap();
+    database
+        .execute_batch("delete from two_view_geometries")
+        .unwrap();
+    drop(database);
+    let (code, _, err) = verify_in(folder.path(), &["x.db"]);
+    assert_eq!(code, Some(2));
+    let named = err.split('`').find(|part| part.starts_with("pycolmap."));
+    let remedy = named
+        .unwrap_or_else(|| panic!("{err}"))
+        .replace("FILE", "'x.db'");
+    let run = Command::new(&python)
+        .args(["-c", &format!("import pycolmap; {remedy}")])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    let (code, out, err) = verify_in(folder.path(), &["x.db", "--model", "calibrated"]);
+    assert_eq!(code, Some(1), "{err}");
+    // Two clusters of six images, all pairs, that share an image.
+    assert!(out.contains("11 cameras, 30 pairs"), "{out}");
+}
+
+/// The subcommands of COLMAP that are named anywhere, as far as an installed COLMAP has them: of
+/// version 4 all, of 3.8 those of its time.
+#[test]
+fn named_subcommands_are_those_of_colmap() {
+    let Ok(help) = Command::new("colmap").arg("help").output() else {
+        eprintln!("SKIPPED: colmap is not installed");
+        return;
+    };
+    let help = String::from_utf8(help.stdout).unwrap();
+    let has = |name: &str| help.lines().any(|line| line.trim() == name);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+    let texts = [
+        "crates/formats/src/colmap/error.rs",
+        "docs/reconstruction.md",
+    ]
+    .map(read);
+    let mut named: Vec<&str> = texts
+        .iter()
+        .flat_map(|text| text.split("colmap ").skip(1))
+        .filter_map(|rest| rest.split([' ', '`', '\n']).next())
+        .filter(|word| word.ends_with("er") || word.ends_with("or"))
+        .collect();
+    named.extend(["mapper", "global_mapper"]);
+    assert!(named.len() >= 6, "{named:?}");
+    let newer = ["geometric_verifier", "global_mapper"];
+    let is_new = has("global_mapper");
+    for name in named {
+        assert!(
+            has(name) || !is_new && newer.contains(&name),
+            "{name}: {help}"
+        );
+    }
 }

@@ -20,17 +20,10 @@ pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
         weak(out, found)?;
     }
     if let Some(found) = &acted.suggestions {
-        let nothing = match acted.of_tracks {
-            true => "none found: no image sees a point of a part that is only there",
-            false => "none found",
-        };
         writeln!(
             out,
             "  suggested   {}",
-            match found.len() {
-                0 => nothing.to_owned(),
-                count => format!("{count} (proved: these would join components)"),
-            }
+            some(found.len(), "proved: these would join components")
         )?;
         suggestions(out, found)?;
     }
@@ -186,10 +179,11 @@ fn sufficient(enough: &Enough) -> String {
         format!("{} sees {points} of component {}", one.image, one.component)
     });
     let mut words = seen.collect::<Vec<_>>().join(" and ");
-    if let Some(count) = enough.merged {
-        let tracks = counted(count, "track");
-        words += &format!(", or {tracks} of each become one");
-    }
+    words += &match enough.merged {
+        None => String::new(),
+        Some(1) => ", or 1 point of each is found to be the same".to_owned(),
+        Some(count) => format!(", or {count} points of each are found to be the same"),
+    };
     if enough.matched {
         words += "; they are matched, but in tracks that are too short: match both with further \
                   images of the other's component";

@@ -55,7 +55,9 @@
     }
   }
   const hinges = names.map((_, node) => node).filter((node) => componentsOf[node].length > 1);
-  const isolated = names.map((_, node) => node).filter((node) => componentsOf[node].length === 0);
+  // A camera that sees no track is a component of its own in the report.
+  const isolated = names.map((_, node) => node).filter((node) => drawing.degrees[node] === 0);
+  const alone = components.filter((component) => component.edges === 0).length;
 
   const sizeWords = (component) => {
     if (tracks) {
@@ -80,6 +82,7 @@
       return glyphOf([SHAPES[Math.floor(index / drawing.colours.length) % SHAPES.length](colour)]);
     }
     if (index < larger) return glyphOf([SHAPES[0]("#5b6470")]);
+    if (components[index]?.edges === 0) return emptyGlyph();
     return glyphOf([svg("path", { d: "M-7 0H7", stroke: "#8a929c", "stroke-width": 2.5 })]);
   };
   const hingeGlyph = () =>
@@ -106,21 +109,27 @@
 
   // ---- The verdict
 
+  const placed = tracks ? "the positions of all cameras and points are" : "the cameras are";
   const UNIQUE = {
     projective: "The fundamental matrices determine all cameras, up to one projective change of the whole scene.",
-    calibrated: "The directions between the cameras determine all their positions, up to one shift and one scale of the whole.",
+    calibrated: `The directions between the cameras ${tracks ? "and the points " : ""}determine all their positions, up to one shift and one scale of the whole.`,
     affine: "The affine fundamental matrices determine all cameras, up to one affine change of the whole scene.",
   };
   const APART = {
     calibrated: "Each component is determined by itself, up to shift and scale; how they fit together is not.",
     affine: "Each component is determined by itself, up to an affine change; how they fit together is not.",
   };
+  const counted = ({ exactly, at_least, at_most }) =>
+    exactly ? `There are exactly ${exactly} sets of cameras.`
+      : at_most ? `There are at least ${at_least} and at most ${at_most} sets of cameras.`
+        : at_least > 1 ? `There are at least ${at_least} sets of cameras.`
+          : "Whether there is just one set of cameras is left open.";
   const ANSWERS = {
-    solvable: ["Solvable: the cameras are unique", UNIQUE[report.model]],
+    solvable: [`Solvable: ${placed} unique`, UNIQUE[report.model]],
     "finite-solvable": ["Finite solvable: finitely many sets of cameras",
-      "No small change of the cameras fits the fundamental matrices. Whether there is just one set of cameras is left open."],
+      `No small change of the cameras fits the fundamental matrices. ${counted(report.solutions ?? {})}`],
     "not-finite-solvable": report.model in APART
-      ? ["Not solvable: infinitely many sets of cameras", APART[report.model]]
+      ? [`Not solvable: infinitely many ${tracks ? "positions of the cameras and points" : "sets of cameras"}`, APART[report.model]]
       : ["Not finite solvable: infinitely many sets of cameras",
         "Each component is finite solvable by itself; how they fit together is not determined."],
   };
@@ -168,7 +177,8 @@
     }
     add("cameras in several components", hinges.length, "hinges");
     if (isolated.length > 0) {
-      add(`cameras without ${edgeWord}s`, isolated.length, "isolated", "in no component");
+      add(`cameras without ${edgeWord}s`, isolated.length, "isolated",
+        tracks ? "components of their own" : "in no component");
     }
     add("rank", report.rank, "/rank",
       `of ${grouped(report.rank_required)}; ${strengthWords(report.rank_strength)}`);
@@ -345,7 +355,7 @@
       if (count > 0) legend.append(html("span", {}, symbol, words));
     };
     const others = larger === 0 ? 0 : larger - listed.length;
-    const pairs = components.length - listed.length - others;
+    const pairs = components.length - alone - listed.length - others;
     add(glyph(drawing.marked), others, counted(others, "smaller component"));
     add(glyph(components.length), pairs, counted(pairs, `single ${edgeWord}`));
     add(hingeGlyph(), hinges.length, `${counted(hinges.length, "camera")} in several components`);
@@ -483,8 +493,11 @@
       ? [["cameras", "cameras"], ["points", "points"], ["observations", "edges"]]
       : [["cameras", "nodes"], ["pairs", "edges"]];
     table(find("#components"),
-      "A component is a largest part that is determined by itself. Two components share one camera " +
-        `${tracks ? "or point " : ""}at most.`,
+      tracks
+        ? "A component is a largest set of observations whose cameras and points are determined against each other. " +
+          "Two components share one camera or one point at most; a camera of several is placed in each of them, " +
+          "and nothing tells how large one is against the other."
+        : "A component is a largest part that is determined by itself. Two components share one camera at most.",
       [
         { title: "component", number: true, value: (c) => c.index + 1, show: (c) => componentButton(c.index) },
         ...sizes.map(([title, member]) => ({
@@ -509,7 +522,7 @@
     const extra = {
       keep: (node) => chosen === "" ||
         (chosen === "several" && componentsOf[node].length > 1) ||
-        (chosen === "none" && componentsOf[node].length === 0) ||
+        (chosen === "none" && drawing.degrees[node] === 0) ||
         componentsOf[node].includes(Number(chosen) - 1),
       control: (update) => {
         const option = (value, words) => html("option", { value, selected: value === chosen }, words);
@@ -519,7 +532,7 @@
         },
         option("", "all cameras"),
         hinges.length > 0 ? option("several", "in several components") : null,
-        isolated.length > 0 ? option("none", "in no component") : null,
+        isolated.length > 0 ? option("none", `without ${edgeWord}s`) : null,
         choices.map((c) => option(String(c.index + 1), `component ${c.index + 1}: ${sizeWords(c)}`)));
         return select;
       },
@@ -579,7 +592,7 @@
       objectsTable(section, title, value);
     } else if (isObject(value)) {
       const plain = Object.entries(value).filter(([, inner]) => !isTable(inner));
-      section.append(html("dl", { class: "pairs" }, plain.map(([name, inner]) =>
+      section.append(html("dl", { class: "pairs" }, plain.flatMap(([name, inner]) =>
         [html("dt", {}, named(name)), html("dd", {}, words(inner))])));
       for (const [name, inner] of Object.entries(value)) {
         if (isTable(inner)) section.append(part(`${id}-${name}`, named(name), inner, 3));
@@ -594,7 +607,8 @@
   const showJoints = () => {
     const section = find("#joints");
     if (isTable(report.joints)) {
-      objectsTable(section, JOINTS, report.joints);
+      objectsTable(section, report.joints_complete === false
+        ? `${JOINTS} These are the ones of the largest components.` : JOINTS, report.joints);
     } else if (!("joints" in report) && hinges.length > 0) {
       section.querySelector("h2").textContent = "Cameras in several components";
       table(section, "Here components touch: they share this camera and nothing else of it.", [
@@ -610,11 +624,14 @@
   };
 
   const SHOWN = new Set(["graph", "notes", "model", "verdict", "strength", "error_log2", "rank",
-    "rank_required", "rank_strength", "components", "components_strength", "mode", "seconds", "joints"]);
+    "rank_required", "rank_strength", "components", "components_strength", "mode", "seconds", "joints",
+    "joints_complete", "solutions"]);
   const TITLES = {
     conditions: "Conditions",
     database: "Database",
     planar: "If all centres lie in one plane",
+    tracks: "Tracks",
+    export: "Export",
     margin: "Margin",
     weak: "Weak places",
     suggestions: "What would join components",

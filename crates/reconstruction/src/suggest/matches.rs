@@ -5,13 +5,13 @@
 //! (docs/theory.md, 4.11): each number is proved, for any points that lie in one component only.
 
 use super::{Pair, Search, TRIED, Together, Wanted, dedup, ordered, touched};
-use crate::condensation::{Condensation, terminals, with};
+use crate::condensation::{Condensation, freedom, terminals, with};
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
 use rayon::prelude::*;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use viewcert::Graph;
 use viewcert::decide::{Options, VerdictError};
 
@@ -36,19 +36,11 @@ pub struct SuggestedMatch {
     pub gain: usize,
 }
 
-impl SuggestedMatch {
-    /// What is known of the pair: inliers and matches; 0 where they are not known.
-    fn evidence(&self) -> (u32, u32) {
-        self.known
-            .map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
-    }
-}
-
-/// Most edges of condensations that are decided, together and about.
+/// Most edges of the condensation, together and about, that are decided for all suggestions.
 const WORK: usize = 4_000_000;
 
-/// Fewest pairs that are tried, however large the graph is.
-const LEAST_TRIED: usize = 20;
+/// Fewest suggestions that are decided, however large the graph is.
+const LEAST: usize = 20;
 
 /// Most suggestions that join the same components.
 const ALIKE: usize = 2;
@@ -57,8 +49,8 @@ const ALIKE: usize = 2;
 /// cameras: those with most matches already first, then by how few observations are enough, then by
 /// how many cameras they add to a component.
 ///
-/// Some decisions of the condensed graph for each of some hundred candidates; of fewer, if it is
-/// large.
+/// Some decisions of a small graph for each of some hundred candidates, and of the condensed graph
+/// for each of the best.
 ///
 /// # Errors
 /// Those of [`viewcert::decide()`].
@@ -72,45 +64,94 @@ pub fn suggest_matches(
     options: &Options,
 ) -> Result<Vec<SuggestedMatch>, VerdictError> {
     let search = Search::new(graph, parts, known, cameras);
-    let candidates = candidates(&search, joints, known.others, wanted);
-    let attempts: Vec<Attempt> = candidates
-        .into_iter()
-        .filter_map(|cameras| Attempt::new(&search, cameras))
+    let touching: HashMap<[usize; 2], &How> = joints
+        .iter()
+        .map(|joint| (joint.components, &joint.how))
         .collect();
+    let candidates = candidates(&search, joints, known.others, wanted);
+    let near = candidates.par_iter().map(|&cameras| {
+        let Some(attempt) = Attempt::new(&search, cameras) else {
+            return Ok(None);
+        };
+        let count = attempt.enough_alone(&search, &touching, options)?;
+        Ok(count.map(|count| Near::new(&search, attempt, count)))
+    });
+    let near: Result<Vec<Option<Near>>, VerdictError> = near.collect();
+    let mut near = best(near?.into_iter().flatten().collect());
+    // What else is there may help: fewer observations may do.
     let nodes: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
     let links = parts.links.iter().map(|&(pair, _)| pair);
-    let ends = || attempts.iter().flat_map(Attempt::nodes);
+    near.truncate(wanted.most);
+    let ends = || near.iter().flat_map(|near| near.attempt.nodes());
     let touched = links.clone().flat_map(|(a, b)| [a, b]).chain(ends());
     let small = Condensation::new(terminals(&nodes, touched), links, ends());
-    let most = (WORK / (small.graph.edges().len() + 1)).clamp(LEAST_TRIED, 4 * TRIED);
-    let each = attempts.par_iter().take(most);
-    let found = each.map(|attempt| attempt.enough(&search, &small, options));
+    let most = (WORK / (small.graph.edges().len() + 1)).max(LEAST);
+    let each = near.par_iter().take(most);
+    let found = each.map(|near| near.attempt.enough(&search, &small, options));
     let found: Result<Vec<Option<SuggestedMatch>>, VerdictError> = found.collect();
-    Ok(ranked(found?.into_iter().flatten().collect(), wanted.most))
-}
-
-/// The best first, few of a kind.
-fn ranked(mut found: Vec<SuggestedMatch>, most: usize) -> Vec<SuggestedMatch> {
+    let mut found: Vec<SuggestedMatch> = found?.into_iter().flatten().collect();
     found.sort_by_key(|one| {
         (
-            Reverse(one.evidence()),
+            Reverse(evidence(one.known)),
             one.observations.len(),
             Reverse(one.gain),
             one.cameras,
         )
     });
-    let mut alike: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
-    found.retain(|one| {
-        // Cameras alone are different, though they join the same component.
-        if let [_] = one.components[..] {
-            return true;
+    Ok(found)
+}
+
+/// What is known of a pair: inliers and matches; 0 where they are not known.
+fn evidence(known: Option<OtherPair>) -> (u32, u32) {
+    known.map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
+}
+
+/// An attempt that succeeds if there is nothing but the two components and what joins them.
+struct Near {
+    attempt: Attempt,
+    known: Option<OtherPair>,
+    /// How many observations are enough then.
+    observations: usize,
+    /// How many cameras are added to the larger component.
+    gain: usize,
+}
+
+impl Near {
+    fn new(search: &Search, attempt: Attempt, observations: usize) -> Self {
+        let sizes = attempt.sides.iter().map(|side| match side {
+            Some((part, _)) => search.images_of(&search.parts.parts[*part].nodes).len(),
+            None => 1,
+        });
+        Self {
+            known: search.known.get(&attempt.cameras).copied(),
+            gain: sizes.min().unwrap_or(0),
+            observations,
+            attempt,
         }
-        let count = alike.entry(one.components.clone()).or_default();
+    }
+}
+
+/// The best first, few of a kind.
+fn best(mut near: Vec<Near>) -> Vec<Near> {
+    near.sort_by_key(|one| {
+        (
+            Reverse(evidence(one.known)),
+            one.observations,
+            Reverse(one.gain),
+            one.attempt.cameras,
+        )
+    });
+    let mut alike: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    near.retain(|one| {
+        // Cameras alone are different, though they join the same component.
+        let [Some((a, _)), Some((b, _))] = &one.attempt.sides else {
+            return true;
+        };
+        let count = alike.entry([*a.min(b), *a.max(b)]).or_default();
         *count += 1;
         *count <= ALIKE
     });
-    found.truncate(most);
-    found
+    near
 }
 
 /// Pairs of cameras to try: those with most matches first, then such near joints, near cameras that
@@ -185,6 +226,12 @@ fn with_largest(search: &Search, camera: u32) -> Option<Pair> {
         .map(|other| ordered((camera, other)))
 }
 
+/// The pairs by which two components touch.
+fn links_of(how: &How) -> impl Iterator<Item = Pair> {
+    let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
+    how.pairs.iter().copied().chain(by)
+}
+
 /// Two cameras, and points that they see in one component each and nowhere else.
 struct Attempt {
     cameras: Pair,
@@ -246,6 +293,49 @@ impl Attempt {
         };
         let all: Vec<Pair> = one.iter().zip(other).map(|(&a, &b)| (a, b)).collect();
         (1..=all.len()).map(|count| all[..count].to_vec()).collect()
+    }
+
+    /// How many observations are enough, if there is nothing else than the components of both
+    /// cameras and what joins these.
+    fn enough_alone(
+        &self,
+        search: &Search,
+        touching: &HashMap<[usize; 2], &How>,
+        options: &Options,
+    ) -> Result<Option<usize>, VerdictError> {
+        let parts = &search.parts.parts;
+        let sides: Vec<usize> = self.sides.iter().flatten().map(|side| side.0).collect();
+        let nodes: Vec<&[u32]> = sides.iter().map(|&part| &parts[part].nodes[..]).collect();
+        let links: Vec<Pair> = match sides[..] {
+            [one, other] => {
+                let key = [one.min(other), one.max(other)].map(|part| parts[part].component);
+                let how = touching.get(&key).copied();
+                how.into_iter().flat_map(links_of).collect()
+            }
+            _ => self.single(search),
+        };
+        let ends = || links.iter().flat_map(|&(a, b)| [a, b]).chain(self.nodes());
+        let small = Condensation::new(terminals(&nodes, ends()), links.iter().copied(), ends());
+        for set in self.observations() {
+            let more = set.iter().map(|&pair| small.pair(pair));
+            if freedom(&with(&small.graph, more), options)?.0 == 0 {
+                return Ok(Some(set.len()));
+            }
+        }
+        Ok(None)
+    }
+
+    /// What the camera that is in no part sees of the other one's.
+    fn single(&self, search: &Search) -> Vec<Pair> {
+        let cameras = [self.cameras.0, self.cameras.1];
+        let both = cameras.iter().zip(self.sides.iter().rev());
+        let seen = both.filter_map(|(&camera, other)| Some((camera, other.as_ref()?.0)));
+        seen.flat_map(|(camera, part)| {
+            let points = search.parts.links_at(camera).map(|(point, _)| point);
+            let within = points.filter(move |&point| search.parts.parts[part].contains(point));
+            within.map(move |point| (camera, point))
+        })
+        .collect()
     }
 
     /// The suggestion, if some of the sets of observations join the components of both cameras.
