@@ -49,6 +49,23 @@ pub fn clusters(count: u64) -> impl Iterator<Item = Graph> {
     })
 }
 
+/// Camera-point graphs: four to six cameras, points that two to four of them see.
+pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
+    (0..count).map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(2000 + seed);
+        let cameras: u32 = random.random_range(4..7);
+        let points: u32 = random.random_range(4..13);
+        let mut observations = Vec::new();
+        for point in cameras..cameras + points {
+            // Views in a row, from anywhere.
+            let first = random.random_range(0..cameras);
+            let views = random.random_range(2..5);
+            observations.extend((first..first + views).map(|c| (c % cameras, point)));
+        }
+        Graph::new(cameras + points, observations).unwrap()
+    })
+}
+
 /// The question in a model.
 pub fn options(model: Model) -> Options {
     Options::default()

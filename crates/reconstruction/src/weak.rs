@@ -5,6 +5,8 @@
 //! merge uses can go. Sets of pairs are tried together, and what is left is decided on a
 //! condensation, one decision for a set of pairs where that is enough.
 
+mod left_out;
+
 use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
 use rayon::prelude::*;
@@ -143,7 +145,10 @@ fn pairs_of(
     // What is in no body now is in none with fewer pairs.
     let (loose, in_bodies): (Vec<Pair>, Vec<Pair>) =
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
-    let mut candidates = not_cleared(&thinned(graph, options.model), in_bodies, options)?;
+    let mut candidates = left_out::not_cleared(graph, in_bodies, options)?;
+    if !candidates.is_empty() {
+        candidates = not_cleared(&thinned(graph, options.model), candidates, options)?;
+    }
     candidates.extend(loose);
     candidates.sort_unstable();
     weak.extend(decided(graph, model, candidates, options)?);

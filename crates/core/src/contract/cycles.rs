@@ -2,19 +2,27 @@
 //!
 //! Members (bodies and loose edges) and the nodes that they share form a bipartite graph; a cycle
 //! of k members is a cycle of 2k in it. What hangs on it as a tree lies on no cycle and is pruned.
+//! The *rank* of a member is how many shared nodes it has, that of a node how many members hold
+//! it. A cycle is found from the member or node of highest rank on it, so no search goes through
+//! what has a higher rank than where it began: not from each body at a common node to all others.
 
-use super::{Body, Merge, Part, Seed};
+mod from_body;
+mod from_node;
+
+use super::{Body, Part};
 use crate::graph::{Lists, prune_leaves};
+use from_body::FromBody;
+use from_node::FromNode;
 
 const NONE: u32 = u32::MAX;
 
 /// Merges bodies, with the help of loose edges, until no cycle of two, three or four members is
-/// left. New bodies are appended; the consumed ones lose their nodes. Returns the edges that are
-/// still loose.
+/// left; the edges alone must form none. New bodies are appended; the consumed ones lose their
+/// nodes. Returns the edges that are still loose.
 ///
-/// Bodies are taken by falling number of shared nodes, round after round until nothing changes. A
-/// cycle is found by the largest body on it, so a body is only searched by larger ones. A search
-/// without a find looks at every member and node at most once.
+/// Searches begin at bodies and nodes by falling rank, round after round until nothing changes. A
+/// search without a find looks at every member and node at most once. In the last round nothing
+/// changes, ranks neither, so what is of highest rank on a cycle would find it.
 pub(super) fn close(
     bodies: &mut Vec<Body>,
     edges: Vec<(u32, u32)>,
@@ -25,9 +33,13 @@ pub(super) fn close(
     let mut changed = true;
     while changed {
         changed = false;
-        for member in structure.by_falling_size() {
-            if structure.is_current(member) {
-                changed |= Absorption::new(&mut structure, bodies, member).run();
+        for start in structure.by_falling_rank() {
+            changed |= match start {
+                Start::Node(v) => FromNode::new(&mut structure, bodies, v).run(),
+                Start::Body(k) if structure.is_current(k) => {
+                    FromBody::new(&mut structure, bodies, k).run()
+                }
+                Start::Body(_) => false,
             }
         }
     }
@@ -38,15 +50,23 @@ pub(super) fn close(
         .collect()
 }
 
-/// How a search has come to a member that touches the body, or is one step farther.
+/// Where a search begins: at a body, by its number as a member, or at a shared node.
+#[derive(Clone, Copy)]
+enum Start {
+    Body(u32),
+    Node(u32),
+}
+
+/// How a search has come to a member that touches the body, or is one step farther; from a node,
+/// to a member that holds it, or is one step farther.
 #[derive(Clone, Copy)]
 struct Way {
     /// The search; a way of an earlier one is none.
     search: u32,
-    /// The node of the body where the way begins.
+    /// The node of the body where the way begins; from a node, the node where it ends.
     from: u32,
     /// The member in between and the node where it meets this one; none if this one touches the
-    /// body itself.
+    /// body itself. Always none from a node.
     through: Option<(u32, u32)>,
 }
 
@@ -54,7 +74,7 @@ struct Way {
 #[derive(Clone, Copy)]
 struct Reach {
     search: u32,
-    /// The node of the body where the way begins.
+    /// The node of the body where the way begins; from a node, the node where the member was met.
     from: u32,
     /// The member that holds both.
     member: u32,
@@ -75,6 +95,9 @@ struct Structure {
     names: Vec<u32>,
     ways: Vec<Way>,
     reaches: Vec<Reach>,
+    /// For every node the search from a node in which it was last met next to that node, and the
+    /// member that holds both.
+    branches: Vec<(u32, u32)>,
     /// The search that the node is inside of.
     inside: Vec<u32>,
     /// How many searches there have been.
@@ -109,20 +132,22 @@ impl Structure {
             }
         }
         let mut pairs: Vec<(u32, u32)> = Vec::new();
+        let shared = |v: &u32| Some(number[*v as usize]).filter(|&node| node != NONE);
         for (member, (_, body)) in (0..).zip(finals()) {
-            pairs.extend(body.nodes.iter().map(|&v| (member, number[v as usize])));
+            let nodes = body.nodes.iter().filter_map(shared);
+            pairs.extend(nodes.map(|node| (member, node)));
         }
-        for (member, &(i, j)) in (members as u32 - edges.len() as u32..).zip(edges) {
-            pairs.extend([i, j].map(|v| (member, number[v as usize])));
+        for (member, (i, j)) in (members as u32 - edges.len() as u32..).zip(edges) {
+            let nodes = [i, j].into_iter().filter_map(shared);
+            pairs.extend(nodes.map(|node| (member, node)));
         }
-        pairs.retain(|&(_, node)| node != NONE);
 
         let first_node = members as u32;
         let members_first = pairs.iter().map(|&(member, v)| (member, first_node + v));
         let nodes_after = pairs.iter().map(|&(member, v)| (first_node + v, member));
         let both_ways = members_first.chain(nodes_after);
         let mut incidence = Lists::group(members + names.len(), both_ways);
-        prune_leaves(&mut incidence);
+        prune_leaves(&mut incidence, |_| false);
 
         let own = (0..members)
             .map(|member| {
@@ -156,6 +181,7 @@ impl Structure {
             own,
             ways: vec![way; members],
             reaches: vec![reach; names.len()],
+            branches: vec![(NONE, NONE); names.len()],
             inside: vec![NONE; names.len()],
             holders,
             names,
@@ -177,14 +203,29 @@ impl Structure {
         self.own[member as usize].len()
     }
 
-    /// The bodies with shared nodes, by falling number of these.
-    fn by_falling_size(&self) -> Vec<u32> {
-        let is_body = |&k: &u32| matches!(self.part[k as usize], Part::Body(_));
-        let mut order: Vec<u32> = (0..self.members() as u32)
-            .filter(|k| is_body(k) && self.size(*k) > 0)
-            .collect();
-        order.sort_by_key(|&k| std::cmp::Reverse(self.size(k)));
-        order
+    /// How many members hold a node: no fewer than there are, and as many after
+    /// [`holders_of`](Self::holders_of).
+    fn held_by(&self, v: u32) -> usize {
+        self.holders.of(v as usize).len()
+    }
+
+    /// The bodies with shared nodes, and the nodes that two members hold, by falling rank.
+    fn by_falling_rank(&mut self) -> Vec<Start> {
+        let mut order: Vec<(usize, Start)> = Vec::new();
+        for v in 0..self.names.len() as u32 {
+            let rank = self.holders_of(v).len();
+            if rank > 1 {
+                order.push((rank, Start::Node(v)));
+            }
+        }
+        for k in 0..self.members() as u32 {
+            let is_body = matches!(self.part[k as usize], Part::Body(_));
+            if is_body && self.size(k) > 0 {
+                order.push((self.size(k), Start::Body(k)));
+            }
+        }
+        order.sort_by_key(|&(rank, _)| std::cmp::Reverse(rank));
+        order.into_iter().map(|(_, start)| start).collect()
     }
 
     /// The member that another is part of now.
@@ -200,233 +241,23 @@ impl Structure {
     /// The members that hold a node now, each once. Forgets the repetitions.
     fn holders_of(&mut self, v: u32) -> Vec<u32> {
         self.listings += 1;
-        let first = self.holders.of(v as usize).to_vec();
-        let mut now = Vec::with_capacity(first.len());
-        for &member in &first {
-            let current = self.current(member);
+        let first = self.held_by(v);
+        let mut now = Vec::with_capacity(first);
+        for at in 0..first {
+            let current = self.current(self.holders.of(v as usize)[at]);
             if self.listed[current as usize] != self.listings {
                 self.listed[current as usize] = self.listings;
                 now.push(current);
             }
         }
-        if now.len() < first.len() {
-            self.holders.rewrite(v as usize, &now);
-        }
+        self.holders.rewrite(v as usize, &now);
         now
     }
-}
 
-/// One body absorbing what stands around a cycle with it.
-struct Absorption<'a> {
-    structure: &'a mut Structure,
-    bodies: &'a mut Vec<Body>,
-    /// The body, as a member.
-    centre: u32,
-    search: u32,
-    merges: Vec<Merge>,
-    /// Nodes of the graph, and how many of its edges, of all that was absorbed.
-    nodes: Vec<u32>,
-    edges: usize,
-}
-
-impl<'a> Absorption<'a> {
-    fn new(structure: &'a mut Structure, bodies: &'a mut Vec<Body>, centre: u32) -> Self {
-        let search = structure.searches;
-        structure.searches += 1;
-        for &v in &structure.own[centre as usize] {
-            structure.inside[v as usize] = search;
-        }
-        Self {
-            structure,
-            bodies,
-            centre,
-            search,
-            merges: Vec::new(),
-            nodes: Vec::new(),
-            edges: 0,
-        }
-    }
-
-    /// Runs to the end; if a rule was applied, appends the new body. Returns whether one was.
-    fn run(mut self) -> bool {
-        let mut next = 0;
-        while let Some(&a) = self.structure.own[self.centre as usize].get(next) {
-            next += 1;
-            self.search_from(a);
-        }
-        let Part::Body(k) = self.structure.part[self.centre as usize] else {
-            unreachable!("edges absorb nothing");
-        };
-        let old = &mut self.bodies[k as usize];
-        if self.merges.is_empty() {
-            old.edges += self.edges;
-            return false;
-        }
-        let mut nodes = std::mem::take(&mut old.nodes);
-        append_smaller(&mut nodes, self.nodes);
-        let edges = std::mem::take(&mut old.edges) + self.edges;
-        self.structure.part[self.centre as usize] = Part::Body(self.bodies.len() as u32);
-        self.bodies.push(Body {
-            seed: Seed::Body(k),
-            add: Vec::new(),
-            merge: self.merges,
-            nodes,
-            edges,
-        });
-        true
-    }
-
-    fn is_inside(&self, v: u32) -> bool {
-        self.structure.inside[v as usize] == self.search
-    }
-
-    /// Whether a member is outside, and the body not the smaller one of the two.
-    fn may_join(&mut self, member: u32) -> bool {
-        self.structure.is_current(member)
-            && member != self.centre
-            && self.structure.size(member) <= self.structure.size(self.centre)
-    }
-
-    /// The way to a member, unless what lies in between has joined meanwhile.
-    fn way(&self, member: u32) -> Option<Way> {
-        let way = self.structure.ways[member as usize];
-        let open = way.through.is_none_or(|(_, x)| !self.is_inside(x));
-        (way.search == self.search && open).then_some(way)
-    }
-
-    fn set_way(&mut self, member: u32, from: u32, through: Option<(u32, u32)>) {
-        self.structure.ways[member as usize] = Way {
-            search: self.search,
-            from,
-            through,
-        };
-    }
-
-    /// Looks at everything that touches the body at its node `a`.
-    fn search_from(&mut self, a: u32) {
-        for member in self.structure.holders_of(a) {
-            if !self.may_join(member) {
-                continue;
-            }
-            let before = self.way(member);
-            if let Some(way) = before
-                && way.from != a
-            {
-                match way.through {
-                    None => self.merge_shared(member, [way.from, a]),
-                    Some((first, x)) => self.merge_triangle([first, member], [way.from, a, x]),
-                }
-                continue;
-            }
-            self.set_way(member, a, None);
-            self.search_member(member, a);
-        }
-    }
-
-    /// Looks at the nodes of a member that touches the body at `a`.
-    fn search_member(&mut self, member: u32, a: u32) {
-        for at in 0.. {
-            // Nothing is left once the member has joined.
-            let Some(&x) = self.structure.own[member as usize].get(at) else {
-                break;
-            };
-            if x == a {
-                continue;
-            }
-            if self.is_inside(x) {
-                self.merge_shared(member, [a, x]);
-                continue;
-            }
-            let reach = self.structure.reaches[x as usize];
-            if reach.search != self.search {
-                self.structure.reaches[x as usize] = Reach {
-                    search: self.search,
-                    from: a,
-                    member,
-                };
-                self.search_node(x, member, a);
-            } else if reach.from != a {
-                self.merge_triangle([reach.member, member], [reach.from, a, x]);
-            }
-            // Two members with the nodes a and x in common: one of them finds the other.
-        }
-    }
-
-    /// Looks at the members that meet `member`, which touches the body at `a`, at the node `x`
-    /// outside.
-    fn search_node(&mut self, x: u32, member: u32, a: u32) {
-        for other in self.structure.holders_of(x) {
-            if other == member || !self.may_join(other) {
-                continue;
-            }
-            let Some(way) = self.way(other) else {
-                self.set_way(other, a, Some((member, x)));
-                continue;
-            };
-            // A cycle without the body is left to the largest body on it.
-            if way.from == a {
-                continue;
-            }
-            match way.through {
-                None => self.merge_triangle([member, other], [a, way.from, x]),
-                Some((last, y)) => {
-                    self.merge_cycle([member, other, last], [a, x, y, way.from]);
-                }
-            }
-            // The member has joined.
-            break;
-        }
-    }
-
-    fn merge_shared(&mut self, member: u32, at: [u32; 2]) {
-        let part = self.structure.part[member as usize];
-        // An edge between two nodes of the body is the body's own.
-        if let Part::Body(_) = part {
-            let at = self.names(at);
-            self.merges.push(Merge::Shared { part, at });
-        }
-        self.absorb(member);
-    }
-
-    fn merge_triangle(&mut self, members: [u32; 2], at: [u32; 3]) {
-        let parts = members.map(|member| self.structure.part[member as usize]);
-        let at = self.names(at);
-        self.merges.push(Merge::Triangle { parts, at });
-        members.into_iter().for_each(|member| self.absorb(member));
-    }
-
-    fn merge_cycle(&mut self, members: [u32; 3], at: [u32; 4]) {
-        let parts = members.map(|member| self.structure.part[member as usize]);
-        let at = self.names(at);
-        self.merges.push(Merge::Cycle { parts, at });
-        members.into_iter().for_each(|member| self.absorb(member));
-    }
-
-    /// The nodes of the graph.
-    fn names<const K: usize>(&self, nodes: [u32; K]) -> [u32; K] {
-        nodes.map(|v| self.structure.names[v as usize])
-    }
-
-    fn absorb(&mut self, member: u32) {
-        match self.structure.part[member as usize] {
-            Part::Edge(i, j) => {
-                self.nodes.extend([i, j]);
-                self.edges += 1;
-            }
-            Part::Body(k) => {
-                let body = &mut self.bodies[k as usize];
-                append_smaller(&mut self.nodes, std::mem::take(&mut body.nodes));
-                self.edges += std::mem::take(&mut body.edges);
-            }
-        }
-        let structure = &mut *self.structure;
-        structure.parent[member as usize] = self.centre;
-        for v in std::mem::take(&mut structure.own[member as usize]) {
-            if structure.inside[v as usize] != self.search {
-                structure.inside[v as usize] = self.search;
-                structure.own[self.centre as usize].push(v);
-            }
-        }
+    /// A search more.
+    fn begin_search(&mut self) -> u32 {
+        self.searches += 1;
+        self.searches
     }
 }
 

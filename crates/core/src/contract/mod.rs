@@ -13,7 +13,9 @@ mod bicliques;
 mod cycles;
 mod grow;
 mod merge;
+mod rest;
 mod seeds;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +23,8 @@ pub use piece::Members;
 
 use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph};
+use rest::Rest;
+use sweep::Swept;
 
 /// What a body starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,15 +159,17 @@ impl Contraction {
 
     /// Closed under cycles of two, three and four (Theorem 4.9).
     fn by_cycles(graph: &Graph) -> Self {
-        let mut remaining = Adjacency::new(graph);
-        // A pendant edge lies on no cycle.
-        let mut loose = remaining.prune_leaves();
-        let mut bodies = seeds::grow(&mut remaining);
-        loose.extend(cycles::close(
-            &mut bodies,
-            remaining.edges().collect(),
-            graph.nodes(),
-        ));
+        let Swept { mut bodies, left } = sweep::grow(graph);
+        let rest = Rest::new(graph.nodes(), left, &bodies);
+        let mut remaining = rest.adjacency();
+        // A pendant edge at a node that no body holds lies on no cycle.
+        let pendant = remaining.prune_leaves(|v| rest.is_held(v));
+        let before = bodies.len() as u32;
+        let grown = seeds::grow(&mut remaining).into_iter();
+        bodies.extend(grown.map(|body| rest.body(body, before)));
+        let edges = remaining.edges().map(|edge| rest.edge(edge)).collect();
+        let mut loose = cycles::close(&mut bodies, edges, graph.nodes());
+        loose.extend(pendant.into_iter().map(|edge| rest.edge(edge)));
         Self::of_closed(bodies, loose)
     }
 

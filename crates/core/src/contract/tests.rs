@@ -436,6 +436,25 @@ proptest! {
         check(&among(cameras + 16, observed.collect()), Model::Calibrated);
     }
 
+    /// Triangles at one node, and what joins them.
+    #[test]
+    fn bodies_at_one_node(
+        triangles in prop::collection::vec((1u32..18, 1u32..18), 2..9),
+        pairs in prop::collection::vec((1u32..18, 1u32..18), 0..14),
+    ) {
+        let sides = triangles.into_iter().flat_map(|(a, b)| [(0, a), (a, b), (0, b)]);
+        check(&among(18, sides.chain(pairs).collect()), Model::Calibrated);
+    }
+
+    /// Edges at a few nodes of many, as at cameras with points that few others see.
+    #[test]
+    fn stars(
+        pairs in prop::collection::vec((0u32..4, 4u32..26), 1..30),
+        others in prop::collection::vec((4u32..26, 4u32..26), 0..16),
+    ) {
+        check(&among(26, pairs.into_iter().chain(others).collect()), Model::Calibrated);
+    }
+
     /// Bodies at first, few edges between them: triangles that share nodes.
     #[test]
     fn bodies_around_cycles(

@@ -24,6 +24,11 @@ impl Adjacency {
         Self(Lists::group(graph.nodes(), smaller.chain(larger)))
     }
 
+    /// Lists that hold every edge at both its ends, in any order.
+    pub(crate) fn of_lists(neighbours: Lists) -> Self {
+        Self(neighbours)
+    }
+
     /// Number of nodes.
     pub fn nodes(&self) -> usize {
         self.0.len()
@@ -64,9 +69,9 @@ impl Adjacency {
     }
 
     /// Removes the edges at nodes with a single neighbour, again and again until there is no such
-    /// node, and returns them. O(n + m).
-    pub fn prune_leaves(&mut self) -> Vec<(u32, u32)> {
-        let removed = prune_leaves(&mut self.0);
+    /// node but those that are `held`, and returns them. O(n + m).
+    pub fn prune_leaves(&mut self, held: impl Fn(u32) -> bool) -> Vec<(u32, u32)> {
+        let removed = prune_leaves(&mut self.0, held);
         let ordered = |(v, w): (u32, u32)| (v.min(w), v.max(w));
         removed.into_iter().map(ordered).collect()
     }

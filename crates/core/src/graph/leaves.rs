@@ -3,16 +3,19 @@
 use super::Lists;
 
 /// Removes the edges at vertices with a single neighbour from symmetric neighbour lists, again
-/// and again until there is no such vertex. Returns the removed edges, the leaf first, in the
-/// order in which they fell. O(n + m).
-pub fn prune_leaves(neighbours: &mut Lists) -> Vec<(u32, u32)> {
+/// and again until there is no such vertex but those that are `held`. Returns the removed edges,
+/// the leaf first, in the order in which they fell. O(n + m).
+pub fn prune_leaves(neighbours: &mut Lists, held: impl Fn(u32) -> bool) -> Vec<(u32, u32)> {
     let n = neighbours.len();
     let mut degree: Vec<u32> = (0..n).map(|v| neighbours.of(v).len() as u32).collect();
     // The exclusive or of the neighbours that are left: the last one itself, once it is alone.
     let mut mixed: Vec<u32> = (0..n)
         .map(|v| neighbours.of(v).iter().fold(0, |mix, w| mix ^ w))
         .collect();
-    let mut leaves: Vec<u32> = (0..n as u32).filter(|&v| degree[v as usize] == 1).collect();
+    let may_fall = |degree: u32, v: u32| degree == 1 && !held(v);
+    let mut leaves: Vec<u32> = (0..n as u32)
+        .filter(|&v| may_fall(degree[v as usize], v))
+        .collect();
     let mut removed = Vec::new();
     while let Some(v) = leaves.pop() {
         // The other end of an edge that stood alone has lost it by now.
@@ -24,7 +27,7 @@ pub fn prune_leaves(neighbours: &mut Lists) -> Vec<(u32, u32)> {
         degree[v as usize] = 0;
         degree[w as usize] -= 1;
         mixed[w as usize] ^= v;
-        if degree[w as usize] == 1 {
+        if may_fall(degree[w as usize], w) {
             leaves.push(w);
         }
     }
@@ -62,7 +65,7 @@ mod tests {
             (8, 11),
         ];
         let mut pruned = lists(12, &edges);
-        let mut removed: Vec<_> = prune_leaves(&mut pruned)
+        let mut removed: Vec<_> = prune_leaves(&mut pruned, |_| false)
             .into_iter()
             .map(|(a, b)| (a.min(b), a.max(b)))
             .collect();
@@ -87,7 +90,19 @@ mod tests {
             (4, 6),
         ];
         let mut pruned = lists(7, &edges);
-        assert_eq!(prune_leaves(&mut pruned), []);
+        assert_eq!(prune_leaves(&mut pruned, |_| false), []);
         assert_eq!(pruned.of(3), [2, 4]);
+    }
+
+    #[test]
+    fn held_vertices_stay() {
+        // A path 0 1 2 3 4 with both ends held, or one; and a branch 2 5.
+        let edges = [(0, 1), (1, 2), (2, 3), (3, 4), (2, 5)];
+        let mut pruned = lists(6, &edges);
+        let removed = prune_leaves(&mut pruned, |v| v == 0 || v == 4);
+        assert_eq!(removed, [(5, 2)]);
+        assert_eq!(pruned.of(2), [1, 3]);
+        let mut pruned = lists(6, &edges);
+        assert_eq!(prune_leaves(&mut pruned, |v| v == 0).len(), 5);
     }
 }

@@ -65,8 +65,8 @@ struct Tables {
     nodes: HashMap<i64, u32>,
     /// Pairs of known images, in the order of the table.
     pairs: Vec<Pair>,
-    /// Matches before verification of pairs of known images, by the two nodes.
-    matches: HashMap<(u32, u32), u32>,
+    /// Matches before verification of pairs of known images, by the two nodes, increasing.
+    matches: Vec<((u32, u32), u32)>,
     /// Pairs with an image that is not there.
     dangling: usize,
     /// Pairs of an image with itself.
@@ -95,7 +95,7 @@ impl Tables {
             names,
             nodes,
             pairs: Vec::new(),
-            matches: HashMap::new(),
+            matches: Vec::new(),
             dangling: 0,
             loops: 0,
             rigs: rigs(connection)?,
@@ -164,9 +164,18 @@ impl Tables {
             if let Ok(ends) = ends(row.get(0)?, &self.nodes)
                 && matches > 0
             {
-                self.matches.insert(ends, matches);
+                self.matches.push((ends, matches));
             }
         }
+        // Of two numbers for one pair the later one counts.
+        self.matches.sort_by_key(|&(ends, _)| ends);
+        self.matches.dedup_by(|later, first| {
+            let same = later.0 == first.0;
+            if same {
+                first.1 = later.1;
+            }
+            same
+        });
         Ok(())
     }
 
@@ -208,7 +217,7 @@ impl Tables {
                 },
             );
         }
-        for (&images, &matches) in &self.matches {
+        for &(images, matches) in &self.matches {
             if graph.edge_number(images.0, images.1).is_none() {
                 let other = others.entry(images).or_insert(OtherPair {
                     images,

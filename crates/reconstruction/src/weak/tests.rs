@@ -1,12 +1,12 @@
 use super::*;
-use crate::samples::{clusters, graphs, options, together, verdict};
+use crate::samples::{clusters, graphs, options, together, tracks, verdict};
 
 /// Each pair, and each image, left out of the whole graph in turn.
 #[test]
 fn weak_is_what_falls_apart_when_it_is_left_out() {
     let (mut weak, mut strong, mut counted) = (0, 0, 0);
     for model in Model::ALL {
-        for graph in graphs(120).chain(clusters(30)) {
+        for graph in graphs(120).chain(clusters(30)).chain(tracks(60)) {
             let verdict = verdict(&graph, model);
             let parts = Parts::new(&graph, &verdict);
             let found = weak_pairs(&graph, &verdict, &parts, &options(model)).unwrap();
@@ -70,4 +70,21 @@ fn the_pairs_of_a_tight_joint_are_weak() {
     let images = weak_images(&graph, &parts, &options(Model::Projective)).unwrap();
     let images: Vec<u32> = images.iter().map(|weak| weak.image).collect();
     assert_eq!(images, [0, 1, 2, 6, 7, 8]);
+}
+
+/// Six cameras and twelve points, each seen by four of them: any half of the points makes the
+/// cameras one body. The thirteenth is seen by two.
+#[test]
+fn where_tracks_abound_all_observations_are_cleared_by_leaving_out_points() {
+    let views = (6..18u32).flat_map(|p| (0..4).map(move |k| ((p + k) % 6, p)));
+    let graph = Graph::new(19, views.clone().chain([(0, 18), (1, 18)])).unwrap();
+    let all = graph.edges().to_vec();
+    let left = left_out::not_cleared(&graph, all, &options(Model::Calibrated)).unwrap();
+    assert_eq!(left, [(0, 18), (1, 18)]);
+    let verdict = verdict(&graph, Model::Calibrated);
+    let parts = Parts::new(&graph, &verdict);
+    let found = weak_pairs(&graph, &verdict, &parts, &options(Model::Calibrated)).unwrap();
+    let found: Vec<(Pair, Why)> = found.iter().map(|weak| (weak.pair, weak.why)).collect();
+    let hangs = Why::Hangs(18);
+    assert_eq!(found, [((0, 18), hangs), ((1, 18), hangs)]);
 }
