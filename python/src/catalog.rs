@@ -50,6 +50,7 @@ impl Candidates {
     #[new]
     #[pyo3(signature = (nodes, *, edges=None, necessary=false, minimal=false, prime=None, seed=1))]
     fn new(
+        py: Python<'_>,
         nodes: usize,
         edges: Option<usize>,
         necessary: bool,
@@ -69,7 +70,7 @@ impl Candidates {
         let options = size.options().map_err(|error| of_any(&error))?;
         let options = options.watch(watch.clone());
         // What cannot be asked for is refused now and not by the first entry.
-        size.total().map_err(|error| of_any(&error))?;
+        py.detach(|| size.total()).map_err(|error| of_any(&error))?;
         let threads = work::threads()?;
         let (sender, batches) = sync_channel(AHEAD);
         std::thread::Builder::new().spawn(move || {

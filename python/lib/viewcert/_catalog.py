@@ -89,7 +89,7 @@ def catalog(
     --------
     >>> import viewcert
     >>> [(entry.graph6, entry.value) for entry in viewcert.catalog(5)]
-    [('DRo', 'not-finite-solvable'), ('D]o', 'not-finite-solvable')]
+    [('D{S', 'not-finite-solvable'), ('D]o', 'finite-solvable')]
     """
     found = _native.Candidates(
         nodes, edges=edges, necessary=necessary, minimal=minimal, prime=prime, seed=seed

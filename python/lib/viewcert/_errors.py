@@ -41,3 +41,8 @@ class Rejected(Error):
 
     def __str__(self) -> str:
         return f"{self.step}: {self.reason}" if self.step else self.reason
+
+
+for _error in (Error, InputError, Rejected, TooLarge, Undecided):
+    # What users import, and what tracebacks call them.
+    _error.__module__ = "viewcert"

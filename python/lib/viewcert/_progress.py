@@ -18,9 +18,11 @@ class _Bar:
 
     def __init__(self, bar: Any) -> None:
         self._bar = bar
+        self._what = ""
 
     def __call__(self, what: str, done: int, total: int) -> None:
-        if self._bar.desc != what:
+        if self._what != what:
+            self._what = what
             self._bar.reset(total=total or None)
             self._bar.set_description_str(what, refresh=False)
         self._bar.update(done - self._bar.n)
