@@ -134,6 +134,7 @@ impl Size {
             out: part.map(|part| part.folder.clone()),
             part: part.map_or(1, |part| part.part),
             solvable_only: part.is_some_and(|part| part.solvable_only),
+            solutions: false,
             prime: self.prime.unwrap_or(DEFAULT_PRIME),
             seed: self.seed,
         })

@@ -119,7 +119,7 @@
     calibrated: "Each component is determined by itself, up to shift and scale; how they fit together is not.",
     affine: "Each component is determined by itself, up to an affine change; how they fit together is not.",
   };
-  const counted = ({ exactly, at_least, at_most }) =>
+  const solutionsCounted = ({ exactly, at_least, at_most }) =>
     exactly ? `There are exactly ${exactly} sets of cameras.`
       : at_most ? `There are at least ${at_least} and at most ${at_most} sets of cameras.`
         : at_least > 1 ? `There are at least ${at_least} sets of cameras.`
@@ -127,7 +127,7 @@
   const ANSWERS = {
     solvable: [`Solvable: ${placed} unique`, UNIQUE[report.model]],
     "finite-solvable": ["Finite solvable: finitely many sets of cameras",
-      `No small change of the cameras fits the fundamental matrices. ${counted(report.solutions ?? {})}`],
+      `No small change of the cameras fits the fundamental matrices. ${solutionsCounted(report.solutions ?? {})}`],
     "not-finite-solvable": report.model in APART
       ? [`Not solvable: infinitely many ${tracks ? "positions of the cameras and points" : "sets of cameras"}`, APART[report.model]]
       : ["Not finite solvable: infinitely many sets of cameras",

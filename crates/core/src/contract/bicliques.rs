@@ -144,7 +144,7 @@ impl<'a> Search<'a> {
             .iter()
             .flat_map(|&(member, v)| [(member, place(v)), (place(v), member)]);
         let mut incidence = Lists::group(members + nodes, both_ways);
-        prune_leaves(&mut incidence);
+        prune_leaves(&mut incidence, |_| false);
         Self {
             bodies: members - loose.len(),
             used: vec![false; members],

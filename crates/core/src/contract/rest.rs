@@ -76,20 +76,14 @@ impl Rest {
         }
         body.add.iter_mut().flatten().for_each(name);
         for merge in &mut body.merge {
-            match merge {
-                Merge::Shared { part: with, at } => {
-                    part(with);
-                    at.iter_mut().for_each(name);
-                }
-                Merge::Triangle { parts, at } => {
-                    parts.iter_mut().for_each(part);
-                    at.iter_mut().for_each(name);
-                }
-                Merge::Cycle { parts, at } => {
-                    parts.iter_mut().for_each(part);
-                    at.iter_mut().for_each(name);
-                }
-            }
+            let (parts, at): (&mut [Part], &mut [u32]) = match merge {
+                Merge::Shared { part, at } => (std::slice::from_mut(part), at),
+                Merge::Triangle { parts, at } => (parts, at),
+                Merge::Cycle { parts, at } => (parts, at),
+                Merge::Biclique { parts, at } => (parts, at),
+            };
+            parts.iter_mut().for_each(part);
+            at.iter_mut().for_each(name);
         }
         body.nodes.iter_mut().for_each(name);
         body

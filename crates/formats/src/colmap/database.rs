@@ -241,7 +241,7 @@ impl Tables {
         let used = used.map(|(&images, inliers)| OtherPair {
             images,
             inliers,
-            matches: self.matches.get(&images).copied(),
+            matches: self.matches_of(images),
             used: true,
         });
         let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
@@ -250,6 +250,12 @@ impl Tables {
             inliers: Vec::new(),
             others,
         }
+    }
+
+    /// How many matches two images have, where the table says so. O(log m).
+    fn matches_of(&self, images: (u32, u32)) -> Option<u32> {
+        let found = self.matches.binary_search_by_key(&images, |&(ends, _)| ends);
+        found.ok().map(|at| self.matches[at].1)
     }
 
     fn facts(&self, graph: &Graph) -> DatabaseFacts {
