@@ -161,8 +161,7 @@ fn suggestions_are_true() {
                 _ => two += 1,
             }
             // Any other point of the same component that is in no other one.
-            for k in 0..seen.len() {
-                let (camera, point) = seen[k];
+            for (k, &(camera, point)) in seen.iter().enumerate() {
                 let part = parts.of(point)[0];
                 let alone = |&v: &u32| {
                     v >= cameras && parts.of(v) == [part] && parts.links_at(v).next().is_none()
