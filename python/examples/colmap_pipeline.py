@@ -49,14 +49,16 @@ def main(database: pathlib.Path, images: pathlib.Path, folder: pathlib.Path) -> 
     for one in viewcert.suggest(verdict, 3):
         print("match", *(f"{a} {b}" for a, b in one.pairs), f"to add {one.gain} images")
 
-    # Every component that is more than a pair, by itself.
+    # Every component that is more than a pair, by itself. The mapper wants the images for colours.
     viewcert.export(verdict, folder / "components")
+    has_images = images.is_dir()
+    images.mkdir(exist_ok=True)
     for number, component in enumerate(verdict.components):
         if len(component) < 3:
             continue
         options = pycolmap.IncrementalPipelineOptions()
         options.image_names = sorted(map(str, component))
-        options.extract_colors = images.is_dir()
+        options.extract_colors = has_images
         out = folder / f"sparse/{number}"
         out.mkdir(parents=True)
         models = pycolmap.incremental_mapping(database, images, out, options)

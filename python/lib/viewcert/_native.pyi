@@ -7,6 +7,21 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Candidates",
+    "Decided",
+    "Graph",
+    "Verified",
+    "__version__",
+    "catalog_merge",
+    "catalog_shard",
+    "check",
+    "decide",
+    "graph_of_integers",
+    "graph_of_nodes",
+    "read",
+]
+
 __version__: str
 
 @final
