@@ -62,7 +62,7 @@ impl Built {
     /// first two of them is pinched: z takes its place.
     fn add(&mut self, step: &[usize]) -> Checked<()> {
         let Some((&z, ends)) = step.split_first() else {
-            return Err(Failure::rejected("no node is added".to_owned()));
+            return Err(Failure::rejected("no node is added"));
         };
         ensure!(
             ends.len() <= 3,
