@@ -13,7 +13,7 @@ use std::time::Duration;
 use viewcert::watch::{Limits, Watch};
 use viewcert::{Graph, Options, VerdictError, decide};
 use viewcert_cli::front::{Part, Size, merged};
-use viewcert_studies::catalog::mine::Entry;
+use viewcert_studies::catalog::mine::{COLUMNS, Entry};
 use viewcert_studies::catalog::minimal::decide_minimal;
 
 /// Candidates that are decided together.
@@ -94,7 +94,7 @@ impl Candidates {
     fn __next__<'py>(
         &self,
         py: Python<'py>,
-    ) -> PyResult<Option<([String; 8], Bound<'py, PyBytes>)>> {
+    ) -> PyResult<Option<([String; COLUMNS.len()], Bound<'py, PyBytes>)>> {
         loop {
             match py.detach(|| self.next()) {
                 Next::Entry(entry, certificate) => {

@@ -34,6 +34,9 @@ class Entry:
         As `strength`.
     hub : bool
         Whether the refutation takes a hub.
+    solutions : str
+        How many solutions there are: ``'1'`` as far as bodies show it, else bounds as in ``'1-'``;
+        empty if there are infinitely many.
     certificate : bytes
         For :func:`check`.
     """
@@ -46,6 +49,7 @@ class Entry:
     components: int
     components_strength: str
     hub: bool
+    solutions: str
     certificate: bytes = field(repr=False)
 
 
@@ -89,7 +93,7 @@ def catalog(
     --------
     >>> import viewcert
     >>> [(entry.graph6, entry.value) for entry in viewcert.catalog(5)]
-    [('D{S', 'not-finite-solvable'), ('D]o', 'finite-solvable')]
+    [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
     found = _native.Candidates(
         nodes, edges=edges, necessary=necessary, minimal=minimal, prime=prime, seed=seed
@@ -98,7 +102,7 @@ def catalog(
 
 
 def _entry(found: tuple[list[str], bytes]) -> Entry:
-    (graph6, value, strength, rank, rank_strength, components, maximal, hub), certificate = found
+    (graph6, value, strength, rank, rank_strength, components, maximal, hub, solutions), certificate = found
     return Entry(
         graph6=graph6,
         value=value,
@@ -108,6 +112,7 @@ def _entry(found: tuple[list[str], bytes]) -> Entry:
         components=int(components),
         components_strength=maximal,
         hub=hub == "1",
+        solutions=solutions,
         certificate=certificate,
     )
 
