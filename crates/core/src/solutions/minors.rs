@@ -306,7 +306,7 @@ fn all_minors(field: &PrimeField, matrix: &[u64], rows: usize, columns: usize, t
             left &= left - 1;
             above -= 1;
             let term = field.times(row[column], table[mask & !(1 << column)]);
-            sum = if above % 2 == 0 {
+            sum = if above.is_multiple_of(2) {
                 field.plus(sum, term)
             } else {
                 field.minus(sum, term)

@@ -60,12 +60,7 @@ pub(super) fn outside(
             values[f] = LIMITS[choice % LIMITS.len()];
             choice /= LIMITS.len();
         }
-        let (blocks, dependent) = Limited::new(system, &values)?.sets()?;
-        Some(Outside {
-            values: values.clone(),
-            blocks,
-            dependent,
-        })
+        Limited::new(system, &values)?.sets(&values)
     })
 }
 
@@ -166,7 +161,7 @@ impl<'a> Limited<'a> {
     }
 
     /// Blocks and dependent sets that bound the rank by 3 n' - 4 at all centres.
-    fn sets(&self) -> Option<(Vec<Vec<usize>>, Vec<Vec<usize>>)> {
+    fn sets(&self, values: &[Limit]) -> Option<Outside> {
         let (mut blocks, mut dependent) = (Vec::new(), Vec::new());
         let mut bound = self.rows.len();
         let mut left: Vec<usize> = (0..self.rows.len()).collect();
@@ -192,7 +187,11 @@ impl<'a> Limited<'a> {
             dependent = self.dependent(&left)?;
             bound -= dependent.len();
         }
-        (bound <= self.system.target).then_some((blocks, dependent))
+        (bound <= self.system.target).then(|| Outside {
+            values: values.to_vec(),
+            blocks,
+            dependent,
+        })
     }
 
     /// The nodes of a row, and more as long as kernel vectors are y_v = P_v x on them.
@@ -340,7 +339,7 @@ fn is_trivial(
 /// Whether the values are those of a point on the boundary that is there at all centres.
 #[cfg(test)]
 pub(super) fn is_outside(system: &System<'_>, values: &[Limit]) -> bool {
-    Limited::new(system, values).is_some_and(|limited| limited.sets().is_some())
+    Limited::new(system, values).is_some_and(|limited| limited.sets(values).is_some())
 }
 
 #[cfg(test)]
