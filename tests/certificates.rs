@@ -424,10 +424,15 @@ fn overstated_and_understated_claims() {
         value["claim"]["verdict"]["strength"] = json!("proof");
         value["claim"]["verdict"]["error_log2"] = json!(null);
     });
-    // Finite is not unique.
-    tampered("0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n", &[], |value| {
+    // Finite is not unique without evidence for it; with evidence, or as a body, it is.
+    tampered(EIGHT, &["--no-solutions"], |value| {
         value["claim"]["verdict"]["value"] = json!("solvable");
     });
+    for unique in [EIGHT, "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n"] {
+        tampered(unique, &[], |value| {
+            value["claim"]["verdict"]["value"] = json!("finite-solvable");
+        });
+    }
 }
 
 #[test]
