@@ -62,7 +62,7 @@ pub(super) struct VerifyArguments {
     #[arg(long)]
     no_counting: bool,
     /// Count the solutions of graphs that are finite solvable: quick (the default: where it takes
-    /// well below a second), or full (whatever it takes).
+    /// about a second at most), or full (whatever it takes).
     #[arg(
         long,
         value_enum,
@@ -124,7 +124,7 @@ enum ModelName {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Solutions {
-    /// Where it takes well below a second.
+    /// Where it takes about a second at most.
     Quick,
     /// Whatever it takes.
     Full,

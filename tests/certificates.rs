@@ -9,6 +9,8 @@ use std::path::Path;
 
 const PSI: &str = "0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n0 9\n2 9\n0 10\n2 10\n";
 const GAMMA: &str = "0 2\n0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n";
+/// Eight nodes that no merge makes a body, with one solution.
+const EIGHT: &str = "0 6\n0 7\n1 4\n1 5\n2 3\n2 5\n2 7\n3 4\n3 6\n4 7\n5 6\n";
 /// Three triangles in a ring, which share a node with each other: one body by two merges.
 const RING_OF_TRIANGLES: &str = "a b\nb c\nc a\nc d\nd e\ne c\ne f\nf a\na e\n";
 
@@ -20,20 +22,17 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("merged bodies", RING_OF_TRIANGLES.into(), vec![]),
         ("bridges", "a b\nb c\nc d\n".into(), vec![]),
         (
-            "full rank by plane flows",
+            "a merge of six",
             "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n".into(),
             vec![],
         ),
+        ("full rank by plane flows", EIGHT.into(), vec![]),
         (
             "full rank by a minor",
             "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n".into(),
             vec!["--no-contraction"],
         ),
-        (
-            "full rank over Q",
-            "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n".into(),
-            vec!["--rational"],
-        ),
+        ("full rank over Q", EIGHT.into(), vec!["--rational"]),
         ("deficient over Q", cycle(4), vec!["--rational"]),
         ("partition", cycle(5), vec![]),
         ("hub", GAMMA.into(), vec![]),
@@ -440,10 +439,15 @@ fn overstated_and_understated_claims() {
         value["claim"]["verdict"]["strength"] = json!("proof");
         value["claim"]["verdict"]["error_log2"] = json!(null);
     });
-    // Finite is not unique.
-    tampered("0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n", &[], |value| {
+    // Finite is not unique without evidence for it; with evidence, or as a body, it is.
+    tampered(EIGHT, &["--no-solutions"], |value| {
         value["claim"]["verdict"]["value"] = json!("solvable");
     });
+    for unique in [EIGHT, "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n"] {
+        tampered(unique, &[], |value| {
+            value["claim"]["verdict"]["value"] = json!("finite-solvable");
+        });
+    }
 }
 
 #[test]

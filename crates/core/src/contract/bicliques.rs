@@ -46,8 +46,8 @@ pub(super) fn merge(
         return false;
     }
     let mut search = Search::new(bodies, loose, nodes, steps);
-    search.from_bodies();
-    search.from_edges();
+    search.search_bodies();
+    search.search_edges();
     let Search { part, found, .. } = search;
     let members = part.len() as u32;
     for biclique in &found {
@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
     }
 
     /// Every K_{2,3} whose largest member is a body, by falling size.
-    fn from_bodies(&mut self) {
+    fn search_bodies(&mut self) {
         let mut order: Vec<u32> = (0..self.bodies as u32).collect();
         order.sort_by_key(|&body| std::cmp::Reverse(self.of(body).len()));
         let mut reached = vec![None; self.incidence.len() - self.part.len()];
@@ -271,7 +271,7 @@ impl<'a> Search<'a> {
     }
 
     /// Every K_{2,3} of edges.
-    fn from_edges(&mut self) {
+    fn search_edges(&mut self) {
         let members = self.part.len() as u32;
         for a in members..self.incidence.len() as u32 {
             // Ways of two edges from a to a larger node: that node, the one between, both edges.

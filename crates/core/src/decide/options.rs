@@ -58,8 +58,8 @@ pub enum Arithmetic {
 pub enum CountSolutions {
     /// Nothing: for many graphs of which only 'finite or not' is asked.
     Off,
-    /// Solutions are counted where it takes well below a second: where the members of the graph
-    /// share few nodes. The others stay finite solvable.
+    /// Solutions are counted where it takes some milliseconds, and about a second at most: where the
+    /// members of the graph share few nodes. The others stay finite solvable.
     #[default]
     Quick,
     /// Solutions are counted whatever it takes: minutes, where many nodes are shared.

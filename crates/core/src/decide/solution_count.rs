@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 /// The most nodes that the members of a core may share for a quick count, and the most unknown
 /// scales. What a count costs grows with the fourth power of the unknowns and the third one of the
-/// nodes; with so many of both it takes well below a second.
-const QUICK: [usize; 2] = [14, 8];
+/// nodes; with so many of both it takes some milliseconds, and about a second where it fails.
+const QUICK: [usize; 2] = [12, 6];
 
 /// What is known of the number of solutions of a finite solvable graph: of the classes of cameras
 /// with its fundamental matrices, at generic cameras and over the complex numbers.

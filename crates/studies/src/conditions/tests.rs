@@ -22,7 +22,12 @@ impl Agreement {
     fn enter(&mut self, graph: &Graph) {
         let name = graph6::encode(graph);
         let conditions = decide(graph);
-        let options = Options::default().solutions(CountSolutions::Quick);
+        // What the conditions prove is worth every effort; of the others only 'finite or not' counts.
+        let effort = match solvable(&conditions) {
+            true => CountSolutions::Full,
+            false => CountSolutions::Off,
+        };
+        let options = Options::default().solutions(effort);
         let verdict = viewcert::decide(graph, &options).unwrap();
         self.graphs += 1;
         if refuted(&conditions) {
