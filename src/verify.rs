@@ -150,8 +150,8 @@ impl VerifyArguments {
         let model = self.model()?;
         ensure!(
             !self.rational || matches!(model, Model::Projective),
-            "--rational: the calibrated and the affine model are decided without it; leave out \
-             --rational, or --model and --tracks"
+            "--rational: the {model} model is decided without it; leave out --rational, or --model and \
+             --tracks"
         );
         ensure!(
             !self.no_counting || model != Model::Affine,

@@ -95,6 +95,27 @@ fn affine_certificates_hold_their_evidence() {
     assert_eq!(kinds(&cycle(4)), flexible);
 }
 
+/// What the verdict rests on is said as it is: nothing was counted where a camera has no pair.
+#[test]
+fn reasons_in_words() {
+    let run = |pairs: &str| {
+        let arguments = ["-", "--format", "edges", "--model", "affine"];
+        verify_with(pairs.as_bytes(), &arguments).out
+    };
+    let out = run(&edge_list(bipartite(3, 3)));
+    assert!(
+        out.contains("full rank in the plane, 9 edges of the core"),
+        "{out}"
+    );
+    let out = run("0 1\n1 2\n0 2\n3\n");
+    assert!(
+        out.contains("because     some cameras have no pairs"),
+        "{out}"
+    );
+    let out = run(&cycle(4));
+    assert!(out.contains("counting allows rank 16 at most"), "{out}");
+}
+
 #[test]
 fn what_the_affine_model_does_not_go_with() {
     for (more, words) in [

@@ -150,7 +150,7 @@ pub(super) fn reason(report: &Report) -> String {
         Strength::Proof if parts > 1 => {
             format!("{parts} parts hang together in {single}, or not at all")
         }
-        Strength::Proof if covered < verdict.required => {
+        Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
             format!("counting allows rank {covered} at most")
         }
         Strength::Proof => match report.input.cameras {
@@ -187,7 +187,7 @@ fn full_rank(verdict: &Verdict) -> String {
             format!("full rank at one camera set modulo {}", draw.prime)
         }
         Some(Evidence::Pinching { rank, .. }) => {
-            format!("counting shows {rank} pairs between bodies independent, all it takes")
+            format!("counting shows full rank in the plane, {rank} edges of the core")
         }
         _ => "full rank".into(),
     }
