@@ -269,7 +269,8 @@ fn claims_in_all_models() {
     ] {
         let run = audit(row);
         assert_eq!(run.code, 1, "{row}: {}{}", run.out, run.err);
-        assert!(run.out.contains(why), "{row}: {}", run.out);
+        let said = format!("{}{}", run.out, run.err);
+        assert!(said.contains(why), "{row}: {said}");
     }
     let run = audit("Cl,plane,,16,\n");
     assert_eq!(run.code, 2, "{}", run.out);
