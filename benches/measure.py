@@ -7,6 +7,8 @@
     python3 benches/measure.py cores    [--nodes 200 500 1000 3000] [--jacobian N] [--flint N]
     python3 benches/measure.py sequence [--nodes 1000000]
     python3 benches/measure.py tracks
+    python3 benches/measure.py hubs
+    python3 benches/measure.py readers
 
 Needs the programs of `cargo build --release --workspace --bins --examples`; `rational` and
 `cores` also FLINT (Debian: libflint-dev) and gcc, and `rational` takes in the GMP build if
@@ -21,6 +23,7 @@ import argparse
 import csv
 import json
 import os
+import random
 import re
 import statistics
 import subprocess
@@ -332,11 +335,55 @@ def tracks(arguments, folder):
             sec(read.cpu), sec(all_.cpu), f"{all_.cpu / read.cpu:.2f}", sec(all_.wall), mib(all_.peak), accepted)
 
 
+def hubs(arguments, folder):
+    """Many bodies at one camera, in a ring of paths too long for any rule: contraction alone."""
+    graph = folder / "hub.txt"
+    head("bodies", "observations", "bodies left", "reading, CPU s", "with contraction, CPU s")
+    for bodies in (5_000, 20_000, 80_000):
+        generate(graph, "hub", bodies, 6, by="tracks")
+        commands = [[EXAMPLES / name, graph] for name in ("read_only", "contraction")]
+        read, contracted = compare(commands, arguments.runs)
+        found = subprocess.run(commands[1], capture_output=True, text=True, check=True)
+        row(bodies, size(graph)[1], found.stdout.split()[-2], sec(read.cpu), sec(contracted.cpu))
+
+
+# Images and pairs of hloc's Aachen model.
+AACHEN = (4328, 56_717)
+
+
+def match_list(path, images, pairs):
+    """A list of pairs of names, each image with some of the next twenty."""
+    draw = random.Random(1)
+    found = set()
+    while len(found) < pairs:
+        first = draw.randrange(images - 20)
+        found.add((first, first + draw.randrange(1, 21)))
+    found = sorted(found)
+    draw.shuffle(found)
+    names = [f"db/{image:05}.jpg" for image in range(images)]
+    path.write_text("".join(f"{names[a]} {names[b]}\n" for a, b in found))
+
+
+def readers(arguments, folder):
+    """A database of COLMAP, and a list of pairs with its components exported."""
+    database, pairs, export = folder / "database.db", folder / "pairs.txt", folder / "components"
+    subprocess.run([sys.executable, ROOT / "benches" / "database.py", database], check=True)
+    match_list(pairs, *AACHEN)
+    head("", "wall clock, s", "CPU, s", "peak, MiB")
+    commands = [("database, pairs", [VERIFY, database]),
+                ("database, pairs for global mapping", [VERIFY, "--pipeline", "global", database]),
+                ("list of pairs, exported", [VERIFY, "--export", export, pairs])]
+    for (name, _), figures in zip(commands, compare([command for _, command in commands], arguments.runs)):
+        row(name, sec(figures.wall), sec(figures.cpu), mib(figures.peak))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence | tracks")
+    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence | tracks | "
+                                         "hubs | readers")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
-                                 ("cores", cores, 3), ("sequence", sequence, 3), ("tracks", tracks, 3)]:
+                                 ("cores", cores, 3), ("sequence", sequence, 3), ("tracks", tracks, 3),
+                                 ("hubs", hubs, 3), ("readers", readers, 5)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")

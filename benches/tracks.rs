@@ -3,15 +3,19 @@
 //! ```text
 //! cargo run --release --example tracks -- path CAMERAS POINTS LENGTH SEED
 //! cargo run --release --example tracks -- city CAMERAS POINTS LENGTH SEED
+//! cargo run --release --example tracks -- hub CAMERAS LINKS
 //! ```
 //!
-//! Cameras are the nodes 0 to CAMERAS - 1, points those that follow; an edge is an observation. A
-//! point is seen by three cameras or more, LENGTH of them on average (the number beyond three is
+//! `path` and `city`: cameras are the nodes 0 to CAMERAS - 1, points those that follow; an edge is
+//! an observation. A point is seen by three cameras or more, LENGTH of them on average (the number beyond three is
 //! geometric), drawn among twice as many that stand around it.
 //!
 //! `path`: the cameras stand along a path.
 //!
 //! `city`: they stand at the crossings of a square grid of streets.
+//!
+//! `hub`: one camera shares two points with each of CAMERAS others, which stand in a ring with a
+//! path of LINKS observations from one to the next: as many bodies at one node.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha20Rng;
@@ -28,6 +32,11 @@ fn main() -> io::Result<()> {
         .skip(1)
         .filter_map(|word| word.parse().ok())
         .collect();
+    let mut out = BufWriter::with_capacity(1 << 20, io::stdout().lock());
+    if let (Some("hub"), &[cameras, links]) = (kind, &numbers[..]) {
+        hub(&mut out, cameras, links)?;
+        return out.flush();
+    }
     let [cameras, points, length, seed] = numbers[..] else {
         usage()
     };
@@ -36,7 +45,6 @@ fn main() -> io::Result<()> {
     }
     let random = ChaCha20Rng::seed_from_u64(seed);
     let mut tracks = Tracks { random, length };
-    let mut out = BufWriter::with_capacity(1 << 20, io::stdout().lock());
     for point in 0..points {
         let seen_by = match kind {
             Some("path") => tracks.on_path(cameras),
@@ -51,8 +59,33 @@ fn main() -> io::Result<()> {
 }
 
 fn usage() -> ! {
-    eprintln!("usage: tracks path|city CAMERAS POINTS LENGTH SEED (6 cameras, length 3 at least)");
+    eprintln!(
+        "usage: tracks path|city CAMERAS POINTS LENGTH SEED (6 cameras, length 3 at least)\n       \
+         tracks hub CAMERAS LINKS (an even number of links)"
+    );
     std::process::exit(2)
+}
+
+fn hub(out: &mut impl Write, cameras: u64, links: u64) -> io::Result<()> {
+    if links < 2 || links % 2 == 1 {
+        usage()
+    }
+    // Each camera is followed by its two points and by the path to the next.
+    let stride = 2 + links;
+    for camera in (0..cameras).map(|k| 1 + k * stride) {
+        for point in [camera + 1, camera + 2] {
+            writeln!(out, "0 {point}\n{camera} {point}")?;
+        }
+        let next = (camera + stride - 1) % (cameras * stride) + 1;
+        let mut at = camera;
+        for step in 1..links {
+            let node = camera + 2 + step;
+            writeln!(out, "{at} {node}")?;
+            at = node;
+        }
+        writeln!(out, "{at} {next}")?;
+    }
+    Ok(())
 }
 
 struct Tracks {
