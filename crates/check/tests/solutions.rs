@@ -658,6 +658,11 @@ fn s17_and_s18_points() {
     refused(
         "two",
         &[("U/points/points/0", value_at("two", "U/points/points/1"))],
+        "U.points.points[1]: the form does not tell the point from another one",
+    );
+    refused(
+        "two",
+        &[("U/points/minors", json!([])), ("U/points/bounds", json!([1]))],
         "U.points: the points are not independent on the inner exponents",
     );
     let mut points = value_at("two", "U/points/points");
