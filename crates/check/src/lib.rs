@@ -22,7 +22,7 @@
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13 | `kernel` |
-//! | the number of solutions | 12 | 10.2 to 10.11 | `solutions`, a file for each kind |
+//! | the number of solutions | 12 | 10.2 to 10.14 | `solutions`, a file for each kind |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section

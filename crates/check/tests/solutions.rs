@@ -85,8 +85,14 @@ fn reflected(a: &Value, b: &Value) -> Value {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 4);
-    for (name, solutions) in [("part", 1), ("support", 1), ("two", 2), ("absent", 2)] {
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 5);
+    for (name, solutions) in [
+        ("part", 1),
+        ("support", 1),
+        ("two", 2),
+        ("absent", 2),
+        ("outside", 2),
+    ] {
         let text = text_of(name).to_string();
         let verified =
             check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -658,6 +664,14 @@ fn s17_and_s18_points() {
     refused(
         "two",
         &[("U/points/points/0", value_at("two", "U/points/points/1"))],
+        "U.points.points[1]: the form does not tell the point from another one",
+    );
+    refused(
+        "two",
+        &[
+            ("U/points/minors", json!([])),
+            ("U/points/bounds", json!([1])),
+        ],
         "U.points: the points are not independent on the inner exponents",
     );
     let mut points = value_at("two", "U/points/points");
@@ -684,6 +698,155 @@ fn s17_and_s18_points() {
         "two",
         &[(&format!("{point}/steps"), json!([]))],
         "U.points.points[0]: unknown 1 is not known",
+    );
+}
+
+#[test]
+fn s17_forms() {
+    let wanted = "U.points: `form` has not one, each unknown and other products of different \
+                  unknowns, each once";
+    for exponent in [json!([2, 0]), json!([1, 0]), json!([1, 1]), json!([0])] {
+        refused("outside", &[("U/points/form/0/exponent", exponent)], wanted);
+    }
+    refused(
+        "outside",
+        &[("U/points/form/0/weight", json!(P.to_string()))],
+        "U.points: a residue is not below the prime",
+    );
+    // 1 - u vanishes at the identity.
+    let weights = ["1".to_string(), (P - 1).to_string(), "0".to_string()];
+    let changes: Vec<(String, Value)> = (0..3)
+        .map(|k| (format!("U/points/form/{k}/weight"), json!(weights[k])))
+        .collect();
+    let changes: Vec<(&str, Value)> = changes
+        .iter()
+        .map(|(place, new)| (place.as_str(), new.clone()))
+        .collect();
+    let reason = reason(&changed("outside", &changes));
+    assert!(
+        reason.ends_with("the form vanishes at the point"),
+        "{reason}"
+    );
+    refused(
+        "outside",
+        &[("U/points/outside", json!([]))],
+        "U.points: 2 points, where 8 exponents less a rank of 5 are asked for",
+    );
+}
+
+#[test]
+fn s18a_points_outside() {
+    let point = "U/points/outside/0";
+    let values = value_at("outside", &format!("{point}/values"));
+    let with = |f: usize, value: Value| {
+        let mut values = values.clone();
+        values[f] = value;
+        values
+    };
+    for (member, new, wanted) in [
+        ("values", json!(["1", "0"]), "2 values for 4 unknowns"),
+        (
+            "values",
+            with(1, json!("5")),
+            "no value of the listed unknowns is zero or infinite",
+        ),
+        (
+            "values",
+            with(0, json!(P.to_string())),
+            "a residue is not below the prime",
+        ),
+        (
+            "blocks",
+            json!([[]]),
+            "a set of rows is empty, or not increasing",
+        ),
+        (
+            "blocks",
+            json!([[1, 0]]),
+            "a set of rows is empty, or not increasing",
+        ),
+        (
+            "blocks",
+            json!([[21]]),
+            "a set of rows is empty, or not increasing",
+        ),
+        ("blocks", json!([[0, 7]]), "row 7 is in two sets"),
+        (
+            "dependent",
+            json!([]),
+            "0 conditions of rank 0 for 1 values",
+        ),
+        (
+            "dependent",
+            json!([[7, 8]]),
+            "dependent[0] has 0 relations, and not one",
+        ),
+    ] {
+        refused(
+            "outside",
+            &[(&format!("{point}/{member}"), new)],
+            &format!("U.points.outside[0]: {wanted}"),
+        );
+    }
+    refused(
+        "outside",
+        &[
+            (&format!("{point}/dependent"), json!([])),
+            (&format!("{point}/blocks"), json!([[15]])),
+        ],
+        "U.points.outside[0]: row 15 of a block has a scale that is not one",
+    );
+    refused(
+        "outside",
+        &[
+            (&format!("{point}/dependent"), json!([])),
+            (&format!("{point}/values"), with(0, json!("1"))),
+        ],
+        "U.points.outside[0]: the rank at the point is at most 21, which is above 20",
+    );
+}
+
+/// Points outside that are refused whatever the minors are: there are none.
+#[test]
+fn s18a_scales_that_are_out_of_place() {
+    let points = |unknowns: &[usize], values: Value| {
+        let outside = json!([{"values": values, "blocks": [], "dependent": []}]);
+        json!({"centres": {}, "unknowns": unknowns, "bounds": vec![1; unknowns.len()], "absent": [],
+            "minors": [], "points": [], "outside": outside})
+    };
+    let refuse = |name: &str, points: Value, unknowns: Option<Value>, wanted: &str| {
+        let mut value = text_of(name);
+        let upper = &mut value["solutions"]["upper"];
+        let mut points = points;
+        points["centres"] = upper["centres"].clone();
+        upper["points"] = points;
+        if let Some(unknowns) = unknowns {
+            upper["chart"]["unknowns"] = unknowns;
+        }
+        if name == "support" {
+            upper["steps"].as_array_mut().unwrap().truncate(1);
+        }
+        let wanted = format!("solutions.upper.points.outside[0]: {wanted}");
+        assert_eq!(reason(&value), wanted);
+    };
+    refuse(
+        "support",
+        points(&[1], json!(["2", "0", "1", "1"])),
+        None,
+        "unknown 0 is known to be one, and is not",
+    );
+    // Node 3 is the middle of a chain of three, so that four rows have its scale.
+    refuse(
+        "outside",
+        points(&[0, 1], json!(["1", null, "1", "1"])),
+        Some(json!([[6, 7], [0, 3], [8, 6], [9, 6]])),
+        "the infinite unknown 1 is in more than three rows",
+    );
+    refuse(
+        "outside",
+        points(&[1, 2], json!(["1", "0", "0", "1"])),
+        Some(json!([[6, 7], [0, 3], [0, 4], [9, 6]])),
+        "both scales of row 2 are zero, or both are infinite",
     );
 }
 
@@ -863,7 +1026,7 @@ fn limits() {
 #[test]
 fn no_changed_scalar_changes_what_is_verified() {
     let (mut rejected, mut tried) = (0, 0);
-    for name in ["part", "support", "two", "absent"] {
+    for name in ["part", "support", "two", "absent", "outside"] {
         let original = text_of(name);
         let said = check(original.to_string().as_bytes(), None)
             .unwrap()

@@ -21,7 +21,7 @@ use std::fmt::Display;
 /// `optional` are left out if there are none.
 macro_rules! objects {
     ($($name:ident $(<$($parameter:tt),+>)? {
-        $($member:ident: $type:ty),* $(,)? $(; optional $($more:ident: $more_type:ty),*)?
+        $($member:ident: $type:ty),* $(,)? $(; optional $($more:ident: $more_type:ty),* $(,)?)?
     })*) => {$(
         pub(super) struct $name $(<$($parameter),+>)? {
             $($member: $type,)*

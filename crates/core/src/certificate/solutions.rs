@@ -8,7 +8,8 @@ use super::document::{Big, bigs, objects};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{
-    AtMost, Chart, Linear, Lower, Merge, Minor, One, Part, Place, Rule, Solutions, Upper,
+    AtMost, Chart, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule, Solutions,
+    Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -102,6 +103,18 @@ objects! {
         absent: &'a [Vec<usize>],
         minors: Vec<MinorView>,
         points: Vec<PointView<'a>>,
+        ; optional form: Vec<TermView<'a>>, outside: Vec<OutsideView<'a>>
+    }
+
+    TermView<'a> {
+        exponent: &'a [usize],
+        weight: Big<&'a u64>,
+    }
+
+    OutsideView<'a> {
+        values: Vec<Option<Big<u64>>>,
+        blocks: &'a [Vec<usize>],
+        dependent: &'a [Vec<usize>],
     }
 
     PointView<'a> {
@@ -375,6 +388,11 @@ impl MinorView {
 impl<'a> PointsView<'a> {
     fn new(place: &'a Place, found: &'a AtMost) -> Self {
         let points = found.points.iter().zip(&found.settled);
+        // Theorem 10.8 is what holds without a form.
+        let one = |(exponent, weight): &(Vec<usize>, u64)| {
+            *weight == u64::from(exponent.iter().all(|&e| e == 0))
+        };
+        let plain = found.form.iter().all(one) && found.outside.is_empty();
         Self {
             centres: CentresView::new(place),
             unknowns: &found.unknowns,
@@ -387,6 +405,31 @@ impl<'a> PointsView<'a> {
                     steps: settled.iter().map(LinearView::new).collect(),
                 })
                 .collect(),
+            form: (!plain).then(|| found.form.iter().map(TermView::new).collect()),
+            outside: (!plain).then(|| found.outside.iter().map(OutsideView::new).collect()),
+        }
+    }
+}
+
+impl<'a> TermView<'a> {
+    fn new((exponent, weight): &'a (Vec<usize>, u64)) -> Self {
+        Self {
+            exponent,
+            weight: Big(weight),
+        }
+    }
+}
+
+impl<'a> OutsideView<'a> {
+    fn new(point: &'a Outside) -> Self {
+        let value = |limit: &Limit| match *limit {
+            Limit::Finite(value) => Some(Big(value)),
+            Limit::Infinite => None,
+        };
+        Self {
+            values: point.values.iter().map(value).collect(),
+            blocks: &point.blocks,
+            dependent: &point.dependent,
         }
     }
 }
