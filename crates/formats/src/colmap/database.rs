@@ -254,7 +254,9 @@ impl Tables {
 
     /// How many matches two images have, where the table says so. O(log m).
     fn matches_of(&self, images: (u32, u32)) -> Option<u32> {
-        let found = self.matches.binary_search_by_key(&images, |&(ends, _)| ends);
+        let found = self
+            .matches
+            .binary_search_by_key(&images, |&(ends, _)| ends);
         found.ok().map(|at| self.matches[at].1)
     }
 
