@@ -384,7 +384,7 @@ fn bicliques_by_hand() {
         let pairs: Vec<(u32, u32)> = ends.iter().copied().chain(sides).collect();
         graph(11, &pairs)
     };
-    for of in (0..6).map(|k| k..k + 1).chain([0..6]) {
+    for of in (0..6).map(|k| k..k + 1).chain(std::iter::once(0..6)) {
         check(&with_tips(of), Model::Projective);
     }
     assert_eq!(finals(&with_tips(0..6)), 1);
