@@ -280,7 +280,8 @@ impl<'a> Limited<'a> {
                     let Some(place) = nodes.iter().position(|&v| v == side.node) else {
                         continue;
                     };
-                    if side.scale == Some(f) {
+                    // A side whose partner is infinite is not there.
+                    if side.scale == Some(f) && self.factors[row][which] != 0 {
                         let product = field.dot(0, &side.vector, &y[3 * place..3 * place + 3]);
                         let term = field.times(weight, product);
                         sum = match which {
