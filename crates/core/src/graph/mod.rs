@@ -6,6 +6,8 @@
 
 use std::fmt;
 
+use rayon::prelude::*;
+
 mod adjacency;
 mod biconnected;
 pub mod graph6;
@@ -26,6 +28,9 @@ pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
 pub use union_find::UnionFind;
+
+/// How many pairs a core takes at least: fewer are not worth waking another one.
+const SHARE: usize = 1 << 14;
 
 /// A simple undirected graph on the nodes `0..nodes`.
 ///
@@ -112,22 +117,26 @@ impl Graph {
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
     pub fn from_pairs(nodes: u32, mut pairs: Vec<(u32, u32)>) -> Result<(Self, usize), GraphError> {
-        for pair in &mut pairs {
-            let (i, j) = *pair;
-            if i == j {
-                return Err(GraphError::SelfLoop(i));
-            }
+        let refused = |&(i, j): &(u32, u32)| {
             let node = i.max(j);
-            if node >= nodes {
-                return Err(GraphError::OutOfRange { node, nodes });
+            match node {
+                _ if i == j => Some(GraphError::SelfLoop(i)),
+                _ if node >= nodes => Some(GraphError::OutOfRange { node, nodes }),
+                _ => None,
             }
-            *pair = (i.min(j), node);
+        };
+        if let Some(error) = pairs.par_iter().with_min_len(SHARE).find_map_first(refused) {
+            return Err(error);
         }
-        if !pairs.is_sorted() {
-            pairs.sort_unstable();
-        }
+        pairs.par_iter_mut().with_min_len(SHARE).for_each(|pair| {
+            *pair = (pair.0.min(pair.1), pair.0.max(pair.1));
+        });
         let given = pairs.len();
-        pairs.dedup();
+        let increase = |two: &[(u32, u32)]| two[0] < two[1];
+        if !pairs.par_windows(2).with_min_len(SHARE).all(increase) {
+            pairs.par_sort_unstable_by_key(|&(i, j)| u64::from(i) << 32 | u64::from(j));
+            pairs.dedup();
+        }
         let merged = given - pairs.len();
         Ok((
             Self {

@@ -10,8 +10,8 @@
 //! integer below 2^64 without leading zeros, else bytewise.
 //!
 //! A list of 10^7 pairs must be read in the time of reading the file. So the
-//! usual line, two integers below 2^32, has a parser of its own, and integers
-//! become nodes by a bitmap of those that occur; everything else takes the
+//! usual line, two integers below 2^32, has a parser of its own ([`plain`]), which runs on all
+//! cores, and integers become nodes by a bitmap of those that occur; everything else takes the
 //! general way, through an index of labels.
 
 use std::io::Read;
@@ -23,13 +23,17 @@ use viewcert::wording::counted;
 mod doubts;
 pub(super) mod fields;
 pub(super) mod nodes;
+mod plain;
 
 use doubts::Doubts;
 use fields::{Field, integer};
 use nodes::{Index, number_integers};
+use plain::{Plain, further_numbers, ignored, line_end};
 
-/// The longest line that is read, and the size of a read.
+/// The longest line that is read, with its end.
 const LINE_LIMIT: usize = 1 << 20;
+/// How much is read at once: enough for all cores.
+const READ: usize = 8 << 20;
 /// More pairs than that have no numbers in the program.
 pub(super) const PAIR_LIMIT: usize = i32::MAX as usize;
 /// A text that begins like this says that it is UTF-8.
@@ -136,36 +140,33 @@ impl Default for Collector {
 
 impl Collector {
     fn read(&mut self, mut input: impl Read) -> Result<(), Fault> {
-        let mut buffer = vec![0; LINE_LIMIT];
+        let mut buffer = vec![0; READ];
         let mut filled = 0;
         loop {
-            let got = match input.read(&mut buffer[filled..]) {
-                Ok(got) => got,
-                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => continue,
-                Err(error) => return Err(Place::Input.fault(error.into())),
-            };
-            let end = filled + got;
-            if got == 0 {
+            let end = fill(&mut input, &mut buffer, filled)
+                .map_err(|error| Place::Input.fault(error.into()))?;
+            if end < buffer.len() {
                 return self.lines(&buffer[..end]);
             }
-            let Some(last) = buffer[filled..end].iter().rposition(|&b| b == b'\n') else {
-                if end == buffer.len() {
-                    // What the line is says more than how long it is.
-                    self.text_of(self.line + 1, &buffer[..end])?;
-                    let problem = Problem::LineTooLong { limit: LINE_LIMIT };
-                    return Err(Place::Line(self.line + 1).fault(problem));
-                }
-                filled = end;
-                continue;
-            };
-            let complete = filled + last + 1;
+            let last = buffer.iter().rposition(|&b| b == b'\n');
+            let complete = last.map_or(0, |last| last + 1);
             self.lines(&buffer[..complete])?;
             if self.pairs.len() > PAIR_LIMIT {
                 return Err(Place::Input.fault(Problem::TooManyPairs));
             }
-            buffer.copy_within(complete..end, 0);
+            if end - complete > LINE_LIMIT {
+                return Err(self.long_line(&buffer[complete..]));
+            }
+            buffer.copy_within(complete.., 0);
             filled = end - complete;
         }
+    }
+
+    /// What is wrong with the line after those that were read, which is too long: what it is
+    /// says more than how long it is.
+    fn long_line(&self, line: &[u8]) -> Fault {
+        let too_long = Place::Line(self.line + 1).fault(Problem::LineTooLong { limit: LINE_LIMIT });
+        self.text_of(self.line + 1, line).err().unwrap_or(too_long)
     }
 
     /// Reads whole lines; the last one may lack its line feed.
@@ -178,68 +179,69 @@ impl Collector {
             if text.is_empty() {
                 return Ok(());
             }
-            self.line += 1;
             let end = text.iter().position(|&b| b == b'\n');
-            self.any_line(&text[..end.unwrap_or(text.len())])?;
+            let line = &text[..end.unwrap_or(text.len())];
+            if line.len() >= LINE_LIMIT {
+                return Err(self.long_line(line));
+            }
+            self.line += 1;
+            self.any_line(line)?;
             text = end.map_or(&[], |end| &text[end + 1..]);
         }
     }
 
-    /// Reads lines of two small integers and plain numbers as long as there are any, and returns
-    /// what follows them. What is wrong with a line is left to the general way.
+    /// Reads plain lines as long as there are any, and returns what follows them. What is wrong
+    /// with a line is left to the general way.
     fn plain_lines<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
         if self.names.is_some() {
             return text;
         }
         let columns = match (&self.first, self.reading) {
-            (_, Reading::Lenient) => {
-                return self.plain_pairs(text, |further, _, _| {
-                    let (more, rest) = ignored(further)?;
-                    Some((u64::from(more), rest))
-                });
-            }
+            (_, Reading::Lenient) => return self.take(text, plain::read_parts(text, ignored)),
             (_, Reading::Columns(columns)) => columns,
             (Some(first), Reading::Strict) if self.pairs.len() >= FIRST_LINES => first.columns,
             _ => return text,
         };
+        let without_more = |rest| (false, rest);
         if columns == 2 {
-            return self.plain_pairs(text, |further, _, _| Some((0, line_end(further)?)));
+            let parts = plain::read_parts(text, |further| line_end(further).map(without_more));
+            return self.take(text, parts);
         }
-        let mut doubts = std::mem::take(&mut self.doubts);
-        let rest = self.plain_pairs(text, |further, a, b| {
+        if self.reading != Reading::Strict || !self.doubts.watch_thirds() {
+            let parts = plain::read_parts(text, |further| {
+                further_numbers(further, columns).map(|(_, rest)| (false, rest))
+            });
+            return self.take(text, parts);
+        }
+        // Line by line as long as third fields matter, which is short for most texts.
+        let doubts = &mut self.doubts;
+        let watched = plain::read(text, |further, a, b| {
             let (third, rest) = further_numbers(further, columns)?;
-            if doubts.watch_thirds() {
-                let third = std::str::from_utf8(third).ok().and_then(integer);
-                doubts.third(Some([a.into(), b.into()]), third);
+            if !doubts.watch_thirds() {
+                return None;
             }
-            Some((0, rest))
+            let third = std::str::from_utf8(third).ok().and_then(integer);
+            doubts.third(Some([a.into(), b.into()]), third);
+            Some((false, rest))
         });
-        self.doubts = doubts;
-        rest
+        let rest = self.take(text, [watched]);
+        if self.doubts.watch_thirds() {
+            rest
+        } else {
+            self.plain_lines(rest)
+        }
     }
 
-    /// Reads lines of two small integers while `end` accepts what follows these on a line: then
-    /// it says what to add to the lines with more fields, and what follows the line.
-    #[inline]
-    fn plain_pairs<'a>(
-        &mut self,
-        mut text: &'a [u8],
-        mut end: impl FnMut(&'a [u8], u32, u32) -> Option<(u64, &'a [u8])>,
-    ) -> &'a [u8] {
-        let mut pairs = std::mem::take(&mut self.pairs);
-        let (before, mut with_more) = (pairs.len(), 0);
-        while let Some((a, b, further)) = small_pair(text)
-            && a != b
-            && let Some((more, rest)) = end(further, a, b)
-        {
-            pairs.push((a, b));
-            with_more += more;
-            text = rest;
+    /// Takes in plain lines at the start of a text, and returns what follows them.
+    fn take<'a>(&mut self, text: &'a [u8], lines: impl IntoIterator<Item = Plain>) -> &'a [u8] {
+        let mut length = 0;
+        for plain in lines {
+            self.line += plain.pairs.len() as u64;
+            self.lines_with_more += plain.with_more;
+            self.pairs.extend_from_slice(&plain.pairs);
+            length += plain.length;
         }
-        self.line += (pairs.len() - before) as u64;
-        self.lines_with_more += with_more;
-        self.pairs = pairs;
-        text
+        &text[length..]
     }
 
     /// A line as text, without its end.
@@ -519,6 +521,19 @@ fn ignored_columns(columns: usize) -> String {
     format!("columns 3 to {columns} are ignored (relative poses)")
 }
 
+/// Fills a buffer from a place on, as far as the input goes; returns where what was read ends.
+fn fill(input: &mut impl Read, buffer: &mut [u8], mut filled: usize) -> std::io::Result<usize> {
+    while filled < buffer.len() {
+        match input.read(&mut buffer[filled..]) {
+            Ok(0) => break,
+            Ok(got) => filled += got,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(filled)
+}
+
 /// Whether a reader of edge lists may take a text for one. It does not if a line is such that the
 /// grammar excludes it, whatever else `verify` refuses on top of that.
 pub(super) fn may_be(text: &str) -> bool {
@@ -621,107 +636,6 @@ fn brackets_close(field: &str) -> bool {
         }
     }
     open.is_empty()
-}
-
-/// Two small integers at the start of a line with one separator between them, and what follows.
-#[inline]
-fn small_pair(text: &[u8]) -> Option<(u32, u32, &[u8])> {
-    let (a, rest) = small_integer(text)?;
-    let rest = match rest {
-        [b' ' | b'\t' | b',', rest @ ..] => rest,
-        _ => return None,
-    };
-    let (b, rest) = small_integer(rest)?;
-    Some((a, b, rest))
-}
-
-/// What follows a line that has nothing more but blanks.
-#[inline]
-fn line_end(mut text: &[u8]) -> Option<&[u8]> {
-    if let [b'\n', rest @ ..] = text {
-        return Some(rest);
-    }
-    while let [b' ' | b'\t', rest @ ..] = text {
-        text = rest;
-    }
-    match text {
-        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => Some(rest),
-        _ => None,
-    }
-}
-
-/// The third of `columns` fields, if it and all further ones are numbers after one separator each,
-/// and what follows the line.
-#[inline]
-fn further_numbers(text: &[u8], columns: usize) -> Option<(&[u8], &[u8])> {
-    let mut third = None;
-    let mut text = text;
-    for _ in 2..columns {
-        let [b' ' | b'\t' | b',', rest @ ..] = text else {
-            return None;
-        };
-        let end = rest.iter().position(|b| !b.is_ascii_digit())?;
-        let end = match rest[end] {
-            b' ' | b'\t' | b',' | b'\n' | b'\r' if end > 0 => end,
-            _ => {
-                let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
-                let end = rest.iter().position(|b| !plain(b))?;
-                if !fields::is_number(&rest[..end]) {
-                    return None;
-                }
-                end
-            }
-        };
-        third.get_or_insert(&rest[..end]);
-        text = &rest[end..];
-    }
-    Some((third?, line_end(text)?))
-}
-
-/// Whether a line goes on with further fields, and what follows it; `None` if it has
-/// anything but plain characters, or a comma that no such character follows.
-#[inline]
-fn ignored(text: &[u8]) -> Option<(bool, &[u8])> {
-    match text {
-        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => return Some((false, rest)),
-        [b' ' | b'\t' | b',', ..] => {}
-        _ => return None,
-    }
-    let mut more = false;
-    let mut comma = false;
-    let stop = text.iter().position(|byte| match byte {
-        b' ' | b'\t' => comma,
-        b',' => std::mem::replace(&mut comma, true),
-        b'$' | b'&'..=b'~' => {
-            comma = false;
-            more = true;
-            false
-        }
-        _ => true,
-    })?;
-    let rest = line_end(&text[stop..])?;
-    (!comma).then_some((more, rest))
-}
-
-/// An integer below 2^32 without leading zeros at the start of `text`.
-#[inline]
-fn small_integer(text: &[u8]) -> Option<(u32, &[u8])> {
-    let mut value = 0u64;
-    let mut digits = 0;
-    while let Some(digit) = text.get(digits).map(|b| b.wrapping_sub(b'0'))
-        && digit < 10
-    {
-        value = 10 * value + u64::from(digit);
-        digits += 1;
-        if digits > 10 {
-            return None;
-        }
-    }
-    if digits == 0 || (text[0] == b'0' && digits > 1) {
-        return None;
-    }
-    let value = u32::try_from(value).ok()?;
-    Some((value, &text[digits..]))
 }
 
 #[cfg(test)]

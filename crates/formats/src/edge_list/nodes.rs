@@ -2,26 +2,33 @@
 
 use std::collections::HashMap;
 use std::fmt::Write;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rayon::prelude::*;
 
 use crate::edge_list::fields::integer;
 use viewcert::graph::Labels;
 
+/// How many pairs a core takes at least: fewer are not worth waking another one.
+const SHARE: usize = 1 << 14;
+
 /// Replaces integers by their places among those that occur. Returns the
 /// labels and their number.
 pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
-    let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
-    let largest = ends.chain(singles.iter().copied()).max().unwrap_or(0);
+    let largest = pairs
+        .par_iter()
+        .with_min_len(SHARE)
+        .map(|&(a, b)| a.max(b))
+        .max();
+    let largest = largest.into_iter().chain(singles.iter().copied()).max();
+    let largest = largest.unwrap_or(0);
     let given = 2 * pairs.len() + singles.len();
     // The bitmap takes 3/16 of a byte for every possible value: for values much
     // larger than their number it would outgrow the pairs.
     if largest as usize / 32 > given + 1024 {
         return number_far_apart(pairs, singles, largest);
     }
-    let mut words = vec![0u64; largest as usize / 64 + 1];
-    let ends = pairs.iter().flat_map(|&(a, b)| [a, b]);
-    for value in ends.chain(singles.iter().copied()) {
-        words[value as usize / 64] |= 1 << (value % 64);
-    }
+    let words = occurring(pairs, singles, largest);
     let mut count = 0;
     let before: Vec<u32> = words
         .iter()
@@ -32,19 +39,21 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
         })
         .collect();
     let nodes = count as usize;
-    let occurring = || {
+    let values = || {
         words.iter().zip(0u64..).flat_map(|(&word, at)| {
             (0..64)
                 .filter(move |bit| word >> bit & 1 == 1)
                 .map(move |bit| 64 * at + bit)
         })
     };
-    let first = occurring().next().unwrap_or(0);
+    let first = values().next().unwrap_or(0);
     if u64::from(largest) - first + 1 == nodes as u64 {
         let first_value = first as u32;
-        for (a, b) in pairs {
-            *a -= first_value;
-            *b -= first_value;
+        if first_value > 0 {
+            pairs.par_iter_mut().with_min_len(SHARE).for_each(|(a, b)| {
+                *a -= first_value;
+                *b -= first_value;
+            });
         }
         return (Labels::Numbers { first }, nodes);
     }
@@ -52,13 +61,31 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
         let at = value as usize / 64;
         before[at] + (words[at] & ((1 << (value % 64)) - 1)).count_ones()
     };
-    for (a, b) in pairs {
+    pairs.par_iter_mut().with_min_len(SHARE).for_each(|(a, b)| {
         *a = rank(*a);
         *b = rank(*b);
-    }
-    let mut values = Vec::with_capacity(nodes);
-    values.extend(occurring());
-    (Labels::Integers(values), nodes)
+    });
+    let mut integers = Vec::with_capacity(nodes);
+    integers.extend(values());
+    (Labels::Integers(integers), nodes)
+}
+
+/// Which of the integers up to the largest occur, a bit for each.
+fn occurring(pairs: &[(u32, u32)], singles: &[u32], largest: u32) -> Vec<u64> {
+    let words: Vec<AtomicU64> = (0..=largest / 64).map(|_| AtomicU64::new(0)).collect();
+    let mark = |value: u32| {
+        let (word, bit) = (&words[value as usize / 64], 1 << (value % 64));
+        // Most have been marked before, and reading costs less.
+        if word.load(Ordering::Relaxed) & bit == 0 {
+            word.fetch_or(bit, Ordering::Relaxed);
+        }
+    };
+    pairs.par_iter().with_min_len(SHARE).for_each(|&(a, b)| {
+        mark(a);
+        mark(b);
+    });
+    singles.iter().copied().for_each(mark);
+    words.into_iter().map(AtomicU64::into_inner).collect()
 }
 
 /// As [`number_integers`], for integers that lie far apart, `largest` being the

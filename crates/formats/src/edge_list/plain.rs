@@ -1,0 +1,329 @@
+//! The usual line: two integers below 2^32 and perhaps plain numbers, one separator between
+//! neighbours. A list of 10^7 pairs is read at the speed of this module.
+//!
+//! In: text that begins at a line. Out: the pairs of as many lines as are of that kind; the first
+//! that is not ends it, and whether anything is wrong with it is for the general way to say. A
+//! long text is split at line ends and its pieces are read on all cores.
+
+use rayon::prelude::*;
+
+use super::{LINE_LIMIT, fields};
+
+/// How much of a text is tried at first, on one core. As long as all lines are plain, twice as much
+/// is tried next, so that what is read in vain is never much more than what is read.
+const FIRST: usize = 1 << 14;
+/// The least length of a piece for a core.
+const PIECE: usize = 1 << 18;
+/// More pieces than that are of no use to the cores of any machine.
+const MOST_PIECES: usize = 256;
+
+/// Plain lines at the start of a text.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Plain {
+    /// One pair a line, in order.
+    pub(super) pairs: Vec<(u32, u32)>,
+    /// How many lines have fields that are ignored.
+    pub(super) with_more: u64,
+    /// How many bytes the lines have.
+    pub(super) length: usize,
+}
+
+/// What follows the first two fields on a line, if it is plain: whether there are fields to be
+/// ignored, and the text behind the line.
+type End<'a> = Option<(bool, &'a [u8])>;
+
+/// Reads plain lines while `end` accepts what follows the pair on each.
+#[inline]
+pub(super) fn read<'a>(
+    text: &'a [u8],
+    mut end: impl FnMut(&'a [u8], u32, u32) -> End<'a>,
+) -> Plain {
+    // Few lines are shorter than eight bytes.
+    let mut pairs = Vec::with_capacity(text.len().min(2 * PIECE) / 8);
+    let mut with_more = 0;
+    let mut left = text;
+    while let Some((a, b, further)) = pair(left)
+        && a != b
+        && let Some((more, rest)) = end(further, a, b)
+        && left.len() - rest.len() <= LINE_LIMIT
+    {
+        pairs.push((a, b));
+        with_more += u64::from(more);
+        left = rest;
+    }
+    Plain {
+        pairs,
+        with_more,
+        length: text.len() - left.len(),
+    }
+}
+
+/// The same on all cores, where `end` looks at one line alone. Parts of the text, in order.
+pub(super) fn read_parts<'a>(
+    mut text: &'a [u8],
+    end: impl Fn(&'a [u8]) -> End<'a> + Sync,
+) -> Vec<Plain> {
+    let mut parts = Vec::new();
+    let mut size = FIRST;
+    while !text.is_empty() {
+        let batch = first_lines(text, size);
+        let pieces = split(batch, (batch.len() / PIECE).clamp(1, MOST_PIECES));
+        let read = pieces
+            .par_iter()
+            .map(|piece| read(piece, |further, _, _| end(further)));
+        let read: Vec<Plain> = read.collect();
+        for (plain, piece) in read.into_iter().zip(pieces) {
+            let whole = plain.length == piece.len();
+            parts.push(plain);
+            if !whole {
+                return parts;
+            }
+        }
+        text = &text[batch.len()..];
+        size *= 2;
+    }
+    parts
+}
+
+/// The lines of a text that begin within so many bytes.
+fn first_lines(text: &[u8], size: usize) -> &[u8] {
+    let behind = text.get(size..).unwrap_or(&[]);
+    match behind.iter().position(|&b| b == b'\n') {
+        Some(end) => &text[..=size + end],
+        None => text,
+    }
+}
+
+/// A text in about so many pieces, each of which but the last ends with a line.
+fn split(text: &[u8], count: usize) -> Vec<&[u8]> {
+    let size = text.len().div_ceil(count).max(1);
+    let mut pieces = Vec::with_capacity(count);
+    let mut left = text;
+    while !left.is_empty() {
+        let piece = first_lines(left, size);
+        pieces.push(piece);
+        left = &left[piece.len()..];
+    }
+    pieces
+}
+
+/// Two integers at the start of a line with one separator between them, and what follows.
+#[inline]
+fn pair(text: &[u8]) -> Option<(u32, u32, &[u8])> {
+    let (a, rest) = small_integer(text)?;
+    let rest = match rest {
+        [b' ' | b'\t' | b',', rest @ ..] => rest,
+        _ => return None,
+    };
+    let (b, rest) = small_integer(rest)?;
+    Some((a, b, rest))
+}
+
+/// An integer below 2^32 without leading zeros at the start of `text`.
+#[inline]
+fn small_integer(text: &[u8]) -> Option<(u32, &[u8])> {
+    if let Some(&eight) = text.first_chunk::<8>()
+        && let digits = Digits::of(eight)
+        && (1..8).contains(&digits.count)
+    {
+        if eight[0] == b'0' && digits.count > 1 {
+            return None;
+        }
+        return Some((digits.value(), &text[digits.count..]));
+    }
+    long_integer(text)
+}
+
+/// The digits at the start of eight bytes.
+struct Digits {
+    /// Their values, one a byte, the first one in the lowest; what is behind them is arbitrary.
+    values: u64,
+    count: usize,
+}
+
+impl Digits {
+    #[inline]
+    fn of(eight: [u8; 8]) -> Self {
+        // A byte of `values` is at least 10 unless it was a digit. Adding 118 sets its highest
+        // bit then, or that is set already; a carry only touches the bytes behind it.
+        let values = u64::from_le_bytes(eight) ^ 0x3030_3030_3030_3030;
+        let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
+        Self {
+            values,
+            count: others.trailing_zeros() as usize / 8,
+        }
+    }
+
+    /// Their decimal value; there are 1 to 8 of them.
+    #[inline]
+    fn value(&self) -> u32 {
+        // Zeros in front make eight digits of them; then neighbours are joined: to numbers of
+        // two, of four, of eight digits.
+        let ones = self.values << (8 * (8 - self.count));
+        let twos = (ones.wrapping_mul(10) + (ones >> 8)) & 0x00ff_00ff_00ff_00ff;
+        let fours = (twos.wrapping_mul(100) + (twos >> 16)) & 0x0000_ffff_0000_ffff;
+        (fours.wrapping_mul(10_000).wrapping_add(fours >> 32)) as u32
+    }
+}
+
+/// As [`small_integer`], for eight digits and more, and near the end of the text.
+#[cold]
+fn long_integer(text: &[u8]) -> Option<(u32, &[u8])> {
+    let mut value = 0u64;
+    let mut digits = 0;
+    while let Some(digit) = text.get(digits).map(|b| b.wrapping_sub(b'0'))
+        && digit < 10
+    {
+        value = 10 * value + u64::from(digit);
+        digits += 1;
+        if digits > 10 {
+            return None;
+        }
+    }
+    if digits == 0 || (text[0] == b'0' && digits > 1) {
+        return None;
+    }
+    let value = u32::try_from(value).ok()?;
+    Some((value, &text[digits..]))
+}
+
+/// What follows a line that has nothing more but blanks.
+#[inline]
+pub(super) fn line_end(mut text: &[u8]) -> Option<&[u8]> {
+    if let [b'\n', rest @ ..] = text {
+        return Some(rest);
+    }
+    while let [b' ' | b'\t', rest @ ..] = text {
+        text = rest;
+    }
+    match text {
+        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => Some(rest),
+        _ => None,
+    }
+}
+
+/// The third of `columns` fields, if it and all further ones are numbers after one separator each,
+/// and what follows the line.
+#[inline]
+pub(super) fn further_numbers(text: &[u8], columns: usize) -> Option<(&[u8], &[u8])> {
+    let mut third = None;
+    let mut text = text;
+    for _ in 2..columns {
+        let [b' ' | b'\t' | b',', rest @ ..] = text else {
+            return None;
+        };
+        let end = rest.iter().position(|b| !b.is_ascii_digit())?;
+        let end = match rest[end] {
+            b' ' | b'\t' | b',' | b'\n' | b'\r' if end > 0 => end,
+            _ => {
+                let plain = |b: &u8| matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E');
+                let end = rest.iter().position(|b| !plain(b))?;
+                if !fields::is_number(&rest[..end]) {
+                    return None;
+                }
+                end
+            }
+        };
+        third.get_or_insert(&rest[..end]);
+        text = &rest[end..];
+    }
+    Some((third?, line_end(text)?))
+}
+
+/// Whether a line goes on with further fields, and what follows it; `None` if it has
+/// anything but plain characters, or a comma that no such character follows.
+#[inline]
+pub(super) fn ignored(text: &[u8]) -> End<'_> {
+    match text {
+        [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] => return Some((false, rest)),
+        [b' ' | b'\t' | b',', ..] => {}
+        _ => return None,
+    }
+    let mut more = false;
+    let mut comma = false;
+    let stop = text.iter().position(|byte| match byte {
+        b' ' | b'\t' => comma,
+        b',' => std::mem::replace(&mut comma, true),
+        b'$' | b'&'..=b'~' => {
+            comma = false;
+            more = true;
+            false
+        }
+        _ => true,
+    })?;
+    let rest = line_end(&text[stop..])?;
+    (!comma).then_some((more, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn integers() {
+        for (text, expected) in [
+            ("0 ", Some((0, 1))),
+            ("7", Some((7, 1))),
+            ("12\n........", Some((12, 2))),
+            ("1234567,........", Some((1_234_567, 7))),
+            ("12345678 .......", Some((12_345_678, 8))),
+            ("123456789 .......", Some((123_456_789, 9))),
+            ("4294967295 ......", Some((u32::MAX, 10))),
+            ("4294967296 ......", None),
+            ("12345678901 .....", None),
+            ("01 ..............", None),
+            ("00000000 ........", None),
+            ("-1 ..............", None),
+            (" 1 ..............", None),
+            ("\u{e9}1 ............", None),
+            ("", None),
+        ] {
+            let expected = expected.map(|(value, length)| (value, &text.as_bytes()[length..]));
+            assert_eq!(small_integer(text.as_bytes()), expected, "{text:?}");
+        }
+    }
+
+    proptest! {
+        /// Eight bytes at once give what one after another gives, whatever follows the digits.
+        #[test]
+        fn eight_bytes_at_once(value: u32, behind in any::<[u8; 8]>()) {
+            let mut text = value.to_string().into_bytes();
+            text.extend(behind);
+            prop_assert_eq!(small_integer(&text), long_integer(&text));
+        }
+
+        /// Pieces together are the text, and all but the last end with a line.
+        #[test]
+        fn pieces(text in "[ab\n]{0,200}", count in 1..20usize) {
+            let pieces = split(text.as_bytes(), count);
+            prop_assert_eq!(pieces.concat(), text.as_bytes());
+            prop_assert!(pieces.iter().rev().skip(1).all(|piece| piece.ends_with(b"\n")));
+        }
+    }
+
+    /// Many parts give the same lines as one, up to the first line that is not plain.
+    #[test]
+    fn all_cores() {
+        let lines = |stop: usize| -> String {
+            (0..200_000)
+                .map(|k| match k {
+                    _ if k == stop => "a b\n".to_owned(),
+                    _ => format!("{k} {} 1\n", k + 1),
+                })
+                .collect()
+        };
+        for stop in [0, 1, 77_777, 199_999, 200_000] {
+            let text = lines(stop);
+            let parts = read_parts(text.as_bytes(), ignored);
+            let pairs: Vec<_> = parts.iter().flat_map(|plain| plain.pairs.clone()).collect();
+            let expected: Vec<_> = (0..stop.min(200_000) as u32).map(|k| (k, k + 1)).collect();
+            assert_eq!(pairs, expected);
+            let length: usize = parts.iter().map(|plain| plain.length).sum();
+            assert_eq!(text[length..].is_empty(), stop == 200_000);
+            assert!(stop == 200_000 || text[length..].starts_with("a b\n"));
+            let with_more: u64 = parts.iter().map(|plain| plain.with_more).sum();
+            assert_eq!(with_more, stop as u64);
+        }
+    }
+}
