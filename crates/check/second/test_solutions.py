@@ -574,7 +574,8 @@ class Document(Case):
     """What sections 3, 8 and 12 say of the members `solutions`."""
 
     def document(self):
-        document = make.make(BICLIQUE)
+        # As a body it would have nothing to show here.
+        document = make.make(BICLIQUE, use_bodies=False)
         document["solutions"] = value([merge("biclique", list(range(6)), [0, 1, 2, 3, 4])])
         document["claim"]["solutions"] = {"at_least": 1, "at_most": 1, "strength": "proof", "error_log2": None}
         document["claim"]["verdict"]["value"] = "solvable"
