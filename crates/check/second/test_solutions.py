@@ -609,6 +609,24 @@ class Infinity(Case):
         words = "(S18a) the derivatives are not invertible"
         self.judged(chart, FACE_AND_EDGES, [None, "7"], [], [[0, 1, 4]], words, at)
 
+    def test_derivatives(self):
+        """An unknown that is at first sides and at second ones: the derivative is a difference of two matrices."""
+        chart = solutions.Chart({**TETRAHEDRON, "unknowns": [[0, 0], [0, 1]]}, FACE_AND_EDGES, "")
+        rows = solutions.Rows(chart, centres(4), "")
+        support = solutions.Support([0, 1], [0, 0], [], [], rows, {}, "")
+        for u, f in (([7, 7], 0), ([7, 7], 1)):
+            matrix, values = rows.matrix(u), {}
+            (w,), ys = solutions.left_kernel(matrix, 12, P), solutions.kernel(matrix, 12, P)
+            moved = rows.matrix([x + (k == f) for k, x in enumerate(u)])
+            for t, y in enumerate(ys):
+                products = [[sum(v * y[c] for c, v in row.items()) for row in one] for one in (matrix, moved)]
+                values[t] = sum(factor * (new - old) for factor, old, new in zip(w, *products)) % P
+            # At a point without 0 or infinity, which would be refused.
+            point = solutions.Outside({"values": ["0", "0"], "blocks": [], "dependent": []}, support, "")
+            point.values = u
+            self.assertEqual(point.derivatives(list(range(11)), [f]), [[values[t]] for t in range(len(ys))])
+            self.assertTrue(any(values.values()))
+
     def test_rank(self):
         """(S18a): the sum that bounds the rank, one above or just enough."""
         point = self.upper["points"]["outside"][0]
