@@ -579,32 +579,71 @@ def check_support(value, rows, known, where):
     return support.unknowns
 
 
+class Form:
+    """(S17): the form, its exponents A' and L(x), where a vector x is a dict from exponent to residue."""
+
+    def __init__(self, value, support, where):
+        p, tau = support.rows.p, len(support.unknowns)
+        zero = (0,) * tau
+        units = [zero[:f] + (1,) + zero[f + 1 :] for f in range(tau)]
+        self.p, self.weights = p, {zero: 1, **{unit: 0 for unit in units}}
+        if value is not None:
+            self.weights = {}
+            for k, term in enumerate(a_list(value, f"{where}: form")):
+                self.add_term(term, tau, f"{where}: form: term {k}")
+            there = all(d in self.weights for d in (zero, *units))
+            need(there, f"{where}: form: the zero exponent is missing, or one with a single 1")
+        inside = set(support.exponents)
+        self.places = [a for a in support.exponents if all(added(a, d) in inside for d in self.weights)]
+
+    def add_term(self, value, tau, where):
+        exponent, weight = members(value, "exponent weight", where)
+        d = tuple(an_int(e, f"{where}: exponent", 0, 2) for e in a_list(exponent, f"{where}: exponent"))
+        need(len(d) == tau, f"{where}: the exponent has another length")
+        need(d not in self.weights, f"{where}: the exponent is there already")
+        self.weights[d] = a_residue(weight, self.p, f"{where}: weight")
+
+    def of(self, vector):
+        """L(x), without zeros."""
+        found = {}
+        for a in self.places:
+            value = sum(weight * vector[added(a, d)] for d, weight in self.weights.items()) % self.p
+            if value:
+                found[a] = value
+        return found
+
+    def quotients(self, vector, image):
+        """Those of x by L(x), at the first exponent where L(x) is not zero."""
+        a, value = next(iter(image.items()))
+        unit = pow(value, -1, self.p)
+        return tuple(vector[added(a, d)] * unit % self.p for d in self.weights)
+
+
+def added(a, d):
+    return tuple(map(sum, zip(a, d)))
+
+
 def check_points(value, chart, known, where):
-    """(S17), (S18): the number of points."""
-    centres, unknowns, bounds, absent, minors, points = members(
-        value, "centres unknowns bounds absent minors points", where
-    )
+    """(S17) to (S18a): the number of points that count."""
+    names = "centres unknowns bounds absent minors points"
+    optional = [name for name in ("form", "outside") if type(value) is dict and name in value]
+    centres, unknowns, bounds, absent, minors, points, *more = members(value, " ".join([names, *optional]), where)
+    more = dict(zip(optional, more))
     rows = Rows(chart, centres, f"{where}: centres")
     p = rows.p
     support = Support(unknowns, bounds, absent, minors, rows, known, where)
+    need("form" not in more or type(more["form"]) is list, f"{where}: form is not a list")
+    form = Form(more.get("form"), support, where)
     parsed = []
     for k, point in enumerate(a_list(points, f"{where}: points")):
         values, steps = members(point, "values steps", f"{where}: point {k}")
         values = [a_residue(w, p, f"{where}: point {k}") for w in a_list(values, f"{where}: point {k}: values")]
         need(len(values) == len(support.unknowns), f"{where}: point {k}: (S17) another number of values")
-        parsed.append((tuple(values), a_list(steps, f"{where}: point {k}: steps")))
-    need(distinct([values for values, _ in parsed]), f"{where}: (S17) two points are the same")
-    matrix = support.matrix()
-    inner = set(support.exponents).intersection(*support.neighbours())
-    vectors = []
-    for values, _ in parsed:
-        vector = [power(values, a, p) for a in support.exponents]
-        fits = all(sum(v * vector[c] for c, v in row.items()) % p == 0 for row in matrix)
-        need(fits, f"{where}: (S17) a minor does not vanish at a point")
-        vectors.append({c: v for c, (a, v) in enumerate(zip(support.exponents, vector)) if a in inner})
-    need(rank_of(vectors, p) == len(parsed), f"{where}: (S17) the points are not independent")
-    free = len(support.exponents) - rank_of(matrix, p)
-    need(free == len(parsed), f"{where}: (S17) {len(parsed)} points, but {free} dimensions")
+        parsed.append((values, a_list(steps, f"{where}: point {k}: steps")))
+    outside = []
+    for k, point in enumerate(a_list(more.get("outside", []), f"{where}: outside")):
+        outside.append(Outside(point, support, f"{where}: outside {k}"))
+    check_kernel(support, form, [*(values for values, _ in parsed), *(point.listed for point in outside)], where)
     for k, (values, steps) in enumerate(parsed):
         at = f"{where}: point {k}"
         here = {**known, **dict(zip(support.unknowns, values))}
@@ -612,15 +651,119 @@ def check_points(value, chart, known, where):
             need(type(step) is dict and step.get("kind") == "linear", f"{at}: step {t}: (S18) not a linear step")
             check_linear(step, rows, here, f"{at}: step {t}")
         need(len(here) == len(chart.unknowns), f"{at}: (S18) an unknown is not known after the steps")
+    for point in outside:
+        point.check()
     return len(parsed)
 
 
-def power(values, exponent, p):
-    """The product of the powers, with 0^0 = 1."""
+def check_kernel(support, form, points, where):
+    """(S17): the points, those of `outside` as well, span the kernel of the matrix of (S16)."""
+    p, matrix = support.rows.p, support.matrix()
+    images, quotients = [], []
+    for values in points:
+        vector = {a: power(values, a, support.bounds, p) for a in support.exponents}
+        entries = list(vector.values())
+        fits = all(sum(v * entries[c] for c, v in row.items()) % p == 0 for row in matrix)
+        need(fits, f"{where}: (S17) a minor does not vanish at a point")
+        images.append(form.of(vector))
+        need(images[-1], f"{where}: (S17) the form is zero at a point")
+        quotients.append(form.quotients(vector, images[-1]))
+    need(distinct(quotients), f"{where}: (S17) two points are the same")
+    number = {a: k for k, a in enumerate(form.places)}
+    images = [{number[a]: v for a, v in image.items()} for image in images]
+    need(rank_of(images, p) == len(points), f"{where}: (S17) the points are not independent")
+    free = len(support.exponents) - rank_of(matrix, p)
+    need(free == len(points), f"{where}: (S17) {len(points)} points, but {free} dimensions")
+
+
+def power(values, exponent, bounds, p):
+    """The product of the powers, with 0^0 = 1; infinity (None) has the value 1 at its largest exponent and 0 else."""
     result = 1
-    for value, e in zip(values, exponent):
-        result = result * pow(value, e, p) % p
+    for value, e, bound in zip(values, exponent, bounds):
+        result = result * (int(e == bound) if value is None else pow(value, e, p)) % p
     return result
+
+
+class Outside:
+    """(S18a): a point with a scale that is 0 or infinite (None), which no solution comes near."""
+
+    def __init__(self, value, support, where):
+        values, self.blocks, self.dependent = members(value, "values blocks dependent", where)
+        self.rows, self.where, p = support.rows, where, support.rows.p
+        self.values = []
+        for entry in a_list(values, f"{where}: values"):
+            self.values.append(None if entry is None else a_residue(entry, p, f"{where}: values"))
+        need(len(self.values) == len(self.rows.chart.unknowns), f"{where}: (S18a) another number of values")
+        need(all(self.values[f] == 1 for f in support.known), f"{where}: (S18a) an unknown that is known is not 1")
+        self.listed = [self.values[f] for f in support.unknowns]
+        need(0 in self.listed or None in self.listed, f"{where}: (S18a) none of the listed unknowns is 0 or infinite")
+
+    def scale(self, side):
+        return 1 if side.unknown is None else self.values[side.unknown]
+
+    def check(self):
+        """What is to hold at the point, apart from (S17)."""
+        where, sides = self.where, self.rows.sides
+        times = [0] * len(self.values)
+        for row, pair in enumerate(sides):
+            for f in self.rows.unknowns_of(row):
+                times[f] += 1
+            scales = [self.scale(side) for side in pair]
+            need(scales not in ([0, 0], [None, None]), f"{where}: (S18a) row {row} has two scales that are 0 or infinite")
+        fits = all(count <= 3 for count, value in zip(times, self.values) if value is None)
+        need(fits, f"{where}: (S18a) an infinite unknown is in more than three rows")
+        used = set()
+        blocks = [self.read_rows(one, used, f"{where}: blocks") for one in a_list(self.blocks, f"{where}: blocks")]
+        dependent = a_list(self.dependent, f"{where}: dependent")
+        dependent = [self.read_rows(one, used, f"{where}: dependent") for one in dependent]
+        ones = all(self.scale(side) == 1 for own in blocks for row in own for side in sides[row])
+        need(ones, f"{where}: (S18a) a row of a block has a scale that is not 1")
+        unknowns = [f for f, value in enumerate(self.values) if value not in (0, 1, None)]
+        matrix = [line for own in dependent for line in self.derivatives(own, unknowns)]
+        square = len(matrix) == len(unknowns)
+        need(square, f"{where}: (S18a) {len(matrix)} equations of {len(unknowns)} unknowns")
+        need(determinant(matrix, self.rows.p), f"{where}: (S18a) the derivatives are not invertible")
+        rank = sum(len(self.columns(own)) - 4 for own in blocks)
+        rank += sum(len(own) - 1 for own in dependent) + len(sides) - len(used)
+        need(rank <= self.rows.chart.width - 4, f"{where}: (S18a) the rank may be {rank}, above 3 n' - 4")
+
+    def read_rows(self, value, used, where):
+        own = [an_int(row, where, 0, len(self.rows.sides)) for row in a_list(value, where)]
+        need(own, f"{where}: (S18a) a list is empty")
+        increasing(own, f"{where}: (S18a) a list")
+        need(not used & set(own), f"{where}: (S18a) a row is in two lists")
+        used.update(own)
+        return own
+
+    def kept(self, row):
+        """The sides that are not zero at the point, nor struck out, each with its sign and its scale."""
+        pair = list(zip(self.rows.sides[row], (1, -1)))
+        infinite = [(side, sign, 1) for side, sign in pair if self.scale(side) is None]
+        return infinite or [(side, sign, self.scale(side)) for side, sign in pair if self.scale(side)]
+
+    def columns(self, own):
+        """The columns of the nodes of a list."""
+        return sorted({c for row in own for side, _, _ in self.kept(row) for c in side.entries})
+
+    def derivatives(self, own, unknowns):
+        """The w^T (dR/du_f) y of a list R: a row for each y of a basis."""
+        p, columns = self.rows.p, self.columns(own)
+        number = {c: k for k, c in enumerate(columns)}
+        matrix = []
+        for row in own:
+            entries = [item for side, sign, scale in self.kept(row) for item in side.scaled(sign * scale).items()]
+            matrix.append({number[c]: v % p for c, v in entries})
+        relations = left_kernel(matrix, len(columns), p)
+        need(len(relations) == 1, f"{self.where}: (S18a) a dependent list has {len(relations)} relations, not one")
+        lines = []
+        for y in kernel(matrix, len(columns), p):
+            line = dict.fromkeys(unknowns, 0)
+            for row, w in zip(own, relations[0]):
+                for side, sign, _ in self.kept(row):
+                    if side.unknown in line:
+                        line[side.unknown] += sign * w * sum(v * y[number[c]] for c, v in side.entries.items())
+            lines.append([line[f] % p for f in unknowns])
+        return lines
 
 
 # A lower bound -------------------------------------------------------------------------------------------------------

@@ -307,7 +307,7 @@ class Document(Case):
             (["version"], 3, "version"),
             (["format"], "other", "format"),
             (["program"], None, "program is not a string"),
-            (["model"], "affine", "model"),
+            (["model"], "euclidean", "no such model"),
             (["graph", "name"], 4, "name is not a string"),
             (["graph", "nodes"], 0, "nodes: 0 is below 1"),
             (["graph", "nodes"], 5, "number of nodes"),

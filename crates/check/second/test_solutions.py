@@ -409,12 +409,280 @@ class Points(Case):
         self.points("point 0 is out of range", points=[{"values": ["1", str(P)], "steps": []}])
         self.points("(S17) 0 points, but 1 dimensions", points=[])
         self.points("(S17) 1 points, but 2 dimensions", minors=MINORS[:2])
-        # With the bounds 1, 1 and without the exponent 1, 1 nothing is left to which both can be added.
-        self.points("(S17) the points are not independent", absent=[[0, 1], [1, 0], [1, 1]], minors=[])
+        # Without the exponents of one scale alone nothing is left to which both can be added.
+        self.points("(S17) the form is zero at a point", absent=[[0, 1], [1, 0], [1, 1]], minors=[])
+        two = [{"values": [scale], "steps": []} for scale in ("1", "2")]
+        self.points("(S17) the points are not independent", unknowns=[0], bounds=[1], minors=[], points=two)
         self.points("(S12) another number of bounds", bounds=[1])
         self.points("(S13) it is too small", minors=[minor([0, 1], [0, 1])])
         self.points("(S14) the coefficient of [1, 1] need not vanish", absent=[[1, 1]])
         self.points("(S7) another number of centres", centres=centres(4))
+
+
+class Infinity(Case):
+    """(S17) with a form, and (S18a): ten nodes, two solutions, and a third point that counts for nothing.
+
+    The upper bound is about two of the four scales; at the third point they are (theta, infinity), the others are 0.
+    """
+
+    def setUp(self):
+        with open(os.path.join(HERE, "..", "tests", "solutions", "outside.json"), encoding="utf-8") as file:
+            self.document = json.load(file)
+        self.upper = {**self.document["solutions"]["upper"]}
+        self.sets = [frozenset([1, 3, 4]), *map(frozenset, self.document["pieces"][0]["edges"])]
+        self.prime = int(self.upper["centres"]["prime"])
+
+    def count(self, **changes):
+        upper = {**self.upper, "points": {**self.upper["points"], **changes}}
+        return solutions.check_solutions(value(upper=upper), self.sets, "section 12")
+
+    def refused(self, words, **changes):
+        with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+            self.count(**changes)
+        self.assertIn(words, str(caught.exception))
+
+    def outside(self, words, **changes):
+        self.refused(words, outside=[{**self.upper["points"]["outside"][0], **changes}])
+
+    def test_it_is_verified(self):
+        lines = check.check(json.dumps(self.document).encode()).statements()
+        self.assertIn("solutions: at least 2, at most 2 (proof)", lines)
+        self.assertEqual(self.count(), (1, 2))
+
+    def test_form(self):
+        terms = self.upper["points"]["form"]
+
+        def refused(words, *changed):
+            self.refused(f"points: form: {words}", form=list(changed))
+
+        refused("term 0 is not an object", 7)
+        refused("term 0: the member weight is missing", {"exponent": [0, 0]})
+        refused("term 0: exponent: 2 is out of range", {"exponent": [2, 0], "weight": "1"})
+        refused("term 0: exponent: -1 is below 0", {"exponent": [-1, 0], "weight": "1"})
+        refused("term 0: the exponent has another length", {"exponent": [0], "weight": "1"})
+        refused("term 3: the exponent is there already", *terms, terms[1])
+        refused("term 3: weight is out of range", *terms, {"exponent": [1, 1], "weight": str(self.prime)})
+        refused("term 3: weight: -1 is below 0", *terms, {"exponent": [1, 1], "weight": "-1"})
+        for k in range(3):
+            refused("the zero exponent is missing, or one with a single 1", *(terms[:k] + terms[k + 1 :]))
+        for nothing in (None, {}, "1"):
+            self.refused("form is not a list", form=nothing)
+            self.refused("outside is not a list", outside=nothing)
+        # Most other weights do as well.
+        for k in range(3):
+            other = [{**term, "weight": "5"} if t == k else term for t, term in enumerate(terms)]
+            self.assertEqual(self.count(form=other), (1, 2))
+        self.assertEqual(self.count(form=terms[::-1]), (1, 2))
+
+    def test_missing_members(self):
+        """They stand for a form that sees no point at infinity, and for no point."""
+        points = self.upper["points"]
+        plain = [{"exponent": d, "weight": str(int(not any(d)))} for d in ([0, 0], [0, 1], [1, 0])]
+        short = {name: points[name] for name in points if name != "form"}
+        for changed in ({**points, "form": plain}, short):
+            with self.assertRaises(notation.Reject) as caught:
+                solutions.check_solutions(value(upper={**self.upper, "points": changed}), self.sets, "")
+            self.assertIn("(S17) the form is zero at a point", str(caught.exception))
+        short = {name: points[name] for name in points if name != "outside"}
+        with self.assertRaises(notation.Reject) as caught:
+            solutions.check_solutions(value(upper={**self.upper, "points": short}), self.sets, "")
+        self.assertIn("(S17) 2 points, but 3 dimensions", str(caught.exception))
+        self.refused("(S17) 2 points, but 3 dimensions", outside=[])
+        # Where no point is infinite both may be missing, or be there.
+        weights = [([0, 0], 1), ([1, 0], 0), ([0, 1], 0), ([1, 1], 3)]
+        plain = [{"exponent": d, "weight": str(weight)} for d, weight in weights]
+        for form in (plain[:3], plain):
+            self.assertEqual(bound(BICLIQUE, upper=upper(points={**POINTS, "form": form, "outside": []})), (1, 1))
+        self.refused("the member inside is unknown", inside=[])
+
+    def test_s17(self):
+        points = self.upper["points"]
+        outside = points["outside"]
+        self.refused("(S17) two points are the same", points=points["points"][:1] * 2)
+        self.refused("(S17) two points are the same", outside=outside * 2)
+        # The same in the listed unknowns.
+        again = {**outside[0], "values": [*outside[0]["values"][:3], "1"]}
+        self.refused("(S17) two points are the same", outside=[*outside, again])
+        self.refused("(S17) 2 points, but 3 dimensions", points=points["points"][1:])
+        changed = [str(int(outside[0]["values"][0]) + 1), *outside[0]["values"][1:]]
+        self.outside("(S17) a minor does not vanish at a point", values=changed)
+        # Infinity is no large number, and not 0.
+        for other in ("0", str(self.prime - 1)):
+            changed = [outside[0]["values"][0], other, "0", "0"]
+            words = "(S17) a minor does not vanish at a point" if other == "0" else "none of the listed unknowns"
+            self.outside(words, values=changed)
+        zero = [{"exponent": term["exponent"], "weight": "0"} for term in points["form"]]
+        self.refused("(S17) the form is zero at a point", form=zero)
+        # A form that vanishes at u = 1 alone.
+        weights = [["0", "0", str(self.prime - 1), "1"], [[0, 0], [1, 0], [0, 1], [1, 1]]]
+        form = [{"exponent": d, "weight": weight} for weight, d in zip(*weights)]
+        self.refused("(S17) the form is zero at a point", form=form)
+
+    def test_s18(self):
+        points = self.upper["points"]["points"]
+        short = [{**points[0], "steps": []}, points[1]]
+        self.refused("point 0: (S18) an unknown is not known after the steps", points=short)
+
+    def test_values(self):
+        """(S18a): what is asked of the values."""
+        theta = self.upper["points"]["outside"][0]["values"][0]
+        self.outside("outside 0: values is not a list", values=None)
+        self.outside("outside 0: values is out of range", values=[theta, None, "0", str(self.prime)])
+        self.outside("outside 0: values is not a big", values=[theta, None, "0", 0])
+        self.outside("outside 0: (S18a) another number of values", values=[theta, None])
+        words = "outside 0: (S18a) none of the listed unknowns is 0 or infinite"
+        self.outside(words, values=[theta, "1", "0", None])
+        # K_{2,4}: the first two scales are known by a step.
+        chart = {"chains": [], "half_edges": [[v, 0, 1] for v in (2, 3, 4, 5)], "unknowns": [[1, 1], [2, 1], [3, 1]]}
+        for known in (["1", None], ["0", "1"]):
+            point = {"values": [*known, None], "blocks": [], "dependent": []}
+            points = {"centres": centres(6), "unknowns": [2], "bounds": [1], "absent": [], "minors": [], "points": []}
+            flat = {"chart": chart, "centres": centres(6), "steps": [LINEAR], "points": {**points, "outside": [point]}}
+            words = "outside 0: (S18a) an unknown that is known is not 1"
+            self.rejects([*BICLIQUE, (0, 5), (1, 5)], words, upper=flat)
+
+    def test_scales_of_a_row(self):
+        """(S18a): two that are 0, or infinite; and an infinite one in four rows."""
+        chart = {**TETRAHEDRON, "unknowns": [[0, 0], [0, 1]]}
+        for values, words in [
+            (["0", "0"], "(S18a) row 0 has two scales that are 0 or infinite"),
+            ([None, None], "(S18a) row 0 has two scales that are 0 or infinite"),
+            (["1", None], "(S18a) an infinite unknown is in more than three rows"),
+            # In three rows, and beside a 0: what is refused is something else.
+            ([None, "0"], "(S18a) the rank may be 11, above 3 n' - 4"),
+        ]:
+            self.judged(chart, FACE_AND_EDGES, values, [], [], words)
+
+    def judged(self, chart, core, values, blocks, dependent, words, at=None):
+        """What is said of a point apart from (S17)."""
+        at = at or centres(1 + max(map(max, core)))
+        rows = solutions.Rows(solutions.Chart(chart, [frozenset(nodes) for nodes in core], ""), at, "")
+        count = len(chart["unknowns"])
+        support = solutions.Support(list(range(count)), [0] * count, [], [], rows, {}, "")
+        point = {"values": values, "blocks": blocks, "dependent": dependent}
+        with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+            solutions.Outside(point, support, "").check()
+        self.assertIn(words, str(caught.exception))
+
+    def test_lists(self):
+        """(S18a): blocks and dependent lists."""
+        rows = self.upper["points"]["outside"][0]["dependent"][0]
+        self.outside("outside 0: blocks is not a list", blocks=None)
+        self.outside("outside 0: dependent is not a list", dependent=[7])
+        self.outside("outside 0: dependent: 21 is out of range", dependent=[[*rows, 21]])
+        self.outside("outside 0: dependent: (S18a) a list is empty", dependent=[rows, []])
+        self.outside("outside 0: blocks: (S18a) a list is empty", blocks=[[]])
+        self.outside("outside 0: dependent: (S18a) a list is not increasing", dependent=[rows[::-1]])
+        self.outside("outside 0: dependent: (S18a) a list is not increasing", dependent=[rows[:1] + rows])
+        self.outside("outside 0: dependent: (S18a) a row is in two lists", dependent=[rows, rows[:1]])
+        self.outside("outside 0: dependent: (S18a) a row is in two lists", blocks=[rows[:2]])
+        self.outside("outside 0: blocks: (S18a) a row is in two lists", blocks=[[0, 1], [1, 2]])
+        # The scales of rows 15 (theta), 17 (infinity) and 19 (0).
+        for row in (15, 17, 19):
+            self.outside("outside 0: (S18a) a row of a block has a scale that is not 1", blocks=[[row]], dependent=[])
+
+    def test_dependent(self):
+        """(S18a): relations and derivatives."""
+        rows = self.upper["points"]["outside"][0]["dependent"][0]
+        self.outside("(S18a) a dependent list has 0 relations, not one", dependent=[rows[1:]])
+        self.outside("(S18a) 0 equations of 1 unknowns", dependent=[])
+        theta = self.upper["points"]["outside"][0]["values"][0]
+        self.outside("(S18a) a dependent list has 0 relations, not one", values=[theta, None, "0", "2"])
+        # Rows that are not in the list, with a scale that is not 1: there is nothing to say what it is.
+        shorter = [row for row in rows if row != 20]
+        self.outside("(S18a) a dependent list has 0 relations, not one", dependent=[shorter])
+        # K_{2,6}: all normals are orthogonal to c_0 - c_1, and where the scale is 0 the rows are at node 0 alone.
+        edges = [(end, v) for v in range(2, 8) for end in (0, 1)]
+        chart = {"chains": [], "half_edges": [[v, 0, 1] for v in range(2, 8)], "unknowns": [[k, 1] for k in range(1, 6)]}
+        for values, dependent, words in [
+            ("00000", [[1, 2]], "(S18a) a dependent list has 0 relations, not one"),
+            ("00000", [[1, 2, 3, 4]], "(S18a) a dependent list has 2 relations, not one"),
+            ("00000", [[1, 2, 3]], "(S18a) 1 equations of 0 unknowns"),
+            ("00078", [[1, 2, 3]], "(S18a) 1 equations of 2 unknowns"),
+            ("00007", [[1, 2, 3]], "(S18a) the derivatives are not invertible"),
+            ("00000", [], "(S18a) the rank may be 6, above 3 n' - 4"),
+        ]:
+            self.judged(chart, edges, list(values), [], dependent, words)
+        # A side that is struck out has no derivative, although its scale is 7: the rows 0, 1 and 4 are at node 0 alone.
+        at = {"prime": "101", "values": [list(digits) for digits in ("000", "125", "243", "511")]}
+        chart = {**TETRAHEDRON, "unknowns": [[0, 0], [0, 1]]}
+        words = "(S18a) the derivatives are not invertible"
+        self.judged(chart, FACE_AND_EDGES, [None, "7"], [], [[0, 1, 4]], words, at)
+
+    def test_derivatives(self):
+        """An unknown that is at first sides and at second ones: the derivative is a difference of two matrices."""
+        chart = solutions.Chart({**TETRAHEDRON, "unknowns": [[0, 0], [0, 1]]}, FACE_AND_EDGES, "")
+        rows = solutions.Rows(chart, centres(4), "")
+        support = solutions.Support([0, 1], [0, 0], [], [], rows, {}, "")
+        for u, f in (([7, 7], 0), ([7, 7], 1)):
+            matrix, values = rows.matrix(u), {}
+            (w,), ys = solutions.left_kernel(matrix, 12, P), solutions.kernel(matrix, 12, P)
+            moved = rows.matrix([x + (k == f) for k, x in enumerate(u)])
+            for t, y in enumerate(ys):
+                products = [[sum(v * y[c] for c, v in row.items()) for row in one] for one in (matrix, moved)]
+                values[t] = sum(factor * (new - old) for factor, old, new in zip(w, *products)) % P
+            # At a point without 0 or infinity, which would be refused.
+            point = solutions.Outside({"values": ["0", "0"], "blocks": [], "dependent": []}, support, "")
+            point.values = u
+            self.assertEqual(point.derivatives(list(range(11)), [f]), [[values[t]] for t in range(len(ys))])
+            self.assertTrue(any(values.values()))
+
+    def test_rank(self):
+        """(S18a): the sum that bounds the rank, one above or just enough."""
+        point = self.upper["points"]["outside"][0]
+        # The body has the rank 5 as a block as well, and its five rows; the edge 1-2 has two.
+        for blocks in ([[0, 1, 2, 3, 4]], [[5, 6]], [[0, 1, 2, 3, 4], [5, 6], [11, 12]]):
+            self.assertEqual(self.count(outside=[{**point, "blocks": blocks}]), (1, 2))
+        # A part of the body says less than its rows; a single row counts as two.
+        self.outside("(S18a) the rank may be 21, above 3 n' - 4", blocks=[[0]])
+        self.outside("(S18a) the rank may be 21, above 3 n' - 4", blocks=[[0, 1, 2, 3]])
+        self.outside("(S18a) the rank may be 22, above 3 n' - 4", blocks=[[0], [5]])
+        # Two edges without a common node: 3 * 4 - 4 and not 4.
+        self.outside("(S18a) the rank may be 24, above 3 n' - 4", blocks=[[5, 6, 11, 12]])
+        # Where no value is another than 0, 1 and infinity, nothing has to be dependent; but the rank may be too large.
+        words = "(S18a) the rank may be 21, above 3 n' - 4"
+        self.judged(self.upper["chart"], self.sets, ["1", None, "0", "0"], [], [], words)
+        # A block with all nodes has the rank 20, so that one row more is too much.
+        self.judged(self.upper["chart"], self.sets, ["1", "1", "1", "0"], [list(range(20))], [], words)
+
+    def test_theta(self):
+        """The determinant of the twelve rows and columns vanishes at theta, and just once: the root is simple."""
+        p, point = self.prime, self.upper["points"]["outside"][0]
+        rows = solutions.Rows(solutions.Chart(self.upper["chart"], self.sets, ""), self.upper["points"]["centres"], "")
+        columns = [3 * rows.chart.place[node] + r for node in (0, 2, 5, 7) for r in range(3)]
+
+        def value_at(u):
+            matrix = []
+            for row in point["dependent"][0]:
+                entries = rows.at(row, [u, 1, 0, 0])
+                if row in (17, 18):  # of the nodes 3 and 7: the scale at 7 is infinite
+                    entries = rows.sides[row][1].entries
+                matrix.append([entries.get(c, 0) % p for c in columns])
+            return solutions.determinant(matrix, p)
+
+        theta, half = int(point["values"][0]), pow(2, -1, p)
+        self.assertEqual(value_at(theta), 0)
+        # It has degree two: theta is in two rows.
+        self.assertNotEqual((value_at(theta + 1) - value_at(theta - 1)) * half % p, 0)
+
+    def test_changed_numbers(self):
+        """Whatever number of form or outside is changed: it is refused, or it is evidence for the same."""
+        same, refused = [], 0
+        points = self.upper["points"]
+        for path in numbers({name: points[name] for name in ("form", "outside")}):
+            changed = copy.deepcopy(points)
+            *names, last = path
+            place = changed
+            for name in names:
+                place = place[name]
+            place[last] = str(int(place[last]) + 1) if type(place[last]) is str else place[last] + 1
+            try:
+                self.assertEqual(self.count(**changed), (1, 2))
+                same.append(path[0])
+            except notation.Reject:
+                refused += 1
+        self.assertEqual(same, ["form"] * 3)
+        self.assertGreater(refused, 15)
 
 
 NINE = "HBQkcP_"  # nine nodes and twelve edges: 7 * 12 = 11 * 9 - 15, so it is tight
@@ -574,7 +842,8 @@ class Document(Case):
     """What sections 3, 8 and 12 say of the members `solutions`."""
 
     def document(self):
-        document = make.make(BICLIQUE)
+        # As a body it would have nothing to show here.
+        document = make.make(BICLIQUE, use_bodies=False)
         document["solutions"] = value([merge("biclique", list(range(6)), [0, 1, 2, 3, 4])])
         document["claim"]["solutions"] = {"at_least": 1, "at_most": 1, "strength": "proof", "error_log2": None}
         document["claim"]["verdict"]["value"] = "solvable"
