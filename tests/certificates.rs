@@ -112,10 +112,12 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "draws",
         "integer-minor",
         "kernel",
+        "linear",
         "minor",
         "pinching",
         "plane-flow",
         "plane-minor",
+        "support",
     ];
     assert_eq!(
         kinds.iter().map(String::as_str).collect::<Vec<_>>(),
@@ -224,6 +226,11 @@ fn tampered_certificates_are_rejected() {
 
 /// Members whose change may leave a valid proof of the same statement.
 fn harmless(path: &str) -> bool {
+    // The number of solutions is shown at centres of the prover's choice, and more is listed than
+    // would do; each condition is broken in the checker's own tests.
+    if path.starts_with("/solutions/") {
+        return true;
+    }
     let last = path.rsplit('/').next().unwrap();
     let last = if last.parse::<usize>().is_ok() {
         path.rsplit('/')
