@@ -10,7 +10,7 @@
 //! integer below 2^64 without leading zeros, else bytewise.
 //!
 //! A list of 10^7 pairs must be read in the time of reading the file. So the
-//! usual line, two integers below 2^32, has a parser of its own ([`plain`]), which runs on all
+//! usual line, two integers below 2^32, has a parser of its own (`plain`), which runs on all
 //! cores, and integers become nodes by a bitmap of those that occur; everything else takes the
 //! general way, through an index of labels.
 
