@@ -25,7 +25,7 @@ step "the wheel"
 ls "$out/wheels" | grep -q 'cp39-abi3'
 
 step "the source distribution holds what cargo needs"
-"$out/build/bin/maturin" sdist --quiet --out "$out/sdist"
+"$out/build/bin/maturin" sdist --out "$out/sdist"
 mkdir "$out/source"
 tar -xzf "$out"/sdist/*.tar.gz -C "$out/source" --strip-components 1
 cargo metadata --quiet --locked --format-version 1 \
