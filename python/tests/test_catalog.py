@@ -29,6 +29,7 @@ def test_entries_are_those_of_the_program(program: Program) -> None:
                     str(entry.components),
                     entry.components_strength,
                     str(int(entry.hub)),
+                    entry.solutions,
                 ]
             )
             for entry in entries

@@ -47,7 +47,8 @@ def test_two_thousand_random_graphs(
         certificate = tmp_path / f"certificates/graphs.g6_{line}.json"
         assert verdict.certificate() == certificate.read_bytes()
         values.add(verdict.value)
-    assert len(values) == (3 if model == "projective" else 2)
+    # Finite solvable ones are left only where more than one solution is possible.
+    assert values >= {"solvable", "not-finite-solvable"}
 
 
 def certified(program: Program, path: pathlib.Path, folder: pathlib.Path, *options: str) -> Any:

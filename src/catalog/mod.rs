@@ -164,8 +164,8 @@ impl Size {
     pub fn options(&self) -> Result<Options> {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         let field = PrimeField::new(prime).with_context(|| format!("prime {prime}"))?;
-        let options = Options::default().prime(Prime::Fixed(field));
-        Ok(options.seed(self.seed))
+        let options = Options::default().solutions(CountSolutions::Off);
+        Ok(options.prime(Prime::Fixed(field)).seed(self.seed))
     }
 
     /// Writes one shard, as `--shard` with `--out` does: an earlier run of the same is completed.
