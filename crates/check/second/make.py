@@ -83,7 +83,7 @@ class Maker:
                     return self.new_body(x, [], [{"with": [as_json(y), as_json(z)], "at": [a, b, c]}], [y, z], nodes)
         if self.projective and self.merge_six(items):
             return True
-        return (not self.projective or self.bad_cycles) and self.merge_four(items)
+        return (self.model == "calibrated" or self.bad_cycles) and self.merge_four(items)
 
     def merge_six(self, items):
         """One merge around a K_{2,3}, of members closed under the other rules; False if there is none."""
@@ -148,12 +148,28 @@ class Maker:
         return None
 
     def draw(self, core):
-        """A draw of centres that is not void."""
+        """A draw of centres (affine: of plane points) that is not void."""
         seed = self.rng.randrange(2**64) if self.variety else 1
         for number in itertools.count():
-            centres = check.draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number)
+            centres = self.points(core, seed, number)
             if centres:
                 return seed, number, centres
+
+    def points(self, core, seed, number):
+        coordinates = 2 if self.model == "affine" else 3
+        return check.draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number, coordinates)
+
+    def lower(self, core):
+        """The best lower bound of a core at some draw, and its rank."""
+        return self.plane_minor(core) if self.model == "affine" else self.plane_flow(core)
+
+    def plane_minor(self, core):
+        """The best plane-minor evidence of a core at some draw, and its rank."""
+        seed, number, points = self.draw(core)
+        pivots = check.find_pivots(check.plane_rows(core, points, self.prime), self.prime)
+        rows, cols = [r for r, _ in pivots], [c for _, c in pivots]
+        found = {"kind": "plane-minor", "prime": str(self.prime), "seed": str(seed), "draw": number}
+        return {**found, "rows": rows, "cols": cols}, 4 * len(rows)
 
     def plane_flow(self, core):
         """The best plane-flow evidence of a core at some draw, and its rank."""
@@ -240,6 +256,8 @@ class Maker:
         if self.projective:
             cameras = [[[1, 0, 0, -x], [0, 1, 0, -y], [0, 0, 1, -z]] for x, y, z in centres]
             rows, width = check.jacobian_rows(core, cameras, range(10 * core.m)), 12 * core.n
+        elif self.model == "affine":
+            rows, width = check.plane_rows(core, centres, p), 2 * core.n
         else:
             rows, width = check.bearing_rows(core, centres, p)[0], 3 * core.n
         pivots = check.find_pivots(rows, p)
@@ -278,7 +296,7 @@ class Maker:
         """The evidence of a piece, and its components as lists of members."""
         core = check.Core(self, group, "piece")
         required = self.required(core.n)
-        lower, rank = self.plane_flow(core)
+        lower, rank = self.lower(core)
         found = [lower]
         if self.projective and self.variety and self.rng.random() < 0.3:
             found.insert(self.rng.randrange(2), self.minor(core)[0])
@@ -287,7 +305,7 @@ class Maker:
         if rank == required:
             return found, [group]
         seed, number = int(lower["seed"]), lower["draw"]
-        centres = check.draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number)
+        centres = self.points(core, seed, number)
         kernel, motion = self.kernel(core, self.prime, seed, number, centres)
         if self.variety and not self.force_draws and self.rng.random() < 0.6:
             for _ in range(10):
@@ -355,7 +373,7 @@ class Maker:
             return one, [inside]
         if len(self.blocks_of(inside)) == 1:
             core = check.Core(self, inside, "class")
-            lower, rank = self.plane_flow(core)
+            lower, rank = self.lower(core)
             if rank == self.required(core.n):
                 one["evidence"] = [lower]
                 return one, [inside]
