@@ -88,6 +88,10 @@ fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
         && merges.all(|merge| matches!(merge, Merge::Shared { .. } | Merge::Triangle { .. }))
 }
 
+/// Up to this many pairs centres in one plane are looked at unasked: the time of a pebble game grows
+/// with the square of what contraction leaves.
+const UNASKED: usize = 2000;
+
 /// What is asked about the scope of an answer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Asked {
@@ -105,8 +109,8 @@ pub(crate) struct Scope {
 }
 
 impl Scope {
-    /// Centres in one plane are looked at if that is asked for, and if the general answer, which
-    /// is good, may hide that it is not as good there.
+    /// Centres in one plane are looked at if that is asked for, and, in graphs that are not large,
+    /// if the general answer, which is good, may hide that it is not as good there.
     ///
     /// # Errors
     /// If the work was stopped.
@@ -120,6 +124,7 @@ impl Scope {
         let may_hide = is_good
             && verdict.model != Model::Affine
             && input.cameras.is_none()
+            && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
         let planar = (asked.planar || may_hide)
             .then(|| Planar::new(&input.graph, verdict.model, watch))
