@@ -134,7 +134,7 @@ impl Graph {
         let given = pairs.len();
         let increase = |two: &[(u32, u32)]| two[0] < two[1];
         if !pairs.par_windows(2).with_min_len(SHARE).all(increase) {
-            pairs.par_sort_unstable_by_key(|&(i, j)| u64::from(i) << 32 | u64::from(j));
+            pairs.sort_unstable();
             pairs.dedup();
         }
         let merged = given - pairs.len();
