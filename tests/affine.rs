@@ -3,10 +3,9 @@
 
 mod common;
 
-use common::{absent, verify_with};
+use common::{geng_connected, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::process::Command;
 use viewcert::decide::{Options, decide, plane_rank};
 use viewcert::geometry::camera::normal_form;
 use viewcert::geometry::draw::DrawKey;
@@ -22,23 +21,8 @@ use viewcert::sparsity::Sparsity;
 use viewcert::watch::{Watch, unwatched};
 use viewcert_studies::formulation::affine;
 
-/// All connected graphs with so many nodes, a graph6 line each, from nauty's geng.
-fn connected(nodes: usize) -> Option<String> {
-    for program in ["geng", "nauty-geng"] {
-        let made = Command::new(program)
-            .args(["-cq", &nodes.to_string()])
-            .output();
-        if let Ok(made) = made {
-            assert!(made.status.success(), "{program}");
-            return Some(String::from_utf8(made.stdout).unwrap());
-        }
-    }
-    absent("neither geng nor nauty-geng is installed");
-    None
-}
-
 fn graphs(nodes: usize) -> Vec<Graph> {
-    let lines = connected(nodes).unwrap_or_default();
+    let lines = geng_connected(nodes).unwrap_or_default();
     let decode = |line: &str| graph6::decode(line.as_bytes()).unwrap();
     lines.lines().map(decode).collect()
 }
@@ -198,7 +182,7 @@ const CENSUS: [(u64, [u64; 4], u64); 4] = [
 #[test]
 fn census_of_connected_graphs() {
     let sizes = 5..=8;
-    let Some(lines) = sizes.map(connected).collect::<Option<Vec<String>>>() else {
+    let Some(lines) = sizes.map(geng_connected).collect::<Option<Vec<String>>>() else {
         return;
     };
     let run = verify_with(

@@ -373,27 +373,16 @@ fn the_samples_stay_as_they_are() {
 #[cfg(target_os = "linux")]
 fn a_read_only_file_system() {
     let Some(folder) = samples() else { return };
-    let place = tempfile::tempdir().unwrap();
-    let mount = |options: &[&str]| common::mounted(options, place.path());
-    if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
-        return;
-    }
-    std::fs::create_dir(place.path().join("wal")).unwrap();
-    for name in ["names.db", "wal/copy.db", "wal/copy.db-wal"] {
-        std::fs::copy(folder.join(name), place.path().join(name)).unwrap();
-    }
-    let sealed = mount(&["-o", "remount,ro"]);
-    let found = std::panic::catch_unwind(|| {
-        assert!(sealed);
-        assert!(std::fs::write(place.path().join("new"), "").is_err());
-        assert_eq!(overviewed(&place.path().join("names.db")), (21, 7));
-        assert_eq!(overviewed(&place.path().join("wal/copy.db")), (28, 8));
+    let prepare = |place: &Path| {
+        std::fs::create_dir(place.join("wal")).unwrap();
+        for name in ["names.db", "wal/copy.db", "wal/copy.db-wal"] {
+            std::fs::copy(folder.join(name), place.join(name)).unwrap();
+        }
+    };
+    common::on_read_only(prepare, |place| {
+        assert_eq!(overviewed(&place.join("names.db")), (21, 7));
+        assert_eq!(overviewed(&place.join("wal/copy.db")), (28, 8));
     });
-    let unmount = std::process::Command::new("umount")
-        .arg(place.path())
-        .status();
-    assert!(unmount.unwrap().success());
-    found.unwrap();
 }
 
 /// Another program has the database open and has written to its log; it goes on writing.

@@ -9,7 +9,8 @@ use crate::plane::Planar;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
-use viewcert::decide::{Component, SolutionCount};
+use viewcert::decide::{Component, SolutionCount, Verdict};
+use viewcert_formats::NamedGraph;
 
 #[derive(Serialize)]
 struct Line<'a> {
@@ -32,12 +33,24 @@ struct Line<'a> {
     acted: &'a Acted,
 }
 
+/// Which graph it is.
 #[derive(Serialize)]
-struct GraphLine<'a> {
+pub(super) struct GraphLine<'a> {
     name: &'a str,
     nodes: usize,
     edges: usize,
     sha256: String,
+}
+
+impl<'a> GraphLine<'a> {
+    pub(super) fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
+        Self {
+            name: &input.name,
+            nodes: input.graph.nodes(),
+            edges: input.graph.edges().len(),
+            sha256: hex(&verdict.sha256),
+        }
+    }
 }
 
 /// What is decided, and how strong it is.
@@ -113,12 +126,7 @@ pub(super) struct ComponentLine {
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     let line = Line {
-        graph: GraphLine {
-            name: &input.name,
-            nodes: input.graph.nodes(),
-            edges: input.graph.edges().len(),
-            sha256: hex(&verdict.sha256),
-        },
+        graph: GraphLine::new(input, verdict),
         notes: &input.notes,
         database: input.database.as_deref().map(DatabaseLine::from),
         tracks: input

@@ -1,10 +1,10 @@
 //! Every camera model side by side, for people and for programs.
 
+use super::json::GraphLine;
 use super::{size, text};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
-use viewcert::certificate::hex;
 use viewcert::decide::{Component, Strength, Verdict};
 use viewcert_formats::NamedGraph;
 
@@ -133,14 +133,6 @@ struct Line<'a> {
 }
 
 #[derive(Serialize)]
-struct GraphLine<'a> {
-    name: &'a str,
-    nodes: usize,
-    edges: usize,
-    sha256: String,
-}
-
-#[derive(Serialize)]
 struct ModelLine {
     model: &'static str,
     verdict: &'static str,
@@ -218,12 +210,7 @@ pub fn json(
             .collect(),
     });
     let line = Line {
-        graph: GraphLine {
-            name: &input.name,
-            nodes: input.graph.nodes(),
-            edges: input.graph.edges().len(),
-            sha256: hex(&verdicts[0].sha256),
-        },
+        graph: GraphLine::new(input, &verdicts[0]),
         notes: &input.notes,
         models: verdicts.iter().map(ModelLine::from).collect(),
         changes: changes.collect(),

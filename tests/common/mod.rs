@@ -27,6 +27,31 @@ pub fn mounted(options: &[&str], place: &Path) -> bool {
     false
 }
 
+/// Has a small file system prepared, makes it read-only, and has a look at it; where nothing can be
+/// mounted, says why, as [`absent`] does.
+#[cfg(target_os = "linux")]
+pub fn on_read_only(
+    prepare: impl FnOnce(&Path),
+    look: impl FnOnce(&Path) + std::panic::UnwindSafe,
+) {
+    let place = tempfile::tempdir().unwrap();
+    let mount = |options: &[&str]| mounted(options, place.path());
+    if !mount(&["-t", "tmpfs", "-o", "size=4m", "tmpfs"]) {
+        return;
+    }
+    prepare(place.path());
+    let sealed = mount(&["-o", "remount,ro"]);
+    let path = place.path().to_owned();
+    let found = std::panic::catch_unwind(move || {
+        assert!(sealed);
+        assert!(std::fs::write(path.join("new"), "").is_err());
+        look(&path);
+    });
+    let unmount = Command::new("umount").arg(place.path()).status();
+    assert!(unmount.unwrap().success());
+    found.unwrap();
+}
+
 /// The folder with the published graphs and tables, which is not part of the repository:
 /// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
 pub fn data() -> Option<PathBuf> {
@@ -42,10 +67,17 @@ pub fn data() -> Option<PathBuf> {
 /// Biconnected graphs with the given numbers of nodes and edges from nauty's geng, a graph6
 /// line each.
 pub fn geng(nodes: usize, edges: usize) -> Option<String> {
+    geng_with(&["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")])
+}
+
+/// Connected graphs with so many nodes from nauty's geng, a graph6 line each.
+pub fn geng_connected(nodes: usize) -> Option<String> {
+    geng_with(&["-cq", &nodes.to_string()])
+}
+
+fn geng_with(arguments: &[&str]) -> Option<String> {
     for program in ["geng", "nauty-geng"] {
-        let made = Command::new(program)
-            .args(["-Cq", &nodes.to_string(), &format!("{edges}:{edges}")])
-            .output();
+        let made = Command::new(program).args(arguments).output();
         if let Ok(made) = made {
             assert!(made.status.success(), "{program}");
             return Some(String::from_utf8(made.stdout).unwrap());

@@ -1,5 +1,7 @@
 //! Small graphs for tests.
 
+use crate::joints::{Joints, Shapes, joints};
+use crate::parts::Parts;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::Graph;
@@ -76,6 +78,22 @@ pub fn options(model: Model) -> Options {
 /// The verdict in a model.
 pub fn verdict(graph: &Graph, model: Model) -> Verdict {
     decide(graph, &options(model)).unwrap()
+}
+
+/// The verdict, its parts, and their joints.
+pub fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
+    let verdict = verdict(graph, model);
+    let parts = Parts::new(graph, &verdict);
+    let joints = joints(
+        graph,
+        &verdict,
+        &parts,
+        &options(model),
+        1000,
+        &mut Shapes::default(),
+    )
+    .unwrap();
+    (verdict, parts, joints)
 }
 
 /// Whether some nodes lie in one component.

@@ -60,7 +60,7 @@ const TRIED: usize = 200;
 /// Most pairs of parts for which sets of several pairs are looked for.
 const SETS: usize = 20;
 
-/// Most suggestions that join the same components.
+/// Most suggestions, of pairs or of matches, that join the same components.
 const ALIKE: usize = 2;
 
 /// Suggests pairs: fewest pairs first, then by what is known of them, then by how many images they

@@ -215,15 +215,20 @@ fn paper_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
     decide(&alone(nodes, edges), &options).unwrap().rank
 }
 
-/// The rank of R at drawn points modulo 2^61 - 1.
-fn plane_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
-    let graph = alone(nodes, edges);
-    let key = DrawKey {
-        graph_sha256: sha256(&graph),
+/// The key of some draw.
+fn drawn_key(graph: &Graph) -> DrawKey {
+    DrawKey {
+        graph_sha256: sha256(graph),
         core_sha256: None,
         seed: 5,
         draw: 0,
-    };
+    }
+}
+
+/// The rank of R at drawn points modulo 2^61 - 1.
+fn plane_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
+    let graph = alone(nodes, edges);
+    let key = drawn_key(&graph);
     let field = PrimeField::mersenne61();
     let points = points_mod(&field, graph.nodes(), &key).unwrap().values;
     unwatched(|task| PlaneDirections::new(&field, &graph, &points, task)).rank()
@@ -232,12 +237,7 @@ fn plane_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
 /// The rank of N at drawn centres modulo 2^61 - 1.
 fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
     let graph = alone(nodes, edges);
-    let key = DrawKey {
-        graph_sha256: sha256(&graph),
-        core_sha256: None,
-        seed: 5,
-        draw: 0,
-    };
+    let key = drawn_key(&graph);
     let field = PrimeField::mersenne61();
     let centres = centres_mod(&field, graph.nodes(), &key).unwrap().values;
     let flows = unwatched(|task| PlaneFlows::new(&field, &graph, &centres, task));

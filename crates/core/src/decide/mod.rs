@@ -18,10 +18,10 @@
 //! ```
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
-//! pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in
-//! `motion_class`, bounds in `counting`, the paper's own matrix (`--no-contraction`,
-//! `--rational`) in `whole_matrix`, the number of solutions in `solution_count`. What goes in is in `options`, what is found in [`evidence`],
-//! what comes out in `verdict`.
+//! pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in `motion_class`,
+//! bounds in `counting`, the paper's own matrix (`--no-contraction`, `--rational`) in
+//! `whole_matrix`, the number of solutions in `solution_count`. What goes in is in `options`, what
+//! is found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
 

@@ -1,23 +1,8 @@
 use super::*;
-use crate::samples::{clusters, options, verdict};
+use crate::samples::{clusters, found, options, verdict};
 use viewcert::{Model, decide};
 
 type Pair = (u32, u32);
-
-fn found(graph: &Graph, model: Model) -> (Verdict, Parts, Joints) {
-    let verdict = verdict(graph, model);
-    let parts = Parts::new(graph, &verdict);
-    let joints = joints(
-        graph,
-        &verdict,
-        &parts,
-        &options(model),
-        1000,
-        &mut Shapes::default(),
-    )
-    .unwrap();
-    (verdict, parts, joints)
-}
 
 /// Two complete graphs on 0..4 and 4..8, and more pairs.
 fn two(more: &[(u32, u32)]) -> Graph {

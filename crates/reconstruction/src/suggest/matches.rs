@@ -4,7 +4,7 @@
 //! points one. How many of either are enough is decided, on the condensation of all components
 //! (docs/theory.md, 4.11): each number is proved, for any points that lie in one component only.
 
-use super::{Pair, Search, TRIED, Together, Wanted, dedup, ordered, touched};
+use super::{ALIKE, Pair, Search, TRIED, Together, Wanted, dedup, ordered, touched};
 use crate::condensation::{Condensation, freedom, terminals, with};
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
@@ -41,9 +41,6 @@ const WORK: usize = 4_000_000;
 
 /// Fewest suggestions that are decided, however large the graph is.
 const LEAST: usize = 20;
-
-/// Most suggestions that join the same components.
-const ALIKE: usize = 2;
 
 /// Suggests images to match in a camera-point graph, of which the first `cameras` nodes are
 /// cameras: those with most matches already first, then by how few observations are enough, then by

@@ -1,6 +1,5 @@
 use super::*;
-use crate::joints::{Shapes, joints};
-use crate::samples::{clusters, graphs, options, verdict};
+use crate::samples::{clusters, found, graphs, options, verdict};
 use viewcert::Model;
 
 fn suggested(
@@ -9,17 +8,7 @@ fn suggested(
     others: &[OtherPair],
     at: Option<u32>,
 ) -> Vec<Suggestion> {
-    let verdict = verdict(graph, model);
-    let parts = Parts::new(graph, &verdict);
-    let joints = joints(
-        graph,
-        &verdict,
-        &parts,
-        &options(model),
-        1000,
-        &mut Shapes::default(),
-    )
-    .unwrap();
+    let (_, parts, joints) = found(graph, model);
     let known = Known {
         inliers: &[],
         others,

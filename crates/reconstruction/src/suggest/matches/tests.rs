@@ -1,6 +1,5 @@
 use super::*;
-use crate::joints::{Shapes, joints};
-use crate::samples::{options, verdict};
+use crate::samples::{found, options, verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
@@ -13,10 +12,7 @@ fn suggested(
     at: Option<u32>,
 ) -> Vec<SuggestedMatch> {
     let options = options(Model::Calibrated);
-    let verdict = verdict(graph, Model::Calibrated);
-    let parts = Parts::new(graph, &verdict);
-    let mut shapes = Shapes::default();
-    let joints = joints(graph, &verdict, &parts, &options, 1000, &mut shapes).unwrap();
+    let (_, parts, joints) = found(graph, Model::Calibrated);
     let known = Known {
         inliers: &[],
         others,
