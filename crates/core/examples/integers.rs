@@ -1,0 +1,30 @@
+//! Decides the examples of this repository over the rationals, and one whole Jacobian, and prints
+//! verdicts and certificates: the same bytes whichever integers are built in.
+//! `cargo run -p viewcert --example integers`, once more with `--features gmp`, and compare.
+
+use viewcert::{Arithmetic, LabelledGraph, Options, decide};
+
+const FILES: [&str; 3] = [
+    include_str!("../../../examples/house.txt"),
+    include_str!("../../../examples/facade.txt"),
+    include_str!("../../../examples/psi.txt"),
+];
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arithmetic = Arithmetic::Rational {
+        numerator: 100,
+        denominator: 12,
+    };
+    for file in FILES {
+        let lines = file.lines().filter(|line| !line.starts_with('#'));
+        let pairs = lines.filter_map(|line| line.trim().split_once(' '));
+        let images = LabelledGraph::from_pairs(pairs.map(|(a, b)| (a.trim(), b.trim())))?;
+        for contraction in [true, false] {
+            let options = Options::default().arithmetic(arithmetic);
+            let verdict = decide(images.graph(), &options.contraction(contraction))?;
+            println!("{}: rank {}", verdict.value, verdict.rank);
+            println!("{}", verdict.certificate(images.graph()));
+        }
+    }
+    Ok(())
+}
