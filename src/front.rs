@@ -40,6 +40,8 @@ pub struct Questions {
     pub export: Option<PathBuf>,
     /// What centres in one plane determine.
     pub planar: bool,
+    /// Whether focal lengths are unknown: what that asks for is among the conditions.
+    pub focal: bool,
 }
 
 impl Questions {
@@ -67,7 +69,7 @@ impl Questions {
         arguments.check_input(input)?;
         let asked = Asked {
             planar: self.planar,
-            focal: false,
+            focal: self.focal,
         };
         let scope = Scope::new(input, verdict, asked, &watch)?;
         let mut shapes = Shapes::default();

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{cycle, data, verify, verify_with};
+use serde_json::{Value, json};
 use std::path::Path;
 use viewcert::graph::{Adjacency, Graph, biconnected_components};
 use viewcert_formats::{ReadOptions, read_graphs};
@@ -80,7 +81,7 @@ fn affine_certificates_hold_their_evidence() {
             &["-", "--model", "affine", "--certificate", path],
         );
         let text = std::fs::read_to_string(path).unwrap();
-        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let value: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["model"], "affine");
         let pieces = value["pieces"].as_array().unwrap();
         let evidence = pieces
@@ -217,11 +218,13 @@ fn all_models_side_by_side() {
     let names: Vec<_> = line["models"].as_array().unwrap().iter().collect();
     let names: Vec<_> = names.iter().map(|model| &model["model"]).collect();
     assert_eq!(names, ["affine", "projective", "calibrated"]);
+    let solutions = |k: usize| &line["models"][k]["solutions"]["exactly"];
+    assert_eq!([solutions(1), solutions(2)], [&json!(null), &json!(1)]);
     let changes = line["changes"].as_array().unwrap();
     assert_eq!(changes.len(), 1);
     assert_eq!(changes[0]["from"], "projective");
-    assert_eq!(changes[0]["joins"], serde_json::json!([1, 2, 3, 4]));
-    assert_eq!(changes[0]["at"], serde_json::json!(["0", "1", "2", "3"]));
+    assert_eq!(changes[0]["joins"], json!([1, 2, 3, 4]));
+    assert_eq!(changes[0]["at"], json!(["0", "1", "2", "3"]));
     assert_eq!(verify_with(cycle(3).as_bytes(), &["models", "-"]).code, 0);
 }
 

@@ -48,13 +48,17 @@ struct Entries {
 impl Candidates {
     /// Begins the work.
     #[new]
-    #[pyo3(signature = (nodes, *, edges=None, necessary=false, minimal=false, prime=None, seed=1))]
+    #[pyo3(signature = (
+        nodes, *, edges=None, necessary=false, minimal=false, solutions=false, prime=None, seed=1
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,
         nodes: usize,
         edges: Option<usize>,
         necessary: bool,
         minimal: bool,
+        solutions: bool,
         prime: Option<u64>,
         seed: u64,
     ) -> PyResult<Self> {
@@ -63,6 +67,7 @@ impl Candidates {
             edges,
             necessary,
             minimal,
+            solutions,
             prime,
             seed,
         };
@@ -194,8 +199,8 @@ fn entries(graphs: &[Graph], minimal: bool, options: &Options) -> Batch {
 /// Writes one shard of the catalog, or completes it.
 #[pyfunction]
 #[pyo3(signature = (
-    folder, nodes, shard, of, *, edges=None, necessary=false, minimal=false, part=16384,
-    solvable_only=false, prime=None, seed=1, progress=None
+    folder, nodes, shard, of, *, edges=None, necessary=false, minimal=false, solutions=false,
+    part=16384, solvable_only=false, prime=None, seed=1, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn catalog_shard(
@@ -207,6 +212,7 @@ pub(crate) fn catalog_shard(
     edges: Option<usize>,
     necessary: bool,
     minimal: bool,
+    solutions: bool,
     part: u32,
     solvable_only: bool,
     prime: Option<u64>,
@@ -218,6 +224,7 @@ pub(crate) fn catalog_shard(
         edges,
         necessary,
         minimal,
+        solutions,
         prime,
         seed,
     };

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
-use viewcert::{Arithmetic, Model, Options, Prime, Verdict};
+use viewcert::{Arithmetic, CountSolutions, Model, Options, Prime, Verdict};
 use viewcert_cli::front;
 use viewcert_cli::front::{Answer, Questions, Weak};
 use viewcert_formats::NamedGraph;
@@ -23,6 +23,8 @@ pub(crate) struct Decided {
     input: Arc<NamedGraph>,
     verdict: Arc<Verdict>,
     rational: bool,
+    planar: bool,
+    focal: bool,
     seed: u64,
     time: Duration,
 }
@@ -30,8 +32,8 @@ pub(crate) struct Decided {
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
-    graph, *, model, seed, bounds=None, prime=None, contraction=true, counting=true,
-    time_limit=None, memory_limit=None, progress=None
+    graph, *, model, seed, planar=false, solutions=Some("quick"), bounds=None, prime=None,
+    contraction=true, counting=true, time_limit=None, memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn decide(
@@ -39,6 +41,8 @@ pub(crate) fn decide(
     graph: &Graph,
     model: &str,
     seed: u64,
+    planar: bool,
+    solutions: Option<&str>,
     bounds: Option<(u64, u64)>,
     prime: Option<u64>,
     contraction: bool,
@@ -48,7 +52,20 @@ pub(crate) fn decide(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
-    let model: Model = model.parse().map_err(|error| wrong(&error))?;
+    let focal = model == "focal";
+    let model: Model = match focal {
+        true => Model::Calibrated,
+        false => model.parse().map_err(|error| wrong(&error))?,
+    };
+    let solutions = match solutions {
+        None => CountSolutions::Off,
+        Some("quick") => CountSolutions::Quick,
+        Some("full") => CountSolutions::Full,
+        Some(other) => {
+            let wish = "solutions are counted 'quick' or 'full', or not: None";
+            return Err(wrong(&format!("solutions={other:?}: {wish}")));
+        }
+    };
     let prime = match prime {
         None => Prime::Auto,
         Some(prime) => {
@@ -75,6 +92,7 @@ pub(crate) fn decide(
         .prime(prime)
         .contraction(contraction)
         .counting(counting)
+        .solutions(solutions)
         .seed(seed)
         .watch(watched);
     let (input, threads) = (Arc::clone(&graph.0), work::threads()?);
@@ -90,6 +108,8 @@ pub(crate) fn decide(
         input: Arc::clone(&graph.0),
         verdict: Arc::new(verdict),
         rational: bounds.is_some(),
+        planar,
+        focal,
         seed,
         time: start.elapsed(),
     })
@@ -232,7 +252,8 @@ impl Decided {
             sweep,
             margin,
             export,
-            planar: false,
+            planar: self.planar,
+            focal: self.focal,
         };
         let watch = work::watch(None, None)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));

@@ -15,7 +15,9 @@ SCRIPT = ROOT / "python/examples/catalog_array.sh"
 
 
 def test_entries_are_those_of_the_program(program: Program) -> None:
-    for options, words in [({}, []), ({"necessary": True}, ["--necessary"])]:
+    wishes = ("necessary", "solutions")
+    for wish in ((), *((wish,) for wish in wishes), wishes):
+        options, words = dict.fromkeys(wish, True), [f"--{word}" for word in wish]
         listed = program.run("catalog", "--nodes", 8, "--list", *words).stdout.splitlines()
         entries = list(viewcert.catalog(8, **options))
         rows = [
@@ -35,6 +37,19 @@ def test_entries_are_those_of_the_program(program: Program) -> None:
             for entry in entries
         ]
         assert rows == listed[1:] and len(rows) > 10
+
+
+def test_the_numbers_of_solutions_with_nine_nodes() -> None:
+    """17 graphs with one, 10 with two, as published; each is certified."""
+    entries = viewcert.catalog(9, necessary=True, solutions=True)
+    solvable = [entry for entry in entries if entry.value != "not-finite-solvable"]
+    counts = [entry.solutions for entry in solvable]
+    assert sorted(set(counts)) == ["1", "2"]
+    assert (counts.count("1"), counts.count("2")) == (17, 10)
+    for entry in solvable:
+        one = entry.solutions == "1"
+        assert entry.value == ("solvable" if one else "finite-solvable")
+        assert viewcert.check(entry.certificate).value == entry.value
 
 
 #: Table 1 of the paper: nodes, candidates, finite-solvable ones.

@@ -28,25 +28,49 @@ def random_graphs() -> list[nx.Graph]:
     return graphs
 
 
-@pytest.mark.parametrize("model", ["projective", "calibrated"])
+@pytest.mark.parametrize(
+    ("model", "planar"),
+    [
+        ("projective", False),
+        ("projective", True),
+        ("calibrated", False),
+        ("affine", False),
+        ("focal", True),
+    ],
+)
 def test_two_thousand_random_graphs(
-    program: Program, tmp_path: pathlib.Path, model: str
+    program: Program, tmp_path: pathlib.Path, model: str, planar: bool
 ) -> None:
     graphs = random_graphs()
     lines = [nx.to_graph6_bytes(graph, header=False).decode() for graph in graphs]
     (tmp_path / "graphs.g6").write_text(">>graph6<<" + "".join(lines))
     (tmp_path / "certificates").mkdir()
     found = program.json(
-        "graphs.g6", "--components", "--model", model, "--certificate", "certificates", cwd=tmp_path
+        "graphs.g6",
+        "--components",
+        "--model",
+        model,
+        *(["--planar"] if planar else []),
+        "--certificate",
+        "certificates",
+        cwd=tmp_path,
     )
     assert len(found) == len(graphs)
     values = set()
     for line, (graph, expected) in enumerate(zip(graphs, found), start=1):
-        verdict = viewcert.verify(graph, model=model, name=f"graphs.g6:{line}")
+        verdict = viewcert.verify(graph, model=model, planar=planar, name=f"graphs.g6:{line}")
         assert untimed(verdict.to_dict(list_components=True)) == untimed(expected)
         certificate = tmp_path / f"certificates/graphs.g6_{line}.json"
         assert verdict.certificate() == certificate.read_bytes()
         values.add(verdict.value)
+        if planar:
+            assert verdict.planar is not None
+            assert verdict.planar.value == expected["planar"]["verdict"]
+        assert verdict.conditions == tuple(expected.get("conditions", ()))
+        counted = expected["solutions"]
+        assert (verdict.solutions is None) == (counted is None)
+        if verdict.solutions is not None:
+            assert verdict.solutions.exactly == counted["exactly"]
     # Finite solvable ones are left only where more than one solution is possible.
     assert values >= {"solvable", "not-finite-solvable"}
 

@@ -17,7 +17,7 @@ def sets(verdict: viewcert.Verdict) -> set[frozenset[object]]:
 
 
 @settings(deadline=None, max_examples=200)
-@given(edge_sets, st.sampled_from(["projective", "calibrated"]))
+@given(edge_sets, st.sampled_from(["projective", "calibrated", "affine"]))
 def test_every_pair_is_in_one_component(edges: set[tuple[int, int]], model: str) -> None:
     verdict = viewcert.verify(edges, model=model)
     pairs = [pair for k in range(len(verdict.components)) for pair in verdict.pairs_of(k)]
@@ -27,7 +27,7 @@ def test_every_pair_is_in_one_component(edges: set[tuple[int, int]], model: str)
 
 
 @settings(deadline=None, max_examples=200)
-@given(edge_sets, st.sampled_from(["projective", "calibrated"]))
+@given(edge_sets, st.sampled_from(["projective", "calibrated", "affine"]))
 def test_what_is_determined_is_connected_and_biconnected(
     edges: set[tuple[int, int]], model: str
 ) -> None:
@@ -42,7 +42,7 @@ def test_what_is_determined_is_connected_and_biconnected(
 
 
 @settings(deadline=None, max_examples=100)
-@given(edge_sets, st.sampled_from(["projective", "calibrated"]))
+@given(edge_sets, st.sampled_from(["projective", "calibrated", "affine"]))
 def test_blocks_are_decided_by_themselves(edges: set[tuple[int, int]], model: str) -> None:
     graph = nx.Graph(edges)
     verdict = viewcert.verify(graph, model=model)

@@ -89,6 +89,8 @@ pub struct Size {
     pub necessary: bool,
     /// Whether graphs are wanted that are finite solvable and not so without any one edge.
     pub minimal: bool,
+    /// Whether the solutions of finite-solvable graphs are counted.
+    pub solutions: bool,
     /// A prime, 5 <= p < 2^62; by default 2^61 - 1.
     pub prime: Option<u64>,
     /// The seed of all draws.
@@ -134,7 +136,7 @@ impl Size {
             out: part.map(|part| part.folder.clone()),
             part: part.map_or(1, |part| part.part),
             solvable_only: part.is_some_and(|part| part.solvable_only),
-            solutions: false,
+            solutions: self.solutions,
             prime: self.prime.unwrap_or(DEFAULT_PRIME),
             seed: self.seed,
         })
@@ -164,7 +166,7 @@ impl Size {
     pub fn options(&self) -> Result<Options> {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         let field = PrimeField::new(prime).with_context(|| format!("prime {prime}"))?;
-        let options = Options::default().solutions(CountSolutions::Off);
+        let options = Options::default().solutions(count_solutions(self.solutions));
         Ok(options.prime(Prime::Fixed(field)).seed(self.seed))
     }
 
@@ -230,6 +232,14 @@ impl FromStr for Nodes {
     }
 }
 
+/// What a catalog spends on the number of solutions.
+fn count_solutions(solutions: bool) -> CountSolutions {
+    match solutions {
+        true => CountSolutions::Quick,
+        false => CountSolutions::Off,
+    }
+}
+
 /// How many candidates are decided in one go, per shard.
 const BATCH: usize = 4096;
 
@@ -244,10 +254,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime {}", arguments.prime))?;
     let options = Options::default()
-        .solutions(match arguments.solutions {
-            true => CountSolutions::Quick,
-            false => CountSolutions::Off,
-        })
+        .solutions(count_solutions(arguments.solutions))
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
         .watch(running::watch());

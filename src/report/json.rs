@@ -67,9 +67,8 @@ pub(super) struct AnswerLine {
     components_strength: &'static str,
 }
 
-impl From<&Report<'_>> for AnswerLine {
-    fn from(report: &Report) -> Self {
-        let verdict = report.verdict;
+impl AnswerLine {
+    pub(super) fn new(verdict: &Verdict, components: Vec<ComponentLine>) -> Self {
         let strength = verdict.value_claim().strength;
         Self {
             verdict: verdict.value.name(),
@@ -79,9 +78,15 @@ impl From<&Report<'_>> for AnswerLine {
             rank: verdict.rank,
             rank_required: verdict.required,
             rank_strength: verdict.rank_claim().strength.name(),
-            components: components(report),
+            components,
             components_strength: verdict.components_claim().strength.name(),
         }
+    }
+}
+
+impl From<&Report<'_>> for AnswerLine {
+    fn from(report: &Report) -> Self {
+        Self::new(report.verdict, components(report))
     }
 }
 
@@ -117,6 +122,18 @@ pub(super) struct ComponentLine {
     points: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     labels: Option<Vec<String>>,
+}
+
+impl From<&Component> for ComponentLine {
+    fn from(component: &Component) -> Self {
+        Self {
+            nodes: component.node_count(),
+            edges: component.edge_count(),
+            cameras: None,
+            points: None,
+            labels: None,
+        }
+    }
 }
 
 /// Writes the report as one line.
@@ -156,11 +173,8 @@ pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
     let components = report.verdict.components.iter();
     let Some(cameras) = report.input.cameras else {
         let line = |component: &Component| ComponentLine {
-            nodes: component.node_count(),
-            edges: component.edge_count(),
-            cameras: None,
-            points: None,
             labels: listed.then(|| labels(component.nodes())),
+            ..ComponentLine::from(component)
         };
         return components.map(line).collect();
     };

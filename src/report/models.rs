@@ -1,11 +1,11 @@
 //! Every camera model side by side, for people and for programs.
 
-use super::json::GraphLine;
+use super::json::{AnswerLine, ComponentLine, GraphLine};
 use super::{size, text};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
-use viewcert::decide::{Component, Strength, Verdict};
+use viewcert::decide::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 
 /// How many changes between two models people are shown.
@@ -135,44 +135,16 @@ struct Line<'a> {
 #[derive(Serialize)]
 struct ModelLine {
     model: &'static str,
-    verdict: &'static str,
-    strength: &'static str,
-    error_log2: Option<i64>,
-    rank: usize,
-    rank_required: usize,
-    rank_strength: &'static str,
-    components: Vec<ComponentLine>,
-    components_strength: &'static str,
-}
-
-#[derive(Serialize)]
-struct ComponentLine {
-    nodes: usize,
-    edges: usize,
-}
-
-impl From<&Component> for ComponentLine {
-    fn from(component: &Component) -> Self {
-        Self {
-            nodes: component.node_count(),
-            edges: component.edge_count(),
-        }
-    }
+    #[serde(flatten)]
+    answer: AnswerLine,
 }
 
 impl From<&Verdict> for ModelLine {
     fn from(verdict: &Verdict) -> Self {
-        let strength = verdict.value_claim().strength;
+        let sizes = verdict.components.iter().map(ComponentLine::from);
         Self {
             model: verdict.model.name(),
-            verdict: verdict.value.name(),
-            strength: strength.name(),
-            error_log2: strength.error_log2(),
-            rank: verdict.rank,
-            rank_required: verdict.required,
-            rank_strength: verdict.rank_claim().strength.name(),
-            components: verdict.components.iter().map(ComponentLine::from).collect(),
-            components_strength: verdict.components_claim().strength.name(),
+            answer: AnswerLine::new(verdict, sizes.collect()),
         }
     }
 }

@@ -44,7 +44,7 @@ from ._graph import (
     tracks_from_reconstruction,
 )
 from ._native import Verified, __version__
-from ._verdict import Joint, Verdict, verify
+from ._verdict import Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
     "Entry",
@@ -56,8 +56,10 @@ __all__ = [
     "Joint",
     "Margin",
     "Outside",
+    "Planar",
     "Rejected",
     "Shard",
+    "Solutions",
     "Suggestion",
     "Threshold",
     "TooLarge",

@@ -35,8 +35,8 @@ class Entry:
     hub : bool
         Whether the refutation takes a hub.
     solutions : str
-        How many solutions there are: ``'1'`` as far as bodies show it, else bounds as in ``'1-'``;
-        empty if there are infinitely many.
+        How many solutions there are, or bounds as in ``'1-2'`` and ``'1-'``; empty if there are
+        infinitely many. Without ``solutions=True`` what bodies show: ``'1'`` or ``'1-'``.
     certificate : bytes
         For :func:`check`.
     """
@@ -59,6 +59,7 @@ def catalog(
     edges: Optional[int] = None,
     necessary: bool = False,
     minimal: bool = False,
+    solutions: bool = False,
     prime: Optional[int] = None,
     seed: int = 1,
 ) -> Iterator[Entry]:
@@ -76,6 +77,8 @@ def catalog(
     minimal : bool
         Whether those are wanted that are finite solvable and not so without any one pair, of any
         number of pairs; for up to 12 nodes.
+    solutions : bool
+        Whether the solutions of the finite-solvable graphs are counted and certified.
     prime, seed
         As of :func:`verify`.
 
@@ -96,7 +99,13 @@ def catalog(
     [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
     found = _native.Candidates(
-        nodes, edges=edges, necessary=necessary, minimal=minimal, prime=prime, seed=seed
+        nodes,
+        edges=edges,
+        necessary=necessary,
+        minimal=minimal,
+        solutions=solutions,
+        prime=prime,
+        seed=seed,
     )
     return map(_entry, found)
 
@@ -131,6 +140,7 @@ class Shard:
     edges: Optional[int] = None
     necessary: bool = False
     minimal: bool = False
+    solutions: bool = False
     part: int = 16384
     solvable_only: bool = False
     prime: Optional[int] = None
@@ -158,6 +168,7 @@ class Shard:
                 edges=self.edges,
                 necessary=self.necessary,
                 minimal=self.minimal,
+                solutions=self.solutions,
                 part=self.part,
                 solvable_only=self.solvable_only,
                 prime=self.prime,
@@ -175,6 +186,7 @@ def catalog_shards(
     edges: Optional[int] = None,
     necessary: bool = False,
     minimal: bool = False,
+    solutions: bool = False,
     part: int = 16384,
     solvable_only: bool = False,
     prime: Optional[int] = None,
@@ -187,7 +199,7 @@ def catalog_shards(
     ----------
     folder : str or path
         The folder for all shards.
-    nodes, edges, necessary, minimal, prime, seed
+    nodes, edges, necessary, minimal, solutions, prime, seed
         As of :func:`catalog`.
     count : int
         How many shares.
@@ -216,6 +228,7 @@ def catalog_shards(
             edges=edges,
             necessary=necessary,
             minimal=minimal,
+            solutions=solutions,
             part=part,
             solvable_only=solvable_only,
             prime=prime,

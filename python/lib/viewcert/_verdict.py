@@ -55,6 +55,50 @@ class Joint:
     strength: str
 
 
+@dataclass(frozen=True)
+class Solutions:
+    """How many sets of cameras there are, at generic cameras.
+
+    Attributes
+    ----------
+    at_least : int
+        A lower bound.
+    at_most : int, optional
+        An upper bound, if one is known.
+    strength : str
+        How strong the bounds are: ``'proof'``, or ``'error-bound'``.
+    """
+
+    at_least: int
+    at_most: Optional[int]
+    strength: str
+
+    @property
+    def exactly(self) -> Optional[int]:
+        """The number, if the bounds meet."""
+        return self.at_least if self.at_least == self.at_most else None
+
+
+@dataclass(frozen=True)
+class Planar:
+    """What a graph determines if all centres lie in one plane. All of it is proved.
+
+    Attributes
+    ----------
+    value : str
+        ``'solvable'``, ``'isolated'`` (projective: no motion is left; that there are finitely many
+        sets of cameras is not proved) or ``'not-finite-solvable'``.
+    rank : int
+        The rank for centres that are generic in a plane.
+    required : int
+        The rank without which there are infinitely many sets of cameras.
+    """
+
+    value: str
+    rank: int
+    required: int
+
+
 class Verdict:
     """What a graph determines. It cannot be changed, and has three values, so that it is neither
     true nor false.
@@ -115,7 +159,8 @@ class Verdict:
 
     @property
     def model(self) -> str:
-        """The question: ``'projective'`` or another model."""
+        """The question: ``'projective'``, ``'calibrated'`` or ``'affine'``. What was asked as
+        ``'focal'`` is decided as calibrated, see `conditions`."""
         return self._native.model
 
     @property
@@ -153,6 +198,29 @@ class Verdict:
     def components_strength(self) -> str:
         """How strong it is that the components are maximal."""
         return self._native.strengths()[2][0]
+
+    @property
+    def solutions(self) -> Optional[Solutions]:
+        """How many sets of cameras there are; None if there are infinitely many, or if they were
+        not counted."""
+        found = self.to_dict()["solutions"]
+        if found is None:
+            return None
+        return Solutions(found["at_least"], found["at_most"], found["strength"])
+
+    @property
+    def conditions(self) -> Tuple[str, ...]:
+        """What the answer holds for, beyond generic cameras of the model, in words."""
+        return tuple(self.to_dict().get("conditions", ()))
+
+    @property
+    def planar(self) -> Optional[Planar]:
+        """The answer for centres in one plane: if it was asked for, or if it is worse than the
+        general answer of a graph that is not large."""
+        found = self.to_dict().get("planar")
+        if found is None:
+            return None
+        return Planar(found["verdict"], found["rank"], found["rank_required"])
 
     @property
     def components(self) -> List[FrozenSet[Node]]:
@@ -290,6 +358,8 @@ def verify(
     *,
     model: Optional[str] = None,
     seed: int = 1,
+    planar: bool = False,
+    solutions: Optional[str] = "quick",
     rational: bool = False,
     numerator: int = 9,
     denominator: int = 4,
@@ -309,9 +379,16 @@ def verify(
         A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
         of scipy (nodes are its rows), an integer array of shape (m, 2) (nodes are the integers
         that occur), an iterable of pairs of hashable nodes, or a :class:`Graph`.
-    model : {'projective', 'calibrated'}, optional
-        What is known of the cameras: nothing, or their intrinsics. The default is projective, of
-        camera-point graphs calibrated, as they can be nothing else.
+    model : {'projective', 'calibrated', 'affine', 'focal'}, optional
+        What is known of the cameras: nothing, their intrinsics, that they are affine, or all
+        intrinsics but the focal lengths. The default is projective, of camera-point graphs
+        calibrated, as they can be nothing else.
+    planar : bool
+        Whether to say what the graph determines if all centres lie in one plane, see
+        `Verdict.planar`.
+    solutions : {'quick', 'full'}, optional
+        Count how many sets of cameras there are where that takes about a second at most, or
+        whatever it takes; None does not count.
     seed : int
         Seed of all random cameras, at least 0. It matters for no proof.
     rational : bool
@@ -358,16 +435,22 @@ def verify(
     """
     given = as_graph(graph, name)
     points = given.cameras is not None
-    if points and model == "projective":
+    if points and model not in (None, "calibrated"):
         raise InputError(
             "observations are directions of known rotations, which only the calibrated model has; "
-            "leave out model='projective'"
+            f"leave out model={model!r}"
         )
     chosen = model or ("calibrated" if points else "projective")
     if rational and chosen != "projective":
         raise InputError(
             f"rational=True: the {chosen} model is decided modulo primes only; leave it out"
         )
+    if planar and chosen == "affine":
+        raise InputError(
+            "planar=True: affine cameras have no centres that could lie in a plane; leave it out"
+        )
+    if not counting and chosen == "affine":
+        raise InputError("counting=False: the affine model is decided by counting alone")
     if not 0 <= seed < 2**64:
         raise InputError(f"seed={seed}: a seed is at least 0 and below 2^64")
     if rational and not (1 <= numerator <= 100 and 1 <= denominator <= 12):
@@ -377,6 +460,8 @@ def verify(
             given._native,
             model=chosen,
             seed=seed,
+            planar=planar,
+            solutions=solutions,
             bounds=(numerator, denominator) if rational else None,
             prime=prime,
             contraction=contraction,

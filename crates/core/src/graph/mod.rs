@@ -18,6 +18,7 @@ mod leaves;
 mod lists;
 #[cfg(feature = "petgraph")]
 mod petgraph;
+mod sort;
 mod union_find;
 
 pub use adjacency::Adjacency;
@@ -112,7 +113,7 @@ impl Graph {
 
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
-    /// away. O(m log m), or O(m) when the pairs are already sorted; in place.
+    /// away. O(m log m), or O(m + r log r) where only r pairs, few, are out of order; in place.
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
@@ -134,7 +135,7 @@ impl Graph {
         let given = pairs.len();
         let increase = |two: &[(u32, u32)]| two[0] < two[1];
         if !pairs.par_windows(2).with_min_len(SHARE).all(increase) {
-            pairs.sort_unstable();
+            sort::sort(&mut pairs);
             pairs.dedup();
         }
         let merged = given - pairs.len();
