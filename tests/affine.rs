@@ -258,3 +258,51 @@ fn the_published_matrix_in_the_comparison() {
         run.out
     );
 }
+
+/// Sums over the numbers of edges of a published table, for each number of nodes.
+fn sums(table: &str) -> Vec<(u64, [u64; 4])> {
+    let mut lines = table.lines();
+    let head = "nodes\tedges\tconnected\taffine\tprojective\tcalibrated";
+    assert_eq!(lines.next(), Some(head));
+    let mut sums: Vec<(u64, [u64; 4])> = Vec::new();
+    for line in lines {
+        let cells: Vec<u64> = line.split('\t').map(|cell| cell.parse().unwrap()).collect();
+        if sums.last().is_none_or(|(nodes, _)| *nodes != cells[0]) {
+            sums.push((cells[0], [0; 4]));
+        }
+        let (_, sum) = sums.last_mut().unwrap();
+        for (sum, cell) in sum.iter_mut().zip(&cells[2..]) {
+            *sum += cell;
+        }
+    }
+    sums
+}
+
+/// The table in the repository, and one that is made now: a folder that the checker accepts.
+#[test]
+fn published_census() {
+    let published = include_str!("../certificates/census.tsv");
+    let published = sums(published);
+    for (nodes, counts, _) in CENSUS {
+        assert!(published.contains(&(nodes, counts)), "{nodes}");
+    }
+    // The same scripts' numbers.
+    assert_eq!(
+        published.last(),
+        Some(&(9, [261_080, 180_878, 185_927, 193_352]))
+    );
+    let Some(lines) = geng_connected(5) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let sizes = ["--certified", "4", "--listed", "5", "--census", "-"];
+    let publish = [&["catalog", "publish", path][..], &sizes].concat();
+    let run = verify_with(lines.as_bytes(), &publish);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let table = std::fs::read_to_string(folder.path().join("census.tsv")).unwrap();
+    assert_eq!(sums(&table), [(5, CENSUS[0].1)]);
+    assert_eq!(verify_with(b"", &["check", path]).code, 0);
+    let page = std::fs::read_to_string(folder.path().join("README.md")).unwrap();
+    assert!(page.contains("`census.tsv`") && page.contains("--census connected.g6"));
+}

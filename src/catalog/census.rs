@@ -2,10 +2,11 @@
 
 use super::super::{BAD_INPUT, GOOD, running};
 use super::BATCH;
+use crate::report::values::Values;
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
@@ -25,6 +26,14 @@ pub(super) struct Arguments {
 
 /// Decides all graphs in every model, and prints the counts.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+    let (census, bad_lines) = count(&arguments.from)?;
+    write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
+    Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
+}
+
+/// Decides all graphs of a file in every model. Lines that are no graphs are reported; how many
+/// there are is returned.
+pub(super) fn count(from: &Path) -> Result<(Census, usize)> {
     let options = Options::default().watch(running::watch());
     let read = ReadOptions {
         format: Some(Format::Graph6),
@@ -33,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let mut census = Census::default();
     let mut batch: Vec<Graph> = Vec::with_capacity(BATCH);
     let mut bad_lines = 0;
-    for input in read_graphs(&arguments.from, &read) {
+    for input in read_graphs(from, &read) {
         match input {
             Ok(input) => batch.push(input.graph),
             Err(error) => {
@@ -47,8 +56,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         }
     }
     census.add(&batch, &options)?;
-    write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
-    Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
+    Ok((census, bad_lines))
+}
+
+/// Writes a row for each number of nodes and of edges: how many graphs there are, and how many of
+/// them each model determines.
+pub(super) fn write_table(out: &mut dyn Write, census: &Census) -> std::io::Result<()> {
+    let mut table = Values::tabs(out);
+    let models = MODELS.map(|model| model.name().to_owned());
+    let names = ["nodes", "edges", "connected"].map(str::to_owned);
+    table.row(names.into_iter().chain(models))?;
+    for (nodes, row) in &census.0 {
+        for (edges, graphs) in &row.graphs {
+            let determined = row.determined.iter().map(|counts| counts.get(edges));
+            let determined = determined.map(|count| *count.unwrap_or(&0));
+            let cells = [*nodes, *edges, *graphs].into_iter().chain(determined);
+            table.row(cells.map(|cell| cell.to_string()))?;
+        }
+    }
+    table.finish()
 }
 
 /// For each model how many graphs it determines, and, of these, how many have the least number of
@@ -64,7 +90,7 @@ fn write(out: &mut impl Write, arguments: &Arguments, census: &Census) -> std::i
             json(out, nodes, row)?;
             continue;
         }
-        write!(out, "| {nodes} | {} |", row.graphs)?;
+        write!(out, "| {nodes} | {} |", row.graphs.values().sum::<usize>())?;
         for model in 0..MODELS.len() {
             let least = row.least(model).map_or_else(
                 || "none".to_owned(),
@@ -80,7 +106,7 @@ fn write(out: &mut impl Write, arguments: &Arguments, census: &Census) -> std::i
 fn json(out: &mut impl Write, nodes: usize, row: &Row) -> std::io::Result<()> {
     let mut line = serde_json::Map::new();
     line.insert("nodes".into(), nodes.into());
-    line.insert("graphs".into(), row.graphs.into());
+    line.insert("graphs".into(), row.graphs.values().sum::<usize>().into());
     for (model, by_edges) in MODELS.iter().zip(&row.determined) {
         let counts = by_edges
             .iter()

@@ -3,6 +3,7 @@
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::super::progress::Progress;
 use super::super::{GOOD, atomic, running};
+use super::census;
 use crate::report::catalog_page;
 use crate::report::catalog_page::Drawing;
 use crate::report::values::Values;
@@ -37,6 +38,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 12)]
     #[arg(value_parser = clap::value_parser!(u8).range(3..=16))]
     listed: u8,
+    /// Also write the census by camera model of these graphs: all connected ones, of graph6, as
+    /// nauty's `geng -c` writes them; `-` is standard input.
+    #[arg(long, value_name = "FILE")]
+    census: Option<PathBuf>,
 }
 
 /// A prime of 16 bits: any odd prime makes lower bounds and kernel vectors proofs, and
@@ -79,12 +84,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         counts.push((nodes, list(&mut files, nodes, &progress)?));
     }
     progress.finish();
+    if let Some(from) = &arguments.census {
+        let (census, bad_lines) = census::count(from)?;
+        ensure!(
+            bad_lines == 0,
+            "{}: not all lines are graphs",
+            from.display()
+        );
+        files.write("census.tsv", None, |out| census::write_table(out, &census))?;
+    }
     files.write("finite-solvable.svg", None, |out| {
         out.write_all(catalog_page::page(&drawings).as_bytes())
     })?;
     files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
     files.write("README.md", None, |out| {
-        out.write_all(readme(&certified, &listed).as_bytes())
+        out.write_all(readme(&certified, &listed, arguments.census.is_some()).as_bytes())
     })?;
     files.close()?;
     Ok(ExitCode::from(GOOD))
@@ -325,8 +339,23 @@ fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Re
 /// The page beside the catalog, with names in braces for what depends on the options.
 const PAGE: &str = include_str!("published.md");
 
-fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> String {
+/// What it says of a census.
+const CENSUS_ROW: &str = "| `census.tsv` | connected graphs by numbers of nodes and of edges, and how \
+                          many of them each camera model determines; `connected.g6` is what nauty's \
+                          `geng -cq` writes for 3 to 9 nodes |\n";
+
+fn readme(
+    certified: &RangeInclusive<usize>,
+    listed: &RangeInclusive<usize>,
+    census: bool,
+) -> String {
+    let (option, row) = match census {
+        true => (" --census connected.g6", CENSUS_ROW),
+        false => ("", ""),
+    };
     let values = [
+        ("{census-option}", option.to_owned()),
+        ("{census-row}", row.to_owned()),
         ("{last-certified}", certified.end().to_string()),
         ("{first-listed}", listed.start().to_string()),
         ("{first-listed-02}", format!("{:02}", listed.start())),
@@ -346,6 +375,6 @@ mod tests {
     #[test]
     fn the_page_is_the_published_one() {
         let published = include_str!("../../certificates/README.md");
-        assert_eq!(readme(&(3..=10), &(11..=12)), published);
+        assert_eq!(readme(&(3..=10), &(11..=12), true), published);
     }
 }

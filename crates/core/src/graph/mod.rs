@@ -118,24 +118,27 @@ impl Graph {
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
     pub fn from_pairs(nodes: u32, mut pairs: Vec<(u32, u32)>) -> Result<(Self, usize), GraphError> {
-        let refused = |&(i, j): &(u32, u32)| {
-            let node = i.max(j);
-            match node {
+        let orient = |pair: &mut (u32, u32)| {
+            let (i, j) = *pair;
+            *pair = (i.min(j), i.max(j));
+            match pair.1 {
                 _ if i == j => Some(GraphError::SelfLoop(i)),
-                _ if node >= nodes => Some(GraphError::OutOfRange { node, nodes }),
+                node if node >= nodes => Some(GraphError::OutOfRange { node, nodes }),
                 _ => None,
             }
         };
-        if let Some(error) = pairs.par_iter().with_min_len(SHARE).find_map_first(refused) {
+        let shares = pairs.par_chunks_mut(SHARE);
+        let refused = shares.find_map_first(|share| share.iter_mut().find_map(orient));
+        if let Some(error) = refused {
             return Err(error);
         }
-        pairs.par_iter_mut().with_min_len(SHARE).for_each(|pair| {
-            *pair = (pair.0.min(pair.1), pair.0.max(pair.1));
-        });
         let given = pairs.len();
-        let increase = |two: &[(u32, u32)]| two[0] < two[1];
-        if !pairs.par_windows(2).with_min_len(SHARE).all(increase) {
-            sort::sort(&mut pairs);
+        let disorder = (0..given.div_ceil(SHARE)).into_par_iter().find_first(|k| {
+            let share = &pairs[k * SHARE..given.min((k + 1) * SHARE + 1)];
+            !share.is_sorted_by(|a, b| a < b)
+        });
+        if let Some(k) = disorder {
+            sort::sort(&mut pairs, k * SHARE);
             pairs.dedup();
         }
         let merged = given - pairs.len();

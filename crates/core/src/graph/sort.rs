@@ -6,10 +6,10 @@
 /// If more than one in so many pairs is out of order, all are sorted.
 const RARE: usize = 16;
 
-/// Sorts. O(m + r log r), where r pairs are taken out, if these are few; O(m log m) if not. Memory
-/// for r pairs.
-pub(super) fn sort(pairs: &mut [(u32, u32)]) {
-    let (kept, mut strays) = take_out(pairs, pairs.len() / RARE);
+/// Sorts pairs, of which the first `sorted` are sorted. O(m + r log r), where r pairs are taken out,
+/// if these are few; O(m log m) if not. Memory for r pairs.
+pub(super) fn sort(pairs: &mut [(u32, u32)], sorted: usize) {
+    let (kept, mut strays) = take_out(pairs, sorted, pairs.len() / RARE);
     if kept + strays.len() < pairs.len() {
         // Too many: what has been taken out goes back to where there is room, next to the kept.
         pairs[kept..kept + strays.len()].copy_from_slice(&strays);
@@ -20,15 +20,16 @@ pub(super) fn sort(pairs: &mut [(u32, u32)]) {
     merge(pairs, kept, &strays);
 }
 
-/// Moves an increasing sequence to the front, and takes the others out, until there are more than
-/// `most` of them. Returns how many pairs are in front, and the others.
+/// Moves an increasing sequence to the front, which begins with the first `sorted` pairs, and takes
+/// the others out, until there are more than `most` of them. Returns how many pairs are in front, and
+/// the others.
 ///
 /// One pair that is too large would make strays of all that follow it: it is taken out itself if
 /// what follows it fits behind what is before it.
-fn take_out(pairs: &mut [(u32, u32)], most: usize) -> (usize, Vec<(u32, u32)>) {
-    let mut kept = 0;
+fn take_out(pairs: &mut [(u32, u32)], sorted: usize, most: usize) -> (usize, Vec<(u32, u32)>) {
+    let mut kept = sorted;
     let mut strays = Vec::new();
-    for next in 0..pairs.len() {
+    for next in sorted..pairs.len() {
         let pair = pairs[next];
         if kept > 0 && pair < pairs[kept - 1] {
             if strays.len() == most {
@@ -86,7 +87,9 @@ mod tests {
             }
             let mut expected = pairs.clone();
             expected.sort();
-            sort(&mut pairs);
+            let increasing = |end: &usize| pairs[..*end].is_sorted();
+            let most = (0..=pairs.len()).rev().find(increasing).unwrap();
+            sort(&mut pairs, most / 2);
             prop_assert_eq!(pairs, expected);
         }
     }
@@ -95,7 +98,7 @@ mod tests {
     #[test]
     fn single_strays() {
         let mut pairs = [(9, 0), (1, 0), (2, 0), (8, 8), (3, 0), (0, 0), (4, 0)];
-        let (kept, strays) = take_out(&mut pairs, 7);
+        let (kept, strays) = take_out(&mut pairs, 0, 7);
         assert_eq!(pairs[..kept], [(1, 0), (2, 0), (3, 0), (4, 0)]);
         assert_eq!(strays, [(9, 0), (8, 8), (0, 0)]);
     }

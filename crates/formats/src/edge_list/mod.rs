@@ -14,7 +14,7 @@
 //! cores, and integers become nodes by a bitmap of those that occur; everything else takes the
 //! general way, through an index of labels.
 
-use std::io::Read;
+use std::io::{self, Read};
 
 use crate::error::{Fault, Place, Problem};
 use viewcert::graph::{Graph, GraphError, Labels};
@@ -139,27 +139,35 @@ impl Default for Collector {
 }
 
 impl Collector {
+    /// Reads a text; the next part of it comes in while the lines of the last one are read.
     fn read(&mut self, mut input: impl Read) -> Result<(), Fault> {
+        let failed = |error: io::Error| Place::Input.fault(error.into());
         let mut buffer = vec![0; READ];
-        let mut filled = 0;
-        loop {
-            let end = fill(&mut input, &mut buffer, filled)
-                .map_err(|error| Place::Input.fault(error.into()))?;
-            if end < buffer.len() {
-                return self.lines(&buffer[..end]);
-            }
+        let mut next = vec![0; READ];
+        let mut end = fill(&mut input, &mut buffer, 0).map_err(failed)?;
+        while end == buffer.len() {
             let last = buffer.iter().rposition(|&b| b == b'\n');
             let complete = last.map_or(0, |last| last + 1);
-            self.lines(&buffer[..complete])?;
+            let (lines, rest) = buffer.split_at(complete);
+            if rest.len() > LINE_LIMIT {
+                self.lines(lines)?;
+                return Err(self.long_line(rest));
+            }
+            next[..rest.len()].copy_from_slice(rest);
+            let mut read = Ok(());
+            // The input need not be of a kind that another thread may read.
+            let filled = rayon::in_place_scope(|scope| {
+                scope.spawn(|_| read = self.lines(lines));
+                fill(&mut input, &mut next, rest.len())
+            });
+            read?;
             if self.pairs.len() > PAIR_LIMIT {
                 return Err(Place::Input.fault(Problem::TooManyPairs));
             }
-            if end - complete > LINE_LIMIT {
-                return Err(self.long_line(&buffer[complete..]));
-            }
-            buffer.copy_within(complete.., 0);
-            filled = end - complete;
+            end = filled.map_err(failed)?;
+            std::mem::swap(&mut buffer, &mut next);
         }
+        self.lines(&buffer[..end])
     }
 
     /// What is wrong with the line after those that were read, which is too long: what it is

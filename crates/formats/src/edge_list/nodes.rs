@@ -15,11 +15,9 @@ const SHARE: usize = 1 << 14;
 /// Replaces integers by their places among those that occur. Returns the
 /// labels and their number.
 pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Labels, usize) {
-    let largest = pairs
-        .par_iter()
-        .with_min_len(SHARE)
-        .map(|&(a, b)| a.max(b))
-        .max();
+    let shares = pairs.par_chunks(SHARE);
+    let largest = shares.filter_map(|share| share.iter().map(|&(a, b)| a.max(b)).max());
+    let largest = largest.max();
     let largest = largest.into_iter().chain(singles.iter().copied()).max();
     let largest = largest.unwrap_or(0);
     let given = 2 * pairs.len() + singles.len();

@@ -13,8 +13,8 @@ pub const MODELS: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibra
 /// Graphs with one number of nodes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// How many graphs there are.
-    pub graphs: usize,
+    /// How many graphs there are, by their number of edges.
+    pub graphs: BTreeMap<usize, usize>,
     /// For each of [`MODELS`] how many of them it determines - up to finitely many choices, in the
     /// projective one -, by their number of edges.
     pub determined: [BTreeMap<usize, usize>; 3],
@@ -57,7 +57,7 @@ impl Census {
                 "each model determines no more: {graph:?}"
             );
             let row = self.0.entry(graph.nodes()).or_default();
-            row.graphs += 1;
+            *row.graphs.entry(graph.edges().len()).or_default() += 1;
             for (counts, _) in row.determined.iter_mut().zip(found).filter(|(_, is)| *is) {
                 *counts.entry(graph.edges().len()).or_default() += 1;
             }
