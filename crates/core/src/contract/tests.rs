@@ -207,7 +207,9 @@ fn check_with(graph: &Graph, known: &KnownParts, model: Model) {
         let covered: Vec<(u32, u32)> = graph.edges().iter().filter(inside).copied().collect();
         assert_eq!(contraction.bodies[k as usize].edges, covered.len());
         // Every part in the body as the complete graph that it is as good as.
-        let own = known.iter().filter(|part| part.iter().all(|v| nodes.contains(v)));
+        let own = known
+            .iter()
+            .filter(|part| part.iter().all(|v| nodes.contains(v)));
         let sides = own.flat_map(|part| {
             let ends = part.iter().enumerate();
             ends.flat_map(|(k, &i)| part[k + 1..].iter().map(move |&j| (i, j)))

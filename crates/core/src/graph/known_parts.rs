@@ -31,10 +31,7 @@ impl KnownParts {
     ///
     /// # Errors
     /// A node that is not below `nodes`.
-    pub fn new(
-        nodes: u32,
-        parts: impl IntoIterator<Item = Vec<u32>>,
-    ) -> Result<Self, GraphError> {
+    pub fn new(nodes: u32, parts: impl IntoIterator<Item = Vec<u32>>) -> Result<Self, GraphError> {
         let mut all = Vec::new();
         for mut part in parts {
             if let Some(&node) = part.iter().find(|&&node| node >= nodes) {
