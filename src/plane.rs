@@ -1,5 +1,6 @@
 //! What an answer holds for: what a graph determines if all centres lie in one plane
-//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), and what unknown focal lengths ask for.
+//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), what unknown focal lengths ask for, and which
+//! parts were taken for known.
 
 use serde::Serialize;
 use viewcert::contract::Merge;
@@ -7,6 +8,7 @@ use viewcert::decide::{Value, Verdict, plane_rank_with_parts};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
+use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
 /// What `--model focal` rests on.
@@ -137,6 +139,13 @@ impl Scope {
         let mut conditions = Vec::new();
         if asked.focal {
             conditions.push(FOCAL.to_owned());
+        }
+        let known = verdict.known_parts.len();
+        if known > 0 {
+            let parts = counted(known, "known part");
+            conditions.push(format!(
+                "taken for given: {parts}, sets of cameras whose relative position is known"
+            ));
         }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";

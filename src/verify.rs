@@ -174,7 +174,7 @@ impl VerifyArguments {
         let asked = self
             .act
             .asked_of_pairs()
-            .map(|option| (true, option, "it weighs pairs alone"));
+            .map(|option| (true, option, "that weighs pairs alone"));
         let mut refused = others.into_iter().chain(asked).filter(|(given, ..)| *given);
         let (option, why) = refused
             .next()

@@ -153,6 +153,13 @@ impl ActArguments {
         shapes: &mut Shapes,
         watch: Watch,
     ) -> Result<Acted> {
+        if let Some(option) = self.asked_of_pairs() {
+            ensure!(
+                verdict.known_parts.is_empty(),
+                "{option} weighs the pairs of a graph alone, and this verdict rests on known parts; \
+                 leave out one of the two"
+            );
+        }
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Acted::whole());
         }

@@ -13,7 +13,7 @@ use crate::NamedGraph;
 use crate::edge_list::fields::{Field, integer, split};
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
-use viewcert::graph::{KnownParts, Labels, Lists};
+use viewcert::graph::{GraphError, KnownParts, Labels, Lists};
 use viewcert::wording::counted;
 
 /// Known parts as they were read.
@@ -23,6 +23,24 @@ pub struct NamedParts {
     pub parts: KnownParts,
     /// What was merged or left out in reading them.
     pub notes: Vec<String>,
+}
+
+impl NamedParts {
+    /// Parts that were given as nodes of a graph with so many, with notes as of a file.
+    /// O(k log k) for k nodes of parts, and for parts inside of others what it takes to compare them.
+    ///
+    /// # Errors
+    /// A node that is not below `nodes`.
+    pub fn of_nodes(
+        nodes: u32,
+        parts: impl IntoIterator<Item = Vec<u32>>,
+    ) -> Result<Self, GraphError> {
+        let mut lines = Lines::default();
+        for (number, part) in (1..).zip(parts) {
+            lines.see(number, part);
+        }
+        lines.finish(nodes, false)
+    }
 }
 
 /// Reads the known parts of a graph from a file (`-` is standard input). Notes begin with its name.
@@ -67,33 +85,8 @@ pub fn read(mut input: impl Read, graph: &NamedGraph) -> Result<NamedParts, Faul
         return Err(Place::Input.fault(Problem::NoParts));
     }
     let nodes = graph.graph.nodes() as u32;
-    let given = lines.parts.len();
-    let parts = KnownParts::new(nodes, lines.parts).expect("nodes of the graph");
-    let mut notes = Vec::new();
-    notes.extend(
-        lines
-            .repeated
-            .note("camera", "named again on its line and counts once"),
-    );
-    notes.extend(
-        lines
-            .single
-            .note("line", "of a single camera, which says nothing"),
-    );
-    notes.extend(note(
-        given - parts.len(),
-        "part",
-        "given again and counts once",
-    ));
-    let nested = nested(&parts, graph.graph.nodes());
-    notes.extend(note(
-        nested,
-        "part",
-        "inside of another one and adds nothing",
-    ));
-    Ok(NamedParts { parts, notes })
+    Ok(lines.finish(nodes, true).expect("nodes of the graph"))
 }
-
 /// The nodes of a graph by their labels.
 struct Cameras<'a> {
     labels: &'a Labels,
@@ -144,8 +137,9 @@ impl LeftOut {
         self.count += count;
     }
 
-    fn note(&self, what: &str, how: &str) -> Option<String> {
-        note(self.count, what, how).map(|note| format!("{note} (first in line {})", self.line))
+    fn note(&self, what: &str, how: &str, place: &str) -> Option<String> {
+        let note = note(self.count, what, how);
+        note.map(|note| format!("{note} (first in {place} {})", self.line))
     }
 }
 
@@ -156,6 +150,7 @@ fn note(count: usize, what: &str, how: &str) -> Option<String> {
     } else {
         how.replace("counts", "count")
             .replace("adds", "add")
+            .replace("says", "say")
             .replace("its", "their")
     };
     (count > 0).then(|| format!("{} {are} {how}", counted(count, what)))
@@ -185,17 +180,42 @@ impl Lines {
             let node = cameras.node(&label);
             part.push(node.ok_or_else(|| Problem::UnknownCamera(label.into_owned()))?);
         }
+        self.see(number, part);
+        Ok(())
+    }
+
+    /// Takes in a part with the number of its line.
+    fn see(&mut self, number: u64, mut part: Vec<u32>) {
+        let given = part.len();
         part.sort_unstable();
         part.dedup();
-        let repeated = self.fields.len() - part.len();
-        if repeated > 0 {
-            self.repeated.see(repeated, number);
+        if part.len() < given {
+            self.repeated.see(given - part.len(), number);
         }
         match part.len() {
-            1 => self.single.see(1, number),
+            0 | 1 => self.single.see(1, number),
             _ => self.parts.push(part),
         }
-        Ok(())
+    }
+
+    /// The parts of a graph with so many nodes, with notes that name lines or else parts.
+    fn finish(self, nodes: u32, lines: bool) -> Result<NamedParts, GraphError> {
+        let place = if lines { "line" } else { "part" };
+        let given = self.parts.len();
+        let parts = KnownParts::new(nodes, self.parts)?;
+        let nested = nested(&parts, nodes as usize);
+        let notes = [
+            self.repeated
+                .note("camera", "named again in its part and counts once", place),
+            self.single
+                .note("part", "of fewer than two cameras and says nothing", place),
+            note(given - parts.len(), "part", "given again and counts once"),
+            note(nested, "part", "inside of another one and adds nothing"),
+        ];
+        Ok(NamedParts {
+            parts,
+            notes: notes.into_iter().flatten().collect(),
+        })
     }
 }
 
@@ -274,8 +294,8 @@ mod tests {
         assert_eq!(
             notes,
             [
-                "3 cameras are named again on their line and count once (first in line 2)",
-                "2 lines are of a single camera, which says nothing (first in line 2)",
+                "3 cameras are named again in their part and count once (first in line 2)",
+                "2 parts are of fewer than two cameras and say nothing (first in line 2)",
                 "1 part is given again and counts once",
                 "2 parts are inside of another one and add nothing",
             ]
@@ -284,6 +304,22 @@ mod tests {
             parts("3\n", &path(Labels::Numbers { first: 0 })).unwrap().0,
             [[0; 0]; 0]
         );
+    }
+
+    #[test]
+    fn parts_in_memory_have_the_notes_of_a_file() {
+        let given = [vec![0, 1, 1], vec![], vec![1, 0]];
+        let found = NamedParts::of_nodes(2, given).unwrap();
+        assert_eq!(found.parts.iter().collect::<Vec<_>>(), [[0, 1]]);
+        assert_eq!(
+            found.notes,
+            [
+                "1 camera is named again in its part and counts once (first in part 1)",
+                "1 part is of fewer than two cameras and says nothing (first in part 2)",
+                "1 part is given again and counts once",
+            ]
+        );
+        assert!(NamedParts::of_nodes(2, [vec![0, 2]]).is_err());
     }
 
     #[test]
