@@ -40,6 +40,14 @@ impl Files {
     }
 }
 
+/// Holds a line of a report against the schema of all reports.
+fn is_valid(line: &serde_json::Value) {
+    let schema = include_str!("../docs/report.schema.json");
+    let schema = jsonschema::validator_for(&serde_json::from_str(schema).unwrap()).unwrap();
+    let found: Vec<String> = schema.iter_errors(line).map(|e| e.to_string()).collect();
+    assert!(found.is_empty(), "{found:?}: {line}");
+}
+
 /// The nodes of the components, and whatever else is claimed.
 fn answer(verdict: &Verdict) -> (String, usize, BTreeSet<Vec<u32>>) {
     let components = verdict.components.iter();
@@ -126,6 +134,7 @@ fn answers_by_hand() {
         let run = files.verify(&["--json", "--model", model]);
         assert_eq!(run.code, code, "{}", run.err);
         let line = &run.json()[0];
+        is_valid(line);
         assert_eq!(line["parts"], 4);
         assert_eq!(line["rank"], rank, "{model}");
         assert_eq!(line["components"].as_array().unwrap().len(), components);
@@ -246,6 +255,12 @@ fn what_is_wrong_is_said() {
         assert_eq!(run.code, 2, "{arguments:?}");
         assert!(run.err.contains(reason), "{}", run.err);
     }
+    // What a report says with parts is no claim about the graph alone.
+    let report = files.name("report.jsonl");
+    fs::write(&report, files.verify(&["--json"]).out).unwrap();
+    let run = verify(&["audit", "--claims", &report]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("a graph with known parts"), "{}", run.err);
     let run = verify_with(b"0 1\n", &["-", "--parts", "-"]);
     assert_eq!(run.code, 2);
     assert!(
@@ -269,6 +284,7 @@ fn models_side_by_side() {
     let run = verify(&["models", &graph, "--parts", &parts, "--json"]);
     assert_eq!(run.code, 1);
     let line = &run.json()[0];
+    is_valid(line);
     assert_eq!(line["parts"], 4);
     let ranks: Vec<_> = line["models"]
         .as_array()
