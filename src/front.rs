@@ -183,7 +183,7 @@ pub fn graph_to_check(
     path: &Path,
     options: ReadOptions,
 ) -> Result<viewcert_check::Graph> {
-    checker::graph_at(certificate, path, options)
+    checker::graph_at(certificate, path, None, options)
 }
 
 /// The memory that the program takes at most, in bytes, if nothing else is said; `None` where that

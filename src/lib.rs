@@ -20,6 +20,7 @@ mod manifest;
 mod models;
 mod overview;
 mod pages;
+mod parts;
 mod plane;
 mod progress;
 mod report;

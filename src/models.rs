@@ -1,13 +1,16 @@
 //! `verify models GRAPH...`: every camera model side by side.
 
 use super::input::InputArguments;
+use super::parts::PartArguments;
 use super::{GOOD, NOT, running};
 use crate::report::models as report;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Args;
+use std::borrow::Cow;
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use viewcert::KnownParts;
 use viewcert::decide::{Options, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
@@ -21,6 +24,8 @@ pub(super) struct ModelsArguments {
     graphs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
+    #[command(flatten)]
+    parts: PartArguments,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -36,9 +41,20 @@ const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
+    arguments.parts.check(&arguments.graphs)?;
+    let too_many = |what: &str| arguments.parts.too_many(what);
+    if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
+        ensure!(arguments.graphs.len() <= 1, reason);
+    }
     let each = |out: &mut _, input: &NamedGraph, _| {
+        let known = arguments.parts.read(input)?;
+        let (input, parts) = known.map_or((Cow::Borrowed(input), KnownParts::default()), |known| {
+            (Cow::Owned(known.0), known.1)
+        });
+        let input = &*input;
         let decided = |model: Model| -> Result<Verdict> {
             let options = Options::default().model(model).seed(arguments.seed);
+            let options = options.known_parts(parts.clone());
             let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
             running::hide();
             verdict.with_context(|| format!("{}, {model} model", input.name))
@@ -58,6 +74,6 @@ pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
+        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

@@ -1,12 +1,14 @@
 //! What an answer holds for: what a graph determines if all centres lie in one plane
-//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), and what unknown focal lengths ask for.
+//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), what unknown focal lengths ask for, and which
+//! parts were taken for known.
 
 use serde::Serialize;
 use viewcert::contract::Merge;
-use viewcert::decide::{Value, Verdict, plane_rank};
+use viewcert::decide::{Value, Verdict, plane_rank_with_parts};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
+use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
 /// What `--model focal` rests on.
@@ -26,15 +28,19 @@ pub(crate) struct Planar {
 
 impl Planar {
     /// Counts, with rank R the generic rank of the plane direction matrix: 4 rank R + 3 (n - k)
-    /// for J_P and rank R + n - k for N, k the number of connected components.
+    /// for J_P and rank R + n - k for N, k the number of connected components. Known parts are as
+    /// good as all their pairs (Theorem 4.14).
     ///
     /// # Errors
     /// If the work was stopped.
-    pub(crate) fn new(graph: &Graph, model: Model, watch: &Watch) -> Result<Self, Stopped> {
-        let plane = plane_rank(graph, watch)?;
+    pub(crate) fn new(graph: &Graph, verdict: &Verdict, watch: &Watch) -> Result<Self, Stopped> {
+        let (model, known) = (verdict.model, &verdict.known_parts);
+        let plane = plane_rank_with_parts(graph, known, watch)?;
         let mut parts = UnionFind::new(graph.nodes());
-        let unions = graph.edges().iter();
-        let unions = unions.filter(|&&(i, j)| parts.union(i as usize, j as usize));
+        let edges = graph.edges().iter().copied();
+        let neighbours = known.iter().flat_map(|part| part.iter().zip(&part[1..]));
+        let edges = edges.chain(neighbours.map(|(&i, &j)| (i, j)));
+        let unions = edges.filter(|&(i, j)| parts.union(i as usize, j as usize));
         // n - k: the edges of a spanning forest.
         let joined = unions.count();
         let rank = match model {
@@ -127,12 +133,19 @@ impl Scope {
             && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
         let planar = (asked.planar || may_hide)
-            .then(|| Planar::new(&input.graph, verdict.model, watch))
+            .then(|| Planar::new(&input.graph, verdict, watch))
             .transpose()?;
         let hidden = is_good && planar.is_some_and(|planar| !planar.is_determined());
         let mut conditions = Vec::new();
         if asked.focal {
             conditions.push(FOCAL.to_owned());
+        }
+        let known = verdict.known_parts.len();
+        if known > 0 {
+            let parts = counted(known, "known part");
+            conditions.push(format!(
+                "taken for given: {parts}, sets of cameras whose relative position is known"
+            ));
         }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";

@@ -7,6 +7,7 @@ use super::certificates::Target;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
+use super::parts::{self, PartArguments};
 use super::plane::{Asked, Scope};
 use super::{GOOD, NOT, atomic, certificates, running, witness};
 use crate::report;
@@ -87,6 +88,8 @@ pub(super) struct VerifyArguments {
     input: InputArguments,
     #[command(flatten)]
     tracks: TrackArguments,
+    #[command(flatten)]
+    parts: PartArguments,
     /// Write the graph that is decided to this file, as pairs of node numbers: what both checkers
     /// read, whatever the graph came from.
     #[arg(long, value_name = "FILE")]
@@ -146,6 +149,44 @@ impl VerifyArguments {
         })
     }
 
+    /// Refuses, by name, what cannot be done for a graph with known parts.
+    fn check_parts(&self) -> Result<()> {
+        if self.parts.path().is_none() {
+            return Ok(());
+        }
+        let others = [
+            (
+                self.no_contraction,
+                "--no-contraction",
+                "the paper's matrix is that of pairs",
+            ),
+            (
+                self.tracks.options().is_some(),
+                "--tracks",
+                "tracks are decided by themselves",
+            ),
+            (
+                self.witness.is_some(),
+                "--witness",
+                "cameras are computed from pairs alone",
+            ),
+        ];
+        let asked = self
+            .act
+            .asked_of_pairs()
+            .map(|option| (true, option, "that weighs pairs alone"));
+        let mut refused = others.into_iter().chain(asked).filter(|(given, ..)| *given);
+        let (option, why) = refused
+            .next()
+            .map_or(("", ""), |(_, option, why)| (option, why));
+        ensure!(
+            option.is_empty(),
+            "{}: not with {option}, as {why}; leave out one of the two",
+            parts::OPTION
+        );
+        self.parts.check(&self.graphs)
+    }
+
     fn options(&self) -> Result<Options> {
         let model = self.model()?;
         ensure!(
@@ -194,10 +235,12 @@ impl VerifyArguments {
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
 pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
+    arguments.check_parts()?;
     let options = arguments.options()?;
     let [html, svg] = arguments.pages.outputs();
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
+    let inputs = inputs.chain(arguments.parts.path());
     let witness = (witness::OPTION, arguments.witness.as_deref());
     atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
@@ -211,7 +254,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        atomic::ensure_apart(&outputs, std::iter::empty())?;
+        atomic::ensure_apart(&outputs, arguments.parts.path().into_iter())?;
     }
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
@@ -220,7 +263,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
-            witness.or(act).or_else(|| arguments.pages.too_many(what))
+            let parts = arguments.parts.too_many(what);
+            witness
+                .or(parts)
+                .or(act)
+                .or_else(|| arguments.pages.too_many(what))
         }
     };
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
@@ -237,6 +284,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
+        let known = arguments.parts.read(input)?;
+        let (input, options) = match &known {
+            Some((input, parts)) => (input, options.clone().known_parts(parts.clone())),
+            None => (input, options.clone()),
+        };
         let work = Work {
             arguments,
             options: &options,

@@ -32,6 +32,8 @@ pub(crate) struct Verified {
     edges: usize,
     /// Its hash.
     sha256: String,
+    /// How many known parts are taken for given.
+    parts: usize,
     /// The question.
     model: String,
     /// All of it in words.
@@ -54,6 +56,7 @@ impl From<viewcert_check::Verified> for Verified {
             components: verified.components.0,
             nodes: verified.nodes,
             edges: verified.edges,
+            parts: verified.parts,
             model: verified.model.to_string(),
             text: verified.to_string(),
             sha256: verified.sha256,
@@ -65,8 +68,8 @@ impl From<viewcert_check::Verified> for Verified {
 enum Given {
     /// From the certificate.
     Held,
-    /// From memory.
-    Graph(Arc<NamedGraph>),
+    /// From memory, with known parts.
+    Graph(Arc<NamedGraph>, Vec<Vec<u32>>),
     /// From a file.
     File(PathBuf),
 }
@@ -80,16 +83,17 @@ enum Problem {
 
 /// Verifies a certificate.
 #[pyfunction]
-#[pyo3(signature = (certificate, *, graph=None, file=None, max_operations=None))]
+#[pyo3(signature = (certificate, *, graph=None, parts=None, file=None, max_operations=None))]
 pub(crate) fn check(
     py: Python<'_>,
     certificate: Vec<u8>,
     graph: Option<&Graph>,
+    parts: Option<Vec<Vec<u32>>>,
     file: Option<PathBuf>,
     max_operations: Option<u64>,
 ) -> PyResult<Verified> {
     let given = match (graph, file) {
-        (Some(graph), _) => Given::Graph(Arc::clone(&graph.0)),
+        (Some(graph), _) => Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default()),
         (None, Some(file)) => Given::File(file),
         (None, None) => Given::Held,
     };
@@ -100,9 +104,10 @@ pub(crate) fn check(
         let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
         let graph = match given {
             Given::Held => None,
-            Given::Graph(input) => {
+            Given::Graph(input, parts) => {
                 let edges = input.graph.edges().iter().copied();
                 let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
+                let graph = graph.and_then(|graph| graph.with_parts(parts));
                 Some(graph.map_err(Problem::Graph)?)
             }
             Given::File(path) => {

@@ -15,7 +15,7 @@ use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Model, Options, Prime, Verdict};
 use viewcert_cli::front;
 use viewcert_cli::front::{Answer, Questions, Weak};
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, NamedParts};
 
 /// A graph and what was decided about it.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -33,7 +33,7 @@ pub(crate) struct Decided {
 #[pyfunction]
 #[pyo3(signature = (
     graph, *, model, seed, planar=false, solutions=Some("quick"), bounds=None, prime=None,
-    contraction=true, counting=true, time_limit=None, memory_limit=None, progress=None
+    contraction=true, counting=true, parts=None, time_limit=None, memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn decide(
@@ -47,6 +47,7 @@ pub(crate) fn decide(
     prime: Option<u64>,
     contraction: bool,
     counting: bool,
+    parts: Option<Vec<Vec<u32>>>,
     time_limit: Option<f64>,
     memory_limit: Option<u64>,
     progress: Option<Py<PyAny>>,
@@ -86,7 +87,16 @@ pub(crate) fn decide(
         Some(_) => watch.observed(told.clone()),
         None => watch.clone(),
     };
+    let nodes = graph.0.graph.nodes() as u32;
+    let known = NamedParts::of_nodes(nodes, parts.unwrap_or_default());
+    let known = known.map_err(|error| wrong(&format!("parts: {error}")))?;
+    let mut input = Arc::clone(&graph.0);
+    if !known.notes.is_empty() {
+        let notes = known.notes.iter().map(|note| format!("parts: {note}"));
+        Arc::make_mut(&mut input).notes.extend(notes);
+    }
     let options = Options::default()
+        .known_parts(known.parts)
         .model(model)
         .arithmetic(arithmetic)
         .prime(prime)
@@ -95,17 +105,17 @@ pub(crate) fn decide(
         .solutions(solutions)
         .seed(seed)
         .watch(watched);
-    let (input, threads) = (Arc::clone(&graph.0), work::threads()?);
+    let (decided, threads) = (Arc::clone(&input), work::threads()?);
     let start = Instant::now();
     let decided = work::run(
         py,
         &watch,
         progress.as_ref().map(|callback| (callback, &*told)),
-        move || threads.install(|| viewcert::decide(&input.graph, &options)),
+        move || threads.install(|| viewcert::decide(&decided.graph, &options)),
     )?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
     Ok(Decided {
-        input: Arc::clone(&graph.0),
+        input,
         verdict: Arc::new(verdict),
         rational: bounds.is_some(),
         planar,
@@ -151,6 +161,18 @@ impl Decided {
             verdict.components_claim().strength,
         ]
         .map(|strength| (strength.name(), strength.error_log2()))
+    }
+
+    /// The known parts that it rests on.
+    fn parts(&self) -> Vec<Vec<u32>> {
+        let parts = self.verdict.known_parts.iter();
+        parts.map(<[u32]>::to_vec).collect()
+    }
+
+    /// What was noted of the graph and its parts.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.input.notes.clone()
     }
 
     /// How long it took, in seconds.

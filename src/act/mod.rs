@@ -98,6 +98,20 @@ impl ActArguments {
         ))
     }
 
+    /// The first option that weighs the pairs of a graph and nothing else, if there is one.
+    pub(super) fn asked_of_pairs(&self) -> Option<&'static str> {
+        let asked = [
+            (self.weak.is_some(), "--weak"),
+            (self.suggest.is_some(), "--suggest"),
+            (self.explain.is_some(), "--explain"),
+            (!self.sweep.is_empty(), "--sweep"),
+            (self.margin.is_some(), "--margin"),
+        ];
+        asked
+            .into_iter()
+            .find_map(|(asked, option)| asked.then_some(option))
+    }
+
     /// Refuses what a graph has no answer to.
     ///
     /// # Errors
@@ -139,6 +153,13 @@ impl ActArguments {
         shapes: &mut Shapes,
         watch: Watch,
     ) -> Result<Acted> {
+        if let Some(option) = self.asked_of_pairs() {
+            ensure!(
+                verdict.known_parts.is_empty(),
+                "{option} weighs the pairs of a graph alone, and this verdict rests on known parts; \
+                 leave out one of the two"
+            );
+        }
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Acted::whole());
         }

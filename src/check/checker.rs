@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::Path;
 use viewcert::certificate::hex;
 use viewcert::graph::sha256;
-use viewcert_check::{Certificate, Failure, Graph, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Labels, Verified};
 use viewcert_formats::read::graphs;
-use viewcert_formats::{ReadOptions, read_graphs};
+use viewcert_formats::{ReadOptions, read_graphs, read_parts};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -34,7 +34,30 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
     viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }
 
-/// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
+/// What a certificate proves about the graph that it holds, with the known parts of a file, which
+/// are sets of node numbers.
+///
+/// # Errors
+/// If there are no such parts.
+pub(super) fn check_with_parts(text: &[u8], parts: &Path) -> Result<Result<Proved, Failure>> {
+    let certificate = match Certificate::parse(text) {
+        Ok(certificate) => certificate,
+        Err(failure) => return Ok(Err(failure)),
+    };
+    let held = certificate.held_graph().ok().flatten();
+    let held = held.map(|graph| of_file(graph, parts, &Labels::Numbers));
+    let checked = certificate.check(held.transpose()?.as_ref());
+    Ok(checked.map(|verified| Proved::new(&verified)))
+}
+
+/// A graph with the known parts of a file, read by the checker.
+fn of_file(graph: Graph, parts: &Path, labels: &Labels) -> Result<Graph> {
+    let file = super::read(parts)?;
+    let graph = graph.with_parts_of(&file, labels);
+    graph.with_context(|| parts.display().to_string())
+}
+
+/// What a certificate proves about the graph in a file, with the known parts of another one. The checker reads edge lists and graph6 by
 /// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
 /// format, comes through this program's reader, of several graphs the one that is named.
 ///
@@ -43,13 +66,14 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
 pub(super) fn check_for(
     text: &[u8],
     path: &Path,
+    parts: Option<&Path>,
     options: ReadOptions,
 ) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let graph = graph_at(&certificate, path, options)?;
+    let graph = graph_at(&certificate, path, parts, options)?;
     Ok(certificate
         .check(Some(&graph))
         .map(|verified| Proved::new(&verified)))
@@ -58,10 +82,11 @@ pub(super) fn check_for(
 /// The graph in a file that a certificate is about; see [`check_for`].
 ///
 /// # Errors
-/// If there is no such graph.
+/// If there is no such graph, or no such parts.
 pub(crate) fn graph_at(
     certificate: &Certificate,
     path: &Path,
+    parts: Option<&Path>,
     options: ReadOptions,
 ) -> Result<Graph> {
     // A folder may be a model.
@@ -76,20 +101,29 @@ pub(crate) fn graph_at(
             variable: None,
             tracks: None,
             ..
-        } => Graph::read(&bytes, || Some(certificate.graph_sha256())).ok(),
+        } => {
+            let wanted = || Some(certificate.graph_sha256());
+            match parts {
+                None => Graph::read(&bytes, wanted).map(|graph| (graph, Labels::Numbers)),
+                Some(_) => Graph::read_labelled(&bytes, false, wanted),
+            }
+            .ok()
+        }
         _ => None,
     };
-    match own {
-        Some(graph) => Ok(graph),
-        None => converted(certificate, bytes, path, options),
+    match (own, parts) {
+        (Some((graph, _)), None) => Ok(graph),
+        (Some((graph, labels)), Some(parts)) => of_file(graph, parts, &labels),
+        (None, parts) => converted(certificate, bytes, (path, parts), options),
     }
 }
 
-/// The graph that a certificate is about, or else the first one, by this program's reader.
+/// The graph that a certificate is about, or else the first one, and its known parts, by this
+/// program's readers.
 fn converted(
     certificate: &Certificate,
     bytes: Vec<u8>,
-    path: &Path,
+    (path, parts): (&Path, Option<&Path>),
     options: ReadOptions,
 ) -> Result<Graph> {
     let name = path.display().to_string();
@@ -100,16 +134,24 @@ fn converted(
         None => graphs(name.clone(), Cursor::new(bytes), options),
     };
     for input in inputs {
-        let graph = input?.graph;
-        let wanted = hex(&sha256(&graph)) == certificate.graph_sha256();
+        let input = input?;
+        let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
         if wanted || first.is_none() {
-            first = Some(graph);
+            first = Some(input);
         }
         if wanted {
             break;
         }
     }
-    let graph = first.with_context(|| format!("{name}: the file holds no graph"))?;
-    let pairs = graph.edges().iter().copied();
-    Graph::new(graph.nodes(), pairs).with_context(|| name)
+    let input = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    let pairs = input.graph.edges().iter().copied();
+    let graph = Graph::new(input.graph.nodes(), pairs).with_context(|| name)?;
+    let Some(parts) = parts else {
+        return Ok(graph);
+    };
+    let found = read_parts(parts, &input)?.parts;
+    let lists = found.iter().map(<[u32]>::to_vec);
+    graph
+        .with_parts(lists)
+        .with_context(|| parts.display().to_string())
 }

@@ -6,6 +6,7 @@ mod folder;
 use self::folder::{Listing, name};
 use super::input::{InputArguments, TrackArguments};
 use super::manifest::Contents;
+use super::parts::PartArguments;
 use super::{GOOD, NOT, TOO_LARGE};
 use crate::report::counted;
 use anyhow::{Context, Result, ensure};
@@ -38,6 +39,8 @@ pub(super) struct CheckArguments {
     input: InputArguments,
     #[command(flatten)]
     tracks: TrackArguments,
+    #[command(flatten)]
+    parts: PartArguments,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -47,6 +50,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         ensure!(
             arguments.graph.is_none(),
             "a graph goes with one certificate, and {} has many",
+            path.display()
+        );
+        ensure!(
+            arguments.parts.path().is_none(),
+            "known parts go with one certificate, and {} has many",
             path.display()
         );
         let listing = Listing::new(path)?;
@@ -65,15 +73,26 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         return check_files(path, &listing);
     }
     let text = read(path)?;
-    let outcome = match &arguments.graph {
-        None => checker::check(&text),
-        Some(graph) => {
+    let parts = arguments.parts.path();
+    let inputs = [Some(&**path), arguments.graph.as_deref(), parts];
+    let standard = inputs
+        .into_iter()
+        .flatten()
+        .filter(|&path| path == Path::new("-"));
+    ensure!(
+        standard.count() < 2,
+        "only one of certificate, graph and parts can be standard input"
+    );
+    let outcome = match (&arguments.graph, parts) {
+        (None, None) => checker::check(&text),
+        (None, Some(parts)) => checker::check_with_parts(&text, parts)?,
+        (Some(graph), parts) => {
             let tracks = arguments.tracks.options();
             let options = ReadOptions {
                 tracks,
                 ..arguments.input.read_options()
             };
-            checker::check_for(&text, graph, options)?
+            checker::check_for(&text, graph, parts, options)?
         }
     };
     let mut out = std::io::stdout().lock();

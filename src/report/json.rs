@@ -15,6 +15,9 @@ use viewcert_formats::NamedGraph;
 #[derive(Serialize)]
 struct Line<'a> {
     graph: GraphLine<'a>,
+    /// How many known parts there are; left out if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parts: Option<usize>,
     notes: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     database: Option<DatabaseLine>,
@@ -51,6 +54,11 @@ impl<'a> GraphLine<'a> {
             sha256: hex(&verdict.sha256),
         }
     }
+}
+
+/// How many known parts a verdict rests on, if any.
+pub(super) fn parts(verdict: &Verdict) -> Option<usize> {
+    Some(verdict.known_parts.len()).filter(|&parts| parts > 0)
 }
 
 /// What is decided, and how strong it is.
@@ -144,6 +152,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     let line = Line {
         graph: GraphLine::new(input, verdict),
+        parts: parts(verdict),
         notes: &input.notes,
         database: input.database.as_deref().map(DatabaseLine::from),
         tracks: input

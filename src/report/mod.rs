@@ -49,6 +49,15 @@ pub(crate) fn size_of(input: &NamedGraph) -> String {
     )
 }
 
+/// The same, with the known parts that were taken for given.
+pub(crate) fn size_with_parts(input: &NamedGraph, verdict: &Verdict) -> String {
+    let size = size_of(input);
+    match verdict.known_parts.len() {
+        0 => size,
+        parts => format!("{size}, {}", counted(parts, "known part")),
+    }
+}
+
 /// Everything a report says about one graph.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {

@@ -1,7 +1,7 @@
 //! Every camera model side by side, for people and for programs.
 
-use super::json::{AnswerLine, ComponentLine, GraphLine};
-use super::{size, text};
+use super::json::{AnswerLine, ComponentLine, GraphLine, parts};
+use super::{size_with_parts, text};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
@@ -85,7 +85,11 @@ pub fn text(
     changes: &[Change],
 ) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
-    writeln!(out, "  graph       {}", size(&input.graph))?;
+    writeln!(
+        out,
+        "  graph       {}",
+        size_with_parts(input, &verdicts[0])
+    )?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
@@ -127,6 +131,8 @@ pub fn text(
 #[derive(Serialize)]
 struct Line<'a> {
     graph: GraphLine<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parts: Option<usize>,
     notes: &'a [String],
     models: Vec<ModelLine>,
     changes: Vec<ChangeLine>,
@@ -183,6 +189,7 @@ pub fn json(
     });
     let line = Line {
         graph: GraphLine::new(input, &verdicts[0]),
+        parts: parts(&verdicts[0]),
         notes: &input.notes,
         models: verdicts.iter().map(ModelLine::from).collect(),
         changes: changes.collect(),

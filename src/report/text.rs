@@ -1,6 +1,6 @@
 //! A few lines a graph, for people.
 
-use super::{Report, counted, database, size_of, tracks};
+use super::{Report, counted, database, size_with_parts, tracks};
 use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
@@ -17,7 +17,7 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
-    writeln!(out, "  graph       {}", size_of(input))?;
+    writeln!(out, "  graph       {}", size_with_parts(input, verdict))?;
     if let Some(facts) = &input.database {
         database::write(out, facts)?;
     }
@@ -123,6 +123,12 @@ pub(super) fn reason(report: &Report) -> String {
     }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
         return match verdict.contraction.bodies.len() {
+            1 if !verdict.known_parts.is_empty() => {
+                format!("one known part has all {nodes} cameras")
+            }
+            _ if !verdict.known_parts.is_empty() => {
+                format!("known parts and pairs merge into one body with all {nodes} cameras")
+            }
             0 => "a single pair determines its two cameras".into(),
             1 => match report.input.cameras {
                 None if verdict.contraction.bodies[0].add.is_empty() => {
@@ -154,6 +160,9 @@ pub(super) fn reason(report: &Report) -> String {
             format!("counting allows rank {covered} at most")
         }
         Strength::Proof => match report.input.cameras {
+            None if !verdict.known_parts.is_empty() => {
+                "some cameras have no pairs and are in no known part".into()
+            }
             None => "some cameras have no pairs".into(),
             Some(_) => "some cameras see no track that counts".into(),
         },

@@ -46,10 +46,11 @@ MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
 
 
 class Graph:
-    """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form."""
+    """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form; `number` has the nodes by label."""
 
-    def __init__(self, n, edges):
+    def __init__(self, n, edges, number=None):
         self.n = n
+        self.number = number  # None: labels are numbers
         self.edges = sorted(set(edges))
         self.edge_set = frozenset(self.edges)
         flat = itertools.chain.from_iterable(self.edges)
@@ -82,8 +83,8 @@ def read_graph6(line):
     return Graph(n, edges)
 
 
-def read_graph(data, sha256, edges_format):
-    """Section 2, files that hold a graph: the graph that the certificate means."""
+def text_lines(data):
+    """Section 2, text: it, and its lines without their ends."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:
@@ -95,6 +96,32 @@ def read_graph(data, sha256, edges_format):
     for number, line in enumerate(lines, 1):
         if re.search("[\x00-\x08\x0a-\x1f\x7f\ufeff]", line):
             raise Unreadable(f"line {number}: a control character")
+    return text, lines
+
+
+def read_parts(data, graph):
+    """Section 2, files of known parts: these in their canonical form."""
+    parts = []
+    for k, line in enumerate(text_lines(data)[1], 1):
+        part = set()
+        for text, _ in split_fields(line, f"line {k}"):
+            if graph.number is None:
+                node = int(text) if is_integer(text) and int(text) < graph.n else None
+            else:
+                node = graph.number.get(text)
+            if node is None:
+                raise Unreadable(f"line {k}: {text} is no node of the graph")
+            part.add(node)
+        if part:
+            parts.append(sorted(part))
+    if not parts:
+        raise Unreadable("no known part in it")
+    return sorted(map(list, {tuple(part) for part in parts if len(part) > 1}))
+
+
+def read_graph(data, sha256, edges_format):
+    """Section 2, files that hold a graph: the graph that the certificate means."""
+    text, lines = text_lines(data)
     if not edges_format:
         header = text.startswith(">>graph6<<")
         graphs = []
@@ -195,7 +222,7 @@ def read_edges(lines, edges_format):
     numeric = all(map(is_integer, labels))
     order = sorted(labels, key=int if numeric else lambda label: label.encode())
     number = {label: k for k, label in enumerate(order)}
-    return Graph(len(order), [tuple(sorted((number[a], number[b]))) for a, b in pairs])
+    return Graph(len(order), [tuple(sorted((number[a], number[b]))) for a, b in pairs], number)
 
 
 def ascii_lower(text):
@@ -640,7 +667,7 @@ def stated(value, error=None):
 class Check:
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
-    def __init__(self, data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT):
+    def __init__(self, data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT, parts_data=None):
         document = parse(data) if isinstance(data, bytes) else data
         self.core_limit = core_limit
         names = "format version program graph model claim bodies rigid pieces"
@@ -648,17 +675,26 @@ class Check:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        optional = ["solutions"] if type(document) is dict and "solutions" in document else []
-        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *solutions = members(
-            document, " ".join([names, *optional]), "section 3: the document"
+        more = [name for name in ("solutions", "parts") if type(document) is dict and name in document]
+        form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
+            document, " ".join([names, *more]), "section 3: the document"
         )
+        stated = dict(zip(more, values))
+        optional = [name for name in more if name == "solutions"]
+        solutions = [stated[name] for name in optional]
         need(form == "viewcert certificate", "section 3: the format is another")
         a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data, edges_format)
+        self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
+        if graph_data is not None or parts_data is not None:
+            given = [] if parts_data is None else read_parts(parts_data, self.graph)
+            need(self.parts == given, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
-        self.bodies, self.final = [], set()
+        # Section 5: the known parts are bodies from the start.
+        self.bodies = [frozenset(part) for part in self.parts]
+        self.final = set(range(len(self.bodies)))
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
@@ -683,6 +719,18 @@ class Check:
             need(self.graph.hash.hex() == sha256, "section 3: the hash of the given graph is another")
         need(self.graph.n == nodes, "section 3: the number of nodes is another")
         need(len(self.graph.edges) == edges, "section 3: the number of edges is another")
+
+    def read_known_parts(self, value):
+        """Section 3: the known parts, in their canonical form."""
+        need(a_list(value, "section 3: parts"), "section 3: parts is empty")
+        for part in value:
+            for node in a_list(part, "section 3: a known part"):
+                an_int(node, "section 3: a known part", least=0)
+            need(len(part) >= 2, "section 3: a known part has less than two nodes")
+            need(all(a < b for a, b in zip(part, part[1:])), "section 3: a known part is not increasing")
+            need(part[-1] < self.graph.n, "section 3: a known part has a node that the graph does not have")
+        need(all(a < b for a, b in zip(value, value[1:])), "section 3: the known parts are not increasing")
+        return value
 
     def check_claim_form(self, optional):
         """Section 3: the claim, as far as it can be judged without the evidence."""
@@ -721,7 +769,7 @@ class Check:
 
     def check_bodies(self, bodies):
         """Section 5."""
-        for k, value in enumerate(a_list(bodies, "section 5: bodies")):
+        for k, value in enumerate(a_list(bodies, "section 5: bodies"), len(self.bodies)):
             where = f"section 5: body {k}"
             seed, add, merge = members(value, "seed add merge", where)
             body = set(self.body_or_edge(seed, where))
@@ -1230,8 +1278,10 @@ class Check:
         if numbers:
             at_most = "no upper bound" if numbers["at_most"] is None else f"at most {numbers['at_most']}"
             number.append(f"solutions: at least {numbers['at_least']}, {at_most} ({strength(numbers)})")
+        parts = [f"known parts: {len(self.parts)}, taken for given"] if self.parts else []
         return [
             f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
+            *parts,
             f"{self.model}: {verdict['value']} ({strength(verdict)})",
             f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
             f"components: {components['value']} maximal ({strength(components)})",
@@ -1285,10 +1335,10 @@ def count_components(sets):
 # The program ---------------------------------------------------------------------------------------------------------
 
 
-def check(data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT):
+def check(data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT, parts_data=None):
     """Checks one certificate; gives the check if it is right, and raises Reject, Unreadable or TooLarge if not."""
     try:
-        done = Check(data, graph_data, edges_format, core_limit)
+        done = Check(data, graph_data, edges_format, core_limit, parts_data)
         done.compare_claim()
         return done
     except (Reject, Unreadable, TooLarge):
@@ -1350,6 +1400,7 @@ def main(arguments=None):
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
     parser.add_argument("--format", choices=["auto", "edges"], default="auto", help="edges: the graph is an edge list")
+    parser.add_argument("--parts", metavar="FILE", help="the known parts that it has to take for given, and no others")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
     options = parser.parse_args(arguments)
@@ -1359,7 +1410,9 @@ def main(arguments=None):
         if options.list:
             return check_list(options.list, options.max_core_nodes)
         graph_data = read_file(options.graph) if options.graph else None
-        done = check(read_file(options.certificate), graph_data, options.format == "edges", options.max_core_nodes)
+        parts_data = read_file(options.parts) if options.parts else None
+        edges_format = options.format == "edges"
+        done = check(read_file(options.certificate), graph_data, edges_format, options.max_core_nodes, parts_data)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

@@ -8,12 +8,21 @@ use std::collections::HashSet;
 
 type Nodes = HashSet<u32>;
 
-/// The nodes of all bodies; `None` for those that are consumed.
-pub(crate) fn build_all(graph: &Graph, model: Model, list: &[Body]) -> Checked<Vec<Option<Nodes>>> {
+/// The nodes of all bodies, of which the known parts are the first (theory, Theorem 4.14); `None`
+/// for those that are consumed.
+pub(crate) fn build_all(
+    graph: &Graph,
+    model: Model,
+    parts: &[Vec<u32>],
+    list: &[Body],
+) -> Checked<Vec<Option<Nodes>>> {
+    let parts = parts
+        .iter()
+        .map(|part| Some(part.iter().copied().collect()));
     let mut builder = Builder {
         graph,
         model,
-        earlier: Vec::new(),
+        earlier: parts.collect(),
     };
     for (k, body) in list.iter().enumerate() {
         let nodes = builder.build(body).within(|| format!("bodies[{k}]"))?;

@@ -59,6 +59,8 @@ pub struct Verified {
     pub edges: usize,
     /// The SHA-256 of its canonical form, in lower-case hexadecimal digits.
     pub sha256: String,
+    /// How many known parts are taken for given.
+    pub parts: usize,
     /// The model that the certificate is about.
     pub model: Model,
     /// The verdict and its strength.
@@ -107,6 +109,7 @@ pub(crate) fn verify(
         nodes: graph.nodes,
         edges: graph.edges,
         sha256: graph.sha256.clone(),
+        parts: 0,
         model,
         verdict,
         rank,
@@ -277,6 +280,7 @@ impl Display for Verified {
             nodes,
             edges,
             sha256,
+            parts,
             model,
             verdict: (verdict, by),
             rank,
@@ -295,9 +299,17 @@ impl Display for Verified {
             Verdict::FiniteSolvable => "determine up to finitely many possibilities",
             Verdict::Solvable => "determine uniquely",
         };
+        writeln!(f, "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}")?;
+        let and_parts = match parts {
+            0 => "",
+            _ => " and known parts",
+        };
+        if *parts > 0 {
+            writeln!(f, "known parts: {parts}, taken for given")?;
+        }
         writeln!(
             f,
-            "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}\n{verdict}: generic {given} matrices {answer} the {cameras} ({by})"
+            "{verdict}: generic {given} matrices{and_parts} {answer} the {cameras} ({by})"
         )?;
         writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;
         write!(f, "components: {} maximal ({})", components.0, components.1)?;

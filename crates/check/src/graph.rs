@@ -1,21 +1,27 @@
 //! Graphs: their canonical form and hash, and the graph6 format (section 2 of the specification).
-//! `file` says what a file holds, `edge_list` reads it if it is an edge list.
+//! `file` says what a file holds, `edge_list` reads it if it is an edge list; `parts` reads known
+//! parts.
 
 mod edge_list;
 mod file;
+mod parts;
 
 use crate::document::{GraphName, Pair};
 use crate::rejection::{Checked, Failure, Unreadable, ensure};
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 
-/// A simple graph.
+pub use parts::Labels;
+
+/// A simple graph, with its known parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graph {
     /// [i, j], i < j, in lexicographic order.
     pub(crate) pairs: Vec<Pair>,
     /// Where the edges of node i begin, and in the end where those of the last node end.
     start: Vec<usize>,
+    /// Sets of nodes whose cameras are known relative to each other, in canonical form.
+    pub(crate) parts: Vec<Vec<u32>>,
 }
 
 impl Graph {
@@ -47,6 +53,7 @@ impl Graph {
         Ok(Graph {
             pairs: edges,
             start,
+            parts: Vec::new(),
         })
     }
 
@@ -65,7 +72,11 @@ impl Graph {
         Ok(from + offset.map_err(missing)?)
     }
 
-    /// SHA-256 of the canonical form.
+    fn has_edges_of(&self, other: &Graph) -> bool {
+        (self.nodes(), &self.pairs) == (other.nodes(), &other.pairs)
+    }
+
+    /// SHA-256 of the canonical form, which known parts do not enter.
     pub fn sha256(&self) -> [u8; 32] {
         let (mut hash, mut bytes) = (Sha256::new(), Vec::new());
         hash.update(b"viewcert graph 1\n");
@@ -158,15 +169,22 @@ impl<'t> Graph6<'t> {
 }
 
 impl GraphName {
+    /// The graph that the certificate holds.
+    pub fn held(&self) -> Result<Option<Graph>, Unreadable> {
+        let held = self.graph6.as_ref();
+        held.map(|line| Graph::from_graph6(line.as_bytes()))
+            .transpose()
+    }
+
     /// The graph that the certificate is about, with its hash: the given one, or else the one that
     /// it holds (section 3).
     pub fn find<'g>(&self, given: Option<&'g Graph>) -> Checked<(Cow<'g, Graph>, [u8; 32])> {
-        let held = self.graph6.as_ref();
-        let held = held
-            .map(|line| Graph::from_graph6(line.as_bytes()))
-            .transpose()?;
+        let held = self.held()?;
         ensure!(
-            held.is_none() || given.is_none() || given == held.as_ref(),
+            match (given, &held) {
+                (Some(given), Some(held)) => given.has_edges_of(held),
+                _ => true,
+            },
             "the graph given is not the one in `graph6`"
         );
         let missing =

@@ -12,7 +12,8 @@
 //! |---|---|---|---|
 //! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
-//! | bodies come from merges | 5 | 4.1, 4.9, 13.9 | `bodies` |
+//! | known parts are those that are given | 3 | 4.14 | `parts` |
+//! | bodies come from parts and merges | 5 | 4.1, 4.9, 4.14, 13.9 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10 | `evidence` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11 | `structure` |
@@ -45,6 +46,7 @@ mod kernel;
 mod limits;
 mod lower;
 mod matrices;
+mod parts;
 mod pinching;
 mod pivots;
 mod plane_flow;
@@ -57,14 +59,15 @@ mod structure;
 
 pub use claim::{Strength, Verdict, Verified};
 pub use document::Model;
-pub use graph::Graph;
+pub use graph::{Graph, Labels};
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
 
 use rejection::Within;
 
-/// Verifies a certificate, for the given graph or, without one, for the graph that it holds.
+/// Verifies a certificate, for the given graph with its known parts or, without one, for the graph
+/// that it holds with the parts that it states.
 ///
 /// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the
 /// pieces' cores.
@@ -106,6 +109,14 @@ impl Certificate {
         &self.0.graph.sha256
     }
 
+    /// The graph that the certificate holds, if it does, without known parts.
+    ///
+    /// # Errors
+    /// If what it holds is no graph.
+    pub fn held_graph(&self) -> Result<Option<Graph>, Unreadable> {
+        self.0.graph.held()
+    }
+
     /// See [`check`]; within the default limits.
     ///
     /// # Errors
@@ -125,9 +136,13 @@ impl Certificate {
     ) -> Result<Verified, Failure> {
         let Certificate(document) = self;
         let (name, model) = (&document.graph, document.model);
-        let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
+        let given = graph;
+        let (graph, sha256) = name.find(given).within(|| "graph".into())?;
+        let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
+        let parts = parts.within(|| "parts".into())?;
         let meter = &limits::Meter::new(limits);
-        let structure = &structure::Structure::new(&graph, model, &document.bodies, meter)?;
+        let bodies = (parts, &document.bodies[..]);
+        let structure = &structure::Structure::new(&graph, model, bodies, meter)?;
         let setting = setting::Setting {
             model,
             sha256,
@@ -146,6 +161,11 @@ impl Certificate {
             count.within(|| "solutions".into())
         });
         let count = evidence.transpose()?;
-        claim::verify(&document.claim, name, model, (&pieces, count)).within(|| "claim".into())
+        let verified = claim::verify(&document.claim, name, model, (&pieces, count));
+        let verified = verified.within(|| "claim".into())?;
+        Ok(Verified {
+            parts: parts.len(),
+            ..verified
+        })
     }
 }

@@ -1,6 +1,8 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
-use crate::{Certificate, Failure, Graph, Limits, Model, Strength, Unreadable, Verdict, Verified};
+use crate::{
+    Certificate, Failure, Graph, Labels, Limits, Model, Strength, Unreadable, Verdict, Verified,
+};
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -37,6 +39,8 @@ What the certificate must be about (verified, but something else: exit code 1):
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
+  --parts FILE         the known parts, one a line, by the labels of GRAPH, or without it by the
+                       numbers of nodes; with GRAPH or --sha256 and without this option: none
   --proofs-only        proofs, no error bounds
 
 How GRAPH is read:
@@ -73,6 +77,7 @@ enum Request {
 struct Arguments {
     certificate: OsString,
     graph: Option<OsString>,
+    parts: Option<OsString>,
     edges_only: bool,
     max_bytes: u64,
     limits: Limits,
@@ -87,6 +92,8 @@ struct Expected {
     nodes: Option<usize>,
     edges: Option<usize>,
     sha256: Option<String>,
+    /// Whether known parts are given.
+    parts: bool,
     proofs_only: bool,
 }
 
@@ -136,7 +143,8 @@ fn arguments() -> Result<Request, Stop> {
 }
 
 fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
-    let (mut files, mut edges_only, mut max_bytes) = (Vec::new(), false, MAX_BYTES);
+    let (mut files, mut parts, mut edges_only) = (Vec::new(), None, false);
+    let mut max_bytes = MAX_BYTES;
     let (mut limits, mut expected) = (Limits::default(), Expected::default());
     while let Some(argument) = parser.next()? {
         match argument {
@@ -150,6 +158,7 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("nodes") => expected.nodes = Some(number(&mut parser)?),
             Long("edges") => expected.edges = Some(number(&mut parser)?),
             Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
+            Long("parts") => parts = Some(parser.value()?),
             Long("proofs-only") => expected.proofs_only = true,
             Long("format") => edges_only = parser.value()?.parse_with(is_edges)?,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
@@ -164,12 +173,21 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
     let mut files = files.into_iter();
     let certificate = files.next().ok_or("no certificate is given")?;
     let graph = files.next();
-    if certificate == "-" && graph.as_ref().is_some_and(|graph| graph == "-") {
+    expected.parts = parts.is_some();
+    let inputs = [Some(&certificate), graph.as_ref(), parts.as_ref()];
+    if inputs
+        .into_iter()
+        .flatten()
+        .filter(|file| *file == "-")
+        .count()
+        > 1
+    {
         return Err("only one file can be standard input".into());
     }
     Ok(Request::Check(Box::new(Arguments {
         certificate,
         graph,
+        parts,
         edges_only,
         max_bytes,
         limits,
@@ -216,20 +234,38 @@ fn is_edges(text: &str) -> Result<bool, &'static str> {
 /// Checks the files; returns the exit code.
 fn check(arguments: &Arguments) -> Result<u8, Stop> {
     let text = read(&arguments.certificate, arguments.max_bytes)?;
-    let file = arguments.graph.as_ref();
-    let file = file.map(|path| Ok((path, read(path, arguments.max_bytes)?)));
-    let file = file.transpose()?;
+    let open = |path: &Option<OsString>| {
+        let file = path.as_ref();
+        let file = file.map(|path| Ok((path.clone(), read(path, arguments.max_bytes)?)));
+        file.transpose()
+    };
+    let (file, parts) = (open(&arguments.graph)?, open(&arguments.parts)?);
     let certificate = LazyLock::new(|| Certificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
-        let file = file.as_ref()?;
-        scope.spawn(|| LazyLock::force(&certificate));
-        Some((file.0, graph(&file.1, arguments.edges_only, &certificate)))
-    });
-    let graph = graph.map(|(path, graph)| {
-        graph.map_err(|error| Stop::no_answer(format!("{}: {error}", path.display())))
+        if file.is_some() {
+            scope.spawn(|| LazyLock::force(&certificate));
+        }
+        let wanted = || {
+            let certificate = LazyLock::force(&certificate).as_ref();
+            certificate.ok().map(Certificate::graph_sha256)
+        };
+        let labels = parts.is_some();
+        file.as_ref()
+            .map(|file| graph(file, arguments.edges_only, labels, wanted))
     });
     let graph = graph.transpose()?;
+    let graph = match (graph, &parts) {
+        (graph, None) => graph.map(|(graph, _)| graph),
+        (Some(graph), Some(parts)) => Some(with_parts(graph, parts)?),
+        // Where the certificate holds no graph, it is rejected for that.
+        (None, Some(parts)) => {
+            let certificate = LazyLock::force(&certificate).as_ref().ok();
+            let held = certificate.and_then(|certificate| certificate.held_graph().ok()?);
+            let held = held.map(|graph| with_parts((graph, Labels::Numbers), parts));
+            held.transpose()?
+        }
+    };
     let checked = match &*certificate {
         Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
         Err(failure) => Err(failure.clone()),
@@ -247,22 +283,33 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
     }
 }
 
-/// Reads the graph, of several the one that the certificate is about.
-fn graph(
-    file: &[u8],
+/// A file that was read, with its name.
+type Opened = (OsString, Vec<u8>);
+
+/// Says in which file something is wrong.
+fn in_file(path: &OsString) -> impl Fn(Unreadable) -> Stop {
+    move |error| Stop::no_answer(format!("{}: {error}", path.display()))
+}
+
+/// Reads the graph, of several the one that the certificate is about; with its labels if these are
+/// wanted.
+fn graph<'w>(
+    (path, file): &Opened,
     edges_only: bool,
-    certificate: &LazyLock<
-        Result<Certificate, Failure>,
-        impl FnOnce() -> Result<Certificate, Failure>,
-    >,
-) -> Result<Graph, Unreadable> {
-    if edges_only {
-        return Graph::read_edges(file);
-    }
-    Graph::read(file, || {
-        let certificate = LazyLock::force(certificate).as_ref();
-        certificate.ok().map(Certificate::graph_sha256)
-    })
+    labels: bool,
+    wanted: impl Fn() -> Option<&'w str>,
+) -> Result<(Graph, Labels), Stop> {
+    let graph = match (labels, edges_only) {
+        (true, _) => Graph::read_labelled(file, edges_only, wanted),
+        (false, true) => Graph::read_edges(file).map(|graph| (graph, Labels::Numbers)),
+        (false, false) => Graph::read(file, wanted).map(|graph| (graph, Labels::Numbers)),
+    };
+    graph.map_err(in_file(path))
+}
+
+/// The graph with the known parts of a file.
+fn with_parts((graph, labels): (Graph, Labels), (path, file): &Opened) -> Result<Graph, Stop> {
+    graph.with_parts_of(file, &labels).map_err(in_file(path))
 }
 
 /// Says what was verified, if it is what was expected.
@@ -287,6 +334,7 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         nodes,
         edges,
         sha256,
+        parts,
         proofs_only,
     } = expected;
     let verified_verdict = verified.verdict.0;
@@ -309,6 +357,10 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
     see(
         sha256.as_ref().is_some_and(|hash| *hash != verified.sha256),
         format!("the graph has the SHA-256 {}", verified.sha256),
+    );
+    see(
+        sha256.is_some() && !parts && verified.parts > 0,
+        format!("{} known parts are taken for given", verified.parts),
     );
     for (name, strength) in [
         ("verdict", verified.verdict.1),

@@ -10,7 +10,7 @@ use crate::rejection::{Checked, Failure, ensure};
 use sha2::{Digest, Sha256};
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
-/// bodies; that of a loose edge is the length of this list plus the edge's number.
+/// known parts and bodies; that of a loose edge is the length of this list plus the edge's number.
 pub(crate) type Part = Vec<usize>;
 
 /// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
@@ -45,22 +45,23 @@ pub(crate) struct Core {
 }
 
 impl<'a> Structure<'a> {
-    /// Rebuilds all bodies and finds which edges each of them covers (sections 5 and 6); rejects an
-    /// edge covered twice.
+    /// Rebuilds all bodies, the known parts before those of the list, and finds which edges each of
+    /// them covers (sections 5 and 6); rejects an edge covered twice.
     pub fn new(
         graph: &'a Graph,
         model: Model,
-        list: &[Body],
+        (parts, list): (&[Vec<u32>], &[Body]),
         meter: &'a Meter,
     ) -> Checked<Structure<'a>> {
-        let bodies = build_all(graph, model, list)?.into_iter();
+        let bodies = build_all(graph, model, parts, list)?.into_iter();
         let mut structure = Structure {
             graph,
             meter,
             bodies: bodies.map(|nodes| nodes.map(sorted)).collect(),
             everything: Part::new(),
         };
-        let bodies = (0..list.len()).filter(|&k| structure.bodies[k].is_some());
+        let bodies = 0..structure.bodies.len();
+        let bodies = bodies.filter(|&k| structure.bodies[k].is_some());
         let mut everything: Part = bodies.collect();
         everything.extend(structure.loose_edges()?);
         structure.everything = everything;

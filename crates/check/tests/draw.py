@@ -114,9 +114,9 @@ def integer(stream, a, b, nodes):
 
 # --- sections 5 and 6: bodies and cores -----------------------------------------------------
 
-def final_bodies(bodies):
-    alive = {}
-    for k, body in enumerate(bodies):
+def final_bodies(parts, bodies):
+    alive = {k: set(part) for k, part in enumerate(parts)}
+    for k, body in enumerate(bodies, len(parts)):
         def take(source):
             return set(source) if isinstance(source, list) else alive.pop(source)
         nodes = take(body["seed"]) | {v for v, _, _ in body["add"]}
@@ -341,7 +341,7 @@ class Filler:
         self.hash = graph_hash(self.nodes, self.edges)
         document["version"] = 2
         document["graph"]["sha256"] = self.hash.hex()
-        self.bodies = final_bodies(document["bodies"])
+        self.bodies = final_bodies(document.get("parts", []), document["bodies"])
         self.pieces(document["pieces"])
 
     def core(self, part):
@@ -548,7 +548,7 @@ class Filler:
 def written(document):
     """One line, but for a line feed before each list and claim that is worth one."""
     text = json.dumps(document, separators=(",", ":"))
-    for name in ('"model"', '"rank":{', '"components":{', '"bodies"', '"rigid"', '"edges":[', '"pieces"',
+    for name in ('"parts":[[', '"model"', '"rank":{', '"components":{', '"bodies"', '"rigid"', '"edges":[', '"pieces"',
                  '"evidence"', '"steps"', '"cols"', '"determinant"', '"flows"', '"lambda_rows"', '"lambda_cols"', '"split"'):
         text = text.replace("," + name, ",\n " + name)
     return text + "\n"

@@ -54,4 +54,4 @@ pub use decide::{
     Verdict, VerdictError, decide,
 };
 pub use geometry::model::Model;
-pub use graph::{Graph, GraphError, LabelledGraph, Labels, PairedWithItself};
+pub use graph::{Graph, GraphError, KnownParts, LabelledGraph, Labels, PairedWithItself};

@@ -124,6 +124,12 @@ pub enum Problem {
         /// How many nodes without pairs are allowed.
         limit: u64,
     },
+    /// A file of known parts without one.
+    #[error("the file holds no part of a reconstruction")]
+    NoParts,
+    /// A label that the graph does not have.
+    #[error("`{}` is no camera of the graph", shown(.0))]
+    UnknownCamera(String),
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -351,6 +357,10 @@ impl Problem {
             Self::Compressed(_) => "copy the file again, and test it with `gzip -t`",
             Self::Inflated(_) => "if you trust it, inflate it with `gunzip` first",
             Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
+            Self::NoParts => "put the cameras of one part on each line",
+            Self::UnknownCamera(_) => {
+                "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
+            }
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",
             Self::SelfLoop(_) => "remove the pair (or the line, if it holds counts)",

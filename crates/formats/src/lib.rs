@@ -14,6 +14,7 @@ pub mod matching;
 pub mod matlab;
 pub mod matrix_market;
 pub mod pairs;
+pub mod parts;
 pub mod read;
 mod recognise;
 pub mod sparse6;
@@ -21,6 +22,7 @@ pub mod tracks;
 
 pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
+pub use parts::{NamedParts, read_parts};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
 pub use tracks::{TrackFacts, TrackOptions};
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 from . import _native
-from ._graph import Path, as_graph
+from ._errors import InputError
+from ._graph import Node, Path, as_graph, numbered
 from ._native import Verified
 from ._verdict import Verdict
 
@@ -15,6 +16,7 @@ def check(
     certificate: Union[bytes, bytearray, memoryview, Path, Verdict],
     graph: Any = None,
     *,
+    parts: Optional[Iterable[Iterable[Node]]] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
     """Verifies a certificate with the independent checker, which shares no code with the prover.
@@ -26,6 +28,9 @@ def check(
     graph : optional
         The graph it is about: any that :func:`verify` takes, or a file. Not needed if the
         certificate holds it.
+    parts : iterable of iterables of nodes, optional
+        The known parts that the certificate takes for given, if a graph is given (of a verdict its
+        own); without them, none.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
@@ -33,8 +38,8 @@ def check(
     -------
     Verified
         What the certificate proves: `value`, `strength`, `error_log2`, `rank`, `required`, the
-        number of `components`, and of the graph `nodes`, `edges`, `sha256`; `model`; all of it in
-        words as `text`.
+        number of `components`, and of the graph `nodes`, `edges`, `sha256`; how many known `parts`
+        it takes for given; `model`; all of it in words as `text`.
 
     Raises
     ------
@@ -43,7 +48,7 @@ def check(
     TooLarge
         If checking would cost more than the limits allow.
     InputError
-        If `graph` is no graph.
+        If `graph` is no graph, or `parts` are no parts of it.
     OSError
         If the file of the certificate cannot be read.
 
@@ -61,13 +66,20 @@ def check(
     """
     if isinstance(certificate, Verdict):
         text = certificate.certificate()
-        graph = certificate.graph if graph is None else graph
+        if graph is None:
+            graph = certificate.graph
+            parts = certificate.parts if parts is None else parts
     elif isinstance(certificate, (bytes, bytearray, memoryview)):
         text = bytes(certificate)
     else:
         with open(certificate, "rb") as file:
             text = file.read()
+    if parts is not None and (graph is None or isinstance(graph, (str, os.PathLike))):
+        raise InputError("parts: their nodes are those of a graph; give the graph itself, not a file")
     if isinstance(graph, (str, os.PathLike)):
         return _native.check(text, file=os.fspath(graph), max_operations=max_operations)
-    native = None if graph is None else as_graph(graph)._native
-    return _native.check(text, graph=native, max_operations=max_operations)
+    if graph is None:
+        return _native.check(text, max_operations=max_operations)
+    given = as_graph(graph)
+    known = None if parts is None else numbered(given, parts)
+    return _native.check(text, graph=given._native, parts=known, max_operations=max_operations)

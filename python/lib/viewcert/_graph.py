@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 from itertools import chain
-from typing import Any, Hashable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Hashable, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,6 +113,28 @@ class Graph:
         nodes = self.nodes
         texts = map(str, nodes) if self._texts is None else self._texts
         return dict(zip(texts, nodes))
+
+
+def numbered(graph: Graph, parts: Iterable[Iterable[Node]]) -> List[List[int]]:
+    """Sets of nodes, by the numbers of the nodes.
+
+    Raises
+    ------
+    InputError
+        If one of them is no node of the graph, or they are no sets of nodes.
+    """
+    numbers = {node: number for number, node in enumerate(graph.nodes)}
+    found = []
+    for part in parts:
+        if isinstance(part, (str, bytes)):
+            raise InputError(f"parts: {part!r} is no set of nodes; give a list of such sets")
+        try:
+            found.append([numbers[node] for node in part])
+        except KeyError as error:
+            raise InputError(f"parts: {error.args[0]!r} is no node of the graph") from None
+        except TypeError:
+            raise InputError(f"parts: {part!r} is no set of nodes; give a list of such sets") from None
+    return found
 
 
 _Converted = Tuple[NativeGraph, Optional[Sequence[Node]], Optional[Sequence[str]]]

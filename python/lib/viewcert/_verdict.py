@@ -7,12 +7,12 @@ import json
 import logging
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, FrozenSet, List, NoReturn, Optional, Tuple
+from typing import Any, Dict, FrozenSet, Iterable, List, NoReturn, Optional, Tuple
 
 from . import _native
 from ._native import Decided
 from ._errors import InputError
-from ._graph import Graph, Node, Path, as_graph
+from ._graph import Graph, Node, Path, as_graph, numbered
 from ._progress import Progress, shown
 
 _log = logging.getLogger("viewcert")
@@ -156,6 +156,12 @@ class Verdict:
     def graph(self) -> Graph:
         """The graph that was decided."""
         return self._graph
+
+    @property
+    def parts(self) -> List[FrozenSet[Node]]:
+        """The known parts that the answer takes for given, each once."""
+        nodes = self._graph.nodes
+        return [frozenset(nodes[number] for number in part) for part in self._native.parts()]
 
     @property
     def model(self) -> str:
@@ -366,6 +372,7 @@ def verify(
     prime: Optional[int] = None,
     contraction: bool = True,
     counting: bool = True,
+    parts: Optional[Iterable[Iterable[Node]]] = None,
     name: Optional[str] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
@@ -399,6 +406,10 @@ def verify(
         256 cameras and more.
     contraction, counting : bool
         Whether to contract the graph first, and to look for proofs by counting.
+    parts : iterable of iterables of nodes, optional
+        Known parts: sets of nodes whose cameras are known relative to each other, from trifocal
+        tensors, rigs or partial reconstructions. Each is as good as all its pairs, in every model,
+        and costs no more than its nodes. The certificate states them.
     name : str, optional
         What reports and certificates call the graph.
     time_limit : float, optional
@@ -432,6 +443,9 @@ def verify(
     >>> import viewcert
     >>> viewcert.verify([("a", "b"), ("b", "c"), ("c", "a")]).value
     'solvable'
+    >>> rig = viewcert.verify([(0, 1), (1, 2), (2, 3), (1, 3)], parts=[[0, 1, 2]])
+    >>> rig.value, rig.parts
+    ('solvable', [frozenset({0, 1, 2})])
     """
     given = as_graph(graph, name)
     points = given.cameras is not None
@@ -451,6 +465,9 @@ def verify(
         )
     if not counting and chosen == "affine":
         raise InputError("counting=False: the affine model is decided by counting alone")
+    known = None if parts is None else numbered(given, parts)
+    if known and points:
+        raise InputError("parts: tracks are decided by themselves; leave out one of the two")
     if not 0 <= seed < 2**64:
         raise InputError(f"seed={seed}: a seed is at least 0 and below 2^64")
     if rational and not (1 <= numerator <= 100 and 1 <= denominator <= 12):
@@ -466,10 +483,13 @@ def verify(
             prime=prime,
             contraction=contraction,
             counting=counting,
+            parts=known,
             time_limit=time_limit,
             memory_limit=memory_limit,
             progress=callback,
         )
     verdict = Verdict._of(given, native)
+    for note in native.notes[len(given.notes) :]:
+        _log.warning("%s: %s", given.name, note)
     _log.debug("%s: %r in %.3f s", given.name, verdict, native.seconds)
     return verdict

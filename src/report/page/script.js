@@ -633,6 +633,7 @@
     tracks: "Tracks",
     export: "Export",
     margin: "Margin",
+    parts: "Known parts",
     weak: "Weak places",
     suggestions: "What would join components",
     explain: "Explanation",

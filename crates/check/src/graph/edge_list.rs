@@ -30,11 +30,23 @@ const SAY_SO: &str = "if it is an edge list all the same, say so by --format edg
 /// An integer as it is written, with its value before it.
 type Digits<'t> = (u64, &'t [u8]);
 
+/// Nodes by their labels.
+type Names = HashMap<Vec<u8>, u32>;
+
 /// A label as it is written, with its value if that is an integer.
 type Label<'t> = (Option<u64>, Cow<'t, [u8]>);
 
 /// Reads what can be nothing else.
 pub(super) fn strict(text: &[u8]) -> Result<Graph, Unreadable> {
+    strict_list(text)?.into_graph(None)
+}
+
+/// The same, with the nodes by their labels.
+pub(super) fn strict_with_labels(text: &[u8]) -> Result<(Graph, Names), Unreadable> {
+    strict_list(text)?.into_graph_and_names()
+}
+
+fn strict_list(text: &[u8]) -> Result<List<'_>, Unreadable> {
     let mut table = Table {
         list: List::new(text),
         shape: Shape::default(),
@@ -56,7 +68,7 @@ pub(super) fn strict(text: &[u8]) -> Result<Graph, Unreadable> {
             table.add(number, &fields)?;
         }
     }
-    table.into_graph()
+    table.into_list()
 }
 
 /// What the lines so far hold.
@@ -119,8 +131,8 @@ impl<'t> Table<'t> {
         Ok(())
     }
 
-    /// The graph, if the file can be nothing else.
-    fn into_graph(mut self) -> Result<Graph, Unreadable> {
+    /// The pairs, if the file can be nothing else.
+    fn into_list(mut self) -> Result<List<'t>, Unreadable> {
         if let Some([first, second]) = self.names.take()
             && (self.list.has(&first) || self.list.has(&second))
         {
@@ -128,7 +140,7 @@ impl<'t> Table<'t> {
         }
         ensure!(!self.list.pairs.is_empty(), "the file holds no pair");
         self.shape.check(&self.list)?;
-        self.list.into_graph()
+        Ok(self.list)
     }
 }
 
@@ -141,6 +153,15 @@ fn is_head(first: &Field, second: &Field) -> bool {
 
 /// Reads the first two fields of each line.
 pub(super) fn lenient(text: &[u8]) -> Result<Graph, Unreadable> {
+    lenient_list(text)?.into_graph(None)
+}
+
+/// The same, with the nodes by their labels.
+pub(super) fn lenient_with_labels(text: &[u8]) -> Result<(Graph, Names), Unreadable> {
+    lenient_list(text)?.into_graph_and_names()
+}
+
+fn lenient_list(text: &[u8]) -> Result<List<'_>, Unreadable> {
     let (mut list, mut rest, mut number, mut fields) = (List::new(text), text, 0, Vec::new());
     while !rest.is_empty() {
         number += 1;
@@ -159,11 +180,11 @@ pub(super) fn lenient(text: &[u8]) -> Result<Graph, Unreadable> {
         }
     }
     ensure!(!list.labels.is_empty(), "the file holds no graph");
-    list.into_graph()
+    Ok(list)
 }
 
 /// Takes a line without its end.
-fn next_line<'t>(rest: &mut &'t [u8]) -> &'t [u8] {
+pub(super) fn next_line<'t>(rest: &mut &'t [u8]) -> &'t [u8] {
     let end = rest.iter().position(|&byte| byte == b'\n');
     let (line, after) = match end {
         Some(end) => (&rest[..end], &rest[end + 1..]),
@@ -179,7 +200,7 @@ fn label(text: Cow<'_, [u8]>) -> Label<'_> {
 }
 
 /// The value of a decimal integer without leading zeros below 2^64.
-fn integer(text: &[u8]) -> Option<u64> {
+pub(super) fn integer(text: &[u8]) -> Option<u64> {
     if !text.iter().all(u8::is_ascii_digit) || text.len() > 1 && text[0] == b'0' {
         return None;
     }
@@ -228,8 +249,8 @@ fn digits(text: &[u8]) -> Option<(Digits<'_>, &[u8])> {
 }
 
 /// What is between separators: a label, or a number.
-struct Field<'t> {
-    text: Cow<'t, [u8]>,
+pub(super) struct Field<'t> {
+    pub(super) text: Cow<'t, [u8]>,
     quoted: bool,
 }
 
@@ -308,7 +329,11 @@ fn in_quotes(rest: &[u8]) -> Result<(Cow<'static, [u8]>, usize), &'static str> {
 }
 
 /// All fields of a line, with or without labels of which anything may be one.
-fn split<'t>(line: &'t [u8], any: bool, fields: &mut Vec<Field<'t>>) -> Result<(), &'static str> {
+pub(super) fn split<'t>(
+    line: &'t [u8],
+    any: bool,
+    fields: &mut Vec<Field<'t>>,
+) -> Result<(), &'static str> {
     fields.clear();
     let mut line = Fields {
         line,
@@ -491,8 +516,15 @@ impl<'t> List<'t> {
         Ok(())
     }
 
-    /// Numbers the nodes in the order of their labels.
-    fn into_graph(self) -> Result<Graph, Unreadable> {
+    /// The graph, and its nodes by their labels.
+    fn into_graph_and_names(self) -> Result<(Graph, Names), Unreadable> {
+        let mut names = Names::new();
+        let graph = self.into_graph(Some(&mut names))?;
+        Ok((graph, names))
+    }
+
+    /// Numbers the nodes in the order of their labels, which are written down if that is wanted.
+    fn into_graph(self, names: Option<&mut Names>) -> Result<Graph, Unreadable> {
         let labels = &self.labels;
         let all_integers = labels.iter().all(|(value, _)| value.is_some());
         let mut order: Vec<usize> = (0..labels.len()).collect();
@@ -506,6 +538,10 @@ impl<'t> List<'t> {
             .into_iter()
             .zip(0..)
             .for_each(|(k, place)| node[k] = place);
+        if let Some(names) = names {
+            let numbered = labels.iter().zip(&node);
+            names.extend(numbered.map(|((_, text), &node)| (text.to_vec(), node)));
+        }
         // Consumed, so that the graph's edges take their place in memory.
         let pairs = self.pairs.into_iter();
         Graph::new(

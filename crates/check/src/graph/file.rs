@@ -1,7 +1,7 @@
 //! Which kind of graph a file holds (section 2 of the specification). Whatever could be read in
 //! another way is refused.
 
-use super::{Graph, Graph6, edge_list, hex};
+use super::{Graph, Graph6, Labels, edge_list, hex};
 use crate::rejection::{Unreadable, ensure};
 
 /// Files that are not text, by their first bytes.
@@ -41,21 +41,30 @@ impl Graph {
         file: &[u8],
         wanted: impl Fn() -> Option<&'w str>,
     ) -> Result<Graph, Unreadable> {
-        let text = text(file)?;
-        if text.starts_with(b">>graph6<<") || is_graph6(text) {
+        let text = text(file, READABLE)?;
+        if may_be_graph6(text) {
             return of_graph6(text, wanted);
         }
-        let first = text.iter().find(|byte| !byte.is_ascii_whitespace());
-        let is = |&&(byte, _): &&(u8, &'static str)| Some(&byte) == first;
-        let other = OTHER_TEXT.iter().find(is).map_or("", |(_, format)| format);
-        ensure!(
-            other.is_empty(),
-            "the file seems to be {other}; {READABLE} (--format edges takes it for one)"
-        );
-        edge_list::strict(text).map_err(|error| match OTHER_LINES.iter().find(is) {
-            Some((_, format)) => format!("the file seems to be {format}; {READABLE}").into(),
-            None => error,
-        })
+        of_edge_list(text, edge_list::strict)
+    }
+
+    /// The same, or with `edges_only` the first two fields of each line, whatever else is there;
+    /// with what the nodes are called.
+    ///
+    /// # Errors
+    /// As of [`read`](Self::read) and [`read_edges`](Self::read_edges).
+    pub fn read_labelled<'w>(
+        file: &[u8],
+        edges_only: bool,
+        wanted: impl Fn() -> Option<&'w str>,
+    ) -> Result<(Graph, Labels), Unreadable> {
+        let text = text(file, READABLE)?;
+        let (graph, labels) = match edges_only {
+            true => edge_list::lenient_with_labels(text)?,
+            false if may_be_graph6(text) => return Ok((of_graph6(text, wanted)?, Labels::Numbers)),
+            false => of_edge_list(text, edge_list::strict_with_labels)?,
+        };
+        Ok((graph, Labels::Names(labels)))
     }
 
     /// Reads an edge list of which it is known that it is one: the first two fields of each line
@@ -64,22 +73,44 @@ impl Graph {
     /// # Errors
     /// What is wrong with the file, with the line.
     pub fn read_edges(file: &[u8]) -> Result<Graph, Unreadable> {
-        edge_list::lenient(text(file)?)
+        edge_list::lenient(text(file, READABLE)?)
     }
 }
 
+fn may_be_graph6(text: &[u8]) -> bool {
+    text.starts_with(b">>graph6<<") || is_graph6(text)
+}
+
+/// Reads what is no graph6 as an edge list, unless it is known to be something else.
+fn of_edge_list<'t, T>(
+    text: &'t [u8],
+    read: impl Fn(&'t [u8]) -> Result<T, Unreadable>,
+) -> Result<T, Unreadable> {
+    let first = text.iter().find(|byte| !byte.is_ascii_whitespace());
+    let is = |&&(byte, _): &&(u8, &'static str)| Some(&byte) == first;
+    let other = OTHER_TEXT.iter().find(is).map_or("", |(_, format)| format);
+    ensure!(
+        other.is_empty(),
+        "the file seems to be {other}; {READABLE} (--format edges takes it for one)"
+    );
+    read(text).map_err(|error| match OTHER_LINES.iter().find(is) {
+        Some((_, format)) => format!("the file seems to be {format}; {READABLE}").into(),
+        None => error,
+    })
+}
+
 /// The text of a file, without a byte order mark and with line feeds and carriage returns only at
-/// the ends of lines.
-fn text(file: &[u8]) -> Result<&[u8], Unreadable> {
+/// the ends of lines; `readable` says what would be read.
+pub(super) fn text<'f>(file: &'f [u8], readable: &str) -> Result<&'f [u8], Unreadable> {
     let magic = BINARY.iter().find(|(magic, _)| file.starts_with(magic));
     let other = magic.map_or("", |(_, format)| format);
-    ensure!(other.is_empty(), "the file is {other}; {READABLE}");
+    ensure!(other.is_empty(), "the file is {other}; {readable}");
     // What is wrong at a position, if there is one.
     let refuse = |at: Option<usize>, what: &str| match at {
         None => Ok(()),
         Some(at) => {
             let line = 1 + file[..at].iter().filter(|byte| **byte == b'\n').count();
-            Err(Unreadable::from(format!("line {line}: {what}; {READABLE}")))
+            Err(Unreadable::from(format!("line {line}: {what}; {readable}")))
         }
     };
     let utf8 = std::str::from_utf8(file).err();

@@ -58,7 +58,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
-        ; optional solutions: SolutionsView<'a>
+        ; optional solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
     }
 
     GraphView<'a> {
@@ -160,11 +160,12 @@ impl<'a> Document<'a> {
                 .contraction
                 .bodies
                 .iter()
-                .map(BodyView::new)
+                .filter_map(BodyView::new)
                 .collect(),
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
             solutions: evidence,
+            parts: (!verdict.known_parts.is_empty()).then(|| verdict.known_parts.iter().collect()),
         })
     }
 }
@@ -209,15 +210,17 @@ impl Serialize for PartView {
 }
 
 impl<'a> BodyView<'a> {
-    fn new(body: &'a Body) -> Self {
-        Self {
+    /// A body as it is built; known parts are listed as such.
+    fn new(body: &'a Body) -> Option<Self> {
+        Some(Self {
             seed: match body.seed {
                 Seed::Edge(i, j) => PartView::Edge([i, j]),
                 Seed::Body(k) => PartView::Body(k),
+                Seed::Part => return None,
             },
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
-        }
+        })
     }
 }
 

@@ -4,13 +4,15 @@
 //! grown from triangles until a node seen twice remains nowhere, then merged by the
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
-//! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Every
-//! step is recorded, and the record is the proof.
+//! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Known
+//! parts are bodies from the start (Theorem 4.14). Every step is recorded, and the record is the
+//! proof.
 
 pub(crate) mod piece;
 
 mod bicliques;
 mod cycles;
+mod given;
 mod grow;
 mod merge;
 mod rest;
@@ -22,7 +24,8 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Graph};
+use crate::graph::{Adjacency, Graph, KnownParts};
+use given::Given;
 use rest::Rest;
 use sweep::Swept;
 
@@ -33,6 +36,8 @@ pub enum Seed {
     Edge(u32, u32),
     /// An earlier body, which is continued.
     Body(u32),
+    /// A known part, which is there from the start.
+    Part,
 }
 
 /// Something that joins a body: an edge, or an earlier body.
@@ -107,8 +112,8 @@ pub struct Body {
 /// A viewing graph contracted to bodies and loose edges.
 #[derive(Clone, Debug)]
 pub struct Contraction {
-    /// All bodies in the order of their making, the consumed ones included. A body
-    /// refers to earlier ones only, and to each at most once in all.
+    /// All bodies in the order of their making, the consumed ones included; the known parts come
+    /// first. A body refers to earlier ones only, and to each at most once in all.
     pub bodies: Vec<Body>,
     /// Numbers of the bodies that are left, in increasing order. No two of them
     /// share two nodes.
@@ -121,19 +126,34 @@ impl Contraction {
     /// Contracts a graph, by the rules of a model. Close to O(m) on real graphs;
     /// O(m * arboricity) for the search of cycles of edges at worst.
     pub fn new(graph: &Graph, model: Model) -> Self {
+        Self::with_parts(graph, &KnownParts::default(), model)
+    }
+
+    /// Contracts a graph whose known parts are bodies from the start (Theorem 4.14). Nodes in many
+    /// parts cost the product of these and their neighbours at worst.
+    ///
+    /// # Panics
+    /// If a part has a node that the graph does not have.
+    pub fn with_parts(graph: &Graph, parts: &KnownParts, model: Model) -> Self {
+        let given = Given::new(graph, parts);
         match model {
             // Four bodies around a cycle move against each other in the plane.
-            Model::Projective | Model::Affine => Self::by_triangles(graph, model),
-            Model::Calibrated => Self::by_cycles(graph),
+            Model::Projective | Model::Affine => Self::by_triangles(given, model),
+            Model::Calibrated => Self::by_cycles(given),
         }
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
     /// under the rule of K_{2,3} (Theorem 10.3), as far as its steps reach.
-    fn by_triangles(graph: &Graph, model: Model) -> Self {
+    fn by_triangles(given: Given, model: Model) -> Self {
+        let Given { mut bodies, rest } = given;
+        let graph = &*rest;
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);
-        let mut bodies = grow::grow(&mut remaining);
+        if !bodies.is_empty() {
+            given::grow(&mut bodies, &mut remaining);
+        }
+        bodies.extend(grow::grow(&mut remaining));
         let steps = bicliques::Steps::new(graph);
         loop {
             let owners = merge::close(&mut bodies, &remaining, graph.nodes());
@@ -158,8 +178,10 @@ impl Contraction {
     }
 
     /// Closed under cycles of two, three and four (Theorem 4.9).
-    fn by_cycles(graph: &Graph) -> Self {
-        let Swept { mut bodies, left } = sweep::grow(graph);
+    fn by_cycles(given: Given) -> Self {
+        let Given { bodies, rest } = given;
+        let graph = &*rest;
+        let Swept { mut bodies, left } = sweep::grow(graph, bodies);
         let rest = Rest::new(graph.nodes(), left, &bodies);
         let mut remaining = rest.adjacency();
         // A pendant edge at a node that no body holds lies on no cycle.

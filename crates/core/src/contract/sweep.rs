@@ -33,13 +33,13 @@ pub(super) struct Swept {
     pub(super) left: Vec<(u32, u32)>,
 }
 
-/// Grows large bodies. O(n + m), as there are few of them.
+/// Grows large bodies, behind those that are there already. O(n + m), as there are few of them.
 ///
 /// # Panics
 /// With 2^32 edges and more.
-pub(super) fn grow(graph: &Graph) -> Swept {
+pub(super) fn grow(graph: &Graph, bodies: Vec<Body>) -> Swept {
     let mut swept = Swept {
-        bodies: Vec::new(),
+        bodies,
         left: Vec::new(),
     };
     let large = graph.edges().len().div_ceil(SHARE);

@@ -14,8 +14,9 @@ use std::collections::BTreeSet;
 type Nodes = BTreeSet<u32>;
 
 /// The nodes of the final bodies, every condition of docs/certificate.md, section 5, checked.
-fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
+fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<Nodes> {
     let mut bodies: Vec<Option<Nodes>> = Vec::new();
+    let mut known = known.iter();
     let is_edge = |a: u32, b: u32| graph.edge_number(a, b).is_some();
     for body in &contraction.bodies {
         let mut nodes = match body.seed {
@@ -24,6 +25,11 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
                 Nodes::from([i, j])
             }
             Seed::Body(k) => bodies[k as usize].take().expect("used once"),
+            Seed::Part => {
+                assert!(body.add.is_empty() && body.merge.is_empty());
+                assert!(bodies.len() + known.len() == parts_of(contraction));
+                known.next().expect("a part").iter().copied().collect()
+            }
         };
         for &[v, a, b] in &body.add {
             assert!(a != b && nodes.contains(&a) && nodes.contains(&b));
@@ -84,6 +90,7 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
         }
         bodies.push(Some(nodes));
     }
+    assert_eq!(known.len(), 0, "a part is left out");
     let finals: Vec<u32> = (0..)
         .zip(&bodies)
         .filter(|(_, b)| b.is_some())
@@ -97,8 +104,14 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
     bodies.into_iter().flatten().collect()
 }
 
-/// Bodies and edges merged by the rules of a model until none applies, by trying everything.
-fn naive(graph: &Graph, model: Model) -> BTreeSet<Nodes> {
+/// How many bodies are known parts.
+fn parts_of(contraction: &Contraction) -> usize {
+    let bodies = contraction.bodies.iter();
+    bodies.filter(|body| body.seed == Seed::Part).count()
+}
+
+/// Known parts and edges merged by the rules of a model until none applies, by trying everything.
+fn naive(graph: &Graph, known: &KnownParts, model: Model) -> BTreeSet<Nodes> {
     let find = |parts: &[Nodes]| match model {
         Model::Projective => find_cycle(parts, 3).or_else(|| find_biclique(parts)),
         Model::Affine => find_cycle(parts, 3),
@@ -108,6 +121,7 @@ fn naive(graph: &Graph, model: Model) -> BTreeSet<Nodes> {
         .edges()
         .iter()
         .map(|&(i, j)| Nodes::from([i, j]))
+        .chain(known.iter().map(|part| part.iter().copied().collect()))
         .collect();
     while let Some(mut found) = find(&parts) {
         found.sort_unstable();
@@ -177,17 +191,30 @@ fn find_cycle(parts: &[Nodes], longest: usize) -> Option<Vec<usize>> {
 }
 
 fn check(graph: &Graph, model: Model) {
-    let contraction = Contraction::new(graph, model);
-    let finals = replay(graph, &contraction);
+    check_with(graph, &KnownParts::default(), model);
+}
+
+fn check_with(graph: &Graph, known: &KnownParts, model: Model) {
+    let contraction = Contraction::with_parts(graph, known, model);
+    let finals = replay(graph, known, &contraction);
     let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
     assert_eq!(parts.len(), finals.len());
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
     assert_eq!(parts.len(), finals.len() + contraction.loose.len());
-    assert_eq!(parts, naive(graph, model));
+    assert_eq!(parts, naive(graph, known, model));
     for (&k, nodes) in contraction.finals.iter().zip(&finals) {
         let inside = |&&(i, j): &&(u32, u32)| nodes.contains(&i) && nodes.contains(&j);
         let covered: Vec<(u32, u32)> = graph.edges().iter().filter(inside).copied().collect();
         assert_eq!(contraction.bodies[k as usize].edges, covered.len());
+        // Every part in the body as the complete graph that it is as good as.
+        let own = known
+            .iter()
+            .filter(|part| part.iter().all(|v| nodes.contains(v)));
+        let sides = own.flat_map(|part| {
+            let ends = part.iter().enumerate();
+            ends.flat_map(|(k, &i)| part[k + 1..].iter().map(move |&j| (i, j)))
+        });
+        let covered: Vec<(u32, u32)> = covered.into_iter().chain(sides).collect();
         match model {
             Model::Calibrated => {
                 assert_eq!(rigidity_rank(nodes, &covered), 3 * nodes.len() - 4);
@@ -414,6 +441,35 @@ proptest! {
         let graph = among(nodes, pairs);
         for model in Model::ALL {
             check(&graph, model);
+        }
+    }
+
+    #[test]
+    fn known_parts_as_the_rules_naively(
+        nodes in 3u32..14,
+        pairs in prop::collection::vec((0u32..14, 0u32..14), 0..20),
+        parts in prop::collection::vec(prop::collection::vec(0u32..14, 1..6), 1..6),
+    ) {
+        let graph = among(nodes, pairs);
+        let inside = parts.into_iter().map(|part| part.into_iter().map(|v| v % nodes).collect());
+        let known = KnownParts::new(nodes, inside).unwrap();
+        for model in Model::ALL {
+            check_with(&graph, &known, model);
+        }
+    }
+
+    /// Parts of two nodes are as good as pairs: a K_{2,3}, cycles, and what hangs on them.
+    #[test]
+    fn parts_of_two_nodes_are_pairs(
+        nodes in 3u32..10,
+        pairs in prop::collection::vec((0u32..10, 0u32..10, any::<bool>()), 1..20),
+    ) {
+        let of = |is_part| pairs.iter().filter(move |pair| pair.2 == is_part).map(|&(i, j, _)| (i, j));
+        let parts = of(true).map(|(i, j)| vec![i % nodes, j % nodes]);
+        let known = KnownParts::new(nodes, parts).unwrap();
+        let graph = among(nodes, of(false).collect());
+        for model in Model::ALL {
+            check_with(&graph, &known, model);
         }
     }
 

@@ -30,6 +30,15 @@ pub enum VerdictError {
         /// What to do instead.
         advice: &'static str,
     },
+    /// A known part has a node that the graph does not have.
+    PartOutsideGraph {
+        /// The node.
+        node: u32,
+        /// How many nodes the graph has.
+        nodes: usize,
+    },
+    /// Known parts are bodies, and without contraction there are none.
+    PartsNotContracted,
     /// The work was stopped before there was an answer.
     Stopped(Stopped),
 }
@@ -52,6 +61,13 @@ impl fmt::Display for VerdictError {
             } => write!(
                 f,
                 "{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}"
+            ),
+            Self::PartOutsideGraph { node, nodes } => write!(
+                f,
+                "a known part has the node {node}, and the graph has {nodes} nodes"
+            ),
+            Self::PartsNotContracted => f.write_str(
+                "known parts are bodies, and without contraction there are none; leave contraction on",
             ),
             Self::Stopped(inner) => inner.fmt(f),
         }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! decide(graph)
-//!   contract   graph -> rigid bodies and loose edges, the members           theory 4.1
+//!   contract   graph -> rigid bodies and loose edges, the members     theory 4.1, 4.14
 //!   split      members -> single ones, which are rigid, and pieces          4.3
 //!   piece      of each piece, side by side:
 //!     core       the nodes that its members share, a chain for every body   4.4
@@ -41,7 +41,7 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
 pub use options::{Arithmetic, CountSolutions, Options, Prime};
-pub use plane_piece::plane_rank;
+pub use plane_piece::{plane_rank, plane_rank_with_parts};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
@@ -57,14 +57,16 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
-/// too large for the method, or the work is stopped.
+/// too large for the method, or the work is stopped. If known parts are of another graph, or
+/// contraction is off, which makes them bodies.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
+    check_parts(graph, options)?;
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
     let sha256 = sha256(graph);
     let contraction = if options.contraction {
-        Contraction::new(graph, options.model)
+        Contraction::with_parts(graph, &options.known_parts, options.model)
     } else {
         Contraction::none(graph)
     };
@@ -92,6 +94,18 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     Ok(found.conclude(sha256, contraction))
 }
 
+/// Whether the known parts are parts of the graph, and can be bodies.
+fn check_parts(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
+    match options.known_parts.largest_node() {
+        Some(_) if !options.contraction => Err(VerdictError::PartsNotContracted),
+        Some(node) if node as usize >= graph.nodes() => Err(VerdictError::PartOutsideGraph {
+            node,
+            nodes: graph.nodes(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
@@ -117,6 +131,7 @@ impl Found<'_> {
         let contraction = Arc::new(contraction);
         Verdict {
             model: self.options.model,
+            known_parts: self.options.known_parts.clone(),
             sha256,
             value: if is_one { Value::Solvable } else { value },
             value_strength,

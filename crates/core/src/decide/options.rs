@@ -1,6 +1,7 @@
 //! What is asked of a graph, and how the answer is looked for.
 
 use crate::geometry::model::Model;
+use crate::graph::KnownParts;
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
 use crate::watch::Watch;
 
@@ -89,6 +90,8 @@ pub struct Options {
     pub counting: bool,
     /// How much to spend on the number of solutions. Without contraction they are not counted.
     pub solutions: CountSolutions,
+    /// Sets of nodes whose cameras are known relative to each other.
+    pub known_parts: KnownParts,
     /// The seed of all draws.
     pub seed: u64,
     /// Who is told what is being done, and may stop it.
@@ -138,6 +141,13 @@ impl Options {
         self
     }
 
+    /// Takes sets of nodes for known relative to each other, in any model (Theorem 4.14).
+    #[must_use]
+    pub fn known_parts(mut self, parts: KnownParts) -> Self {
+        self.known_parts = parts;
+        self
+    }
+
     /// Draws other cameras.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
@@ -162,6 +172,7 @@ impl Default for Options {
             contraction: true,
             counting: true,
             solutions: CountSolutions::default(),
+            known_parts: KnownParts::default(),
             seed: 1,
             watch: Watch::default(),
         }

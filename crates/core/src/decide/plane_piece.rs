@@ -16,7 +16,7 @@ use crate::geometry::draw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::PlaneDirections;
-use crate::graph::{Graph, core_sha256};
+use crate::graph::{Graph, KnownParts, core_sha256};
 use crate::sparsity::Sparsity;
 use crate::watch::{Step, Stopped, Task, Watch};
 use rayon::prelude::*;
@@ -42,9 +42,24 @@ const ATTEMPTS: u64 = 64;
 /// # Errors
 /// If the work was stopped.
 pub fn plane_rank(graph: &Graph, watch: &Watch) -> Result<usize, Stopped> {
+    plane_rank_with_parts(graph, &KnownParts::default(), watch)
+}
+
+/// The same for a graph with known parts, which are bodies in the plane as well (Theorem 4.14).
+///
+/// # Errors
+/// If the work was stopped.
+///
+/// # Panics
+/// If a part has a node that the graph does not have.
+pub fn plane_rank_with_parts(
+    graph: &Graph,
+    parts: &KnownParts,
+    watch: &Watch,
+) -> Result<usize, Stopped> {
     let work = watch.task(Step::Contraction, graph.nodes()).begin(0);
     work.done(0)?;
-    let contraction = Contraction::new(graph, Model::Affine);
+    let contraction = Contraction::with_parts(graph, parts, Model::Affine);
     work.done(0)?;
     let assembly = Assembly::new(graph, &contraction);
     let split = assembly.split(&assembly.all());

@@ -6,7 +6,7 @@ use crate::decide::claim::{Claim, Strength};
 use crate::decide::evidence::PieceVerdict;
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
-use crate::graph::Graph;
+use crate::graph::{Graph, KnownParts};
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -68,7 +68,7 @@ impl FromStr for Value {
     }
 }
 
-/// A component of the whole graph: a maximal part that the pairs determine by itself.
+/// A component of the whole graph: a maximal part that pairs and known parts determine by itself.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Component {
@@ -119,7 +119,7 @@ impl Component {
     /// d edges to larger nodes; nothing is kept.
     ///
     /// Two components share at most one node, so an edge is in the component that has both its
-    /// ends.
+    /// ends. A component that is a known part may have none.
     pub fn edges(&self, graph: &Graph) -> Vec<(u32, u32)> {
         let nodes = self.nodes();
         let inside = |&&(_, j): &&(u32, u32)| nodes.binary_search(&j).is_ok();
@@ -134,6 +134,8 @@ impl Component {
 pub struct Verdict {
     /// The question that was asked.
     pub model: Model,
+    /// What was taken for known beside the pairs: sets of nodes, known relative to each other.
+    pub known_parts: KnownParts,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.

@@ -2,7 +2,8 @@
 //!
 //! In: pairs of numbers, of labels, or of a graph of petgraph (feature `petgraph`). Out: a
 //! [`Graph`], its hash ([`identity`]) and graph6 text ([`graph6`]), [`Labels`], and what the
-//! contraction of docs/theory.md, section 4, needs: neighbours, biconnected components, sets.
+//! contraction of docs/theory.md, section 4, needs: neighbours, biconnected components, sets; and
+//! what is known beside the pairs ([`KnownParts`]).
 
 use std::fmt;
 
@@ -12,6 +13,7 @@ mod adjacency;
 mod biconnected;
 pub mod graph6;
 pub mod identity;
+mod known_parts;
 mod labelled;
 pub mod labels;
 mod leaves;
@@ -24,6 +26,7 @@ mod union_find;
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
 pub use identity::{core_sha256, sha256};
+pub use known_parts::KnownParts;
 pub use labelled::{LabelledGraph, PairedWithItself};
 pub use labels::Labels;
 pub use leaves::prune_leaves;

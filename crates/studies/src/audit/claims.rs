@@ -320,8 +320,9 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 26] = [
+const REPORTED: [&str; 27] = [
     "graph",
+    "parts",
     "notes",
     "database",
     "tracks",
@@ -358,6 +359,11 @@ fn reported(members: Vec<(String, Json)>, line: usize) -> Result<Row, TableProbl
         if object.insert(name.clone(), value).is_some() {
             return Err(TableProblem::Twice(name));
         }
+    }
+    // What is decided again is the graph alone.
+    if object.contains_key("parts") {
+        let why = "the report is about a graph with known parts, which is not decided again here";
+        return Err(TableProblem::Report(why.to_owned()));
     }
     let found: Reported = serde_json::from_value(Json::Object(object))
         .map_err(|error| TableProblem::Report(error.to_string()))?;
