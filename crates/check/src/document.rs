@@ -19,7 +19,7 @@ pub(crate) type Pair = [u32; 2];
 objects! {
     Document {
         format: Format, version: Version, program: String, graph: GraphName, model: Model,
-        claim: Claims, bodies: Vec<Body>, rigid: Members, pieces: Vec<Piece>,
+        displacements: Optional<Vec<Vec<u32>>>, claim: Claims, bodies: Vec<Body>, rigid: Members, pieces: Vec<Piece>,
         solutions: Optional<Solutions>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }

@@ -51,7 +51,7 @@ pub mod wording;
 pub use certificate::Certificate;
 pub use decide::{
     Arithmetic, Claim, Component, CountSolutions, Options, Prime, SolutionCount, Strength, Value,
-    Verdict, VerdictError, decide,
+    Verdict, VerdictError, decide, decide_with_displacements,
 };
 pub use geometry::model::Model;
 pub use graph::{Graph, GraphError, LabelledGraph, Labels, PairedWithItself};

@@ -58,7 +58,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
-        ; optional solutions: SolutionsView<'a>
+        ; optional displacements: &'a [Vec<u32>], solutions: SolutionsView<'a>
     }
 
     GraphView<'a> {
@@ -160,10 +160,11 @@ impl<'a> Document<'a> {
                 .contraction
                 .bodies
                 .iter()
-                .map(BodyView::new)
+                .filter_map(BodyView::new)
                 .collect(),
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
+            displacements: Some(verdict.displacements.groups()).filter(|groups| !groups.is_empty()),
             solutions: evidence,
         })
     }
@@ -209,15 +210,17 @@ impl Serialize for PartView {
 }
 
 impl<'a> BodyView<'a> {
-    fn new(body: &'a Body) -> Self {
-        Self {
+    /// `None` for a group of displacements, which is there before the list begins.
+    fn new(body: &'a Body) -> Option<Self> {
+        Some(Self {
             seed: match body.seed {
                 Seed::Edge(i, j) => PartView::Edge([i, j]),
                 Seed::Body(k) => PartView::Body(k),
+                Seed::Group => return None,
             },
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
-        }
+        })
     }
 }
 
@@ -233,6 +236,10 @@ impl From<Part> for PartView {
 impl<'a> MergeView<'a> {
     fn new(merge: &'a Merge) -> Self {
         match merge {
+            Merge::Scaled { part, at } => Self {
+                with: vec![(*part).into()],
+                at,
+            },
             Merge::Shared { part, at } => Self {
                 with: vec![(*part).into()],
                 at,

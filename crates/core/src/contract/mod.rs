@@ -14,6 +14,7 @@ mod cycles;
 mod grow;
 mod merge;
 mod rest;
+mod scaled;
 mod seeds;
 mod sweep;
 #[cfg(test)]
@@ -22,7 +23,7 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Graph};
+use crate::graph::{Adjacency, Displacements, Graph};
 use rest::Rest;
 use sweep::Swept;
 
@@ -33,6 +34,8 @@ pub enum Seed {
     Edge(u32, u32),
     /// An earlier body, which is continued.
     Body(u32),
+    /// A group of known displacements: the first bodies are the groups, in their order.
+    Group,
 }
 
 /// Something that joins a body: an edge, or an earlier body.
@@ -53,6 +56,13 @@ impl Part {
 /// One application of a merge rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Merge {
+    /// The part shares one node with the body, and both hold known displacements.
+    Scaled {
+        /// What joins.
+        part: Part,
+        /// The common node.
+        at: [u32; 1],
+    },
     /// The part shares the two nodes with the body.
     Shared {
         /// What joins.
@@ -102,6 +112,16 @@ pub struct Body {
     pub nodes: Vec<u32>,
     /// How many edges of the graph it covers; 0 once consumed.
     pub edges: usize,
+    /// Whether it holds a known displacement, so that its scale is known.
+    pub scaled: bool,
+}
+
+impl Body {
+    /// Sorts its nodes, each of them once.
+    fn sort(&mut self) {
+        self.nodes.sort_unstable();
+        self.nodes.dedup();
+    }
 }
 
 /// A viewing graph contracted to bodies and loose edges.
@@ -124,8 +144,16 @@ impl Contraction {
         match model {
             // Four bodies around a cycle move against each other in the plane.
             Model::Projective | Model::Affine => Self::by_triangles(graph, model),
-            Model::Calibrated => Self::by_cycles(graph),
+            Model::Calibrated => Self::by_cycles(graph, Vec::new()),
         }
+    }
+
+    /// Contracts a graph of the calibrated model with known displacements, whose groups are bodies
+    /// from the start (Theorem 13.16). The cost is that of [`new`](Self::new), once more for each
+    /// round in which scaled bodies that share a node make further merges possible.
+    pub fn with_displacements(graph: &Graph, known: &Displacements) -> Self {
+        let (bodies, outside) = scaled::groups(graph, known);
+        Self::by_cycles(&outside, bodies)
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
@@ -157,9 +185,10 @@ impl Contraction {
         }
     }
 
-    /// Closed under cycles of two, three and four (Theorem 4.9).
-    fn by_cycles(graph: &Graph) -> Self {
-        let Swept { mut bodies, left } = sweep::grow(graph);
+    /// Closed under cycles of two, three and four (Theorem 4.9), with bodies to begin with; these
+    /// cover none of the edges, and if they are scaled, the rule of such bodies applies too.
+    fn by_cycles(graph: &Graph, bodies: Vec<Body>) -> Self {
+        let Swept { mut bodies, left } = sweep::grow(graph, bodies);
         let rest = Rest::new(graph.nodes(), left, &bodies);
         let mut remaining = rest.adjacency();
         // A pendant edge at a node that no body holds lies on no cycle.
@@ -169,15 +198,16 @@ impl Contraction {
         bodies.extend(grown.map(|body| rest.body(body, before)));
         let edges = remaining.edges().map(|edge| rest.edge(edge)).collect();
         let mut loose = cycles::close(&mut bodies, edges, graph.nodes());
+        while scaled::join(&mut bodies, graph.nodes()) {
+            bodies.iter_mut().for_each(Body::sort);
+            loose = cycles::close(&mut bodies, loose, graph.nodes());
+        }
         loose.extend(pendant.into_iter().map(|edge| rest.edge(edge)));
         Self::of_closed(bodies, loose)
     }
 
     fn of_closed(mut bodies: Vec<Body>, mut loose: Vec<(u32, u32)>) -> Self {
-        for body in &mut bodies {
-            body.nodes.sort_unstable();
-            body.nodes.dedup();
-        }
+        bodies.iter_mut().for_each(Body::sort);
         let finals = (0..)
             .zip(&bodies)
             .filter(|(_, body)| !body.nodes.is_empty())

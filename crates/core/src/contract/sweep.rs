@@ -33,13 +33,13 @@ pub(super) struct Swept {
     pub(super) left: Vec<(u32, u32)>,
 }
 
-/// Grows large bodies. O(n + m), as there are few of them.
+/// Grows large bodies, behind those that are there. O(n + m), as there are few of them.
 ///
 /// # Panics
 /// With 2^32 edges and more.
-pub(super) fn grow(graph: &Graph) -> Swept {
+pub(super) fn grow(graph: &Graph, bodies: Vec<Body>) -> Swept {
     let mut swept = Swept {
-        bodies: Vec::new(),
+        bodies,
         left: Vec::new(),
     };
     let large = graph.edges().len().div_ceil(SHARE);
@@ -272,6 +272,7 @@ impl Growing {
                 merge: std::mem::take(&mut merge),
                 nodes: Vec::new(),
                 edges: 0,
+                scaled: false,
             });
             seed = Seed::Body(bodies.len() as u32 - 1);
         }
@@ -281,6 +282,7 @@ impl Growing {
             merge,
             nodes,
             edges,
+            scaled: false,
         });
     }
 }

@@ -14,8 +14,12 @@ use std::collections::BTreeSet;
 type Nodes = BTreeSet<u32>;
 
 /// The nodes of the final bodies, every condition of docs/certificate.md, section 5, checked.
-fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
+fn replay(graph: &Graph, contraction: &Contraction, known: &Displacements) -> Vec<Nodes> {
     let mut bodies: Vec<Option<Nodes>> = Vec::new();
+    let is_scaled = |nodes: &Nodes| {
+        let mut groups = known.groups().iter();
+        groups.any(|group| group.iter().all(|v| nodes.contains(v)))
+    };
     let is_edge = |a: u32, b: u32| graph.edge_number(a, b).is_some();
     for body in &contraction.bodies {
         let mut nodes = match body.seed {
@@ -24,6 +28,7 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
                 Nodes::from([i, j])
             }
             Seed::Body(k) => bodies[k as usize].take().expect("used once"),
+            Seed::Group => known.groups()[bodies.len()].iter().copied().collect(),
         };
         for &[v, a, b] in &body.add {
             assert!(a != b && nodes.contains(&a) && nodes.contains(&b));
@@ -39,6 +44,12 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
         };
         for merge in &body.merge {
             match *merge {
+                Merge::Scaled { part: x, at: [a] } => {
+                    let x = part(x);
+                    assert!(x.contains(&a) && nodes.contains(&a));
+                    assert!(is_scaled(&x) && is_scaled(&nodes));
+                    nodes.extend(x);
+                }
                 Merge::Shared {
                     part: x,
                     at: [a, b],
@@ -93,6 +104,11 @@ fn replay(graph: &Graph, contraction: &Contraction) -> Vec<Nodes> {
     for (body, nodes) in contraction.bodies.iter().zip(&bodies) {
         let listed: Nodes = body.nodes.iter().copied().collect();
         assert_eq!(listed, nodes.clone().unwrap_or_default());
+        assert!(
+            nodes
+                .as_ref()
+                .is_none_or(|nodes| is_scaled(nodes) == body.scaled)
+        );
     }
     bodies.into_iter().flatten().collect()
 }
@@ -104,11 +120,32 @@ fn naive(graph: &Graph, model: Model) -> BTreeSet<Nodes> {
         Model::Affine => find_cycle(parts, 3),
         Model::Calibrated => find_cycle(parts, 4),
     };
-    let mut parts: Vec<Nodes> = graph
-        .edges()
-        .iter()
-        .map(|&(i, j)| Nodes::from([i, j]))
-        .collect();
+    let edges = graph.edges().iter().map(|&(i, j)| Nodes::from([i, j]));
+    merged(edges.collect(), find)
+}
+
+/// The same with known displacements, of which no two groups have a node in common.
+fn naive_with_displacements(graph: &Graph, known: &Displacements) -> BTreeSet<Nodes> {
+    let is_scaled = |part: &Nodes| {
+        let mut groups = known.groups().iter();
+        groups.any(|group| group.iter().all(|v| part.contains(v)))
+    };
+    let touching = |parts: &[Nodes]| {
+        let pairs = (0..parts.len()).flat_map(|k| (k + 1..parts.len()).map(move |l| [k, l]));
+        let touch = |[k, l]: &[usize; 2]| {
+            is_scaled(&parts[*k]) && is_scaled(&parts[*l]) && !parts[*k].is_disjoint(&parts[*l])
+        };
+        pairs.into_iter().find(touch).map(Vec::from)
+    };
+    let edges = graph.edges().iter().map(|&(i, j)| Nodes::from([i, j]));
+    let groups = known.groups().iter().map(|g| g.iter().copied().collect());
+    merged(edges.chain(groups).collect(), |parts| {
+        find_cycle(parts, 4).or_else(|| touching(parts))
+    })
+}
+
+/// Parts merged until none are found any more.
+fn merged(mut parts: Vec<Nodes>, find: impl Fn(&[Nodes]) -> Option<Vec<usize>>) -> BTreeSet<Nodes> {
     while let Some(mut found) = find(&parts) {
         found.sort_unstable();
         let mut together = Nodes::new();
@@ -178,7 +215,7 @@ fn find_cycle(parts: &[Nodes], longest: usize) -> Option<Vec<usize>> {
 
 fn check(graph: &Graph, model: Model) {
     let contraction = Contraction::new(graph, model);
-    let finals = replay(graph, &contraction);
+    let finals = replay(graph, &contraction, &Displacements::default());
     let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
     assert_eq!(parts.len(), finals.len());
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
@@ -199,6 +236,20 @@ fn check(graph: &Graph, model: Model) {
                 assert_eq!(plane_rank(nodes, &covered), 2 * nodes.len() - 3);
             }
         }
+    }
+}
+
+fn check_with_displacements(graph: &Graph, known: &Displacements) {
+    let contraction = Contraction::with_displacements(graph, known);
+    let finals = replay(graph, &contraction, known);
+    let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
+    parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
+    assert_eq!(parts.len(), finals.len() + contraction.loose.len());
+    assert_eq!(parts, naive_with_displacements(graph, known));
+    for (&k, nodes) in contraction.finals.iter().zip(&finals) {
+        let inside = |&&(i, j): &&(u32, u32)| nodes.contains(&i) && nodes.contains(&j);
+        let covered = graph.edges().iter().filter(inside).count();
+        assert_eq!(contraction.bodies[k as usize].edges, covered);
     }
 }
 
@@ -415,6 +466,18 @@ proptest! {
         for model in Model::ALL {
             check(&graph, model);
         }
+    }
+
+    #[test]
+    fn with_displacements_as_the_rules_naively(
+        nodes in 3u32..16,
+        pairs in prop::collection::vec((0u32..16, 0u32..16), 1..26),
+        rigs in prop::collection::vec((0u32..16, 0u32..16), 1..7),
+    ) {
+        let graph = among(nodes, pairs);
+        let rigs = among(nodes, rigs);
+        let known = Displacements::new(nodes, rigs.edges().iter().copied()).unwrap();
+        check_with_displacements(&graph, &known);
     }
 
     /// Bipartite graphs have no triangles but may have bicliques.

@@ -30,6 +30,8 @@ pub enum VerdictError {
         /// What to do instead.
         advice: &'static str,
     },
+    /// Displacements that say nothing about the question, and why.
+    Displacements(&'static str),
     /// The work was stopped before there was an answer.
     Stopped(Stopped),
 }
@@ -53,6 +55,7 @@ impl fmt::Display for VerdictError {
                 f,
                 "{what} for {nodes} cameras and {edges} pairs would need about {needs}; {advice}"
             ),
+            Self::Displacements(why) => write!(f, "known displacements: {why}"),
             Self::Stopped(inner) => inner.fmt(f),
         }
     }

@@ -49,7 +49,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
 use crate::decide::evidence::PieceVerdict;
 use crate::geometry::model::Model;
-use crate::graph::{Graph, sha256};
+use crate::graph::{Displacements, Graph, sha256};
 use crate::watch::Step;
 use std::sync::Arc;
 
@@ -59,11 +59,42 @@ use std::sync::Arc;
 /// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
 /// too large for the method, or the work is stopped.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
+    decide_with_displacements(graph, &Displacements::default(), options)
+}
+
+/// Decides a graph of calibrated cameras some of which know their displacements
+/// (docs/theory.md, Theorems 13.16 to 13.20). Without any this is [`decide()`].
+///
+/// ```
+/// use viewcert::graph::Displacements;
+/// use viewcert::{Graph, Model, Options, Value, decide, decide_with_displacements};
+///
+/// // Two stereo rigs, and three pairs from one to the other.
+/// let graph = Graph::new(4, [(0, 2), (0, 3), (1, 2)])?;
+/// let rigs = Displacements::new(4, [(0, 1), (2, 3)])?;
+/// let options = Options::default().model(Model::Calibrated);
+/// assert_eq!(decide(&graph, &options)?.value, Value::NotFiniteSolvable);
+/// let verdict = decide_with_displacements(&graph, &rigs, &options)?;
+/// assert_eq!((verdict.value, verdict.required), (Value::Solvable, 9));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`decide()`]; if there are displacements in another model, without contraction, or of nodes
+/// that the graph does not have.
+pub fn decide_with_displacements(
+    graph: &Graph,
+    known: &Displacements,
+    options: &Options,
+) -> Result<Verdict, VerdictError> {
+    refuse(graph, known, options)?;
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
     let sha256 = sha256(graph);
-    let contraction = if options.contraction {
+    let contraction = if !known.is_empty() {
+        Contraction::with_displacements(graph, known)
+    } else if options.contraction {
         Contraction::new(graph, options.model)
     } else {
         Contraction::none(graph)
@@ -84,6 +115,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     };
     let found = Found {
         graph,
+        known,
         options,
         assembly: &assembly,
         rigid,
@@ -92,9 +124,23 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     Ok(found.conclude(sha256, contraction))
 }
 
+/// Refuses displacements that say nothing about the question.
+fn refuse(graph: &Graph, known: &Displacements, options: &Options) -> Result<(), VerdictError> {
+    let largest = known.groups().iter().flatten().max();
+    let reason = match largest {
+        None => return Ok(()),
+        Some(_) if options.model != Model::Calibrated => "they belong to the calibrated model",
+        Some(_) if !options.contraction => "they need contraction",
+        Some(&node) if node as usize >= graph.nodes() => "the graph has fewer nodes",
+        Some(_) => return Ok(()),
+    };
+    Err(VerdictError::Displacements(reason))
+}
+
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
+    known: &'a Displacements,
     options: &'a Options,
     assembly: &'a Assembly,
     /// The members that are pieces by themselves.
@@ -105,7 +151,8 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// Sums up over the pieces (Theorem 4.3 and Corollary 4.6 of docs/theory.md; calibrated:
-    /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12).
+    /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12;
+    /// with displacements: Theorems 13.17 and 13.18).
     fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Verdict {
         let rigid_rank = self.rigid_rank();
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
@@ -117,6 +164,7 @@ impl Found<'_> {
         let contraction = Arc::new(contraction);
         Verdict {
             model: self.options.model,
+            displacements: self.known.clone(),
             sha256,
             value: if is_one { Value::Solvable } else { value },
             value_strength,
@@ -132,18 +180,22 @@ impl Found<'_> {
 
     /// The rank of a finite solvable graph with as many nodes.
     fn required(&self) -> usize {
-        self.options.model.required(self.graph.nodes())
+        let scale = usize::from(!self.known.is_empty());
+        self.options.model.required(self.graph.nodes()) + scale
     }
 
     /// The rank of the members that are pieces by themselves.
     fn rigid_rank(&self) -> usize {
         let singles = self.rigid.singles();
-        let nodes = singles.iter().map(|part| self.assembly.count_nodes(part));
-        nodes.map(|nodes| self.options.model.required(nodes)).sum()
+        let ranks = singles
+            .iter()
+            .map(|part| self.assembly.required(self.options.model, part));
+        ranks.sum()
     }
 
     /// The answer before solutions are counted: one body is unique (Corollary 4.2), one piece of
-    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8 and 13.2).
+    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8, 13.2 and, with
+    /// displacements, 13.20).
     fn value(&self, rank: usize) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
         let all_nodes =
@@ -155,6 +207,8 @@ impl Found<'_> {
                 .first()
                 .is_some_and(|piece| all_nodes(&piece.members));
         match self.options.model {
+            // Pieces may hang together in scaled bodies.
+            _ if !self.known.is_empty() && rank == self.required() => Value::Solvable,
             _ if is_body || self.graph.nodes() == 1 => Value::Solvable,
             Model::Calibrated | Model::Affine if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
@@ -190,7 +244,9 @@ impl Found<'_> {
         let pieces = self.pieces.iter();
         let of_pieces = pieces.flat_map(|piece| piece.components.clone());
         let all = self.rigid.singles().into_iter().chain(of_pieces);
+        let all = self.assembly.joined(all.collect());
         let mut components: Vec<Component> = all
+            .into_iter()
             .map(|members| {
                 let nodes = self.assembly.count_nodes(&members);
                 Component::new(members, nodes, contraction)

@@ -6,7 +6,7 @@ use crate::decide::claim::{Claim, Strength};
 use crate::decide::evidence::PieceVerdict;
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
-use crate::graph::Graph;
+use crate::graph::{Displacements, Graph};
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -134,6 +134,8 @@ impl Component {
 pub struct Verdict {
     /// The question that was asked.
     pub model: Model,
+    /// What was known besides the graph: the displacements that the answer supposes.
+    pub displacements: Displacements,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 mod adjacency;
 mod biconnected;
+mod displacements;
 pub mod graph6;
 pub mod identity;
 mod labelled;
@@ -22,6 +23,7 @@ mod union_find;
 
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
+pub use displacements::Displacements;
 pub use identity::{core_sha256, sha256};
 pub use labelled::{LabelledGraph, PairedWithItself};
 pub use labels::Labels;
