@@ -4,6 +4,7 @@ use super::act;
 use super::act::ActArguments;
 use super::bounds::BoundArguments;
 use super::certificates::Target;
+use super::displacements::DisplacementArguments;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
@@ -20,6 +21,7 @@ use std::time::Instant;
 use viewcert::decide as verdict;
 use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
 use viewcert::geometry::model::Model;
+use viewcert::graph::Displacements;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
 use viewcert_reconstruction::Shapes;
@@ -51,6 +53,8 @@ pub(super) struct VerifyArguments {
     /// What is known of the cameras [default: projective; with --tracks calibrated].
     #[arg(long, value_enum)]
     model: Option<ModelName>,
+    #[command(flatten)]
+    displacements: DisplacementArguments,
     /// What the graph determines if all centres lie in one plane (one flying height, a vehicle): the
     /// exit code is that of this case.
     #[arg(long, conflicts_with = "tracks")]
@@ -146,6 +150,17 @@ impl VerifyArguments {
         })
     }
 
+    /// What does not go with displacements, and whether it is asked for.
+    fn without_displacements(&self) -> [(&'static str, bool); 5] {
+        [
+            ("--tracks", self.tracks.options().is_some()),
+            ("--planar", self.planar),
+            ("--no-contraction", self.no_contraction),
+            (witness::OPTION, self.witness.is_some()),
+            self.act.asked(),
+        ]
+    }
+
     fn options(&self) -> Result<Options> {
         let model = self.model()?;
         ensure!(
@@ -162,6 +177,8 @@ impl VerifyArguments {
             "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
              or --model affine"
         );
+        self.displacements
+            .check(model, &self.without_displacements())?;
         let arithmetic = if self.rational {
             Arithmetic::Rational {
                 numerator: self.bounds.numerator,
@@ -198,6 +215,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let [html, svg] = arguments.pages.outputs();
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
+    let inputs = inputs.chain(arguments.displacements.path());
     let witness = (witness::OPTION, arguments.witness.as_deref());
     atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
@@ -220,7 +238,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
-            witness.or(act).or_else(|| arguments.pages.too_many(what))
+            let known = arguments.displacements.too_many(what);
+            witness
+                .or(act)
+                .or(known)
+                .or_else(|| arguments.pages.too_many(what))
         }
     };
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
@@ -243,7 +265,13 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             target: target.as_mut(),
             shapes: &mut shapes,
         };
-        Ok(if decide(work, input, start, out)? {
+        let with_notes = arguments.displacements.read(input)?;
+        let nothing = Displacements::default();
+        let (input, known) = match &with_notes {
+            Some((input, known)) => (input, known),
+            None => (input, &nothing),
+        };
+        Ok(if decide(work, (input, known), start, out)? {
             GOOD
         } else {
             NOT
@@ -268,14 +296,19 @@ struct Work<'a> {
 
 /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
 /// determines the cameras; with `--planar` whether it does in the plane.
-fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) -> Result<bool> {
+fn decide(
+    work: Work,
+    (input, known): (&NamedGraph, &Displacements),
+    start: Instant,
+    out: &mut impl Write,
+) -> Result<bool> {
     let Work {
         arguments,
         options,
         target,
         shapes,
     } = work;
-    let decided = verdict::decide(&input.graph, options);
+    let decided = verdict::decide_with_displacements(&input.graph, known, options);
     running::hide();
     let verdict = decided.with_context(|| input.name.clone())?;
     let scope = Scope::new(

@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::Path;
 use viewcert::certificate::hex;
 use viewcert::graph::sha256;
-use viewcert_check::{Certificate, Failure, Graph, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Rejection, Verified};
 use viewcert_formats::read::graphs;
-use viewcert_formats::{ReadOptions, read_graphs};
+use viewcert_formats::{ReadOptions, read_displacements, read_graphs};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -36,7 +36,8 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
 
 /// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
 /// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
-/// format, comes through this program's reader, of several graphs the one that is named.
+/// format, comes through this program's reader, of several graphs the one that is named. With a file
+/// of displacements these have to be what the certificate supposes.
 ///
 /// # Errors
 /// If there is no such graph.
@@ -44,15 +45,59 @@ pub(super) fn check_for(
     text: &[u8],
     path: &Path,
     options: ReadOptions,
+    displacements: Option<&Path>,
 ) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
+    let expected = displacements.map(|file| supposed(&certificate, path, &options, file));
+    let expected = expected.transpose()?;
     let graph = graph_at(&certificate, path, options)?;
-    Ok(certificate
-        .check(Some(&graph))
-        .map(|verified| Proved::new(&verified)))
+    let verified = match certificate.check(Some(&graph)) {
+        Ok(verified) => verified,
+        Err(failure) => return Ok(Err(failure)),
+    };
+    let known = verified.displacements.as_ref().map(|known| &known.sha256);
+    if expected.is_some() && known != expected.as_ref() {
+        let reason = match known {
+            Some(_) => "other displacements are supposed to be known than those of the file",
+            None => "no displacements are supposed to be known",
+        };
+        return Ok(Err(Failure::Rejected(Rejection {
+            step: "displacements".into(),
+            reason: reason.into(),
+        })));
+    }
+    Ok(Ok(Proved::new(&verified)))
+}
+
+/// The hash of the displacements in a file, in the names of the graph that a certificate is about.
+///
+/// # Errors
+/// If there is no such graph; those of the file.
+fn supposed(
+    certificate: &Certificate,
+    path: &Path,
+    options: &ReadOptions,
+    file: &Path,
+) -> Result<String> {
+    let name = path
+        .to_str()
+        .context("the path of the graph is not UTF-8")?;
+    let mut first = None;
+    for input in read_graphs(name, options) {
+        let input = input?;
+        let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
+        if wanted || first.is_none() {
+            first = Some(input);
+        }
+        if wanted {
+            break;
+        }
+    }
+    let input = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    Ok(hex(&read_displacements(file, &input)?.known.sha256()))
 }
 
 /// The graph in a file that a certificate is about; see [`check_for`].

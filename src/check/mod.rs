@@ -38,6 +38,10 @@ pub(super) struct CheckArguments {
     input: InputArguments,
     #[command(flatten)]
     tracks: TrackArguments,
+    /// The displacements that the certificate has to suppose, in the names of the graph (as for
+    /// `verify GRAPH`): others, or none, are a rejection.
+    #[arg(long, value_name = "FILE", requires = "graph")]
+    displacements: Option<PathBuf>,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -73,7 +77,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
                 tracks,
                 ..arguments.input.read_options()
             };
-            checker::check_for(&text, graph, options)?
+            checker::check_for(&text, graph, options, arguments.displacements.as_deref())?
         }
     };
     let mut out = std::io::stdout().lock();

@@ -21,6 +21,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tracks: Option<TrackLine>,
     model: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    displacements: Option<DisplacementLine>,
     #[serde(flatten)]
     answer: AnswerLine,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -50,6 +52,25 @@ impl<'a> GraphLine<'a> {
             edges: input.graph.edges().len(),
             sha256: hex(&verdict.sha256),
         }
+    }
+}
+
+/// Which displacements are supposed to be known, if any.
+#[derive(Serialize)]
+struct DisplacementLine {
+    groups: usize,
+    cameras: usize,
+    sha256: String,
+}
+
+impl DisplacementLine {
+    fn new(verdict: &Verdict) -> Option<Self> {
+        let known = &verdict.displacements;
+        (!known.is_empty()).then(|| Self {
+            groups: known.groups().len(),
+            cameras: known.nodes(),
+            sha256: hex(&known.sha256()),
+        })
     }
 }
 
@@ -134,6 +155,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .zip(input.tracks.as_ref())
             .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
+        displacements: DisplacementLine::new(verdict),
         answer: AnswerLine::from(report),
         conditions: report.scope.conditions(),
         planar: report.scope.planar(),

@@ -124,6 +124,18 @@ pub enum Problem {
         /// How many nodes without pairs are allowed.
         limit: u64,
     },
+    /// A label that the graph does not have.
+    #[error("`{}` is no camera of the graph", shown(.0))]
+    UnknownCamera(String),
+    /// A file of known displacements without one.
+    #[error("the file holds no displacement")]
+    NoDisplacements,
+    /// A line of such a file that is neither a pair of cameras nor one camera.
+    #[error("the line has {found} fields")]
+    NoPairOrCamera {
+        /// How many fields.
+        found: usize,
+    },
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -351,6 +363,15 @@ impl Problem {
             Self::Compressed(_) => "copy the file again, and test it with `gzip -t`",
             Self::Inflated(_) => "if you trust it, inflate it with `gunzip` first",
             Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
+            Self::UnknownCamera(_) => {
+                "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
+            }
+            Self::NoDisplacements => {
+                "write pairs of cameras, one a line, or cameras with known positions, two at least"
+            }
+            Self::NoPairOrCamera { .. } => {
+                "a line names a pair of cameras, or one camera with a known position, and nothing else"
+            }
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",
             Self::SelfLoop(_) => "remove the pair (or the line, if it holds counts)",
