@@ -1009,7 +1009,7 @@ class Check:
         _, prime, seed, draw, rows, cols, flows, lambda_rows, lambda_cols = members(value, names, where)
         p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
         rows, cols = self.pivots(rows, cols, 2 * core.m + len(core.scales), 3 * core.n, where)
-        flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m - len(rows) + 1)
+        flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m + len(core.scales) - len(rows) + 1)
         lambda_rows, lambda_cols = self.pivots(lambda_rows, lambda_cols, 4 * flows, core.m, f"{where}: lambda")
         centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
         need(centres, f"{where}: the draw is void, two centres agree")

@@ -17,10 +17,11 @@ import check  # noqa: E402
 import notation  # noqa: E402
 import solutions  # noqa: E402
 import test_check  # noqa: E402
+import test_displacements  # noqa: E402
 import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
-CHECKER, TESTS = (check, notation, solutions), (test_check, test_pebbles, test_solutions)
+CHECKER, TESTS = (check, notation, solutions), (test_check, test_displacements, test_pebbles, test_solutions)
 REFUSALS = (check.Reject, check.Unreadable, check.TooLarge)
 
 
