@@ -3,9 +3,13 @@
 mod common;
 
 use common::{Run, cycle, verify, verify_with};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use viewcert::graph::Displacements;
+use viewcert::{Graph, Model, Options, decide_with_displacements};
 
 /// A file of the test's own.
 struct File {
@@ -269,5 +273,41 @@ fn claims_that_rest_on_displacements_are_no_claims_of_pairs() {
         audit.err.contains("it rests on known displacements"),
         "{}",
         audit.err
+    );
+}
+
+/// Sparse random graphs with rigs, pairs of them and positions: what is decided is what the checker
+/// finds. Classes that hang together in single nodes of scaled components are among them.
+#[test]
+fn the_checker_agrees_on_random_graphs() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut below = |limit: u32| random.next_u32() % limit;
+    let options = Options::default().model(Model::Calibrated);
+    let (mut solvable, mut classes, mut joined) = (0, 0, 0);
+    for _ in 0..2000 {
+        let nodes = 4 + below(14);
+        let mut pairs = |count: u32| -> Vec<(u32, u32)> {
+            let pairs = (0..count).map(|_| (below(nodes), below(nodes)));
+            pairs.filter(|(i, j)| i != j).collect()
+        };
+        let edges = pairs(nodes + nodes / 3);
+        let rigs = pairs(1 + nodes / 3);
+        let graph = Graph::new(nodes, edges).unwrap();
+        let known = Displacements::new(nodes, rigs).unwrap();
+        let verdict = decide_with_displacements(&graph, &known, &options).unwrap();
+        let text = verdict.certificate(&graph).compact().to_string();
+        let verified = viewcert_check::check(text.as_bytes(), None);
+        let verified = verified.unwrap_or_else(|failure| panic!("{failure}: {text}"));
+        assert_eq!(verified.verdict.0.to_string(), verdict.value.name());
+        assert_eq!(verified.rank.0, verdict.rank as i64);
+        assert_eq!(verified.required, verdict.required as i64);
+        assert_eq!(verified.components.0, verdict.components.len());
+        solvable += usize::from(verdict.rank == verdict.required);
+        classes += usize::from(text.contains("\"kind\":\"classes\""));
+        joined += usize::from(text.contains("\"split\":{"));
+    }
+    assert!(
+        solvable > 100 && classes > 100 && joined > 0,
+        "{solvable} {classes} {joined}"
     );
 }
