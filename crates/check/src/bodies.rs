@@ -90,8 +90,8 @@ impl Builder<'_> {
     }
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
-    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), and two
-    /// scaled ones that share a node (Theorem 13.16).
+    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), and
+    /// two scaled ones that share a node (Theorem 13.16).
     fn merge(&mut self, body: &mut Rebuilt, step: &Merge) -> Checked<()> {
         let places = self.places(step)?;
         let parts = step.with.iter().map(|&source| self.take(source));
@@ -141,8 +141,8 @@ impl Builder<'_> {
                 Ok(&[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]])
             }
             _ => Err(Failure::rejected(
-                "`with` and `at` have one and one or two, two and three, three and four, or five and five \
-                 entries",
+                "`with` and `at` have one and one or two, two and three, three and four, or five \
+                 and five entries",
             )),
         }
     }

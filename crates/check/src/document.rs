@@ -19,8 +19,8 @@ pub(crate) type Pair = [u32; 2];
 objects! {
     Document {
         format: Format, version: Version, program: String, graph: GraphName, model: Model,
-        displacements: Optional<Vec<Vec<u32>>>, claim: Claims, bodies: Vec<Body>, rigid: Members, pieces: Vec<Piece>,
-        solutions: Optional<Solutions>,
+        displacements: Optional<Vec<Vec<u32>>>, claim: Claims, bodies: Vec<Body>,
+        rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }
     Claims {

@@ -117,8 +117,8 @@ struct Classes {
 }
 
 impl Classes {
-    /// The number of components, the scaled ones, and the errors with which all classes are separated, given those
-    /// for the classes themselves (theory, Theorem 6.3).
+    /// The number of components, the scaled ones, and the errors with which all classes are
+    /// separated, given those for the classes themselves (theory, Theorem 6.3).
     fn components(self, own: Option<Vec<i64>>) -> (usize, Vec<Part>, Option<Vec<i64>>) {
         let (mut components, mut scaled, mut separated) = (self.others, self.scaled, own);
         for piece in self.inside {

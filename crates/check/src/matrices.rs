@@ -100,8 +100,8 @@ pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<
     rows
 }
 
-/// The rows of N for edges whose length is known, behind those of the directions: two entries (theory,
-/// Theorem 13.18).
+/// The rows of N for edges whose length is known, behind those of the directions: two entries
+/// (theory, Theorem 13.18).
 pub(crate) fn lengths(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<[(usize, u64); 2]> {
     let row = |&(i, j): &(usize, usize)| {
         let q = (0..3).find(|&k| centres[i][k] != centres[j][k]);

@@ -33,8 +33,8 @@ impl Setting<'_> {
         [&self.sha256, &core.sha256]
     }
 
-    /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a known
-    /// displacement (section 6; theory, Theorem 13.16).
+    /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a
+    /// known displacement (section 6; theory, Theorem 13.16).
     pub fn required(&self, part: &Part) -> i64 {
         let nodes = self.structure.nodes(part).len();
         self.model.required(nodes) + i64::from(self.structure.is_scaled(part))
