@@ -12,6 +12,7 @@ mod certificates;
 mod check;
 mod compare;
 mod conditions;
+mod displacements;
 mod experiment;
 pub mod front;
 mod input;

@@ -11,6 +11,11 @@ use viewcert::watch::{Stopped, Watch};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
+/// What `--displacements` rests on.
+const DISPLACEMENTS: &str = "displacements are vectors in the frame of the directions: positions \
+                             (GPS) need the rotation between the two frames; no two of them are \
+                             parallel";
+
 /// What `--model focal` rests on.
 const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
                      lengths if pixels are square, principal points are known, and its two optical \
@@ -130,6 +135,7 @@ impl Scope {
         let may_hide = is_good
             && verdict.model != Model::Affine
             && input.cameras.is_none()
+            && verdict.displacements.is_empty()
             && input.graph.edges().len() <= UNASKED
             && !is_rigid_by_triangles(verdict);
         let planar = (asked.planar || may_hide)
@@ -146,6 +152,9 @@ impl Scope {
             conditions.push(format!(
                 "taken for given: {parts}, sets of cameras whose relative position is known"
             ));
+        }
+        if !verdict.displacements.is_empty() {
+            conditions.push(DISPLACEMENTS.to_owned());
         }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";

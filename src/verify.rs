@@ -4,6 +4,7 @@ use super::act;
 use super::act::ActArguments;
 use super::bounds::BoundArguments;
 use super::certificates::Target;
+use super::displacements::DisplacementArguments;
 use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
@@ -52,6 +53,8 @@ pub(super) struct VerifyArguments {
     /// What is known of the cameras [default: projective; with --tracks calibrated].
     #[arg(long, value_enum)]
     model: Option<ModelName>,
+    #[command(flatten)]
+    displacements: DisplacementArguments,
     /// What the graph determines if all centres lie in one plane (one flying height, a vehicle): the
     /// exit code is that of this case.
     #[arg(long, conflicts_with = "tracks")]
@@ -187,6 +190,18 @@ impl VerifyArguments {
         self.parts.check(&self.graphs)
     }
 
+    /// What does not go with displacements, and whether it is asked for.
+    fn without_displacements(&self) -> [(&'static str, bool); 6] {
+        [
+            ("--tracks", self.tracks.options().is_some()),
+            (parts::OPTION, self.parts.path().is_some()),
+            ("--planar", self.planar),
+            ("--no-contraction", self.no_contraction),
+            (witness::OPTION, self.witness.is_some()),
+            self.act.asked(),
+        ]
+    }
+
     fn options(&self) -> Result<Options> {
         let model = self.model()?;
         ensure!(
@@ -203,6 +218,8 @@ impl VerifyArguments {
             "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
              or --model affine"
         );
+        self.displacements
+            .check(model, &self.without_displacements())?;
         let arithmetic = if self.rational {
             Arithmetic::Rational {
                 numerator: self.bounds.numerator,
@@ -240,7 +257,9 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let [html, svg] = arguments.pages.outputs();
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    let inputs = inputs.chain(arguments.parts.path());
+    let inputs = inputs
+        .chain(arguments.parts.path())
+        .chain(arguments.displacements.path());
     let witness = (witness::OPTION, arguments.witness.as_deref());
     atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
@@ -264,8 +283,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
             let parts = arguments.parts.too_many(what);
+            let displacements = arguments.displacements.too_many(what);
             witness
                 .or(parts)
+                .or(displacements)
                 .or(act)
                 .or_else(|| arguments.pages.too_many(what))
         }
@@ -284,11 +305,17 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
-        let known = arguments.parts.read(input)?;
-        let (input, options) = match &known {
-            Some((input, parts)) => (input, options.clone().known_parts(parts.clone())),
-            None => (input, options.clone()),
-        };
+        let mut options = options.clone();
+        let mut noted = None;
+        if let Some((input, parts)) = arguments.parts.read(input)? {
+            options = options.known_parts(parts);
+            noted = Some(input);
+        }
+        if let Some((input, known)) = arguments.displacements.read(input)? {
+            options = options.displacements(known);
+            noted = Some(input);
+        }
+        let input = noted.as_ref().unwrap_or(input);
         let work = Work {
             arguments,
             options: &options,

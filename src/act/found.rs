@@ -33,8 +33,13 @@ pub(crate) struct Acted {
 impl Acted {
     /// Of one component, or none: nothing to do.
     pub(super) fn whole() -> Self {
+        Self::without_joints(true)
+    }
+
+    /// Nothing was looked for; `complete` if there is nothing to find.
+    pub(super) fn without_joints(complete: bool) -> Self {
         Self {
-            joints_complete: true,
+            joints_complete: complete,
             ..Self::default()
         }
     }

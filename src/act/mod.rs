@@ -130,17 +130,27 @@ impl ActArguments {
         Ok(())
     }
 
-    /// Whether more than the joints is asked for.
-    fn asks(&self) -> bool {
-        self.weak.is_some()
-            || self.suggest.is_some()
-            || self.explain.is_some()
-            || !self.sweep.is_empty()
-            || self.margin.is_some()
-            || self.export.is_some()
+    /// One of the options that is there, for whoever has no use for it; and whether there is one.
+    pub(super) fn asked(&self) -> (&'static str, bool) {
+        let options = [
+            ("--weak", self.weak.is_some()),
+            ("--suggest", self.suggest.is_some()),
+            ("--explain", self.explain.is_some()),
+            ("--sweep", !self.sweep.is_empty()),
+            ("--margin", self.margin.is_some()),
+            ("--export", self.export.is_some()),
+        ];
+        let there = options.into_iter().find(|(_, there)| *there);
+        there.unwrap_or(("", false))
     }
 
-    /// Does what is asked for; joints are always looked for. What they leave free is kept in
+    /// Whether more than the joints is asked for.
+    fn asks(&self) -> bool {
+        self.asked().1
+    }
+
+    /// Does what is asked for; joints are always looked for, but with known displacements, which
+    /// join components in ways of their own. What they leave free is kept in
     /// `shapes` for the next graph of the same model.
     ///
     /// # Errors
@@ -159,6 +169,9 @@ impl ActArguments {
                 "{option} weighs the pairs of a graph alone, and this verdict rests on known parts; \
                  leave out one of the two"
             );
+        }
+        if !verdict.displacements.is_empty() {
+            return Ok(Acted::without_joints(verdict.components.len() < 2));
         }
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Acted::whole());

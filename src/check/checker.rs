@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::Path;
 use viewcert::certificate::hex;
 use viewcert::graph::sha256;
-use viewcert_check::{Certificate, Failure, Graph, Labels, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verified};
 use viewcert_formats::read::graphs;
-use viewcert_formats::{ReadOptions, read_graphs, read_parts};
+use viewcert_formats::{ReadOptions, read_displacements, read_graphs, read_parts};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -57,26 +57,78 @@ fn of_file(graph: Graph, parts: &Path, labels: &Labels) -> Result<Graph> {
     graph.with_context(|| parts.display().to_string())
 }
 
-/// What a certificate proves about the graph in a file, with the known parts of another one. The checker reads edge lists and graph6 by
+/// Files of what is known besides the pairs.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    pub(super) parts: Option<&'a Path>,
+    pub(super) displacements: Option<&'a Path>,
+}
+
+/// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
 /// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
-/// format, comes through this program's reader, of several graphs the one that is named.
+/// format, comes through this program's reader, of several graphs the one that is named. Known parts,
+/// and displacements of a file, have to be those that the certificate supposes.
 ///
 /// # Errors
 /// If there is no such graph.
 pub(super) fn check_for(
     text: &[u8],
     path: &Path,
-    parts: Option<&Path>,
+    known: Known,
     options: ReadOptions,
 ) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let graph = graph_at(&certificate, path, parts, options)?;
-    Ok(certificate
-        .check(Some(&graph))
-        .map(|verified| Proved::new(&verified)))
+    let expected = known.displacements;
+    let expected = expected.map(|file| supposed(&certificate, path, &options, file));
+    let expected = expected.transpose()?;
+    let graph = graph_at(&certificate, path, known.parts, options)?;
+    let verified = match certificate.check(Some(&graph)) {
+        Ok(verified) => verified,
+        Err(failure) => return Ok(Err(failure)),
+    };
+    let known = verified.displacements.as_ref().map(|known| &known.sha256);
+    if expected.is_some() && known != expected.as_ref() {
+        let reason = match known {
+            Some(_) => "other displacements are supposed to be known than those of the file",
+            None => "no displacements are supposed to be known",
+        };
+        return Ok(Err(Failure::Rejected(Rejection {
+            step: "displacements".into(),
+            reason: reason.into(),
+        })));
+    }
+    Ok(Ok(Proved::new(&verified)))
+}
+
+/// The hash of the displacements in a file, in the names of the graph that a certificate is about.
+///
+/// # Errors
+/// If there is no such graph; those of the file.
+fn supposed(
+    certificate: &Certificate,
+    path: &Path,
+    options: &ReadOptions,
+    file: &Path,
+) -> Result<String> {
+    let name = path
+        .to_str()
+        .context("the path of the graph is not UTF-8")?;
+    let mut first = None;
+    for input in read_graphs(name, options) {
+        let input = input?;
+        let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
+        if wanted || first.is_none() {
+            first = Some(input);
+        }
+        if wanted {
+            break;
+        }
+    }
+    let input = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    Ok(hex(&read_displacements(file, &input)?.known.sha256()))
 }
 
 /// The graph in a file that a certificate is about; see [`check_for`].

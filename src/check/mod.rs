@@ -41,6 +41,10 @@ pub(super) struct CheckArguments {
     tracks: TrackArguments,
     #[command(flatten)]
     parts: PartArguments,
+    /// The displacements that the certificate has to suppose, in the names of the graph (as for
+    /// `verify GRAPH`): others, or none, are a rejection.
+    #[arg(long, value_name = "FILE", requires = "graph")]
+    displacements: Option<PathBuf>,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -92,7 +96,11 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
                 tracks,
                 ..arguments.input.read_options()
             };
-            checker::check_for(&text, graph, parts, options)?
+            let known = checker::Known {
+                parts,
+                displacements: arguments.displacements.as_deref(),
+            };
+            checker::check_for(&text, graph, known, options)?
         }
     };
     let mut out = std::io::stdout().lock();

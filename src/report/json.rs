@@ -24,6 +24,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tracks: Option<TrackLine>,
     model: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    displacements: Option<DisplacementLine>,
     #[serde(flatten)]
     answer: AnswerLine,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -59,6 +61,25 @@ impl<'a> GraphLine<'a> {
 /// How many known parts a verdict rests on, if any.
 pub(super) fn parts(verdict: &Verdict) -> Option<usize> {
     Some(verdict.known_parts.len()).filter(|&parts| parts > 0)
+}
+
+/// Which displacements are supposed to be known, if any.
+#[derive(Serialize)]
+struct DisplacementLine {
+    groups: usize,
+    cameras: usize,
+    sha256: String,
+}
+
+impl DisplacementLine {
+    fn new(verdict: &Verdict) -> Option<Self> {
+        let known = &verdict.displacements;
+        (!known.is_empty()).then(|| Self {
+            groups: known.groups().len(),
+            cameras: known.nodes(),
+            sha256: hex(&known.sha256()),
+        })
+    }
 }
 
 /// What is decided, and how strong it is.
@@ -160,6 +181,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
             .zip(input.tracks.as_ref())
             .map(|(cameras, facts)| TrackLine::new(cameras, facts)),
         model: verdict.model.name(),
+        displacements: DisplacementLine::new(verdict),
         answer: AnswerLine::from(report),
         conditions: report.scope.conditions(),
         planar: report.scope.planar(),

@@ -27,6 +27,15 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
+    if !verdict.displacements.is_empty() {
+        let known = &verdict.displacements;
+        writeln!(
+            out,
+            "  known       displacements between {} in {}",
+            counted(known.nodes(), "camera"),
+            counted(known.groups().len(), "group")
+        )?;
+    }
     writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(report))?;
     for condition in report.scope.conditions() {
@@ -120,6 +129,15 @@ pub(super) fn reason(report: &Report) -> String {
     };
     if nodes == 1 {
         return "a single camera has nothing to be relative to".into();
+    }
+    let is_scaled = !verdict.displacements.is_empty();
+    if verdict.pieces.is_empty() && verdict.value == Value::Solvable && is_scaled {
+        return match verdict.contraction.bodies.len() {
+            1 => format!("the displacements of all {nodes} cameras are known"),
+            _ => {
+                format!("known displacements and pairs merge into one body of all {nodes} cameras")
+            }
+        };
     }
     if verdict.pieces.is_empty() && verdict.value == Value::Solvable {
         return match verdict.contraction.bodies.len() {

@@ -374,10 +374,12 @@ class Core:
         if self.n > check.core_limit:
             raise TooLarge(f"{where}: the core has {self.n} nodes, the limit is {check.core_limit}")
         number = {node: k for k, node in enumerate(self.nodes)}
-        self.owner = {}
-        for member in group:
+        self.owner, self.scales = {}, []
+        for member in sorted(group, key=lambda member: (type(member) is not int, member)):
             shared = sorted(number[node] for node in check.nodes(member) if node in number)
             need(len(shared) >= 2, f"{where}: body {member} has less than two nodes of the core")
+            if check.is_scaled([member]):
+                self.scales.append((shared[0], shared[1]))
             for edge in list(zip(shared, shared[1:])) + list(zip(shared, shared[2:])):
                 need(edge not in self.owner, f"{where}: a core edge arises twice")
                 self.owner[edge] = member
@@ -446,6 +448,9 @@ def bearing_rows(core, centres, p):
             row.update({3 * j + k: -a[k] % p for k in range(3) if a[k]})
             rows.append(row)
         directions.append(pair)
+    for i, j in core.scales:
+        q = next(k for k in range(3) if centres[i][k] != centres[j][k])
+        rows.append({3 * i + q: 1, 3 * j + q: p - 1})
     return rows, directions
 
 
@@ -645,10 +650,11 @@ def edge_translation(edge, centres, vector, p):
 class Piece:
     """What the evidence of a piece proves: ranks are those of the piece, not of its core."""
 
-    def __init__(self, nodes, required):
+    def __init__(self, nodes, required, scaled):
         self.nodes, self.required = nodes, required
         self.lower = self.upper = required
         self.components = 1
+        self.scaled = scaled  # the components with a known displacement, as sets of nodes
         self.drawn = self.error = None  # the rank by draws and its error bound
         self.errors = []  # of the separations that the number of components rests on
 
@@ -675,11 +681,13 @@ class Check:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        more = [name for name in ("solutions", "parts") if type(document) is dict and name in document]
+        names_of_more = ("displacements", "parts", "solutions")
+        more = [name for name in names_of_more if type(document) is dict and name in document]
         form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
             document, " ".join([names, *more]), "section 3: the document"
         )
         stated = dict(zip(more, values))
+        need("displacements" not in stated or "parts" not in stated, "section 3: displacements and parts at once")
         optional = [name for name in more if name == "solutions"]
         solutions = [stated[name] for name in optional]
         need(form == "viewcert certificate", "section 3: the format is another")
@@ -692,9 +700,12 @@ class Check:
             given = [] if parts_data is None else read_parts(parts_data, self.graph)
             need(self.parts == given, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
-        # Section 5: the known parts are bodies from the start.
+        # Section 5: what is known is there from the start.
         self.bodies = [frozenset(part) for part in self.parts]
-        self.final = set(range(len(self.bodies)))
+        self.final, self.scaled = set(range(len(self.bodies))), set()
+        self.groups = []
+        if "displacements" in stated:
+            self.check_displacements(stated["displacements"])
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
@@ -732,6 +743,23 @@ class Check:
         need(all(a < b for a, b in zip(value, value[1:])), "section 3: the known parts are not increasing")
         return value
 
+    def check_displacements(self, value):
+        """Section 3, displacements, and section 5: each group is a scaled body."""
+        where, seen = "section 3: displacements", set()
+        need(self.model == "calibrated", f"{where}: calibrated model only")
+        need(a_list(value, where), f"{where}: there is no group")
+        for k, group in enumerate(value):
+            at = f"{where}: group {k}"
+            group = [an_int(node, at, least=0, below=self.graph.n) for node in a_list(group, at)]
+            need(len(increasing(group, at)) >= 2, f"{at} has less than two nodes")
+            need(not seen & set(group), f"{at} shares a node with another")
+            seen.update(group)
+            self.groups.append(group)
+            self.bodies.append(frozenset(group))
+            self.final.add(k)
+            self.scaled.add(k)
+        increasing([group[0] for group in self.groups], f"{where}: first nodes")
+
     def check_claim_form(self, optional):
         """Section 3: the claim, as far as it can be judged without the evidence."""
         parts = ["verdict", "rank", "components", *optional]
@@ -756,10 +784,14 @@ class Check:
             else:
                 need(an_int(error, f"{where}: error_log2") <= -100, f"{where}: the error bound is above 2^-100")
 
-    def required(self, n):
+    def required(self, n, scaled=False):
         """Section 6: the rank of a rigid graph with n nodes."""
         a, b = {"projective": (11, 15), "calibrated": (3, 4), "affine": (8, 12)}[self.model]
-        return a * n - b
+        return a * n - b + int(scaled)
+
+    def is_scaled(self, group):
+        """Section 6: whether one of these members is a scaled body."""
+        return any(type(member) is int and member in self.scaled for member in group)
 
     def nodes(self, member):
         return self.bodies[member] if type(member) is int else member
@@ -773,6 +805,7 @@ class Check:
             where = f"section 5: body {k}"
             seed, add, merge = members(value, "seed add merge", where)
             body = set(self.body_or_edge(seed, where))
+            scaled = self.is_scaled([seed])
             for step in a_list(add, f"{where}: add"):
                 need(type(step) is list and len(step) == 3, f"{where}: {step} is not [v, a, b]")
                 v, a, b = (an_int(node, f"{where}: add") for node in step)
@@ -788,7 +821,11 @@ class Check:
                 need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
                 need(size != 3 or self.model == "calibrated", f"{where}: a cycle of four is no body in the {self.model} model")
                 need(size != 5 or self.model == "projective", f"{where}: six bodies are merged in the projective model only")
-                need(len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
+                single = size == len(at) == 1
+                need(single or len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
+                both = scaled and self.is_scaled(others)
+                need(not single or both, f"{where}: only scaled bodies are merged at one node")
+                scaled = scaled or self.is_scaled(others)
                 need(distinct(at), f"{where}: the nodes of at are not different")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
                 others = [self.body_or_edge(other, where) for other in others]
@@ -810,6 +847,8 @@ class Check:
                 body.update(*others)
             self.bodies.append(frozenset(body))
             self.final.add(k)
+            if scaled:
+                self.scaled.add(k)
 
     def body_or_edge(self, value, where):
         """Section 5: an edge, or an earlier body, which is consumed."""
@@ -877,15 +916,16 @@ class Check:
                 ours, theirs = find(("piece", k)), find(node)
                 need(ours != theirs, f"{where}pieces: a cycle of pieces through node {node}")
                 leader[ours] = theirs
-            pieces.append(Piece(len(nodes), self.required(len(nodes))))
+            scaled = self.is_scaled(group)
+            pieces.append(Piece(len(nodes), self.required(len(nodes), scaled), [nodes] if scaled else []))
         for k, (group, proofs, piece) in enumerate(zip(groups, evidence, pieces[len(singles) :])):
             need(len(group) >= 2, f"{where}piece {k} has less than two members")
             self.check_evidence(group, proofs, piece, f"{where}piece {k}: ")
         return pieces, len(singles)
 
-    def core_rank_to_rank(self, rank, core, nodes):
+    def core_rank_to_rank(self, rank, core, piece):
         """Section 6: a graph lacks as much as its core."""
-        return self.required(nodes) - (self.required(core.n) - rank)
+        return piece.required - (self.required(core.n, bool(core.scales)) - rank)
 
     # Section 7 -------------------------------------------------------------------------------------------------------
 
@@ -906,18 +946,18 @@ class Check:
         piece.upper = min(bounds + [piece.required])
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
-        lower = [(self.core_rank_to_rank(rank, core, piece.nodes), value) for rank, value in lower]
+        lower = [(self.core_rank_to_rank(rank, core, piece), value) for rank, value in lower]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
-        counted = counted_rank(core.n, core.edges, self.model)
+        counted = None if core.scales else counted_rank(core.n, core.edges, self.model)
         if counted is not None:
             # Not a condition of the page: what elimination found must be what counting alone finds.
-            rank = self.core_rank_to_rank(counted, core, piece.nodes)
+            rank = self.core_rank_to_rank(counted, core, piece)
             need(piece.lower <= rank <= piece.upper, f"{where}the rank by counting is {rank}")
         draws, seed = (), None
         for value, at in kinds["draws"]:
             rank, seed, draws, piece.error = self.check_draws(value, core, at)
-            piece.drawn = self.core_rank_to_rank(rank, core, piece.nodes)
+            piece.drawn = self.core_rank_to_rank(rank, core, piece)
             need(piece.lower <= piece.drawn, f"{where}a lower bound is above the rank of draws")
         used, proved = set(), False
         for value, at in kinds["kernel"]:
@@ -927,7 +967,7 @@ class Check:
             elif bounds and piece.lower == min(bounds):
                 proved = proved or any(rank == piece.lower and flow_key(low) == key for rank, low in lower)
         if classes:
-            piece.components, piece.errors = sum(count for _, count, _ in classes), classes[0][2]
+            _, piece.components, piece.errors, piece.scaled = classes[0]
             if not proved:
                 need(draws and len(used) == len(draws), f"{where}the classes are not separated")
                 piece.errors = piece.errors + [piece.error]
@@ -937,7 +977,7 @@ class Check:
     def check_lower(self, value, core, where):
         """Section 7: a lower bound on the rank of the core."""
         rank = self.LOWER[value["kind"]](self, value, core, where)
-        need(rank <= self.required(core.n), f"{where}: more than the required rank")
+        need(rank <= self.required(core.n, bool(core.scales)), f"{where}: more than the required rank")
         return rank
 
     def prime_seed_draw(self, prime, seed, draw, where):
@@ -1016,8 +1056,8 @@ class Check:
         names = "kind prime seed draw rows cols flows lambda_rows lambda_cols"
         _, prime, seed, draw, rows, cols, flows, lambda_rows, lambda_cols = members(value, names, where)
         p, seed, draw = self.prime_seed_draw(prime, seed, draw, where)
-        rows, cols = self.pivots(rows, cols, 2 * core.m, 3 * core.n, where)
-        flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m - len(rows) + 1)
+        rows, cols = self.pivots(rows, cols, 2 * core.m + len(core.scales), 3 * core.n, where)
+        flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m + len(core.scales) - len(rows) + 1)
         lambda_rows, lambda_cols = self.pivots(lambda_rows, lambda_cols, 4 * flows, core.m, f"{where}: lambda")
         centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
         need(centres, f"{where}: the draw is void, two centres agree")
@@ -1093,7 +1133,7 @@ class Check:
             bodies, edges, hubs = members(block, "bodies edges hubs", at)
             groups.append(self.read_group(bodies, edges, at))
             need(all(member in group for member in groups[-1]), f"{at}: a member is not one of the piece")
-            total += self.required(len(self.union(groups[-1])))
+            total += self.required(len(self.union(groups[-1])), self.is_scaled(groups[-1]))
             need(len(a_list(hubs, f"{at}: hubs")) <= 1, f"{at}: more than one hub")
             for hub in hubs:
                 total -= self.check_hub(hub, groups[-1], f"{at}: hub")
@@ -1152,7 +1192,8 @@ class Check:
         return rank, seed, draws_of(self.graph.hash, core.hash, core.n, seed, count), -count * (56 - length)
 
     def check_classes(self, value, group, where):
-        """Section 7, classes: the class of each member, the number of components, error bounds inside of classes."""
+        """Section 7, classes: the class of each member, the number of components, error bounds inside of classes, and the
+        nodes of each scaled component."""
         _, classes = members(value, "kind classes", where)
         need(len(a_list(classes, f"{where}: classes")) >= 2, f"{where}: less than two classes")
         parsed = []
@@ -1161,25 +1202,27 @@ class Check:
             a_list(evidence, f"{where}: class {k}: evidence")
             parsed.append((self.read_group(bodies, edges, f"{where}: class {k}"), evidence, split))
         self.partition([parsed_group for parsed_group, _, _ in parsed], set(group), f"{where}: classes")
-        of, components, errors = {}, 0, []
+        of, components, errors, scaled = {}, 0, [], []
         for k, (inside, evidence, split) in enumerate(parsed):
             at = f"{where}: class {k}"
             of.update((member, k) for member in inside)
             if split is None:
                 components += 1
+                scaled += [self.union(inside)] if self.is_scaled(inside) else []
                 if len(inside) > 1:
                     self.check_rigid_class(inside, evidence, at)
                 else:
                     need(not evidence, f"{at}: a single member needs no evidence")
             else:
-                need(self.projective, f"{at}: split is for the projective model only")
+                need(self.projective or self.is_scaled(inside), f"{at}: split is for the projective model only")
                 need(len(inside) > 1, f"{at}: a single member is not split")
                 need(not evidence, f"{at}: evidence and split")
                 rigid, values = members(split, "rigid pieces", f"{at}: split")
                 pieces, singles = self.check_pieces(rigid, values, set(inside), f"{at}: split: ")
                 components += sum(piece.components for piece in pieces)
                 errors += [error for piece in pieces for error in piece.errors]
-        return of, components, errors
+                scaled += [nodes for piece in pieces for nodes in piece.scaled]
+        return of, components, errors, scaled
 
     def check_rigid_class(self, inside, evidence, where):
         need(evidence, f"{where}: neither evidence nor split")
@@ -1189,7 +1232,7 @@ class Check:
             need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")
             need(value["kind"] in self.LOWER, f"{where}: the evidence is no lower bound")
             best.append(self.check_lower(value, core, f"{where}: {value['kind']}"))
-        need(max(best) == self.required(core.n), f"{where}: the class is not shown to be rigid")
+        need(max(best) == self.required(core.n, bool(core.scales)), f"{where}: the class is not shown to be rigid")
 
     def check_kernel(self, value, core, class_of, seed_of_draws, draws, where):
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
@@ -1212,6 +1255,8 @@ class Check:
                 edge, centres, vector, p
             )
             need(motion is not None, f"{where}: no motion on the core edge {edge}")
+            fixed = self.is_scaled([core.owner[edge]])
+            need(not fixed or motion[0] == 0, f"{where}: the known length of the core edge {edge} changes")
             k = class_of[core.owner[edge]]
             need(motion_of.setdefault(k, motion) == motion, f"{where}: class {k} does not move as one")
         need(distinct(list(motion_of.values())), f"{where}: two classes move as one")
@@ -1232,14 +1277,15 @@ class Check:
     def claim_of(self, pieces, singles, numbers=None):
         """Section 8: the claim that the evidence gives; `numbers` are those of solutions, if they are bounded."""
         n = self.graph.n
-        required = self.required(n) if n > 1 else 0
+        required = self.required(n, bool(self.groups)) if n > 1 else 0
         if n == 1:
             return {"verdict": stated("solvable"), "rank": {**stated(0), "required": 0}, "components": stated(0)}
         lower, upper = sum(piece.lower for piece in pieces), sum(piece.upper for piece in pieces)
         whole = len(pieces) == 1 and pieces[0].nodes == n
         low = [piece for piece in pieces if piece.drawn is not None and piece.drawn < piece.upper]
+        known = self.groups and lower == required  # section 8: however many pieces there are
         unique = singles or not self.projective and lower == required or numbers is not None and numbers[1] == 1
-        if whole and unique:
+        if known or whole and unique:
             verdict = stated("solvable")
         elif whole and lower == required:
             verdict = stated("finite-solvable")
@@ -1252,7 +1298,10 @@ class Check:
         need(all(piece.drawn == piece.lower for piece in gaps), "section 8: the rank is not shown")
         rank = stated(lower, bound_sum([piece.error for piece in gaps]) if gaps else None)
         errors = [error for piece in pieces for error in piece.errors]
-        components = stated(sum(piece.components for piece in pieces), bound_sum(errors) if errors else None)
+        scaled = [nodes for piece in pieces for nodes in piece.scaled]
+        joined = len(scaled) - count_components(scaled)
+        count = sum(piece.components for piece in pieces) - joined
+        components = stated(count, bound_sum(errors) if errors else None)
         claim = {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
         if numbers is not None:
             claim["solutions"] = {"at_least": numbers[0], "at_most": numbers[1], "strength": "proof", "error_log2": None}
@@ -1265,6 +1314,16 @@ class Check:
                 claimed = self.claim[name][member]
                 reason = f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}"
                 need(same(claimed, value), reason)
+
+    def supposed(self):
+        """Section 3: what is supposed besides the graph, with its hash."""
+        if not self.groups:
+            return []
+        form = b"viewcert displacements 1\n" + struct.pack("<Q", len(self.groups))
+        for group in self.groups:
+            form += struct.pack(f"<Q{len(group)}I", len(group), *group)
+        count, digits = sum(map(len, self.groups)), hashlib.sha256(form).hexdigest()
+        return [f"displacements: supposed to be known, {count} nodes in groups: {len(self.groups)}, SHA-256 {digits}"]
 
     def statements(self):
         """What was verified, for people."""
@@ -1282,6 +1341,7 @@ class Check:
         return [
             f"graph: {graph.n} nodes, {len(graph.edges)} edges, SHA-256 {graph.hash.hex()}",
             *parts,
+            *self.supposed(),
             f"{self.model}: {verdict['value']} ({strength(verdict)})",
             f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
             f"components: {components['value']} maximal ({strength(components)})",

@@ -17,11 +17,13 @@ import check  # noqa: E402
 import notation  # noqa: E402
 import solutions  # noqa: E402
 import test_check  # noqa: E402
+import test_displacements  # noqa: E402
 import test_parts  # noqa: E402
 import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
-CHECKER, TESTS = (check, notation, solutions), (test_check, test_parts, test_pebbles, test_solutions)
+CHECKER = (check, notation, solutions)
+TESTS = (test_check, test_displacements, test_parts, test_pebbles, test_solutions)
 REFUSALS = (check.Reject, check.Unreadable, check.TooLarge)
 
 

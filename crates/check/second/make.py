@@ -64,6 +64,7 @@ class Maker:
 
     required = check.Check.required
     union = check.Check.union
+    is_scaled, scaled = check.Check.is_scaled, frozenset()
 
     def merge_once(self):
         """One step of section 5; False if there is none left."""

@@ -8,25 +8,45 @@ use std::collections::HashSet;
 
 type Nodes = HashSet<u32>;
 
-/// The nodes of all bodies, of which the known parts are the first (theory, Theorem 4.14); `None`
-/// for those that are consumed.
+/// A body.
+pub(crate) struct Rebuilt {
+    pub nodes: Nodes,
+    /// Whether it holds a known displacement.
+    pub scaled: bool,
+}
+
+/// What is known besides the pairs: bodies from the start. At most one of the two is not empty.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    /// Known parts (theory, Theorem 4.14).
+    pub parts: &'a [Vec<u32>],
+    /// Groups of displacements, whose scale is known too (theory, Theorem 13.16).
+    pub groups: &'a [Vec<u32>],
+}
+
+/// All bodies, first what is known; `None` for those that are consumed.
 pub(crate) fn build_all(
     graph: &Graph,
     model: Model,
-    parts: &[Vec<u32>],
+    known: Known,
     list: &[Body],
-) -> Checked<Vec<Option<Nodes>>> {
-    let parts = parts
-        .iter()
-        .map(|part| Some(part.iter().copied().collect()));
+) -> Checked<Vec<Option<Rebuilt>>> {
+    let body = |nodes: &Vec<u32>, scaled| {
+        Some(Rebuilt {
+            nodes: nodes.iter().copied().collect(),
+            scaled,
+        })
+    };
+    let parts = known.parts.iter().map(|part| body(part, false));
+    let groups = known.groups.iter().map(|group| body(group, true));
     let mut builder = Builder {
         graph,
         model,
-        earlier: parts.collect(),
+        earlier: parts.chain(groups).collect(),
     };
     for (k, body) in list.iter().enumerate() {
-        let nodes = builder.build(body).within(|| format!("bodies[{k}]"))?;
-        builder.earlier.push(Some(nodes));
+        let body = builder.build(body).within(|| format!("bodies[{k}]"))?;
+        builder.earlier.push(Some(body));
     }
     Ok(builder.earlier)
 }
@@ -35,28 +55,31 @@ pub(crate) fn build_all(
 struct Builder<'a> {
     graph: &'a Graph,
     model: Model,
-    /// The nodes of the bodies so far; `None` for those that are consumed.
-    earlier: Vec<Option<Nodes>>,
+    /// The bodies so far; `None` for those that are consumed.
+    earlier: Vec<Option<Rebuilt>>,
 }
 
 impl Builder<'_> {
-    fn build(&mut self, body: &Body) -> Checked<Nodes> {
-        let mut nodes = self.take(body.seed).within(|| "seed".into())?;
+    fn build(&mut self, body: &Body) -> Checked<Rebuilt> {
+        let mut built = self.take(body.seed).within(|| "seed".into())?;
         for (k, &[v, a, b]) in body.add.iter().enumerate() {
-            let added = self.add(&mut nodes, v, [a, b]);
+            let added = self.add(&mut built.nodes, v, [a, b]);
             added.within(|| format!("add[{k}]"))?;
         }
         for (k, step) in body.merge.iter().enumerate() {
-            let merged = self.merge(&mut nodes, step);
+            let merged = self.merge(&mut built, step);
             merged.within(|| format!("merge[{k}]"))?;
         }
-        Ok(nodes)
+        Ok(built)
     }
 
     /// An earlier body, which is consumed by this, or an edge.
-    fn take(&mut self, source: Source) -> Checked<Nodes> {
+    fn take(&mut self, source: Source) -> Checked<Rebuilt> {
         match source {
-            Source::Edge(pair) => self.graph.edge(pair).map(|_| Nodes::from(pair)),
+            Source::Edge(pair) => self.graph.edge(pair).map(|_| Rebuilt {
+                nodes: Nodes::from(pair),
+                scaled: false,
+            }),
             Source::Body(k) => {
                 let body = self.earlier.get_mut(k as usize).and_then(Option::take);
                 let wrong = || format!("body {k} is not an earlier one, or is used a second time");
@@ -78,23 +101,32 @@ impl Builder<'_> {
     }
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
-    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3).
-    fn merge(&mut self, nodes: &mut Nodes, step: &Merge) -> Checked<()> {
+    /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), and
+    /// two scaled ones that share a node (Theorem 13.16).
+    fn merge(&mut self, body: &mut Rebuilt, step: &Merge) -> Checked<()> {
         let places = self.places(step)?;
         let parts = step.with.iter().map(|&source| self.take(source));
-        let parts = parts.collect::<Checked<Vec<Nodes>>>()?;
+        let parts = parts.collect::<Checked<Vec<Rebuilt>>>()?;
+        ensure!(
+            step.at.len() > 1 || body.scaled && parts.iter().all(|part| part.scaled),
+            "only bodies with known displacements merge at one node"
+        );
         ensure!(
             step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
             "the nodes of `at` are not different"
         );
-        let members: Vec<&Nodes> = std::iter::once(&*nodes).chain(&parts).collect();
+        let members: Vec<&Nodes> = std::iter::once(&*body)
+            .chain(&parts)
+            .map(|member| &member.nodes)
+            .collect();
         for (node, which) in step.at.iter().zip(places) {
             ensure!(
                 which.iter().all(|&k| members[k].contains(node)),
                 "node {node} is not where the merge needs it"
             );
         }
-        unite(nodes, parts);
+        body.scaled |= parts.iter().any(|part| part.scaled);
+        unite(&mut body.nodes, parts.into_iter().map(|part| part.nodes));
         Ok(())
     }
 
@@ -102,6 +134,7 @@ impl Builder<'_> {
     /// `with` follows.
     fn places(&self, step: &Merge) -> Checked<&'static [&'static [usize]]> {
         match (step.with.len(), step.at.len()) {
+            (1, 1) => Ok(&[&[0, 1]]),
             (1, 2) => Ok(&[&[0, 1], &[0, 1]]),
             (2, 3) => Ok(&[&[0, 1], &[0, 2], &[1, 2]]),
             (3, 4) => {
@@ -119,15 +152,15 @@ impl Builder<'_> {
                 Ok(&[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]])
             }
             _ => Err(Failure::rejected(
-                "`with` and `at` have one and two, two and three, three and four, or five and five \
-                 entries",
+                "`with` and `at` have one and one or two, two and three, three and four, or five \
+                 and five entries",
             )),
         }
     }
 }
 
 /// The smaller set goes into the larger one, so that all unions together take n log n steps.
-fn unite(nodes: &mut Nodes, parts: Vec<Nodes>) {
+fn unite(nodes: &mut Nodes, parts: impl Iterator<Item = Nodes>) {
     for mut part in parts {
         if part.len() > nodes.len() {
             std::mem::swap(nodes, &mut part);

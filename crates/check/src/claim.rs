@@ -1,5 +1,6 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
+use crate::displacements::Displacements;
 use crate::document::{
     Claims, ComponentsClaim, GraphName, Model, RankClaim, SolutionsClaim, VerdictClaim,
 };
@@ -63,6 +64,8 @@ pub struct Verified {
     pub parts: usize,
     /// The model that the certificate is about.
     pub model: Model,
+    /// The displacements that are supposed to be known.
+    pub displacements: Option<Displacements>,
     /// The verdict and its strength.
     pub verdict: (Verdict, Strength),
     /// The generic rank of the whole graph and its strength.
@@ -79,17 +82,20 @@ pub struct Verified {
 
 /// Compares the claim with what follows from the pieces and from what was shown of the number of
 /// solutions: its verdict, its rank, its components and this number.
-/// Ranks add up over pieces (theory, Corollaries 4.6, 4.12 and 13.12).
+/// Ranks add up over pieces (theory, Corollaries 4.6, 4.12 and 13.12, Theorem 13.17), and of their
+/// components so many are `joined` to others.
 pub(crate) fn verify(
     claims: &Claims,
     graph: &GraphName,
-    model: Model,
+    (model, displacements): (Model, Option<Displacements>),
     (pieces, count): (&[Piece], Option<Count>),
+    joined: usize,
 ) -> Checked<Verified> {
-    let required = model.required(graph.nodes);
+    let scale = i64::from(displacements.is_some());
+    let required = model.required(graph.nodes) + scale;
     let verdict = check_verdict(
         &claims.verdict,
-        model,
+        (model, displacements.is_some()),
         (pieces, count),
         [required, graph.nodes as i64],
     );
@@ -100,7 +106,7 @@ pub(crate) fn verify(
         claims.rank.required
     );
     let rank = check_rank(&claims.rank, pieces).within(|| "rank".into())?;
-    let components = check_components(&claims.components, pieces);
+    let components = check_components(&claims.components, pieces, joined);
     let components = components.within(|| "components".into())?;
     let solutions = check_solutions(claims.solutions.0.as_ref(), count);
     let solutions = solutions.within(|| "solutions".into())?;
@@ -111,6 +117,7 @@ pub(crate) fn verify(
         sha256: graph.sha256.clone(),
         parts: 0,
         model,
+        displacements,
         verdict,
         rank,
         required,
@@ -120,10 +127,10 @@ pub(crate) fn verify(
     })
 }
 
-/// The verdict (theory, Theorems 1.3, 4.8 and 13.2, Corollary 4.2).
+/// The verdict (theory, Theorems 1.3, 4.8, 13.2 and 13.20, Corollary 4.2).
 fn check_verdict(
     claim: &VerdictClaim,
-    model: Model,
+    model: (Model, bool),
     (pieces, count): (&[Piece], Option<Count>),
     sizes: [i64; 2],
 ) -> Checked<(Verdict, Strength)> {
@@ -160,16 +167,18 @@ fn check_rank(claim: &RankClaim, pieces: &[Piece]) -> Checked<(i64, Strength)> {
 }
 
 /// The number of components, which rests on what separates the classes (theory, Proposition 6.5 and
-/// Theorem 6.8).
-fn check_components(claim: &ComponentsClaim, pieces: &[Piece]) -> Checked<(usize, Strength)> {
+/// Theorems 6.8 and 13.19).
+fn check_components(
+    claim: &ComponentsClaim,
+    pieces: &[Piece],
+    joined: usize,
+) -> Checked<(usize, Strength)> {
     let errors = pieces.iter().map(|piece| piece.separated.clone());
     let errors: Option<Vec<_>> = errors.collect();
     let errors = errors.map(|errors| errors.concat());
+    let all: usize = pieces.iter().map(|piece| piece.components).sum();
     compare(
-        (
-            &claim.value,
-            pieces.iter().map(|piece| piece.components).sum(),
-        ),
+        (&claim.value, all - joined),
         (&claim.strength, claim.error_log2),
         errors.ok_or_else(|| Failure::rejected("classes of a piece are not separated")),
     )
@@ -199,13 +208,17 @@ fn check_solutions(claim: Option<&SolutionsClaim>, found: Option<Count>) -> Chec
 }
 
 /// The verdict that the pieces give, with the errors on which it rests; for a required rank and a
-/// number of nodes.
+/// number of nodes, in a model with or without displacements.
 fn decide(
-    model: Model,
+    (model, has_displacements): (Model, bool),
     pieces: &[Piece],
     [required, nodes]: [i64; 2],
 ) -> Checked<(Verdict, Vec<i64>)> {
     if nodes == 1 {
+        return Ok((Verdict::Solvable, Vec::new()));
+    }
+    let lower: i64 = pieces.iter().map(|piece| piece.lower).sum();
+    if has_displacements && lower == required {
         return Ok((Verdict::Solvable, Vec::new()));
     }
     if let [piece] = pieces
@@ -282,6 +295,7 @@ impl Display for Verified {
             sha256,
             parts,
             model,
+            displacements,
             verdict: (verdict, by),
             rank,
             required,
@@ -300,16 +314,20 @@ impl Display for Verified {
             Verdict::Solvable => "determine uniquely",
         };
         writeln!(f, "graph: {nodes} nodes, {edges} edges, SHA-256 {sha256}")?;
-        let and_parts = match parts {
-            0 => "",
-            _ => " and known parts",
-        };
         if *parts > 0 {
             writeln!(f, "known parts: {parts}, taken for given")?;
         }
+        if let Some(known) = displacements {
+            writeln!(f, "displacements: supposed to be known, {known}")?;
+        }
+        let more = match (displacements, parts) {
+            (Some(_), _) => " and displacements",
+            (None, 0) => "",
+            (None, _) => " and known parts",
+        };
         writeln!(
             f,
-            "{verdict}: generic {given} matrices{and_parts} {answer} the {cameras} ({by})"
+            "{verdict}: generic {given} matrices{more} {answer} the {cameras} ({by})"
         )?;
         writeln!(f, "rank: {} of {required} required ({})", rank.0, rank.1)?;
         write!(f, "components: {} maximal ({})", components.0, components.1)?;

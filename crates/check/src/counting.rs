@@ -6,7 +6,8 @@ use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::{Part, Structure, root, unite};
 
-/// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1 and 5.5).
+/// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1, 5.5
+/// and, with displacements, 13.6).
 pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Part) -> Checked<i64> {
     let (structure, blocks) = (setting.structure, &evidence.blocks);
     let list = blocks.iter().map(|block| (&block.bodies, &block.edges));
@@ -15,7 +16,7 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
         .within(|| "blocks".into())?;
     let mut sum = 0;
     for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
-        sum += setting.model.required(structure.nodes(part).len());
+        sum += setting.required(part);
         ensure!(block.hubs.len() <= 1, "blocks[{k}] has more than one hub");
         ensure!(
             block.hubs.is_empty() || setting.model == Model::Projective,

@@ -19,8 +19,9 @@ pub(crate) type Pair = [u32; 2];
 objects! {
     Document {
         format: Format, version: Version, program: String, graph: GraphName, model: Model,
-        claim: Claims, bodies: Vec<Body>, rigid: Members, pieces: Vec<Piece>,
-        solutions: Optional<Solutions>, parts: Optional<Vec<Vec<u32>>>,
+        displacements: Optional<Vec<Vec<u32>>>, claim: Claims, bodies: Vec<Body>,
+        rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
+        parts: Optional<Vec<Vec<u32>>>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }
     Claims {

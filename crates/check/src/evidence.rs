@@ -21,6 +21,8 @@ pub(crate) struct Piece {
     /// The rank at random draws, with its error.
     pub drawn: Option<(i64, i64)>,
     pub components: usize,
+    /// Those of the components that hold a known displacement.
+    pub scaled: Vec<Part>,
     /// The errors with which classes here and inside of classes are separated; `None` if some are
     /// not.
     pub separated: Option<Vec<i64>>,
@@ -72,7 +74,7 @@ fn parts_of_pieces(pieces: &[document::Piece], setting: &Setting) -> Checked<Vec
 }
 
 /// Sees that pieces are a partition of the whole without a cycle, so that ranks add up over them
-/// and no component lies in two (theory, Lemma 4.7, Theorems 4.3, 4.10 and 13.10).
+/// and no component lies in two (theory, Lemma 4.7, Theorems 4.3, 4.10, 13.10 and 13.17).
 fn check_division(parts: &[Part], setting: &Setting, whole: &Part) -> Checked<()> {
     setting.structure.owners(whole, parts)?;
     setting.structure.check_acyclic(parts)
@@ -80,17 +82,25 @@ fn check_division(parts: &[Part], setting: &Setting, whole: &Part) -> Checked<()
 
 /// A piece that is a single member.
 fn rigid_piece(setting: &Setting, part: &Part) -> Piece {
-    let nodes = setting.structure.nodes(part).len();
-    let rank = setting.model.required(nodes);
+    let rank = setting.required(part);
     Piece {
-        nodes,
+        nodes: setting.structure.nodes(part).len(),
         is_rigid: true,
         lower: rank,
         upper: rank,
         drawn: None,
         components: 1,
+        scaled: scaled(setting, part),
         separated: Some(Vec::new()),
         notes: Vec::new(),
+    }
+}
+
+/// A component, if it holds a known displacement.
+fn scaled(setting: &Setting, component: &Part) -> Vec<Part> {
+    match setting.structure.is_scaled(component) {
+        true => vec![component.clone()],
+        false => Vec::new(),
     }
 }
 
@@ -102,19 +112,22 @@ struct Classes {
     /// The pieces inside of classes that are split, and the number of the other classes.
     inside: Vec<Piece>,
     others: usize,
+    /// The scaled ones among these.
+    scaled: Vec<Part>,
 }
 
 impl Classes {
-    /// The number of components, and the errors with which all classes are separated, given those
-    /// for the classes themselves (theory, Theorem 6.3).
-    fn components(self, own: Option<Vec<i64>>) -> (usize, Option<Vec<i64>>) {
-        let (mut components, mut separated) = (self.others, own);
+    /// The number of components, the scaled ones, and the errors with which all classes are
+    /// separated, given those for the classes themselves (theory, Theorem 6.3).
+    fn components(self, own: Option<Vec<i64>>) -> (usize, Vec<Part>, Option<Vec<i64>>) {
+        let (mut components, mut scaled, mut separated) = (self.others, self.scaled, own);
         for piece in self.inside {
             components += piece.components;
+            scaled.extend(piece.scaled);
             let errors = separated.zip(piece.separated);
             separated = errors.map(|(errors, inside)| [errors, inside].concat());
         }
-        (components, separated)
+        (components, scaled, separated)
     }
 }
 
@@ -136,10 +149,11 @@ fn check_piece(evidence: &[Evidence], setting: &Setting, piece: &Part) -> Checke
     let nodes = setting.structure.nodes(piece).len();
     let sizes = Sizes {
         nodes,
-        required: setting.model.required(nodes),
-        core_required: setting.model.required(core.nodes),
+        required: setting.required(piece),
+        core_required: setting.required_of_core(&core),
     };
-    Shown::all(evidence, setting, piece, &core, &sizes)?.conclude(&sizes)
+    let whole = scaled(setting, piece);
+    Shown::all(evidence, setting, piece, &core, &sizes)?.conclude(&sizes, whole)
 }
 
 /// What relates a piece to its core.
@@ -152,7 +166,7 @@ struct Sizes {
 
 impl Sizes {
     /// The rank of the piece if that of the core is given: the same number is missing to what is
-    /// required (theory, Corollaries 4.5, 4.12 and 13.12).
+    /// required (theory, Corollaries 4.5, 4.12 and 13.12, Theorem 13.18).
     fn of_piece(&self, rank: i64) -> i64 {
         self.required - (self.core_required - rank)
     }
@@ -223,17 +237,17 @@ impl Shown {
         check_kernel(kernel, setting, core, classes, self.drawn.as_ref())
     }
 
-    /// What follows for the piece.
-    fn conclude(self, sizes: &Sizes) -> Checked<Piece> {
+    /// What follows for the piece; `whole` is the piece itself if it is scaled.
+    fn conclude(self, sizes: &Sizes, whole: Vec<Part>) -> Checked<Piece> {
         let lower = self.lower(sizes)?;
         self.check_consistent(lower)?;
         self.check_one_component(lower, sizes)?;
         let drawn = self.drawn.as_ref();
         let drawn = drawn.map(|drawn| (sizes.of_piece(drawn.rank), drawn.error));
         let own_errors = self.separation(|bound| sizes.of_piece(bound.rank) == self.upper);
-        let (components, separated) = match self.classes {
+        let (components, scaled, separated) = match self.classes {
             Some(classes) => classes.components(own_errors),
-            None => (1, own_errors),
+            None => (1, whole, own_errors),
         };
         let notes = self.bounds.into_iter().filter_map(|bound| bound.note);
         Ok(Piece {
@@ -243,6 +257,7 @@ impl Shown {
             upper: self.upper,
             drawn,
             components,
+            scaled,
             separated,
             notes: notes.collect(),
         })
@@ -317,10 +332,14 @@ fn check_classes(
         count: parts.len(),
         inside: Vec::new(),
         others: 0,
+        scaled: Vec::new(),
     };
     for (k, (part, class)) in parts.iter().zip(&evidence.classes).enumerate() {
         let inside = check_class(class, setting, part).within(|| format!("classes[{k}]"))?;
-        classes.others += usize::from(inside.is_none());
+        if inside.is_none() {
+            classes.others += 1;
+            classes.scaled.extend(scaled(setting, part));
+        }
         classes.inside.extend(inside.into_iter().flatten());
     }
     Ok(classes)
@@ -350,7 +369,8 @@ fn check_class(
 }
 
 /// Verifies the pieces of a class that is not rigid by itself (theory, Theorem 6.3); only the
-/// projective model has such classes (Theorems 6.8 and 13.13).
+/// projective model has such classes (Theorems 6.8 and 13.13), and displacements, whose components
+/// may hang together in scaled ones (Theorem 13.17).
 fn check_split(
     class: &document::Class,
     split: &document::Split,
@@ -358,7 +378,7 @@ fn check_split(
     part: &Part,
 ) -> Checked<Vec<Piece>> {
     ensure!(
-        setting.model == Model::Projective,
+        setting.model == Model::Projective || setting.structure.is_scaled(part),
         "a split class in the {} model",
         setting.model
     );
@@ -372,7 +392,7 @@ fn check_split(
 /// Sees that a class is proved to be rigid by itself.
 fn check_rigid_class(evidence: &[Evidence], setting: &Setting, part: &Part) -> Checked<()> {
     let core = setting.structure.core(part)?;
-    let required = setting.model.required(core.nodes);
+    let required = setting.required_of_core(&core);
     let mut is_rigid = false;
     for (k, one) in evidence.iter().enumerate() {
         let bound = check_lower(one, setting, &core);

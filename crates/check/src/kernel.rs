@@ -28,7 +28,7 @@ struct Centres {
 }
 
 /// Verifies `kernel`, for classes of which `owner` has that of each member; returns where it tells
-/// them apart (theory, Proposition 6.7, Theorems 6.8 and 13.13).
+/// them apart (theory, Proposition 6.7, Theorems 6.8, 13.13 and 13.19).
 pub(crate) fn check_kernel(
     kernel: &Kernel,
     setting: &Setting,
@@ -50,7 +50,15 @@ pub(crate) fn check_kernel(
         _ => 1,
     };
     let vector = residues(kernel, 3 * columns * core.nodes, &field)?;
-    let motion = |edge| edge_motion(&field, setting, core, &centres, &vector, edge);
+    let motion = |edge| {
+        let motion = edge_motion(&field, setting, core, &centres, &vector, edge)?;
+        // X = (t, -s) in the only model with known lengths.
+        ensure!(
+            !core.is_scaled[edge] || motion[3] == 0,
+            "the known length of the core edge {edge} changes"
+        );
+        Ok(motion)
+    };
     check_apart(core, (owner, classes), motion)?;
     Ok(place)
 }

@@ -13,18 +13,19 @@
 //! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
-//! | bodies come from parts and merges | 5 | 4.1, 4.9, 4.14, 13.9 | `bodies` |
+//! | displacements are well formed | 3 | 13.16 | `displacements` |
+//! | bodies come from parts and merges | 5 | 4.1, 4.9, 4.14, 13.9, 13.16 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
-//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10 | `evidence` |
-//! | cores are formed | 6 | 4.4, 4.11, 13.11 | `structure` |
+//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `evidence` |
+//! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
 //! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
 //! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5 | `counting` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
-//! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13 | `kernel` |
+//! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | the number of solutions | 12 | 10.2 to 10.14 | `solutions`, a file for each kind |
-//! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2 | `claim` |
+//! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
 //! 4), `matrices`, `elimination` and `algebra` compute, `limits` bounds what that may cost (section
@@ -35,6 +36,7 @@ mod bodies;
 mod cameras;
 mod claim;
 mod counting;
+mod displacements;
 mod document;
 mod draws;
 mod elimination;
@@ -58,6 +60,7 @@ mod solutions;
 mod structure;
 
 pub use claim::{Strength, Verdict, Verified};
+pub use displacements::Displacements;
 pub use document::Model;
 pub use graph::{Graph, Labels};
 pub use limits::Limits;
@@ -141,7 +144,17 @@ impl Certificate {
         let parts = parts::check(document.parts.0.as_ref(), graph.nodes(), given);
         let parts = parts.within(|| "parts".into())?;
         let meter = &limits::Meter::new(limits);
-        let bodies = (parts, &document.bodies[..]);
+        let groups = document.displacements.0.as_deref();
+        let known = groups.map(|groups| {
+            let known = displacements::check_groups(groups, model, graph.nodes(), parts);
+            known.within(|| "displacements".into())
+        });
+        let known = known.transpose()?;
+        let from_start = bodies::Known {
+            parts,
+            groups: groups.unwrap_or_default(),
+        };
+        let bodies = (from_start, &document.bodies[..]);
         let structure = &structure::Structure::new(&graph, model, bodies, meter)?;
         let setting = setting::Setting {
             model,
@@ -161,7 +174,13 @@ impl Certificate {
             count.within(|| "solutions".into())
         });
         let count = evidence.transpose()?;
-        let verified = claim::verify(&document.claim, name, model, (&pieces, count));
+        let scaled: Vec<_> = pieces
+            .iter()
+            .flat_map(|piece| piece.scaled.clone())
+            .collect();
+        let joined = structure.count_joined(&scaled);
+        let found = (&pieces[..], count);
+        let verified = claim::verify(&document.claim, name, (model, known), found, joined);
         let verified = verified.within(|| "claim".into())?;
         Ok(Verified {
             parts: parts.len(),

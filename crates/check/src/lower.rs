@@ -28,7 +28,7 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
         Evidence::PlaneMinor(minor) => check_plane_minor(minor, setting, core)?,
         _ => return Err(Failure::rejected("not a lower bound")),
     };
-    let most = setting.model.required(core.nodes);
+    let most = setting.required_of_core(core);
     ensure!(
         lower.rank <= most,
         "a rank of {} is impossible for {} nodes",

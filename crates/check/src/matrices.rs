@@ -100,6 +100,17 @@ pub(crate) fn bearings(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<
     rows
 }
 
+/// The rows of N for edges whose length is known, behind those of the directions: two entries
+/// (theory, Theorem 13.18).
+pub(crate) fn lengths(field: &Field, core: &Core, centres: &[[u64; 3]]) -> Vec<[(usize, u64); 2]> {
+    let row = |&(i, j): &(usize, usize)| {
+        let q = (0..3).find(|&k| centres[i][k] != centres[j][k]);
+        let q = q.unwrap_or(0);
+        [(3 * i + q, field.one), (3 * j + q, field.neg(field.one))]
+    };
+    core.scales.iter().map(row).collect()
+}
+
 /// Row `row` of the plane direction matrix R: entries with their columns.
 pub(crate) fn plane_direction(
     field: &Field,

@@ -6,7 +6,7 @@ use crate::cameras::{self, Stream};
 use crate::document::{Model, PlaneFlow};
 use crate::elimination::{Echelon, SPARSE, check_diagonal, for_all};
 use crate::limits::Meter;
-use crate::matrices::{Bearing, bearings, dot};
+use crate::matrices::{Bearing, bearings, dot, lengths};
 use crate::pivots::{Pivots, eliminate};
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::{Lower, Setting};
@@ -17,7 +17,8 @@ use std::ops::Range;
 const BATCH_ENTRIES: usize = 1 << 22;
 
 /// Verifies `plane-flow`: the ranks of N and of Lambda at centres modulo p (theory, Corollary 3.3;
-/// calibrated: Corollary 4.12).
+/// calibrated: Corollary 4.12, with
+/// displacements Theorem 13.18).
 pub(crate) fn check_plane_flow(
     evidence: &PlaneFlow,
     setting: &Setting,
@@ -86,12 +87,18 @@ impl<'a> Flows<'a> {
         field: &'a Field,
         centres: &'a [[u64; 3]],
     ) -> Checked<Flows<'a>> {
-        let (height, width) = (2 * core.edges.len(), 3 * core.nodes);
+        let directions = 2 * core.edges.len();
+        let (height, width) = (directions + core.scales.len(), 3 * core.nodes);
         let n = bearings(field, core, centres);
+        let lengths = lengths(field, core, centres);
         let pivots = Pivots::new(&evidence.rows, &evidence.cols, [height, width]);
         let pivots = pivots.within(|| "N".into())?;
         let echelon = Echelon::new(field, width, setting.meter).solvable();
-        let echelon = eliminate(echelon, &pivots, |row| n[row]).within(|| "N".into())?;
+        let row = |row: usize| match row.checked_sub(directions) {
+            None => n[row].to_vec(),
+            Some(length) => lengths[length].to_vec(),
+        };
+        let echelon = eliminate(echelon, &pivots, row).within(|| "N".into())?;
         // The left kernel of the pivots' columns has no more dimensions than this.
         let most = height - pivots.rows.len();
         ensure!(

@@ -41,6 +41,8 @@ What the certificate must be about (verified, but something else: exit code 1):
   --sha256 HEX         the hash of the graph
   --parts FILE         the known parts, one a line, by the labels of GRAPH, or without it by the
                        numbers of nodes; with GRAPH or --sha256 and without this option: none
+  --displacements HEX  the hash of the known displacements, or none (with --expect or --model: none,
+                       unless something else is said)
   --proofs-only        proofs, no error bounds
 
 How GRAPH is read:
@@ -94,6 +96,8 @@ struct Expected {
     sha256: Option<String>,
     /// Whether known parts are given.
     parts: bool,
+    /// A hash, or `none`; anything but `none` has to be said.
+    displacements: Option<Option<String>>,
     proofs_only: bool,
 }
 
@@ -159,6 +163,9 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("edges") => expected.edges = Some(number(&mut parser)?),
             Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
             Long("parts") => parts = Some(parser.value()?),
+            Long("displacements") => {
+                expected.displacements = Some(parser.value()?.parse_with(hash_or_none)?);
+            }
             Long("proofs-only") => expected.proofs_only = true,
             Long("format") => edges_only = parser.value()?.parse_with(is_edges)?,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
@@ -221,6 +228,15 @@ fn hash(text: &str) -> Result<String, &'static str> {
     let fine = text.len() == 64 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     let digits = fine.then(|| text.to_ascii_lowercase());
     digits.ok_or("it has 64 hexadecimal digits")
+}
+
+fn hash_or_none(text: &str) -> Result<Option<String>, &'static str> {
+    match text {
+        "none" => Ok(None),
+        _ => hash(text)
+            .map(Some)
+            .map_err(|_| "it is `none`, or has 64 hexadecimal digits"),
+    }
 }
 
 fn is_edges(text: &str) -> Result<bool, &'static str> {
@@ -335,6 +351,7 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         edges,
         sha256,
         parts,
+        displacements,
         proofs_only,
     } = expected;
     let verified_verdict = verified.verdict.0;
@@ -361,6 +378,17 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
     see(
         sha256.is_some() && !parts && verified.parts > 0,
         format!("{} known parts are taken for given", verified.parts),
+    );
+    // Whoever expects something expects it of the pairs alone, unless they say what else is known.
+    let expects = verdict.is_some() || model.is_some() || displacements.is_some();
+    let known = verified.displacements.as_ref();
+    let supposed = displacements.as_ref().and_then(Option::as_ref);
+    see(
+        expects && known.map(|known| &known.sha256) != supposed,
+        match known {
+            Some(known) => format!("displacements are supposed to be known: {known}"),
+            None => "no displacements are supposed to be known".into(),
+        },
     );
     for (name, strength) in [
         ("verdict", verified.verdict.1),

@@ -4,7 +4,7 @@ use crate::document::Model;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::Checked;
-use crate::structure::{Core, Structure};
+use crate::structure::{Core, Part, Structure};
 
 impl Model {
     /// The rank at which nodes are solvable up to finitely many solutions (sections 3 and 6).
@@ -31,6 +31,18 @@ impl Setting<'_> {
     /// The hashes to which draws for a core are bound (section 4).
     pub fn hashes<'h>(&'h self, core: &'h Core) -> [&'h [u8; 32]; 2] {
         [&self.sha256, &core.sha256]
+    }
+
+    /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a
+    /// known displacement (section 6; theory, Theorem 13.16).
+    pub fn required(&self, part: &Part) -> i64 {
+        let nodes = self.structure.nodes(part).len();
+        self.model.required(nodes) + i64::from(self.structure.is_scaled(part))
+    }
+
+    /// The same of its core.
+    pub fn required_of_core(&self, core: &Core) -> i64 {
+        self.model.required(core.nodes) + i64::from(!core.scales.is_empty())
     }
 
     /// Counts what evidence costs in any case: cameras are drawn for all nodes of a core, and

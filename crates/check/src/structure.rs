@@ -1,7 +1,7 @@
 //! Members - final bodies and loose edges -, the pieces and other sets of them, and the cores of
 //! these (section 6 of the specification).
 
-use crate::bodies::build_all;
+use crate::bodies::{Known, Rebuilt, build_all};
 use crate::document::{Body, Model, Pair};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
@@ -31,6 +31,8 @@ pub(crate) struct Structure<'a> {
     meter: &'a Meter,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
     bodies: Vec<Option<Vec<u32>>>,
+    /// Whether each body holds a known displacement; so not one that is consumed.
+    scaled: Vec<bool>,
     pub everything: Part,
 }
 
@@ -40,6 +42,10 @@ pub(crate) struct Core {
     pub nodes: usize,
     pub edges: Vec<(usize, usize)>,
     pub member: Vec<usize>,
+    /// For each scaled body among the members the first edge of its chain.
+    pub scales: Vec<(usize, usize)>,
+    /// For each core edge whether it belongs to a scaled body.
+    pub is_scaled: Vec<bool>,
     /// The hash of its canonical form, to which draws are bound.
     pub sha256: [u8; 32],
 }
@@ -50,18 +56,22 @@ impl<'a> Structure<'a> {
     pub fn new(
         graph: &'a Graph,
         model: Model,
-        (parts, list): (&[Vec<u32>], &[Body]),
+        (known, list): (Known, &[Body]),
         meter: &'a Meter,
     ) -> Checked<Structure<'a>> {
-        let bodies = build_all(graph, model, parts, list)?.into_iter();
+        let bodies = build_all(graph, model, known, list)?;
+        let scaled = |body: &Option<Rebuilt>| body.as_ref().is_some_and(|body| body.scaled);
         let mut structure = Structure {
             graph,
             meter,
-            bodies: bodies.map(|nodes| nodes.map(sorted)).collect(),
+            scaled: bodies.iter().map(scaled).collect(),
+            bodies: bodies
+                .into_iter()
+                .map(|body| body.map(|body| sorted(body.nodes)))
+                .collect(),
             everything: Part::new(),
         };
-        let bodies = 0..structure.bodies.len();
-        let bodies = bodies.filter(|&k| structure.bodies[k].is_some());
+        let bodies = (0..structure.bodies.len()).filter(|&k| structure.bodies[k].is_some());
         let mut everything: Part = bodies.collect();
         everything.extend(structure.loose_edges()?);
         structure.everything = everything;
@@ -189,6 +199,12 @@ impl<'a> Structure<'a> {
             .map_or_else(edge, |body| body.as_deref().unwrap_or_default())
     }
 
+    /// Whether a part holds a known displacement.
+    pub fn is_scaled(&self, part: &[usize]) -> bool {
+        let scaled = |&member: &usize| self.scaled.get(member).is_some_and(|&scaled| scaled);
+        part.iter().any(scaled)
+    }
+
     /// The nodes of several members, in increasing order.
     pub fn nodes(&self, part: &[usize]) -> Vec<u32> {
         let mut nodes = sorted(
@@ -217,11 +233,30 @@ impl<'a> Structure<'a> {
         Ok(())
     }
 
-    /// The core of a part (section 6; theory, Theorems 4.4, 4.11 and 13.11).
+    /// How many fewer parts there are if scaled ones that share a node are counted as one (theory,
+    /// Theorem 13.17).
+    pub fn count_joined(&self, parts: &[Part]) -> usize {
+        let scaled: Vec<&Part> = parts.iter().filter(|part| self.is_scaled(part)).collect();
+        let mut forest: Vec<usize> = (0..self.graph.nodes() + scaled.len()).collect();
+        for (k, part) in scaled.iter().enumerate() {
+            for node in self.nodes(part) {
+                unite(&mut forest, node as usize, self.graph.nodes() + k);
+            }
+        }
+        // Nodes come first, so that the root of a part is a node of it or of one that it hangs on.
+        let mut roots: Vec<usize> = (0..scaled.len())
+            .map(|k| root(&mut forest, self.graph.nodes() + k))
+            .collect();
+        roots.sort_unstable();
+        roots.dedup();
+        scaled.len() - roots.len()
+    }
+
+    /// The core of a part (section 6; theory, Theorems 4.4, 4.11, 13.11 and 13.18).
     pub fn core(&self, part: &Part) -> Checked<Core> {
         let nodes = self.core_nodes(part);
         self.meter.allow_core(nodes.len())?;
-        let mut edges = Vec::new();
+        let (mut edges, mut scales) = (Vec::new(), Vec::new());
         for (position, &member) in part.iter().enumerate() {
             let inside = self.nodes_of(member).iter();
             let chain: Vec<usize> = inside.flat_map(|node| nodes.binary_search(node)).collect();
@@ -230,6 +265,9 @@ impl<'a> Structure<'a> {
                 "{} has fewer than two nodes in the core",
                 self.name(member)
             );
+            if self.is_scaled(&[member]) {
+                scales.push((chain[0], chain[1]));
+            }
             for distance in [1, 2] {
                 let pairs = chain.iter().zip(&chain[distance..]);
                 edges.extend(pairs.map(|(&i, &j)| ((i, j), position)));
@@ -240,12 +278,17 @@ impl<'a> Structure<'a> {
             edges.windows(2).all(|pair| pair[0].0 != pair[1].0),
             "an edge of the core arises twice"
         );
-        let (edges, member): (Vec<_>, _) = edges.into_iter().unzip();
+        let (edges, member): (Vec<_>, Vec<usize>) = edges.into_iter().unzip();
         Ok(Core {
             sha256: core_sha256(&nodes, &edges),
             nodes: nodes.len(),
             edges,
+            is_scaled: member
+                .iter()
+                .map(|&position| self.is_scaled(&[part[position]]))
+                .collect(),
             member,
+            scales,
         })
     }
 

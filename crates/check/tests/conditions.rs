@@ -245,13 +245,13 @@ fn section_5_bodies() {
             "merges",
             "/bodies/3/merge/0/at",
             json!([2, 0]),
-            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, three and four, or five and five",
+            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, or five and five",
         ),
         (
             "merges",
             "/bodies/3/merge/0/with",
             json!([1]),
-            "bodies[3].merge[0]: `with` and `at` have one and two, two and three, three and four, or five and five",
+            "bodies[3].merge[0]: `with` and `at` have one and one or two, two and three, three and four, or five and five",
         ),
         (
             "merges",
@@ -340,7 +340,7 @@ fn section_5_cycles_of_four() {
             "ring",
             &merge(json!([1, 2, 3]), at),
             &format!(
-                "{step}`with` and `at` have one and two, two and three, three and four, or five and five"
+                "{step}`with` and `at` have one and one or two, two and three, three and four, or five and five"
             ),
         );
     }
@@ -415,7 +415,7 @@ fn section_5_bicliques() {
         }
     }
     let lengths =
-        "`with` and `at` have one and two, two and three, three and four, or five and five";
+        "`with` and `at` have one and one or two, two and three, three and four, or five and five";
     let six = [&with[..], &[json!([0, 5])]].concat();
     for (with, at) in [
         (&with[..4], &at[..]),

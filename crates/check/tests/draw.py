@@ -114,9 +114,10 @@ def integer(stream, a, b, nodes):
 
 # --- sections 5 and 6: bodies and cores -----------------------------------------------------
 
-def final_bodies(parts, bodies):
-    alive = {k: set(part) for k, part in enumerate(parts)}
-    for k, body in enumerate(bodies, len(parts)):
+def final_bodies(known, bodies):
+    """The nodes of the bodies that are left; known parts, or groups of displacements, come first."""
+    alive = {k: set(part) for k, part in enumerate(known)}
+    for k, body in enumerate(bodies, len(known)):
         def take(source):
             return set(source) if isinstance(source, list) else alive.pop(source)
         nodes = take(body["seed"]) | {v for v, _, _ in body["add"]}
@@ -128,23 +129,26 @@ def final_bodies(parts, bodies):
 
 
 class Core:
-    """Members are pairs of nodes or sets of nodes; an edge knows the position of its member."""
+    """Members are pairs of nodes or sets of nodes; an edge knows the position of its member. A set that holds one of
+    the groups of displacements has a known scale."""
 
-    def __init__(self, members):
+    def __init__(self, members, groups=()):
         times = {}
         for is_edge, nodes in members:
             for node in nodes:
                 times[node] = times.get(node, 0) + (2 if is_edge else 1)
         labels = sorted(node for node, number in times.items() if number > 1)
         place = {node: k for k, node in enumerate(labels)}
-        found = []
+        found, scales = [], []
         for k, (_, nodes) in enumerate(members):
             chain = sorted(place[node] for node in nodes if node in place)
             assert len(chain) >= 2
+            if any(nodes >= set(group) for group in groups):
+                scales.append((chain[0], chain[1]))
             found += [((i, j), k) for step in (1, 2) for i, j in zip(chain, chain[step:])]
         found.sort()
         self.nodes, self.edges = len(labels), [edge for edge, _ in found]
-        self.member = [k for _, k in found]
+        self.member, self.scales = [k for _, k in found], scales
         assert len(set(self.edges)) == len(self.edges)
         text = b"viewcert core 2\n" + struct.pack("<QQ", self.nodes, len(self.edges))
         text += b"".join(struct.pack("<I", label) for label in labels)
@@ -281,6 +285,11 @@ def bearings(core, drawn, p):
             row[3 * i:3 * i + 3], row[3 * j:3 * j + 3] = a, [-x % p for x in a]
             matrix.append(row)
             directions.append(a)
+    for i, j in core.scales:
+        q = next(k for k in range(3) if drawn[i][k] != drawn[j][k])
+        row = [0] * (3 * core.nodes)
+        row[3 * i + q], row[3 * j + q] = 1, p - 1
+        matrix.append(row)
     return matrix, directions
 
 
@@ -341,12 +350,13 @@ class Filler:
         self.hash = graph_hash(self.nodes, self.edges)
         document["version"] = 2
         document["graph"]["sha256"] = self.hash.hex()
-        self.bodies = final_bodies(document.get("parts", []), document["bodies"])
+        self.groups = document.get("displacements", [])
+        self.bodies = final_bodies(document.get("parts", []) + self.groups, document["bodies"])
         self.pieces(document["pieces"])
 
     def core(self, part):
         return Core([(False, self.bodies[k]) for k in part["bodies"]]
-                    + [(True, set(edge)) for edge in part["edges"]])
+                    + [(True, set(edge)) for edge in part["edges"]], self.groups)
 
     def stream(self, label, core, evidence):
         return Stream(label, self.hash, core.hash, int(evidence["seed"]), evidence["draw"])

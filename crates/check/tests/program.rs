@@ -290,3 +290,45 @@ fn graphs_in_files() {
     assert_eq!(run(&[&wrong, &mixed]).code, 2);
     assert_eq!(run(&[&wrong, &list]).code, 1);
 }
+
+/// Whoever expects something of the pairs alone gets no answer that supposes more.
+#[test]
+fn expected_displacements() {
+    let rigs = path("displaced-rigs");
+    let hash = "2eaec72a74890accb2edf31caf4b2e9e8351715092f824e37a10c1317e13c424";
+    let supposed =
+        format!("displacements are supposed to be known: 4 nodes in 2 groups, SHA-256 {hash}");
+    assert_eq!(run(&[&rigs]).code, 0);
+    for arguments in [
+        &["--expect", "solvable"][..],
+        &["--model", "calibrated"],
+        &["--displacements", "none"],
+        &["--displacements", &"0".repeat(64)],
+    ] {
+        let run = run(&[arguments, &[&rigs]].concat());
+        assert_eq!((run.code, run.out.as_str()), (1, ""), "{arguments:?}");
+        assert!(run.err.contains(&supposed), "{}", run.err);
+    }
+    let known = ["--expect", "solvable", "--displacements", hash];
+    assert_eq!(run(&[&known[..], &[&rigs]].concat()).code, 0);
+    let square = path("square-calibrated");
+    assert_eq!(run(&["--displacements", "none", &square]).code, 0);
+    let other = run(&["--displacements", hash, &square]);
+    assert_eq!(other.code, 1);
+    assert!(
+        other
+            .err
+            .contains("no displacements are supposed to be known"),
+        "{}",
+        other.err
+    );
+    let wrong = run(&["--displacements", "some", &rigs]);
+    assert_eq!(wrong.code, 2);
+    assert!(
+        wrong
+            .err
+            .contains("it is `none`, or has 64 hexadecimal digits"),
+        "{}",
+        wrong.err
+    );
+}

@@ -130,6 +130,15 @@ pub enum Problem {
     /// A label that the graph does not have.
     #[error("`{}` is no camera of the graph", shown(.0))]
     UnknownCamera(String),
+    /// A file of known displacements without one.
+    #[error("the file holds no displacement")]
+    NoDisplacements,
+    /// A line of such a file that is neither a pair of cameras nor one camera.
+    #[error("the line has {found} fields")]
+    NoPairOrCamera {
+        /// How many fields.
+        found: usize,
+    },
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -360,6 +369,12 @@ impl Problem {
             Self::NoParts => "put the cameras of one part on each line",
             Self::UnknownCamera(_) => {
                 "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
+            }
+            Self::NoDisplacements => {
+                "write pairs of cameras, one a line, or cameras with known positions, two at least"
+            }
+            Self::NoPairOrCamera { .. } => {
+                "a line names a pair of cameras, or one camera with a known position, and nothing else"
             }
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",

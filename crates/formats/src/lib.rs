@@ -4,7 +4,9 @@
 //! merged, ignored or guessed ([`NamedGraph`]), or an error that says where and what to do
 //! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
 
+mod cameras;
 pub mod colmap;
+pub mod displacements;
 pub mod documents;
 pub mod edge_list;
 pub mod error;
@@ -20,6 +22,7 @@ mod recognise;
 pub mod sparse6;
 pub mod tracks;
 
+pub use displacements::{NamedDisplacements, read_displacements};
 pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
 pub use parts::{NamedParts, read_parts};

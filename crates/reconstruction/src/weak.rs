@@ -172,7 +172,9 @@ fn used(contraction: &Contraction) -> Vec<Pair> {
         );
         for merge in &body.merge {
             let parts: &[Joined] = match merge {
-                Merge::Shared { part, .. } => std::slice::from_ref(part),
+                Merge::Scaled { part, .. } | Merge::Shared { part, .. } => {
+                    std::slice::from_ref(part)
+                }
                 Merge::Triangle { parts, .. } => parts,
                 Merge::Cycle { parts, .. } => parts,
                 Merge::Biclique { parts, .. } => parts,

@@ -58,7 +58,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
-        ; optional solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
+        ; optional displacements: &'a [Vec<u32>], solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
     }
 
     GraphView<'a> {
@@ -164,6 +164,7 @@ impl<'a> Document<'a> {
                 .collect(),
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
+            displacements: Some(verdict.displacements.groups()).filter(|groups| !groups.is_empty()),
             solutions: evidence,
             parts: (!verdict.known_parts.is_empty()).then(|| verdict.known_parts.iter().collect()),
         })
@@ -210,13 +211,13 @@ impl Serialize for PartView {
 }
 
 impl<'a> BodyView<'a> {
-    /// A body as it is built; known parts are listed as such.
+    /// A body as it is built; `None` for what is known, which is there before the list begins.
     fn new(body: &'a Body) -> Option<Self> {
         Some(Self {
             seed: match body.seed {
                 Seed::Edge(i, j) => PartView::Edge([i, j]),
                 Seed::Body(k) => PartView::Body(k),
-                Seed::Part => return None,
+                Seed::Known => return None,
             },
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
@@ -236,6 +237,10 @@ impl From<Part> for PartView {
 impl<'a> MergeView<'a> {
     fn new(merge: &'a Merge) -> Self {
         match merge {
+            Merge::Scaled { part, at } => Self {
+                with: vec![(*part).into()],
+                at,
+            },
             Merge::Shared { part, at } => Self {
                 with: vec![(*part).into()],
                 at,

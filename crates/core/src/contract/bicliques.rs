@@ -87,6 +87,7 @@ fn merged(bodies: &mut [Body], parts: [Part; 6], at: [u32; 5]) -> Body {
         merge: vec![Merge::Biclique { parts: rest, at }],
         nodes,
         edges,
+        scaled: false,
     }
 }
 

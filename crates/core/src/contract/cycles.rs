@@ -199,6 +199,14 @@ impl Structure {
         self.parent[member as usize] == member
     }
 
+    /// Whether a member is a body that holds a known displacement.
+    fn is_scaled(&self, member: u32, bodies: &[Body]) -> bool {
+        match self.part[member as usize] {
+            Part::Body(k) => bodies[k as usize].scaled,
+            Part::Edge(..) => false,
+        }
+    }
+
     fn size(&self, member: u32) -> usize {
         self.own[member as usize].len()
     }

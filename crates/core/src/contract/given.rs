@@ -1,37 +1,42 @@
-//! What contraction starts from: the known parts as bodies, and the graph without the edges that
-//! they cover (docs/theory.md, Theorem 4.14).
+//! What contraction starts from: known parts or groups of known displacements as bodies, and the
+//! graph without the edges that they cover (docs/theory.md, Theorems 4.14 and 13.16).
 
 use super::grow::Growth;
 use super::{Body, Seed};
-use crate::graph::{Adjacency, Graph, KnownParts, Lists};
+use crate::graph::{Adjacency, Graph, Lists};
 use std::borrow::Cow;
 
-/// A graph with its known parts.
+/// A graph with what is known besides its pairs.
 pub(super) struct Given<'a> {
-    /// The parts, in their order.
+    /// Known parts, or groups of known displacements, in their order.
     pub(super) bodies: Vec<Body>,
-    /// The edges that no part covers, on all nodes.
+    /// The edges that none of them covers, on all nodes.
     pub(super) rest: Cow<'a, Graph>,
 }
 
 impl<'a> Given<'a> {
-    /// Makes the parts bodies. Linear in the graph and the parts, and for every edge in the shorter
-    /// list of parts at its ends; without parts the graph is left as it is.
-    pub(super) fn new(graph: &'a Graph, parts: &KnownParts) -> Self {
-        let mut bodies: Vec<Body> = parts.iter().map(body).collect();
-        if parts.is_empty() {
+    /// Makes sets of nodes bodies, scaled ones if they are groups of displacements. Linear in the
+    /// graph and the sets, and for every edge in the shorter list of sets at its ends; without sets
+    /// the graph is left as it is.
+    pub(super) fn new<'s>(
+        graph: &'a Graph,
+        sets: impl Iterator<Item = &'s [u32]>,
+        scaled: bool,
+    ) -> Self {
+        let mut bodies: Vec<Body> = sets.map(|nodes| body(nodes, scaled)).collect();
+        if bodies.is_empty() {
             let rest = Cow::Borrowed(graph);
             return Self { bodies, rest };
         }
         let places: Vec<(u32, u32)> = (0..)
-            .zip(parts.iter())
-            .flat_map(|(k, part)| part.iter().map(move |&v| (v, k)))
+            .zip(&bodies)
+            .flat_map(|(k, body)| body.nodes.iter().map(move |&v| (v, k)))
             .collect();
-        let parts_of = Lists::group(graph.nodes(), places.iter().copied());
+        let sets_of = Lists::group(graph.nodes(), places.iter().copied());
         let mut rest = Vec::new();
         for &(i, j) in graph.edges() {
-            match common(parts_of.of(i as usize), parts_of.of(j as usize)) {
-                Some(part) => bodies[part as usize].edges += 1,
+            match common(sets_of.of(i as usize), sets_of.of(j as usize)) {
+                Some(k) => bodies[k as usize].edges += 1,
                 None => rest.push((i, j)),
             }
         }
@@ -41,14 +46,15 @@ impl<'a> Given<'a> {
     }
 }
 
-/// A part, before anything has joined it.
-fn body(part: &[u32]) -> Body {
+/// A set of nodes, before anything has joined it.
+fn body(nodes: &[u32], scaled: bool) -> Body {
     Body {
-        seed: Seed::Part,
+        seed: Seed::Known,
         add: Vec::new(),
         merge: Vec::new(),
-        nodes: part.to_vec(),
+        nodes: nodes.to_vec(),
         edges: 0,
+        scaled,
     }
 }
 
@@ -88,6 +94,8 @@ pub(super) fn grow(bodies: &mut Vec<Body>, remaining: &mut Adjacency) {
             merge: Vec::new(),
             nodes: grown.nodes,
             edges,
+            // Only known displacements are of known scale, and their bodies grow otherwise.
+            scaled: false,
         });
     }
 }

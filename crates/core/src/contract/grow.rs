@@ -126,6 +126,7 @@ impl Growth {
             merge: Vec::new(),
             nodes: grown.nodes,
             edges: grown.edges,
+            scaled: false,
         }
     }
 

@@ -158,6 +158,7 @@ impl Absorption<'_> {
             merge: std::mem::take(&mut self.merges),
             nodes,
             edges,
+            scaled: false,
         });
         true
     }

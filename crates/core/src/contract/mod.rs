@@ -16,6 +16,7 @@ mod given;
 mod grow;
 mod merge;
 mod rest;
+mod scaled;
 mod seeds;
 mod sweep;
 #[cfg(test)]
@@ -24,7 +25,7 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Graph, KnownParts};
+use crate::graph::{Adjacency, Displacements, Graph, KnownParts};
 use given::Given;
 use rest::Rest;
 use sweep::Swept;
@@ -36,8 +37,9 @@ pub enum Seed {
     Edge(u32, u32),
     /// An earlier body, which is continued.
     Body(u32),
-    /// A known part, which is there from the start.
-    Part,
+    /// What is known, and there from the start: the first bodies are the known parts, or the groups
+    /// of known displacements, in their order.
+    Known,
 }
 
 /// Something that joins a body: an edge, or an earlier body.
@@ -58,6 +60,13 @@ impl Part {
 /// One application of a merge rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Merge {
+    /// The part shares one node with the body, and both hold known displacements.
+    Scaled {
+        /// What joins.
+        part: Part,
+        /// The common node.
+        at: [u32; 1],
+    },
     /// The part shares the two nodes with the body.
     Shared {
         /// What joins.
@@ -107,6 +116,16 @@ pub struct Body {
     pub nodes: Vec<u32>,
     /// How many edges of the graph it covers; 0 once consumed.
     pub edges: usize,
+    /// Whether it holds a known displacement, so that its scale is known.
+    pub scaled: bool,
+}
+
+impl Body {
+    /// Sorts its nodes, each of them once.
+    fn sort(&mut self) {
+        self.nodes.sort_unstable();
+        self.nodes.dedup();
+    }
 }
 
 /// A viewing graph contracted to bodies and loose edges.
@@ -135,12 +154,20 @@ impl Contraction {
     /// # Panics
     /// If a part has a node that the graph does not have.
     pub fn with_parts(graph: &Graph, parts: &KnownParts, model: Model) -> Self {
-        let given = Given::new(graph, parts);
+        let given = Given::new(graph, parts.iter(), false);
         match model {
             // Four bodies around a cycle move against each other in the plane.
             Model::Projective | Model::Affine => Self::by_triangles(given, model),
             Model::Calibrated => Self::by_cycles(given),
         }
+    }
+
+    /// Contracts a graph of the calibrated model with known displacements, whose groups are bodies
+    /// from the start (Theorem 13.16). The cost is that of [`new`](Self::new), once more for each
+    /// round in which scaled bodies that share a node make further merges possible.
+    pub fn with_displacements(graph: &Graph, known: &Displacements) -> Self {
+        let groups = known.groups().iter().map(Vec::as_slice);
+        Self::by_cycles(Given::new(graph, groups, true))
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
@@ -177,7 +204,8 @@ impl Contraction {
         }
     }
 
-    /// Closed under cycles of two, three and four (Theorem 4.9).
+    /// Closed under cycles of two, three and four (Theorem 4.9). The bodies to begin with cover none
+    /// of the edges, and if they are scaled, the rule of such bodies applies too.
     fn by_cycles(given: Given) -> Self {
         let Given { bodies, rest } = given;
         let graph = &*rest;
@@ -191,15 +219,16 @@ impl Contraction {
         bodies.extend(grown.map(|body| rest.body(body, before)));
         let edges = remaining.edges().map(|edge| rest.edge(edge)).collect();
         let mut loose = cycles::close(&mut bodies, edges, graph.nodes());
+        while scaled::join(&mut bodies, graph.nodes()) {
+            bodies.iter_mut().for_each(Body::sort);
+            loose = cycles::close(&mut bodies, loose, graph.nodes());
+        }
         loose.extend(pendant.into_iter().map(|edge| rest.edge(edge)));
         Self::of_closed(bodies, loose)
     }
 
     fn of_closed(mut bodies: Vec<Body>, mut loose: Vec<(u32, u32)>) -> Self {
-        for body in &mut bodies {
-            body.nodes.sort_unstable();
-            body.nodes.dedup();
-        }
+        bodies.iter_mut().for_each(Body::sort);
         let finals = (0..)
             .zip(&bodies)
             .filter(|(_, body)| !body.nodes.is_empty())

@@ -5,7 +5,9 @@
 //! decided by itself, on its core: the nodes that its members share.
 
 use crate::contract::Contraction;
+use crate::geometry::model::Model;
 use crate::graph::{Graph, Lists, UnionFind, biconnected_components};
+use std::collections::BTreeMap;
 
 /// Some members of a contracted graph: final bodies and loose edges.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -98,6 +100,8 @@ pub struct Assembly {
     shared: Vec<Vec<u32>>,
     /// Number of nodes of every body.
     size: Vec<usize>,
+    /// Whether the scale of every body is known.
+    scaled: Vec<bool>,
 }
 
 /// Some members, cut at their articulation nodes.
@@ -107,6 +111,13 @@ pub struct Split {
     pub rigid: Members,
     /// The other pieces, each of two members or more, in a fixed order.
     pub pieces: Vec<Members>,
+}
+
+impl Core {
+    /// The rank of the core of a finite solvable piece.
+    pub fn required(&self, model: Model) -> usize {
+        model.required(self.graph.nodes()) + usize::from(!self.scales.is_empty())
+    }
 }
 
 impl Assembly {
@@ -134,6 +145,7 @@ impl Assembly {
                 .map(|body| body.nodes.iter().copied().filter(shared).collect())
                 .collect(),
             size: bodies.iter().map(|body| body.nodes.len()).collect(),
+            scaled: bodies.iter().map(|body| body.scaled).collect(),
         }
     }
 
@@ -198,12 +210,18 @@ impl Assembly {
         let number = |v: &u32| nodes.binary_search(v).ok().map(|k| k as u32);
         let mut edges: Vec<(u32, u32, u32)> = Vec::new();
         let mut outside = 0;
+        let mut scales = Vec::new();
         for (member, &body) in (0..).zip(&part.bodies) {
             let at: Vec<u32> = self.shared[body as usize]
                 .iter()
                 .filter_map(number)
                 .collect();
             outside += self.size[body as usize] - at.len();
+            if self.scaled[body as usize]
+                && let [first, second, ..] = at[..]
+            {
+                scales.push((first, second));
+            }
             for step in [1, 2] {
                 edges.extend(
                     at.iter()
@@ -227,7 +245,46 @@ impl Assembly {
             nodes,
             graph,
             owner,
+            scales,
         }
+    }
+
+    /// Whether a part holds a known displacement.
+    pub fn is_scaled(&self, part: &Members) -> bool {
+        part.bodies.iter().any(|&body| self.scaled[body as usize])
+    }
+
+    /// The rank of a finite solvable part, or of a body, with the nodes of this part: that of the
+    /// model, and one more if the scale is known (Theorem 13.16).
+    pub fn required(&self, model: Model, part: &Members) -> usize {
+        model.required(self.count_nodes(part)) + usize::from(self.is_scaled(part))
+    }
+
+    /// Parts with those that are scaled and share a node united, in the order of their first ones
+    /// (Theorem 13.17).
+    pub fn joined(&self, parts: Vec<Members>) -> Vec<Members> {
+        let mut sets = UnionFind::new(parts.len());
+        let mut at: BTreeMap<u32, usize> = BTreeMap::new();
+        for (k, part) in parts.iter().enumerate().filter(|(_, p)| self.is_scaled(p)) {
+            let of_bodies = part.bodies.iter().flat_map(|&b| &self.shared[b as usize]);
+            let of_edges = part.edges.iter().flat_map(|(i, j)| [i, j]);
+            for &node in of_bodies.chain(of_edges) {
+                sets.union(*at.entry(node).or_insert(k), k);
+            }
+        }
+        let mut place = vec![None; parts.len()];
+        let mut joined: Vec<Members> = Vec::new();
+        for (k, part) in parts.into_iter().enumerate() {
+            let set = sets.find(k);
+            match place[set] {
+                None => {
+                    place[set] = Some(joined.len());
+                    joined.push(part);
+                }
+                Some(at) => joined[at].extend(&part),
+            }
+        }
+        joined
     }
 
     /// Number of nodes of all members of a part together.
@@ -262,6 +319,8 @@ pub struct Core {
     /// For every core edge the member it stands for: first the bodies, then the
     /// edges, counted in the order of the part.
     pub owner: Vec<u32>,
+    /// For every scaled body the first edge of its chain, in the order of the part.
+    pub scales: Vec<(u32, u32)>,
     /// Number of nodes of the piece itself.
     pub total_nodes: usize,
 }

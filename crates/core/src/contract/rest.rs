@@ -73,11 +73,12 @@ impl Rest {
         match &mut body.seed {
             Seed::Edge(a, b) => (*a, *b) = self.edge((*a, *b)),
             Seed::Body(k) => *k += before,
-            Seed::Part => (),
+            Seed::Known => (),
         }
         body.add.iter_mut().flatten().for_each(name);
         for merge in &mut body.merge {
             let (parts, at): (&mut [Part], &mut [u32]) = match merge {
+                Merge::Scaled { part, at } => (std::slice::from_mut(part), at),
                 Merge::Shared { part, at } => (std::slice::from_mut(part), at),
                 Merge::Triangle { parts, at } => (parts, at),
                 Merge::Cycle { parts, at } => (parts, at),

@@ -139,6 +139,7 @@ fn body(
         merge: merge.clone(),
         nodes: Vec::new(),
         edges: 0,
+        scaled: false,
     });
     let whole = Body {
         seed: if is_continued { Seed::Body(k) } else { seed },
@@ -146,6 +147,7 @@ fn body(
         merge: if is_continued { Vec::new() } else { merge },
         nodes: grown.nodes,
         edges: grown.edges,
+        scaled: false,
     };
     cycle.into_iter().chain([whole])
 }

@@ -272,6 +272,7 @@ impl Growing {
                 merge: std::mem::take(&mut merge),
                 nodes: Vec::new(),
                 edges: 0,
+                scaled: false,
             });
             seed = Seed::Body(bodies.len() as u32 - 1);
         }
@@ -281,6 +282,7 @@ impl Growing {
             merge,
             nodes,
             edges,
+            scaled: false,
         });
     }
 }

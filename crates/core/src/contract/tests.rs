@@ -13,10 +13,40 @@ use std::collections::BTreeSet;
 
 type Nodes = BTreeSet<u32>;
 
+/// What is known besides the pairs.
+#[derive(Clone, Copy)]
+enum Known<'a> {
+    Parts(&'a KnownParts),
+    Displacements(&'a Displacements),
+}
+
+impl Known<'_> {
+    /// The bodies from the start.
+    fn sets(&self) -> Vec<Nodes> {
+        match self {
+            Self::Parts(parts) => parts.iter().map(|p| p.iter().copied().collect()).collect(),
+            Self::Displacements(known) => {
+                let groups = known.groups().iter();
+                groups
+                    .map(|group| group.iter().copied().collect())
+                    .collect()
+            }
+        }
+    }
+}
+
 /// The nodes of the final bodies, every condition of docs/certificate.md, section 5, checked.
-fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<Nodes> {
+fn replay(graph: &Graph, known: Known, contraction: &Contraction) -> Vec<Nodes> {
     let mut bodies: Vec<Option<Nodes>> = Vec::new();
-    let mut known = known.iter();
+    let sets = known.sets();
+    let mut sets = sets.iter();
+    let is_scaled = |nodes: &Nodes| match known {
+        Known::Parts(_) => false,
+        Known::Displacements(known) => {
+            let mut groups = known.groups().iter();
+            groups.any(|group| group.iter().all(|v| nodes.contains(v)))
+        }
+    };
     let is_edge = |a: u32, b: u32| graph.edge_number(a, b).is_some();
     for body in &contraction.bodies {
         let mut nodes = match body.seed {
@@ -25,10 +55,10 @@ fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<N
                 Nodes::from([i, j])
             }
             Seed::Body(k) => bodies[k as usize].take().expect("used once"),
-            Seed::Part => {
+            Seed::Known => {
                 assert!(body.add.is_empty() && body.merge.is_empty());
-                assert!(bodies.len() + known.len() == parts_of(contraction));
-                known.next().expect("a part").iter().copied().collect()
+                assert!(bodies.len() + sets.len() == known.sets().len());
+                sets.next().expect("a set").clone()
             }
         };
         for &[v, a, b] in &body.add {
@@ -45,6 +75,12 @@ fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<N
         };
         for merge in &body.merge {
             match *merge {
+                Merge::Scaled { part: x, at: [a] } => {
+                    let x = part(x);
+                    assert!(x.contains(&a) && nodes.contains(&a));
+                    assert!(is_scaled(&x) && is_scaled(&nodes));
+                    nodes.extend(x);
+                }
                 Merge::Shared {
                     part: x,
                     at: [a, b],
@@ -90,7 +126,7 @@ fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<N
         }
         bodies.push(Some(nodes));
     }
-    assert_eq!(known.len(), 0, "a part is left out");
+    assert_eq!(sets.len(), 0, "a set is left out");
     let finals: Vec<u32> = (0..)
         .zip(&bodies)
         .filter(|(_, b)| b.is_some())
@@ -100,14 +136,13 @@ fn replay(graph: &Graph, known: &KnownParts, contraction: &Contraction) -> Vec<N
     for (body, nodes) in contraction.bodies.iter().zip(&bodies) {
         let listed: Nodes = body.nodes.iter().copied().collect();
         assert_eq!(listed, nodes.clone().unwrap_or_default());
+        assert!(
+            nodes
+                .as_ref()
+                .is_none_or(|nodes| is_scaled(nodes) == body.scaled)
+        );
     }
     bodies.into_iter().flatten().collect()
-}
-
-/// How many bodies are known parts.
-fn parts_of(contraction: &Contraction) -> usize {
-    let bodies = contraction.bodies.iter();
-    bodies.filter(|body| body.seed == Seed::Part).count()
 }
 
 /// Known parts and edges merged by the rules of a model until none applies, by trying everything.
@@ -117,12 +152,33 @@ fn naive(graph: &Graph, known: &KnownParts, model: Model) -> BTreeSet<Nodes> {
         Model::Affine => find_cycle(parts, 3),
         Model::Calibrated => find_cycle(parts, 4),
     };
-    let mut parts: Vec<Nodes> = graph
-        .edges()
-        .iter()
-        .map(|&(i, j)| Nodes::from([i, j]))
-        .chain(known.iter().map(|part| part.iter().copied().collect()))
-        .collect();
+    let edges = graph.edges().iter().map(|&(i, j)| Nodes::from([i, j]));
+    let known = known.iter().map(|part| part.iter().copied().collect());
+    merged(edges.chain(known).collect(), find)
+}
+
+/// The same with known displacements, of which no two groups have a node in common.
+fn naive_with_displacements(graph: &Graph, known: &Displacements) -> BTreeSet<Nodes> {
+    let is_scaled = |part: &Nodes| {
+        let mut groups = known.groups().iter();
+        groups.any(|group| group.iter().all(|v| part.contains(v)))
+    };
+    let touching = |parts: &[Nodes]| {
+        let pairs = (0..parts.len()).flat_map(|k| (k + 1..parts.len()).map(move |l| [k, l]));
+        let touch = |[k, l]: &[usize; 2]| {
+            is_scaled(&parts[*k]) && is_scaled(&parts[*l]) && !parts[*k].is_disjoint(&parts[*l])
+        };
+        pairs.into_iter().find(touch).map(Vec::from)
+    };
+    let edges = graph.edges().iter().map(|&(i, j)| Nodes::from([i, j]));
+    let groups = known.groups().iter().map(|g| g.iter().copied().collect());
+    merged(edges.chain(groups).collect(), |parts| {
+        find_cycle(parts, 4).or_else(|| touching(parts))
+    })
+}
+
+/// Parts merged until none are found any more.
+fn merged(mut parts: Vec<Nodes>, find: impl Fn(&[Nodes]) -> Option<Vec<usize>>) -> BTreeSet<Nodes> {
     while let Some(mut found) = find(&parts) {
         found.sort_unstable();
         let mut together = Nodes::new();
@@ -196,7 +252,7 @@ fn check(graph: &Graph, model: Model) {
 
 fn check_with(graph: &Graph, known: &KnownParts, model: Model) {
     let contraction = Contraction::with_parts(graph, known, model);
-    let finals = replay(graph, known, &contraction);
+    let finals = replay(graph, Known::Parts(known), &contraction);
     let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
     assert_eq!(parts.len(), finals.len());
     parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
@@ -226,6 +282,20 @@ fn check_with(graph: &Graph, known: &KnownParts, model: Model) {
                 assert_eq!(plane_rank(nodes, &covered), 2 * nodes.len() - 3);
             }
         }
+    }
+}
+
+fn check_with_displacements(graph: &Graph, known: &Displacements) {
+    let contraction = Contraction::with_displacements(graph, known);
+    let finals = replay(graph, Known::Displacements(known), &contraction);
+    let mut parts: BTreeSet<Nodes> = finals.iter().cloned().collect();
+    parts.extend(contraction.loose.iter().map(|&(i, j)| Nodes::from([i, j])));
+    assert_eq!(parts.len(), finals.len() + contraction.loose.len());
+    assert_eq!(parts, naive_with_displacements(graph, known));
+    for (&k, nodes) in contraction.finals.iter().zip(&finals) {
+        let inside = |&&(i, j): &&(u32, u32)| nodes.contains(&i) && nodes.contains(&j);
+        let covered = graph.edges().iter().filter(inside).count();
+        assert_eq!(contraction.bodies[k as usize].edges, covered);
     }
 }
 
@@ -471,6 +541,18 @@ proptest! {
         for model in Model::ALL {
             check_with(&graph, &known, model);
         }
+    }
+
+    #[test]
+    fn with_displacements_as_the_rules_naively(
+        nodes in 3u32..16,
+        pairs in prop::collection::vec((0u32..16, 0u32..16), 1..26),
+        rigs in prop::collection::vec((0u32..16, 0u32..16), 1..7),
+    ) {
+        let graph = among(nodes, pairs);
+        let rigs = among(nodes, rigs);
+        let known = Displacements::new(nodes, rigs.edges().iter().copied()).unwrap();
+        check_with_displacements(&graph, &known);
     }
 
     /// Bipartite graphs have no triangles but may have bicliques.

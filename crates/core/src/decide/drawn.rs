@@ -77,7 +77,8 @@ impl<'a> Ranks<'a> {
         if model == Model::Projective {
             task = plane_flow::expect_lambda(&core.graph, &task)?;
         }
-        let flows = PlaneFlows::new(&at.field, &core.graph, &at.values, &task)?;
+        let flows =
+            PlaneFlows::with_scales(&at.field, &core.graph, &core.scales, &at.values, &task)?;
         let rigidity = flows.rigidity_rank();
         let (lambda, rank) = if model == Model::Projective {
             let lambda = flows.lambda(at.key.flow_weights(&at.field), &task)?;

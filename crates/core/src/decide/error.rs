@@ -39,6 +39,8 @@ pub enum VerdictError {
     },
     /// Known parts are bodies, and without contraction there are none.
     PartsNotContracted,
+    /// Displacements that say nothing about the question, and why.
+    Displacements(&'static str),
     /// The work was stopped before there was an answer.
     Stopped(Stopped),
 }
@@ -69,6 +71,7 @@ impl fmt::Display for VerdictError {
             Self::PartsNotContracted => f.write_str(
                 "known parts are bodies, and without contraction there are none; leave contraction on",
             ),
+            Self::Displacements(why) => write!(f, "known displacements: {why}"),
             Self::Stopped(inner) => inner.fmt(f),
         }
     }

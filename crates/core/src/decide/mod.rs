@@ -57,15 +57,19 @@ use std::sync::Arc;
 ///
 /// # Errors
 /// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
-/// too large for the method, or the work is stopped. If known parts are of another graph, or
-/// contraction is off, which makes them bodies.
+/// too large for the method, or the work is stopped. If known parts or displacements are of another
+/// graph, or contraction is off, which makes them bodies; if both are known, or displacements in
+/// another model than the calibrated one.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
     check_parts(graph, options)?;
+    check_displacements(graph, options)?;
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
     let sha256 = sha256(graph);
-    let contraction = if options.contraction {
+    let contraction = if !options.displacements.is_empty() {
+        Contraction::with_displacements(graph, &options.displacements)
+    } else if options.contraction {
         Contraction::with_parts(graph, &options.known_parts, options.model)
     } else {
         Contraction::none(graph)
@@ -106,6 +110,20 @@ fn check_parts(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
     }
 }
 
+/// Refuses displacements that say nothing about the question.
+fn check_displacements(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
+    let largest = options.displacements.groups().iter().flatten().max();
+    let reason = match largest {
+        None => return Ok(()),
+        Some(_) if options.model != Model::Calibrated => "they belong to the calibrated model",
+        Some(_) if !options.contraction => "they need contraction",
+        Some(_) if !options.known_parts.is_empty() => "they do not go with known parts",
+        Some(&node) if node as usize >= graph.nodes() => "the graph has fewer nodes",
+        Some(_) => return Ok(()),
+    };
+    Err(VerdictError::Displacements(reason))
+}
+
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
@@ -119,7 +137,8 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// Sums up over the pieces (Theorem 4.3 and Corollary 4.6 of docs/theory.md; calibrated:
-    /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12).
+    /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12;
+    /// with displacements: Theorems 13.17 and 13.18).
     fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Verdict {
         let rigid_rank = self.rigid_rank();
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
@@ -132,6 +151,7 @@ impl Found<'_> {
         Verdict {
             model: self.options.model,
             known_parts: self.options.known_parts.clone(),
+            displacements: self.options.displacements.clone(),
             sha256,
             value: if is_one { Value::Solvable } else { value },
             value_strength,
@@ -147,18 +167,22 @@ impl Found<'_> {
 
     /// The rank of a finite solvable graph with as many nodes.
     fn required(&self) -> usize {
-        self.options.model.required(self.graph.nodes())
+        let scale = usize::from(!self.options.displacements.is_empty());
+        self.options.model.required(self.graph.nodes()) + scale
     }
 
     /// The rank of the members that are pieces by themselves.
     fn rigid_rank(&self) -> usize {
         let singles = self.rigid.singles();
-        let nodes = singles.iter().map(|part| self.assembly.count_nodes(part));
-        nodes.map(|nodes| self.options.model.required(nodes)).sum()
+        let ranks = singles
+            .iter()
+            .map(|part| self.assembly.required(self.options.model, part));
+        ranks.sum()
     }
 
     /// The answer before solutions are counted: one body is unique (Corollary 4.2), one piece of
-    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8 and 13.2).
+    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8, 13.2 and, with
+    /// displacements, 13.20).
     fn value(&self, rank: usize) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
         let all_nodes =
@@ -170,6 +194,10 @@ impl Found<'_> {
                 .first()
                 .is_some_and(|piece| all_nodes(&piece.members));
         match self.options.model {
+            // Pieces may hang together in scaled bodies.
+            _ if !self.options.displacements.is_empty() && rank == self.required() => {
+                Value::Solvable
+            }
             _ if is_body || self.graph.nodes() == 1 => Value::Solvable,
             Model::Calibrated | Model::Affine if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
@@ -205,7 +233,9 @@ impl Found<'_> {
         let pieces = self.pieces.iter();
         let of_pieces = pieces.flat_map(|piece| piece.components.clone());
         let all = self.rigid.singles().into_iter().chain(of_pieces);
+        let all = self.assembly.joined(all.collect());
         let mut components: Vec<Component> = all
+            .into_iter()
             .map(|members| {
                 let nodes = self.assembly.count_nodes(&members);
                 Component::new(members, nodes, contraction)

@@ -94,12 +94,14 @@ impl<'a> Piece<'a> {
 
     /// The rank of the core of a finite solvable piece.
     fn required(&self) -> usize {
-        self.options.model.required(self.nodes())
+        self.core.required(self.options.model)
     }
 
-    /// The rank of the piece from that of its core (Theorem 4.4; calibrated: Theorem 4.11).
+    /// The rank of the piece from that of its core (Theorem 4.4; calibrated: Theorems 4.11
+    /// and 13.18).
     fn rank_of_piece(&self, core_rank: usize) -> usize {
-        self.options.model.required(self.core.total_nodes) + core_rank - self.required()
+        let scale = usize::from(!self.core.scales.is_empty());
+        self.options.model.required(self.core.total_nodes) + scale + core_rank - self.required()
     }
 
     /// The verdict on a piece of full rank.

@@ -1,7 +1,7 @@
 //! What is asked of a graph, and how the answer is looked for.
 
 use crate::geometry::model::Model;
-use crate::graph::KnownParts;
+use crate::graph::{Displacements, KnownParts};
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
 use crate::watch::Watch;
 
@@ -92,6 +92,8 @@ pub struct Options {
     pub solutions: CountSolutions,
     /// Sets of nodes whose cameras are known relative to each other.
     pub known_parts: KnownParts,
+    /// Cameras whose displacements are known, calibrated ones.
+    pub displacements: Displacements,
     /// The seed of all draws.
     pub seed: u64,
     /// Who is told what is being done, and may stop it.
@@ -148,6 +150,27 @@ impl Options {
         self
     }
 
+    /// Takes displacements for known, in the calibrated model (Theorems 13.16 to 13.20).
+    ///
+    /// ```
+    /// use viewcert::graph::Displacements;
+    /// use viewcert::{Graph, Model, Options, Value, decide};
+    ///
+    /// // Two stereo rigs, and three pairs from one to the other.
+    /// let graph = Graph::new(4, [(0, 2), (0, 3), (1, 2)])?;
+    /// let rigs = Displacements::new(4, [(0, 1), (2, 3)])?;
+    /// let options = Options::default().model(Model::Calibrated);
+    /// assert_eq!(decide(&graph, &options)?.value, Value::NotFiniteSolvable);
+    /// let verdict = decide(&graph, &options.displacements(rigs))?;
+    /// assert_eq!((verdict.value, verdict.required), (Value::Solvable, 9));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn displacements(mut self, known: Displacements) -> Self {
+        self.displacements = known;
+        self
+    }
+
     /// Draws other cameras.
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
@@ -173,6 +196,7 @@ impl Default for Options {
             counting: true,
             solutions: CountSolutions::default(),
             known_parts: KnownParts::default(),
+            displacements: Displacements::default(),
             seed: 1,
             watch: Watch::default(),
         }

@@ -6,7 +6,7 @@ use crate::decide::claim::{Claim, Strength};
 use crate::decide::evidence::PieceVerdict;
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
-use crate::graph::{Graph, KnownParts};
+use crate::graph::{Displacements, Graph, KnownParts};
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -136,6 +136,8 @@ pub struct Verdict {
     pub model: Model,
     /// What was taken for known beside the pairs: sets of nodes, known relative to each other.
     pub known_parts: KnownParts,
+    /// What was known besides the graph: the displacements that the answer supposes.
+    pub displacements: Displacements,
     /// SHA-256 of the graph's canonical form.
     pub sha256: [u8; 32],
     /// The answer; [`value_claim`](Self::value_claim) says how strong it is.

@@ -69,6 +69,25 @@ pub fn rigidity_rows<R: Ring>(
     rows
 }
 
+/// The rows of edges (i, j) whose length is known: with q the first index at which their centres
+/// differ, 1 in the column 3i + q and -1 in 3j + q (Theorem 13.18).
+fn scale_rows<'r>(
+    field: &'r PrimeField,
+    scales: &'r [(u32, u32)],
+    centres: &'r [[u64; 3]],
+) -> impl Iterator<Item = Vec<(usize, u64)>> + 'r {
+    scales.iter().map(|&(i, j)| {
+        let (i, j) = (i as usize, j as usize);
+        let q = (0..3)
+            .find(|&q| centres[i][q] != centres[j][q])
+            .expect("centres are distinct");
+        let minus = field.neg(&field.one());
+        let mut row = vec![(3 * i + q, field.one()), (3 * j + q, minus)];
+        row.sort_unstable();
+        row
+    })
+}
+
 /// The right-hand sides of the four column systems N y^k = rho_k lambda: entry
 /// `(row, k)` is -a^T P_j e_k for the direction a of the row, that is -a_k for k < 3
 /// and a . c_j for k = 3.
@@ -143,6 +162,8 @@ pub struct PlaneFlows<'a> {
     field: &'a PrimeField,
     graph: &'a Graph,
     centres: &'a [[u64; 3]],
+    /// Edges whose length is known.
+    scales: &'a [(u32, u32)],
     rigidity: Factorisation,
 }
 
@@ -203,13 +224,33 @@ impl<'a> PlaneFlows<'a> {
         centres: &'a [[u64; 3]],
         task: &Task,
     ) -> Result<Self, Stopped> {
+        Self::with_scales(field, graph, &[], centres, task)
+    }
+
+    /// The same with a row more for each edge of `scales`, whose length is known: N is then the
+    /// matrix of Theorem 13.18, of which only the rank, the pivots and the motions are asked.
+    ///
+    /// # Errors
+    /// If the task was stopped.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn with_scales(
+        field: &'a PrimeField,
+        graph: &'a Graph,
+        scales: &'a [(u32, u32)],
+        centres: &'a [[u64; 3]],
+        task: &Task,
+    ) -> Result<Self, Stopped> {
         assert_eq!(centres.len(), graph.nodes(), "one centre a node");
-        let rows = rigidity_rows(field, graph, centres);
+        let mut rows = rigidity_rows(field, graph, centres);
+        rows.extend(scale_rows(field, scales, centres));
         let columns = 3 * graph.nodes();
         Ok(Self {
             field,
             graph,
             centres,
+            scales,
             rigidity: Factorisation::new(field, rows, columns, task)?,
         })
     }
@@ -413,10 +454,9 @@ impl<'a> PlaneFlows<'a> {
         for &col in self.rigidity.free_cols() {
             y[col] = random();
         }
-        for (row, side) in rigidity_rows(field, self.graph, self.centres)
-            .iter()
-            .zip(&mut sides)
-        {
+        let mut rows = rigidity_rows(field, self.graph, self.centres);
+        rows.extend(scale_rows(field, self.scales, self.centres));
+        for (row, side) in rows.iter().zip(&mut sides) {
             for &(col, value) in row {
                 *side = field.sub(side, &field.mul(&value, &y[col]));
             }
@@ -472,7 +512,10 @@ impl<'a> PlaneFlows<'a> {
     ) -> (Vec<u64>, Vec<[u64; 4]>) {
         let f = self.field;
         let y = self
-            .solve(vec![0; 2 * self.graph.edges().len()], &mut random)
+            .solve(
+                vec![0; 2 * self.graph.edges().len() + self.scales.len()],
+                &mut random,
+            )
             .expect("zero is a solution");
         let transforms = self
             .graph

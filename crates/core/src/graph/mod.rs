@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 mod adjacency;
 mod biconnected;
+mod displacements;
 pub mod graph6;
 pub mod identity;
 mod known_parts;
@@ -25,6 +26,7 @@ mod union_find;
 
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
+pub use displacements::Displacements;
 pub use identity::{core_sha256, sha256};
 pub use known_parts::KnownParts;
 pub use labelled::{LabelledGraph, PairedWithItself};

@@ -14,6 +14,8 @@ pub(super) struct FromBody<'a> {
     /// Nodes of the graph, and how many of its edges, of all that was absorbed.
     nodes: Vec<u32>,
     edges: usize,
+    /// Whether the body, with all that was absorbed, is scaled.
+    scaled: bool,
 }
 
 impl<'a> FromBody<'a> {
@@ -23,6 +25,7 @@ impl<'a> FromBody<'a> {
         centre: u32,
     ) -> Self {
         let search = structure.begin_search();
+        let scaled = structure.is_scaled(centre, bodies);
         for &v in &structure.own[centre as usize] {
             structure.inside[v as usize] = search;
         }
@@ -34,6 +37,7 @@ impl<'a> FromBody<'a> {
             merges: Vec::new(),
             nodes: Vec::new(),
             edges: 0,
+            scaled,
         }
     }
 
@@ -66,6 +70,7 @@ impl<'a> FromBody<'a> {
             merge: self.merges,
             nodes,
             edges,
+            scaled: self.scaled,
         });
         true
     }
@@ -105,6 +110,10 @@ impl<'a> FromBody<'a> {
     fn search_from(&mut self, a: u32) {
         for member in self.structure.holders_of(a) {
             if !self.may_join(member) {
+                continue;
+            }
+            if self.scaled && self.structure.is_scaled(member, self.bodies) {
+                self.merge_scaled(member, a);
                 continue;
             }
             let before = self.way(member);
@@ -180,6 +189,13 @@ impl<'a> FromBody<'a> {
         }
     }
 
+    fn merge_scaled(&mut self, member: u32, a: u32) {
+        let part = self.structure.part[member as usize];
+        let at = self.names([a]);
+        self.merges.push(Merge::Scaled { part, at });
+        self.absorb(member);
+    }
+
     fn merge_shared(&mut self, member: u32, at: [u32; 2]) {
         let part = self.structure.part[member as usize];
         // An edge between two nodes of the body is the body's own.
@@ -210,6 +226,7 @@ impl<'a> FromBody<'a> {
     }
 
     fn absorb(&mut self, member: u32) {
+        self.scaled |= self.structure.is_scaled(member, self.bodies);
         match self.structure.part[member as usize] {
             Part::Edge(i, j) => {
                 self.nodes.extend([i, j]);

@@ -210,6 +210,7 @@ impl<'a> FromNode<'a> {
         };
         let mut edges = 0;
         let mut nodes = Vec::new();
+        let mut scaled = false;
         for part in parts {
             match part {
                 Part::Edge(i, j) => {
@@ -218,6 +219,7 @@ impl<'a> FromNode<'a> {
                 }
                 Part::Body(k) => {
                     let body = &mut self.bodies[k as usize];
+                    scaled |= body.scaled;
                     append_smaller(&mut nodes, std::mem::take(&mut body.nodes));
                     edges += std::mem::take(&mut body.edges);
                 }
@@ -235,6 +237,7 @@ impl<'a> FromNode<'a> {
             merge: vec![merge],
             nodes,
             edges,
+            scaled,
         });
     }
 

@@ -49,13 +49,13 @@ pub struct Block {
 }
 
 impl Counting {
-    /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8; affine:
-    /// Corollary 13.8).
+    /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8, with
+    /// displacements Theorem 13.6; affine: Corollary 13.8).
     pub(super) fn partition(model: Model, assembly: &Assembly, blocks: &[Members]) -> Self {
         Self {
             bound: blocks
                 .iter()
-                .map(|block| model.required(assembly.count_nodes(block)))
+                .map(|block| assembly.required(model, block))
                 .sum(),
             blocks: blocks
                 .iter()

@@ -1,0 +1,154 @@
+"""Known displacements: every condition of docs/certificate.md about them is broken once, and the reason has to name it."""
+
+import glob
+import json
+import os
+import sys
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+
+import check  # noqa: E402
+from test_check import Case, evidence  # noqa: E402
+
+CERTIFICATES = os.path.join(HERE, "..", "tests", "certificates")
+
+
+def named(name):
+    with open(os.path.join(CERTIFICATES, f"displaced-{name}.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+class Displacements(Case):
+    def test_what_is_verified(self):
+        """Claims by trying everything (displaced.py); numbers of three scalars for each vector, two for each pair."""
+        expected = {
+            "rigs": ("solvable", 2 * 3 + 2 * 2, 9, 1),
+            "path": ("not-finite-solvable", 2 * 3 + 2, 9, 3),
+            "merge": ("solvable", 9, 9, 1),
+            "pieces": ("solvable", 9, 9, 1),
+            "pentagon": ("solvable", 2 * 3 + 3 * 2, 12, 1),
+            "flex": ("not-finite-solvable", 3 + 4 * 2, 12, 5),
+            "split": ("not-finite-solvable", 3 + 6 + 4 * 2, 18, 5),
+            "class": ("not-finite-solvable", 12 + 4 * 2, 21, 5),
+        }
+        names = glob.glob(os.path.join(CERTIFICATES, "displaced-*.json"))
+        self.assertEqual(len(names), len(expected))
+        for name, (verdict, rank, required, components) in expected.items():
+            document = named(name)
+            claim = self.verifies(document).claim
+            self.assertEqual(claim["verdict"]["value"], verdict, name)
+            self.assertEqual(claim["rank"]["value"], min(rank, required), name)
+            self.assertEqual(claim["rank"]["required"], required, name)
+            self.assertEqual(claim["components"]["value"], components, name)
+        lines = self.verifies(named("rigs")).statements()
+        self.assertIn("displacements: supposed to be known, 4 nodes in groups: 2, SHA-256 2eaec72a", "\n".join(lines))
+
+    def test_without_them(self):
+        def forget(document):
+            del document["displacements"]
+
+        self.broken(named("path"), forget, "not a member")
+        self.broken(named("rigs"), forget, "not a member")
+
+    def groups(self, groups, *words):
+        self.broken(named("path"), lambda document: document.update(displacements=groups), *words)
+
+    def test_section_3_groups(self):
+        self.groups([], "there is no group")
+        self.groups([[0], [2, 3]], "group 0 has less than two nodes")
+        self.groups([[1, 0], [2, 3]], "group 0 is not increasing")
+        self.groups([[0, 1], [2, 2]], "group 1 is not increasing")
+        self.groups([[0, 1], [2, 4]], "group 1: 4 is out of range")
+        self.groups([[0, 1], [1, 3]], "group 1 shares a node with another")
+        self.groups([[2, 3], [0, 1]], "first nodes is not increasing")
+        self.groups([[0, "1"]], "group 0")
+        self.groups({}, "section 3: displacements")
+        both = "section 3: displacements and parts at once"
+        self.broken(named("path"), lambda document: document.update(parts=[[0, 1]]), both)
+        for model in ("projective", "affine"):
+            self.broken(named("path"), lambda document: document.update(model=model), "calibrated model only")
+
+    def test_section_5_bodies(self):
+        document = named("merge")
+        merge = document["bodies"][0]["merge"][0]
+        self.assertEqual(merge, {"with": [1], "at": [2]})
+
+        def at(node):
+            return lambda other: other["bodies"][0]["merge"][0].update(at=[node])
+
+        self.broken(document, at(0), "not shared")
+        self.broken(document, at(3), "not shared")
+        with_edge = lambda other: other["bodies"][0]["merge"][0].update({"with": [[0, 2]]})
+        self.broken(document, with_edge, "only scaled bodies")
+        unscaled = lambda other: other["bodies"][0].update(seed=[0, 2], add=[])
+        self.broken(document, unscaled, "only scaled bodies")
+        twice = lambda other: other["bodies"][0]["merge"].append(merge)
+        self.broken(document, twice, "consumed already")
+        # Groups come first: the body is number 2.
+        self.broken(document, lambda other: other["rigid"].update(bodies=[0]), "not a member")
+
+    def test_section_6_cores_and_ranks(self):
+        document = named("rigs")
+        flow = evidence(document, "plane-flow")
+        self.assertEqual(len(flow["rows"]), 9)
+        # m' = 4 and two scaled bodies: rows 0 to 9.
+        self.broken(document, lambda other: evidence(other, "plane-flow")["rows"].__setitem__(8, 10), "10 is out of range")
+        shorter = lambda other: [evidence(other, "plane-flow")[name].pop() for name in ("rows", "cols")]
+        self.broken(document, shorter, "neither rigid nor divided into classes")
+        self.broken(document, lambda other: evidence(other, "plane-flow").update(flows=2), "2 is out of range")
+
+    def test_section_7_blocks(self):
+        document = named("flex")
+        self.broken(document, lambda other: evidence(other, "counting").update(bound=10), "the bound is 11")
+
+        def one_block(other):
+            blocks = evidence(other, "counting")["blocks"]
+            blocks[0]["edges"] = [blocks.pop(1)["edges"][0]]
+            evidence(other, "counting")["bound"] = 11
+
+        # 3 * 3 - 3 in the place of (3 * 2 - 3) + (3 * 2 - 4).
+        self.broken(document, one_block, "the bound is 12")
+
+    def test_section_7_classes(self):
+        document = named("class")
+        classes = evidence(document, "classes")["classes"]
+        self.assertEqual(len(classes[0]["evidence"][0]["rows"]), 12)
+
+        def less(other):
+            flow = evidence(other, "classes")["classes"][0]["evidence"][0]
+            flow["rows"].pop(), flow["cols"].pop()
+
+        self.broken(document, less, "the class is not shown to be rigid")
+        document = named("split")
+        halves = evidence(document, "classes")["classes"][0]
+        self.assertEqual(halves["split"]["rigid"]["bodies"], [0, 2])
+
+        def unscaled(other):
+            classes = evidence(other, "classes")["classes"]
+            edges = [classes.pop(1)["edges"][0] for _ in range(2)]
+            split = {"rigid": {"bodies": [], "edges": edges}, "pieces": []}
+            classes.append({"bodies": [], "edges": edges, "evidence": [], "split": split})
+
+        self.broken(document, unscaled, "split is for the projective model only")
+
+    def test_section_7_kernel(self):
+        with open(os.path.join(HERE, "..", "tests", "displacements", "longer.json"), encoding="utf-8") as file:
+            self.rejects(json.load(file), "the known length of the core edge (0, 1) changes")
+
+    def test_section_8_claims(self):
+        def value(name, member, new):
+            return lambda other: other["claim"][name].update({member: new})
+
+        self.broken(named("pieces"), value("verdict", "value", "not-finite-solvable"), "verdict", "gives solvable")
+        self.broken(named("pieces"), value("components", "value", 2), "components", "gives 1")
+        self.broken(named("split"), value("components", "value", 6), "components", "gives 5")
+        self.broken(named("path"), value("components", "value", 2), "components", "gives 3")
+        self.broken(named("path"), value("verdict", "value", "solvable"), "verdict", "gives not-finite-solvable")
+        self.broken(named("path"), value("rank", "required", 8), "required", "gives 9")
+        self.broken(named("flex"), value("rank", "value", 12), "rank", "gives 11")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+//! Known displacements: a hypothesis of the claim (section 3 of the specification; theory, Theorem
+//! 13.16).
+
+use crate::document::Model;
+use crate::rejection::{Checked, ensure};
+use sha2::{Digest, Sha256};
+use std::fmt;
+
+/// The displacements that a certificate supposes to be known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Displacements {
+    /// How many groups of cameras there are, within which they are known.
+    pub groups: usize,
+    /// How many cameras are in groups.
+    pub nodes: usize,
+    /// The SHA-256 of their canonical form, in lower-case hexadecimal digits.
+    pub sha256: String,
+}
+
+impl fmt::Display for Displacements {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Displacements {
+            groups,
+            nodes,
+            sha256,
+        } = self;
+        let plural = if *groups == 1 { "" } else { "s" };
+        write!(
+            f,
+            "{nodes} nodes in {groups} group{plural}, SHA-256 {sha256}"
+        )
+    }
+}
+
+/// Verifies the groups of a graph with so many nodes, and with known parts, if there are any.
+pub(crate) fn check_groups(
+    groups: &[Vec<u32>],
+    model: Model,
+    nodes: usize,
+    parts: &[Vec<u32>],
+) -> Checked<Displacements> {
+    ensure!(
+        model == Model::Calibrated,
+        "known displacements in the {model} model"
+    );
+    ensure!(parts.is_empty(), "there are known parts as well");
+    ensure!(!groups.is_empty(), "there is no group");
+    let mut seen = vec![false; nodes];
+    for (k, group) in groups.iter().enumerate() {
+        ensure!(group.len() >= 2, "group {k} has fewer than two nodes");
+        ensure!(
+            group.is_sorted_by(|a, b| a < b),
+            "group {k} is not increasing"
+        );
+        for &node in group {
+            let known = (node as usize) < nodes;
+            ensure!(known, "the graph has no node {node}");
+            let before = std::mem::replace(&mut seen[node as usize], true);
+            ensure!(!before, "node {node} is in two groups");
+        }
+    }
+    ensure!(
+        groups.is_sorted_by(|a, b| a[0] < b[0]),
+        "the groups are not in the order of their first nodes"
+    );
+    Ok(Displacements {
+        groups: groups.len(),
+        nodes: groups.iter().map(Vec::len).sum(),
+        sha256: hash(groups),
+    })
+}
+
+fn hash(groups: &[Vec<u32>]) -> String {
+    let mut hash = Sha256::new();
+    hash.update(b"viewcert displacements 1\n");
+    hash.update((groups.len() as u64).to_le_bytes());
+    for group in groups {
+        hash.update((group.len() as u64).to_le_bytes());
+        group
+            .iter()
+            .for_each(|node| hash.update(node.to_le_bytes()));
+    }
+    let digits = hash.finalize();
+    digits.iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,313 @@
+//! `--displacements`: rigs and positions, through the real binary.
+
+mod common;
+
+use common::{Run, cycle, verify, verify_with};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use viewcert::graph::Displacements;
+use viewcert::{Graph, Model, Options, decide};
+
+/// A file of the test's own.
+struct File {
+    folder: tempfile::TempDir,
+    path: PathBuf,
+}
+
+impl File {
+    fn new(name: &str, text: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        Self { folder, path }
+    }
+
+    fn text(&self) -> &str {
+        self.path.to_str().unwrap()
+    }
+}
+
+fn decided(pairs: &str, known: &str, more: &[&str]) -> Run {
+    let file = File::new("known.txt", known);
+    let own = ["-", "--model", "calibrated", "--displacements", file.text()];
+    verify_with(pairs.as_bytes(), &[&own[..], more].concat())
+}
+
+fn line(pairs: &str, known: &str) -> (i32, Value) {
+    let run = decided(pairs, known, &["--json", "--components"]);
+    (run.code, run.json().remove(0))
+}
+
+/// Three scalars for each vector, two for each pair; 3 n - 3 in all.
+#[test]
+fn answers_by_hand() {
+    for (pairs, known, code, ranks, components) in [
+        // Two rigs and two pairs between them; one pair leaves its length open.
+        ("0 2\n1 3\n", "0 1\n2 3\n", 0, [9, 9], 1),
+        ("0 2\n", "0 1\n2 3\n", 2, [9, 9], 0),
+        ("1 2\n0 3\n1 3\n", "0 1\n2 3\n", 0, [9, 9], 1),
+        ("0 1\n1 2\n2 3\n", "0 1\n2 3\n", 1, [8, 9], 3),
+        // A triangle has a scale by one of its sides, or by two positions.
+        (&cycle(3), "0 1\n", 0, [6, 6], 1),
+        (&cycle(3), "0\n2\n", 0, [6, 6], 1),
+        // A pentagon moves in one way; with a rig instead of a pair too; not with two.
+        (&cycle(5), "0 1\n", 1, [11, 12], 5),
+        (&cycle(5), "0 1\n2 3\n", 0, [12, 12], 1),
+        // Positions of all.
+        (&cycle(5), "0\n1\n2\n3\n4\n", 0, [12, 12], 1),
+    ] {
+        if code == 2 {
+            let run = decided(pairs, known, &[]);
+            assert_eq!(run.code, 2);
+            assert!(
+                run.err
+                    .contains("known.txt:1: `1` is no camera of the graph; "),
+                "{}",
+                run.err
+            );
+            continue;
+        }
+        let (found, line) = line(pairs, known);
+        let told = format!("{pairs:?} {known:?} {line}");
+        assert_eq!(found, code, "{told}");
+        assert_eq!(
+            [line["rank"].as_u64(), line["rank_required"].as_u64()],
+            ranks.map(Some),
+            "{told}"
+        );
+        assert_eq!(
+            line["components"].as_array().unwrap().len(),
+            components,
+            "{told}"
+        );
+        for strength in ["strength", "rank_strength", "components_strength"] {
+            assert_eq!(line[strength], "proof", "{told}");
+        }
+        assert_eq!(line["joints_complete"], components < 2, "{told}");
+    }
+}
+
+#[test]
+fn what_is_supposed_is_reported() {
+    let run = decided(
+        "a b\nb c\nc d\nd a\n",
+        "a b\nb,a\n\"c\"\n# GPS\nd\na a\n",
+        &[],
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    for wanted in [
+        "known       displacements between 4 cameras in 2 groups",
+        "1 line says again what another one says, and counts once",
+        "1 pair is one of a camera with itself, which says nothing",
+        "condition   displacements are vectors in the frame of the directions",
+        "verdict     solvable: the cameras are unique (proved)",
+        "rank        9 of 9 (proved)",
+    ] {
+        assert!(run.out.contains(wanted), "{wanted}: {}", run.out);
+    }
+    let (_, line) = line("a b\nb c\nc d\nd a\n", "a b\nc\nd\n");
+    assert_eq!(line["model"], "calibrated");
+    // By Python's hashlib, from the page: the groups 0 1 and 2 3.
+    let hash = "2eaec72a74890accb2edf31caf4b2e9e8351715092f824e37a10c1317e13c424";
+    let known = serde_json::json!({"groups": 2, "cameras": 4, "sha256": hash});
+    assert_eq!(line["displacements"], known);
+    assert_eq!(line["notes"], serde_json::json!([]));
+    assert!(
+        line["conditions"][0]
+            .as_str()
+            .unwrap()
+            .starts_with("displacements are vectors")
+    );
+}
+
+#[test]
+fn what_knows_nothing_of_displacements_refuses_by_name() {
+    for (more, other) in [
+        (&["--planar"][..], "--planar"),
+        (&["--no-contraction"], "--no-contraction"),
+        (&["--witness", "w.json"], "--witness"),
+        (&["--weak"], "--weak"),
+        (&["--suggest"], "--suggest"),
+        (&["--explain", "0"], "--explain"),
+        (&["--sweep", "20"], "--sweep"),
+        (&["--margin"], "--margin"),
+        (&["--export", "out"], "--export"),
+        (&["--tracks"], "--tracks"),
+    ] {
+        let run = decided(&cycle(4), "0 1\n", more);
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{other}");
+        let wanted = format!("--displacements: {other} knows nothing of displacements");
+        assert!(run.err.contains(&wanted), "{}", run.err);
+    }
+    let file = File::new("known.txt", "0 1\n");
+    for model in [&[][..], &["--model", "projective"], &["--model", "affine"]] {
+        let own = ["-", "--displacements", file.text()];
+        let run = verify_with(cycle(4).as_bytes(), &[&own[..], model].concat());
+        assert_eq!(run.code, 2);
+        assert!(
+            run.err.contains("between calibrated cameras only"),
+            "{}",
+            run.err
+        );
+    }
+    let focal = ["-", "--displacements", file.text(), "--model", "focal"];
+    assert_eq!(verify_with(cycle(4).as_bytes(), &focal).code, 0);
+    // Those of one graph.
+    let two = File::new("two.g6", "Cl\nCl\n");
+    let run = verify(&[
+        two.text(),
+        "--model",
+        "calibrated",
+        "--displacements",
+        file.text(),
+    ]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.err.contains("the displacements are those of one graph"),
+        "{}",
+        run.err
+    );
+}
+
+/// Certificates are verified by both checkers, for the displacements that were supposed and no
+/// others.
+#[test]
+fn certificates_and_both_checkers() {
+    let graphs = [
+        (cycle(4), "0 1\n2 3\n"),
+        (cycle(5), "0 1\n"),
+        (cycle(5), "0 1\n2 3\n"),
+        (cycle(6), "0 1\n2 3\n4 5\n"),
+        (cycle(9), "0\n3\n6\n"),
+        ("0 1\n1 2\n2 0\n3 4\n4 5\n5 3\n".to_owned(), "0\n4\n"),
+        (
+            "0 1\n1 2\n2 3\n3 0\n3 4\n4 5\n5 6\n6 7\n7 3\n".to_owned(),
+            "0 2\n4 6\n",
+        ),
+    ];
+    for (pairs, known) in graphs {
+        let graph = File::new("graph.txt", &pairs);
+        let folder = graph.folder.path();
+        let (own, other) = (folder.join("known.txt"), folder.join("other.txt"));
+        std::fs::write(&own, known).unwrap();
+        std::fs::write(&other, "0 2\n").unwrap();
+        let certificate = folder.join("certificate.json");
+        let [own, other, certificate] = [&own, &other, &certificate].map(|p| p.to_str().unwrap());
+        let run = verify(&[
+            graph.text(),
+            "--model",
+            "calibrated",
+            "--displacements",
+            own,
+            "--certificate",
+            certificate,
+        ]);
+        assert!(run.code < 2, "{}", run.err);
+        let checked = verify(&["check", certificate, graph.text()]);
+        assert_eq!(checked.code, 0, "{pairs:?} {known:?}: {}", checked.out);
+        assert!(
+            checked
+                .out
+                .contains("VERIFIED displacements: supposed to be known"),
+            "{}",
+            checked.out
+        );
+        let checked = verify(&["check", certificate, graph.text(), "--displacements", own]);
+        assert_eq!(checked.code, 0, "{}", checked.out);
+        let checked = verify(&["check", certificate, graph.text(), "--displacements", other]);
+        assert_eq!(checked.code, 1);
+        let wanted = "REJECTED: displacements: other displacements are supposed to be known";
+        assert!(checked.out.starts_with(wanted), "{}", checked.out);
+        let second = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/second/check.py");
+        let second = Command::new("python3")
+            .arg(second)
+            .args([certificate, graph.text()])
+            .output();
+        let second = second.unwrap();
+        let told = String::from_utf8_lossy(&second.stderr).into_owned();
+        assert!(second.status.success(), "{pairs:?} {known:?}: {told}");
+    }
+    // Without any the certificate is what it always was, and supposes nothing.
+    let graph = File::new("graph.txt", &cycle(4));
+    let known = File::new("known.txt", "0 1\n");
+    let run = verify(&[graph.text(), "--model", "calibrated", "--certificate", "-"]);
+    assert!(!run.out.contains("displacements"), "{}", run.out);
+    let plain = File::new("plain.json", &run.out);
+    let checked = verify(&[
+        "check",
+        plain.text(),
+        graph.text(),
+        "--displacements",
+        known.text(),
+    ]);
+    assert_eq!(checked.code, 1);
+    assert!(
+        checked
+            .out
+            .contains("no displacements are supposed to be known"),
+        "{}",
+        checked.out
+    );
+}
+
+/// Another table of results cannot be decided again without what it supposes.
+#[test]
+fn claims_that_rest_on_displacements_are_no_claims_of_pairs() {
+    let file = File::new("known.txt", "0 1\n");
+    let own = [
+        "-",
+        "--model",
+        "calibrated",
+        "--displacements",
+        file.text(),
+        "--json",
+    ];
+    let run = verify_with(cycle(4).as_bytes(), &own);
+    let claims = File::new("claims.json", &run.out);
+    let audit = verify(&["audit", "--claims", claims.text()]);
+    assert_eq!(audit.code, 2, "{}", audit.out);
+    assert!(
+        audit.err.contains("it rests on known displacements"),
+        "{}",
+        audit.err
+    );
+}
+
+/// Sparse random graphs with rigs, pairs of them and positions: what is decided is what the checker
+/// finds. Classes that hang together in single nodes of scaled components are among them.
+#[test]
+fn the_checker_agrees_on_random_graphs() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut below = |limit: u32| random.next_u32() % limit;
+    let options = Options::default().model(Model::Calibrated);
+    let (mut solvable, mut classes, mut joined) = (0, 0, 0);
+    for _ in 0..2000 {
+        let nodes = 4 + below(14);
+        let mut pairs = |count: u32| -> Vec<(u32, u32)> {
+            let pairs = (0..count).map(|_| (below(nodes), below(nodes)));
+            pairs.filter(|(i, j)| i != j).collect()
+        };
+        let edges = pairs(nodes + nodes / 3);
+        let rigs = pairs(1 + nodes / 3);
+        let graph = Graph::new(nodes, edges).unwrap();
+        let known = Displacements::new(nodes, rigs).unwrap();
+        let verdict = decide(&graph, &options.clone().displacements(known)).unwrap();
+        let text = verdict.certificate(&graph).compact().to_string();
+        let verified = viewcert_check::check(text.as_bytes(), None);
+        let verified = verified.unwrap_or_else(|failure| panic!("{failure}: {text}"));
+        assert_eq!(verified.verdict.0.to_string(), verdict.value.name());
+        assert_eq!(verified.rank.0, verdict.rank as i64);
+        assert_eq!(verified.required, verdict.required as i64);
+        assert_eq!(verified.components.0, verdict.components.len());
+        solvable += usize::from(verdict.rank == verdict.required);
+        classes += usize::from(text.contains("\"kind\":\"classes\""));
+        joined += usize::from(text.contains("\"split\":{"));
+    }
+    assert!(
+        solvable > 100 && classes > 100 && joined > 0,
+        "{solvable} {classes} {joined}"
+    );
+}
