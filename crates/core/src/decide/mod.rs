@@ -181,8 +181,8 @@ impl Found<'_> {
     }
 
     /// The answer before solutions are counted: one body is unique (Corollary 4.2), one piece of
-    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8, 13.2 and, with
-    /// displacements, 13.20).
+    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8, 13.2 and,
+    /// with displacements, 13.20).
     fn value(&self, rank: usize) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
         let all_nodes =
