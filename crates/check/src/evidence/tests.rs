@@ -19,8 +19,8 @@ fn a_contradiction_is_rejected() {
         required: 29,
         core_required: 29,
     };
-    assert!(shown(29, 29).conclude(&sizes).is_ok());
-    let failed = shown(29, 28).conclude(&sizes).err().unwrap();
+    assert!(shown(29, 29).conclude(&sizes, Vec::new()).is_ok());
+    let failed = shown(29, 28).conclude(&sizes, Vec::new()).err().unwrap();
     let wanted = "the lower bound 29 contradicts the upper bound 28";
     assert_eq!(failed.to_string(), wanted);
 }

@@ -8,6 +8,8 @@ fn five() -> Core {
         nodes: 5,
         edges: Vec::new(),
         member: Vec::new(),
+        is_scaled: Vec::new(),
+        scales: Vec::new(),
         sha256: [0; 32],
     }
 }
