@@ -162,7 +162,7 @@ fn section_5_known_parts() {
     refused(
         "parts-rig",
         &[("/rigid", rigid(json!([0, 6])))],
-        "0 is not a final body",
+        "rigid: 0 is not a final body",
     );
     // Two nodes of a part are no edge of the graph.
     refused(
@@ -212,6 +212,6 @@ fn section_6_known_parts() {
     refused(
         "parts-ring",
         &changes,
-        "a piece closes a cycle of pieces at node",
+        "pieces: a piece closes a cycle of pieces at node",
     );
 }
