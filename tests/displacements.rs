@@ -314,9 +314,10 @@ fn the_checker_agrees_on_random_graphs() {
     assert!(solvable > 100 && classes > 20, "{solvable} {classes}");
 }
 
-/// A ring of two rigs and three pairs, which is rigid by its rank alone; a third rig touches it where
-/// two of the pairs meet, and four more pairs lead from there around to the ring. Six cameras are one
-/// component, by two bodies that share a camera; the four pairs move, so a rank is missing of 3 * 9 - 3.
+/// A ring of two rigs and three pairs, which is rigid by its rank alone; a third rig touches it
+/// where two of the pairs meet, and four more pairs lead from there around to the ring. Six cameras
+/// are one component, by two bodies that share a camera; the four pairs move, so that the rank is
+/// one less than 3 * 9 - 3.
 #[test]
 fn scaled_components_that_share_a_camera_are_one() {
     let pairs = [(1, 2), (3, 4), (0, 4), (5, 8), (5, 6), (6, 7), (2, 7)];
