@@ -1,4 +1,8 @@
 //! `verify catalog publish`: the published catalog, byte for byte the same every time.
+//!
+//! In: how far to go. Out: a folder with certificates of small candidates, their numbers of
+//! solutions included (docs/theory.md, sections 5 to 7 and 10), lists of larger graphs with what is
+//! known of each, counts, a picture, a page, and a manifest of all these.
 
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::super::progress::Progress;
@@ -10,6 +14,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -61,15 +66,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     );
     let progress = Progress::new(None);
     let mut drawings = Vec::new();
-    let mut counts = Vec::new();
+    let mut counts: Vec<(usize, Counts)> = Vec::new();
     let mut files = Files {
         folder,
         written: Vec::new(),
     };
     let certified = 3..=usize::from(arguments.certified);
     for nodes in certified.clone() {
-        let (summary, mut found) = certify(&mut files, nodes, &progress)?;
-        counts.push((nodes, summary));
+        let (found_counts, mut found) = certify(&mut files, nodes, &progress)?;
+        counts.push((nodes, found_counts));
         if nodes <= DRAWN {
             drawings.append(&mut found);
         }
@@ -129,10 +134,35 @@ impl Files<'_> {
     }
 }
 
+/// Solutions are counted where that is quick, which it is for all graphs that are published.
 fn options() -> Options {
     Options::default()
-        .solutions(CountSolutions::Off)
+        .solutions(CountSolutions::Quick)
         .watch(running::watch())
+}
+
+/// What is counted of one size.
+#[derive(Default)]
+struct Counts {
+    summary: Summary,
+    /// How many graphs have each number of solutions, or bounds for it.
+    solutions: BTreeMap<String, u64>,
+}
+
+impl Counts {
+    fn count(&mut self, entry: &Entry) {
+        self.summary.count(entry);
+        if let Some(solutions) = entry.solutions_in_words() {
+            *self.solutions.entry(solutions).or_default() += 1;
+        }
+    }
+
+    /// The numbers of solutions, as in `1:595,2:153,3:8`.
+    fn solutions(&self) -> String {
+        let each = self.solutions.iter();
+        let each = each.map(|(solutions, graphs)| format!("{solutions}:{graphs}"));
+        each.collect::<Vec<_>>().join(",")
+    }
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
@@ -168,8 +198,8 @@ fn relabelled(graph: &Graph) -> Graph {
 
 /// Writes the certificates of one size: a file of finite-solvable graphs, and one of refuted
 /// ones.
-fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summary, Vec<Drawing>)> {
-    let mut summary = Summary::default();
+fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts, Vec<Drawing>)> {
+    let mut counts = Counts::default();
     let mut drawings = Vec::new();
     let mut files: [Vec<u8>; 2] = Default::default();
     let mut contents: [Contents; 2] = Default::default();
@@ -180,7 +210,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
             .collect::<Result<_, _>>()?;
         for (graph, verdict) in graphs.iter().zip(&verdicts) {
             let entry = Entry::new(graph, verdict);
-            summary.count(&entry);
+            counts.count(&entry);
             let solvable = verdict.value != Value::NotFiniteSolvable;
             let file = &mut files[usize::from(!solvable)];
             let found = &mut contents[usize::from(!solvable)];
@@ -189,12 +219,15 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
                 .verdicts
                 .entry(verdict.value.name().into())
                 .or_default() += 1;
+            if let Some(solutions) = entry.solutions_in_words() {
+                *found.solutions.entry(solutions).or_default() += 1;
+            }
             let certificate = verdict.certificate(graph).named(&entry.graph6);
             certificate.embed_graph(true).compact().write_to(file)?;
             if solvable && nodes <= DRAWN {
                 drawings.push(Drawing {
                     graph: graph.clone(),
-                    unique: verdict.value == Value::Solvable,
+                    unique: entry.contracts,
                 });
             }
         }
@@ -213,23 +246,23 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
             gz.finish().map(drop)
         })?;
     }
-    Ok((summary, drawings))
+    Ok((counts, drawings))
 }
 
 /// Writes the finite-solvable graphs of one size, and their invariants in the same order.
-fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
+fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Counts> {
     let options = options();
-    let mut summary = Summary::default();
+    let mut counts = Counts::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
     let mut batch = Vec::with_capacity(BATCH);
     let mut failure = None;
     let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
         let entries = decide_all(batch, &options)?;
-        for (graph, entry) in batch.iter().zip(&entries) {
-            summary.count(entry);
+        for (graph, entry) in batch.iter().zip(entries) {
+            counts.count(&entry);
             if entry.value != Value::NotFiniteSolvable {
-                found.push((relabelled(graph), entry.value));
+                found.push((relabelled(graph), entry));
             }
         }
         progress.done(batch.len() as u64);
@@ -254,10 +287,10 @@ fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
             .try_for_each(|(graph, _)| writeln!(out, "{}", graph6::encode(graph)))
     })?;
     out.write(&name("tsv"), None, |out| write_invariants(out, &found))?;
-    Ok(summary)
+    Ok(counts)
 }
 
-fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::Result<()> {
+fn write_invariants(out: &mut dyn Write, found: &[(Graph, Entry)]) -> std::io::Result<()> {
     let mut table = Values::tabs(out);
     table.row([
         "graph6",
@@ -266,8 +299,9 @@ fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::R
         "automorphisms",
         "triangles",
         "unique_by_contraction",
+        "solutions",
     ])?;
-    for (graph, value) in found {
+    for (graph, entry) in found {
         let Some(small) = Multigraph::from_graph(graph) else {
             continue;
         };
@@ -281,14 +315,15 @@ fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::R
                 .map_or(String::new(), |girth| girth.to_string()),
             invariants.group_order.to_string(),
             invariants.triangles.to_string(),
-            u8::from(*value == Value::Solvable).to_string(),
+            u8::from(entry.contracts).to_string(),
+            entry.solutions_in_words().unwrap_or_default(),
         ])?;
     }
     table.finish()
 }
 
 /// The head of `counts.tsv`.
-const COUNTS: [&str; 10] = [
+const COUNTS: [&str; 11] = [
     "nodes",
     "edges",
     "candidates",
@@ -299,12 +334,14 @@ const COUNTS: [&str; 10] = [
     "unproved",
     "rank_proved",
     "components_proved",
+    "solutions",
 ];
 
-fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
+fn write_counts(out: &mut dyn Write, counts: &[(usize, Counts)]) -> std::io::Result<()> {
     let mut table = Values::tabs(out);
     table.row(COUNTS)?;
-    for (nodes, summary) in counts {
+    for (nodes, counts) in counts {
+        let summary = &counts.summary;
         let cells = [
             *nodes as u64,
             least_edges(*nodes) as u64,
@@ -317,7 +354,8 @@ fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Re
             summary.rank_proved,
             summary.components_proved,
         ];
-        table.row(cells.map(|cell| cell.to_string()))?;
+        let cells = cells.iter().map(u64::to_string);
+        table.row(cells.chain([counts.solutions()]))?;
     }
     table.finish()
 }
