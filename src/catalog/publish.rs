@@ -42,6 +42,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 12)]
     #[arg(value_parser = clap::value_parser!(u8).range(3..=16))]
     listed: u8,
+    /// Numbers of solutions of the graphs that are listed, with up to this many nodes; those with
+    /// certificates have them in any case.
+    #[arg(long, value_name = "N", default_value_t = 11)]
+    #[arg(value_parser = clap::value_parser!(u8).range(3..=12))]
+    counted: u8,
 }
 
 /// A prime of 16 bits: any odd prime makes lower bounds and kernel vectors proofs, and
@@ -81,7 +86,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     let listed = certified.end() + 1..=usize::from(arguments.listed);
     for nodes in listed.clone() {
-        counts.push((nodes, list(&mut files, nodes, &progress)?));
+        let count = nodes <= usize::from(arguments.counted);
+        counts.push((nodes, list(&mut files, nodes, count, &progress)?));
     }
     progress.finish();
     files.write("finite-solvable.svg", None, |out| {
@@ -89,7 +95,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     })?;
     files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
     files.write("README.md", None, |out| {
-        out.write_all(readme(&certified, &listed).as_bytes())
+        out.write_all(readme(&certified, &listed, arguments.counted).as_bytes())
     })?;
     files.close()?;
     Ok(ExitCode::from(GOOD))
@@ -134,10 +140,9 @@ impl Files<'_> {
     }
 }
 
-/// Solutions are counted where that is quick, which it is for all graphs that are published.
-fn options() -> Options {
+fn options(solutions: CountSolutions) -> Options {
     Options::default()
-        .solutions(CountSolutions::Quick)
+        .solutions(solutions)
         .watch(running::watch())
 }
 
@@ -168,7 +173,7 @@ impl Counts {
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
 fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = options();
+    let options = options(CountSolutions::Full);
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
@@ -249,9 +254,13 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
     Ok((counts, drawings))
 }
 
-/// Writes the finite-solvable graphs of one size, and their invariants in the same order.
-fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Counts> {
-    let options = options();
+/// Writes the finite-solvable graphs of one size, and their invariants in the same order, the
+/// number of solutions among them if these are to be counted.
+fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
+    let options = options(match count {
+        true => CountSolutions::Full,
+        false => CountSolutions::Off,
+    });
     let mut counts = Counts::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
@@ -363,12 +372,17 @@ fn write_counts(out: &mut dyn Write, counts: &[(usize, Counts)]) -> std::io::Res
 /// The page beside the catalog, with names in braces for what depends on the options.
 const PAGE: &str = include_str!("published.md");
 
-fn readme(certified: &RangeInclusive<usize>, listed: &RangeInclusive<usize>) -> String {
+fn readme(
+    certified: &RangeInclusive<usize>,
+    listed: &RangeInclusive<usize>,
+    counted: u8,
+) -> String {
     let values = [
         ("{last-certified}", certified.end().to_string()),
         ("{first-listed}", listed.start().to_string()),
         ("{first-listed-02}", format!("{:02}", listed.start())),
         ("{last-listed}", listed.end().to_string()),
+        ("{last-counted}", counted.to_string()),
         ("{last-drawn}", DRAWN.to_string()),
         ("{prime}", PRIME.to_string()),
     ];
@@ -384,6 +398,6 @@ mod tests {
     #[test]
     fn the_page_is_the_published_one() {
         let published = include_str!("../../certificates/README.md");
-        assert_eq!(readme(&(3..=10), &(11..=12)), published);
+        assert_eq!(readme(&(3..=10), &(11..=12), 11), published);
     }
 }

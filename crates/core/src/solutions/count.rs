@@ -14,6 +14,7 @@ use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
+use std::collections::BTreeSet;
 
 /// What is known of the number of solutions of a finite solvable graph, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -102,11 +103,30 @@ pub struct Effort {
     pub unknowns: usize,
 }
 
+/// A core with more unknowns is not looked at as a whole, only its parts.
+const MOST_UNKNOWNS: usize = 12;
+
+/// With more unknowns there are so many choices of a few of them that less is tried.
+const MANY_UNKNOWNS: usize = 8;
+
+impl Effort {
+    fn for_unknowns(self, unknowns: usize) -> Self {
+        match unknowns {
+            0..MANY_UNKNOWNS => self,
+            _ => Self {
+                charts: self.charts.min(2),
+                unknowns: self.unknowns.min(FEW),
+                ..self
+            },
+        }
+    }
+}
+
 impl Default for Effort {
     fn default() -> Self {
         Self {
             charts: 6,
-            draws: 8,
+            draws: 48,
             unknowns: 4,
         }
     }
@@ -208,11 +228,12 @@ fn count_members(members: &mut Members, effort: Effort, draws: &Draws<'_>) -> Op
 /// Most nodes of a core whose parts are looked through.
 const MOST_PARTED: usize = 14;
 
-/// The smallest part of a core with one solution, and why; not the core itself.
+/// A part of a core with one solution, and why; not the core itself. It is the smallest one, if the
+/// core is small.
 pub(super) fn unique_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, Solutions)> {
     let nodes: Vec<usize> = bits(shared(&members.sets)).collect();
     if nodes.len() > MOST_PARTED {
-        return None;
+        return grown_part(members, draws);
     }
     let mut found = None;
     for size in 5..nodes.len() {
@@ -229,6 +250,36 @@ pub(super) fn unique_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, 
         }
     }
     found
+}
+
+/// A part of a large core with one solution: from a member on, node after node, always one with
+/// which most equations are left over, and of these one that has much in common with what is near.
+fn grown_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, Solutions)> {
+    let mut tried = BTreeSet::new();
+    for &seed in &members.sets {
+        let mut inside = seed & shared(&members.sets);
+        while (inside.count_ones() as usize) < MOST_PARTED && !draws.work.is_stopped() {
+            let near = members.near(inside) & !inside;
+            let worth = |&v: &usize| {
+                let node = 1 << v;
+                let common = (members.near(node) & near).count_ones();
+                (members.excess_between(inside | node), common)
+            };
+            let Some(next) = bits(near).max_by_key(worth) else {
+                break;
+            };
+            inside |= 1 << next;
+            // What was tried goes on as it did.
+            if !tried.insert(inside) {
+                break;
+            }
+            let part = members.part(inside);
+            if let Some(solutions) = part.and_then(|part| unique(&part, draws)) {
+                return Some((inside, solutions));
+            }
+        }
+    }
+    None
 }
 
 /// Evidence that a part has one solution. Points are not looked for: a part is of use only if all
@@ -251,6 +302,12 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
         best.at_most = Some(1);
         return Some(best);
     }
+    let core = Core::new(members, 0)?;
+    if core.unknowns > MOST_UNKNOWNS {
+        let centres = draws.centres(core.nodes.len(), 0)?;
+        return is_finite_solvable(&System::new(draws.field, &core, &centres)?).then_some(best);
+    }
+    let effort = effort.for_unknowns(core.unknowns);
     let mut charts: Vec<Charted> = Vec::with_capacity(effort.charts);
     for chart in 0..effort.charts {
         let mut charted = Charted::new(members, chart, draws)?;
@@ -267,12 +324,7 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
             return Some(best);
         }
     }
-    for charted in &charts {
-        charted.redraw(effort.draws, draws, &mut best);
-        if best.exactly().is_some() || draws.work.is_stopped() {
-            return Some(best);
-        }
-    }
+    redraw(&charts, effort.draws, draws, &mut best);
     Some(best)
 }
 
@@ -327,9 +379,7 @@ impl Charted {
         let core = Core::new(members, chart)?;
         let centres = draws.centres(core.nodes.len(), 0)?;
         let system = System::new(draws.field, &core, &centres)?.under(draws.work);
-        let one = system.field.from_u64(1);
-        let identity = simple::point(&system, &vec![one; core.unknowns])?;
-        if !identity.simple || !system.chains_are_independent() {
+        if !is_finite_solvable(&system) {
             return None;
         }
         let mut values: Values = vec![None; core.unknowns];
@@ -412,29 +462,29 @@ impl Charted {
         }
     }
 
-    /// Bounds by points at other centres, until all points are rational.
-    fn redraw(&self, most: usize, draws: &Draws<'_>, best: &mut Solutions) {
-        for unknowns in &self.irrational {
-            for draw in 1..most {
-                let Some(centres) = draws.centres(self.core.nodes.len(), draw) else {
-                    return;
-                };
-                let Some(system) = self.system(&centres, draws) else {
-                    continue;
-                };
-                let Some(span) = Span::new(&system, &self.values, unknowns) else {
-                    break;
-                };
-                match at_most(&system, &self.values, &span, &mut draws.residues(draw)) {
-                    Err(NoBound::Irrational) if !draws.work.is_stopped() => continue,
-                    Ok(found) => self.enter(&system, draws, found, best),
-                    Err(_) => {}
-                }
-                break;
+    /// Bounds by points at other centres; whether it is worth while to try still others.
+    fn elsewhere(
+        &self,
+        unknowns: &[usize],
+        draw: usize,
+        draws: &Draws<'_>,
+        best: &mut Solutions,
+    ) -> bool {
+        let Some(centres) = draws.centres(self.core.nodes.len(), draw) else {
+            return false;
+        };
+        let Some(system) = self.system(&centres, draws) else {
+            return true;
+        };
+        let Some(span) = Span::new(&system, &self.values, unknowns) else {
+            return false;
+        };
+        match at_most(&system, &self.values, &span, &mut draws.residues(draw)) {
+            Ok(found) => {
+                self.enter(&system, draws, found, best);
+                false
             }
-            if best.exactly().is_some() || draws.work.is_stopped() {
-                return;
-            }
+            Err(why) => why == NoBound::Irrational,
         }
     }
 
@@ -457,6 +507,32 @@ impl Charted {
         let most = found.points.len();
         best.upper(most, || self.upper(draws, Some((place(), found))));
     }
+}
+
+/// In how many charts points are looked at anew: solutions that are not rational in one are not so
+/// in any other.
+const MOST_REDRAWN: usize = 2;
+
+/// Bounds by points at other centres, until all points are rational.
+fn redraw(charts: &[Charted], most: usize, draws: &Draws<'_>, best: &mut Solutions) {
+    let irrational = charts
+        .iter()
+        .filter_map(|charted| Some((charted, charted.irrational.first()?)));
+    let mut chosen: Vec<(&Charted, &Vec<usize>)> = irrational.take(MOST_REDRAWN).collect();
+    for draw in 1..most {
+        chosen.retain(|(charted, unknowns)| {
+            best.exactly().is_none()
+                && !draws.work.is_stopped()
+                && charted.elsewhere(unknowns, draw, draws, best)
+        });
+    }
+}
+
+/// Whether u = 1 shows at these centres that the core is finite solvable (Lemma 10.9).
+fn is_finite_solvable(system: &System<'_>) -> bool {
+    let one = system.field.from_u64(1);
+    let identity = simple::point(system, &vec![one; system.core.unknowns]);
+    identity.is_some_and(|point| point.simple) && system.chains_are_independent()
 }
 
 /// Those of the points that are simple.

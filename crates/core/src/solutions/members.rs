@@ -10,10 +10,10 @@ use crate::geometry::model::Model;
 use crate::graph::Graph;
 
 /// The most nodes that members may share: one bit for each.
-pub const MOST_NODES: usize = 64;
+pub const MOST_NODES: usize = 128;
 
 /// A set of shared nodes, one bit for each.
-pub(super) type Set = u64;
+pub(super) type Set = u128;
 
 /// One merge of members into one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -121,7 +121,11 @@ impl Members {
     /// Equations less unknowns of the core: the sum of 11 k - 15 over all members, k being the
     /// number of their shared nodes, less 11 n - 15.
     pub(super) fn excess(&self) -> i64 {
-        let inside = shared(&self.sets);
+        self.excess_between(shared(&self.sets))
+    }
+
+    /// The same for what members have between some nodes.
+    pub(super) fn excess_between(&self, inside: Set) -> i64 {
         let required = |set: Set| Model::Projective.required(set.count_ones() as usize) as i64;
         let members = self.sets.iter().map(|set| set & inside);
         members
@@ -129,6 +133,12 @@ impl Members {
             .map(required)
             .sum::<i64>()
             - required(inside)
+    }
+
+    /// The nodes that have a member in common with one of these, themselves included.
+    pub(super) fn near(&self, nodes: Set) -> Set {
+        let at = self.sets.iter().filter(|&set| set & nodes != 0);
+        at.fold(0, |near, set| near | set) & shared(&self.sets)
     }
 
     /// The part of the core between some nodes: what its members have there, if it is a core with
