@@ -44,6 +44,10 @@ pub(super) struct Contents {
     pub(super) graphs: u64,
     /// How many certificates prove each verdict.
     pub(super) verdicts: BTreeMap<String, u64>,
+    /// Of those that prove finitely many solutions, how many prove which number ("2") or which
+    /// bounds ("1-3", "1-").
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) solutions: BTreeMap<String, u64>,
 }
 
 impl Manifest {

@@ -125,6 +125,68 @@ fn every_kind_of_evidence_is_written_and_verified() {
     );
 }
 
+/// The schema is strict about the evidence for the number of solutions, too: of every kind, and with
+/// a member that has no name at any depth.
+#[test]
+fn the_schema_knows_the_evidence_for_solutions() {
+    let schema = include_str!("../certificates/certificate.schema.json");
+    let schema = jsonschema::validator_for(&serde_json::from_str(schema).unwrap()).unwrap();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/tests/solutions");
+    let mut objects = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let value: Value = serde_json::from_str(&text).unwrap();
+        let found: Vec<String> = schema.iter_errors(&value).map(|e| e.to_string()).collect();
+        assert!(found.is_empty(), "{}: {found:?}", path.display());
+        for place in objects_in(&value["solutions"], "/solutions") {
+            let mut other = value.clone();
+            let object = other.pointer_mut(&place).unwrap().as_object_mut().unwrap();
+            object.insert("surplus".into(), Value::Null);
+            assert!(!schema.is_valid(&other), "{}: {place}", path.display());
+            objects += 1;
+        }
+    }
+    assert!(objects > 30, "{objects}");
+}
+
+/// The places of all objects at or below one.
+fn objects_in(value: &Value, place: &str) -> Vec<String> {
+    match value {
+        Value::Object(members) => {
+            let below = members.iter();
+            let below =
+                below.flat_map(|(name, value)| objects_in(value, &format!("{place}/{name}")));
+            below.chain([place.to_owned()]).collect()
+        }
+        Value::Array(items) => {
+            let items = items.iter().enumerate();
+            let below = items.flat_map(|(k, value)| objects_in(value, &format!("{place}/{k}")));
+            below.collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The example of section 12 is that of the certificate it speaks of.
+#[test]
+fn the_example_of_section_12_is_a_certificate() {
+    let page = include_str!("../docs/certificate.md");
+    let section = page.split("### An example").last().unwrap();
+    let block = section.split("```json").nth(1).unwrap();
+    let shown: Value = serde_json::from_str(block.split("```").next().unwrap()).unwrap();
+    let text = include_str!("../crates/check/tests/solutions/linear.json");
+    let whole: Value = serde_json::from_str(text).unwrap();
+    assert_eq!(shown, whole["solutions"]);
+    let run = check(text);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    assert!(
+        run.out.contains("solutions: exactly 1 (proof)"),
+        "{}",
+        run.out
+    );
+}
+
 fn collect_kinds(value: &Value, kinds: &mut std::collections::BTreeSet<String>) {
     match value {
         Value::Object(members) => {

@@ -1,4 +1,8 @@
 //! `verify catalog publish`: the published catalog, byte for byte the same every time.
+//!
+//! In: how far to go. Out: a folder with certificates of small candidates, their numbers of
+//! solutions included (docs/theory.md, sections 5 to 7 and 10), lists of larger graphs with what is
+//! known of each, counts, a picture, a page, and a manifest of all these.
 
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::super::progress::Progress;
@@ -11,6 +15,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -42,6 +47,11 @@ pub(super) struct Arguments {
     /// nauty's `geng -c` writes them; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     census: Option<PathBuf>,
+    /// Numbers of solutions of the graphs that are listed, with up to this many nodes; those with
+    /// certificates have them in any case.
+    #[arg(long, value_name = "N", default_value_t = 11)]
+    #[arg(value_parser = clap::value_parser!(u8).range(3..=12))]
+    counted: u8,
 }
 
 /// A prime of 16 bits: any odd prime makes lower bounds and kernel vectors proofs, and
@@ -66,22 +76,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     );
     let progress = Progress::new(None);
     let mut drawings = Vec::new();
-    let mut counts = Vec::new();
+    let mut counts: Vec<(usize, Counts)> = Vec::new();
     let mut files = Files {
         folder,
         written: Vec::new(),
     };
     let certified = 3..=usize::from(arguments.certified);
     for nodes in certified.clone() {
-        let (summary, mut found) = certify(&mut files, nodes, &progress)?;
-        counts.push((nodes, summary));
+        let (found_counts, mut found) = certify(&mut files, nodes, &progress)?;
+        counts.push((nodes, found_counts));
         if nodes <= DRAWN {
             drawings.append(&mut found);
         }
     }
     let listed = certified.end() + 1..=usize::from(arguments.listed);
     for nodes in listed.clone() {
-        counts.push((nodes, list(&mut files, nodes, &progress)?));
+        let count = nodes <= usize::from(arguments.counted);
+        counts.push((nodes, list(&mut files, nodes, count, &progress)?));
     }
     progress.finish();
     if let Some(from) = &arguments.census {
@@ -98,7 +109,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     })?;
     files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
     files.write("README.md", None, |out| {
-        out.write_all(readme(&certified, &listed, arguments.census.is_some()).as_bytes())
+        let page = readme(&certified, &listed, arguments.counted, arguments.census.is_some());
+        out.write_all(page.as_bytes())
     })?;
     files.close()?;
     Ok(ExitCode::from(GOOD))
@@ -143,16 +155,40 @@ impl Files<'_> {
     }
 }
 
-fn options() -> Options {
+fn options(solutions: CountSolutions) -> Options {
     Options::default()
-        .solutions(CountSolutions::Off)
+        .solutions(solutions)
         .watch(running::watch())
+}
+
+/// What is counted of one size.
+#[derive(Default)]
+struct Counts {
+    summary: Summary,
+    /// How many graphs have each number of solutions, or bounds for it.
+    solutions: BTreeMap<String, u64>,
+}
+
+impl Counts {
+    fn count(&mut self, entry: &Entry) {
+        self.summary.count(entry);
+        if let Some(solutions) = entry.solutions_in_words() {
+            *self.solutions.entry(solutions).or_default() += 1;
+        }
+    }
+
+    /// The numbers of solutions, as in `1:595,2:153,3:8`.
+    fn solutions(&self) -> String {
+        let each = self.solutions.iter();
+        let each = each.map(|(solutions, graphs)| format!("{solutions}:{graphs}"));
+        each.collect::<Vec<_>>().join(",")
+    }
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
 fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = options();
+    let options = options(CountSolutions::Full);
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
@@ -182,8 +218,8 @@ fn relabelled(graph: &Graph) -> Graph {
 
 /// Writes the certificates of one size: a file of finite-solvable graphs, and one of refuted
 /// ones.
-fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summary, Vec<Drawing>)> {
-    let mut summary = Summary::default();
+fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts, Vec<Drawing>)> {
+    let mut counts = Counts::default();
     let mut drawings = Vec::new();
     let mut files: [Vec<u8>; 2] = Default::default();
     let mut contents: [Contents; 2] = Default::default();
@@ -194,7 +230,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
             .collect::<Result<_, _>>()?;
         for (graph, verdict) in graphs.iter().zip(&verdicts) {
             let entry = Entry::new(graph, verdict);
-            summary.count(&entry);
+            counts.count(&entry);
             let solvable = verdict.value != Value::NotFiniteSolvable;
             let file = &mut files[usize::from(!solvable)];
             let found = &mut contents[usize::from(!solvable)];
@@ -203,12 +239,15 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
                 .verdicts
                 .entry(verdict.value.name().into())
                 .or_default() += 1;
+            if let Some(solutions) = entry.solutions_in_words() {
+                *found.solutions.entry(solutions).or_default() += 1;
+            }
             let certificate = verdict.certificate(graph).named(&entry.graph6);
             certificate.embed_graph(true).compact().write_to(file)?;
             if solvable && nodes <= DRAWN {
                 drawings.push(Drawing {
                     graph: graph.clone(),
-                    unique: verdict.value == Value::Solvable,
+                    unique: entry.contracts,
                 });
             }
         }
@@ -227,23 +266,27 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Summar
             gz.finish().map(drop)
         })?;
     }
-    Ok((summary, drawings))
+    Ok((counts, drawings))
 }
 
-/// Writes the finite-solvable graphs of one size, and their invariants in the same order.
-fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
-    let options = options();
-    let mut summary = Summary::default();
+/// Writes the finite-solvable graphs of one size, and their invariants in the same order, the
+/// number of solutions among them if these are to be counted.
+fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
+    let options = options(match count {
+        true => CountSolutions::Full,
+        false => CountSolutions::Off,
+    });
+    let mut counts = Counts::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;
     let mut batch = Vec::with_capacity(BATCH);
     let mut failure = None;
     let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
         let entries = decide_all(batch, &options)?;
-        for (graph, entry) in batch.iter().zip(&entries) {
-            summary.count(entry);
+        for (graph, entry) in batch.iter().zip(entries) {
+            counts.count(&entry);
             if entry.value != Value::NotFiniteSolvable {
-                found.push((relabelled(graph), entry.value));
+                found.push((relabelled(graph), entry));
             }
         }
         progress.done(batch.len() as u64);
@@ -268,10 +311,10 @@ fn list(out: &mut Files, nodes: usize, progress: &Progress) -> Result<Summary> {
             .try_for_each(|(graph, _)| writeln!(out, "{}", graph6::encode(graph)))
     })?;
     out.write(&name("tsv"), None, |out| write_invariants(out, &found))?;
-    Ok(summary)
+    Ok(counts)
 }
 
-fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::Result<()> {
+fn write_invariants(out: &mut dyn Write, found: &[(Graph, Entry)]) -> std::io::Result<()> {
     let mut table = Values::tabs(out);
     table.row([
         "graph6",
@@ -280,8 +323,9 @@ fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::R
         "automorphisms",
         "triangles",
         "unique_by_contraction",
+        "solutions",
     ])?;
-    for (graph, value) in found {
+    for (graph, entry) in found {
         let Some(small) = Multigraph::from_graph(graph) else {
             continue;
         };
@@ -295,14 +339,15 @@ fn write_invariants(out: &mut dyn Write, found: &[(Graph, Value)]) -> std::io::R
                 .map_or(String::new(), |girth| girth.to_string()),
             invariants.group_order.to_string(),
             invariants.triangles.to_string(),
-            u8::from(*value == Value::Solvable).to_string(),
+            u8::from(entry.contracts).to_string(),
+            entry.solutions_in_words().unwrap_or_default(),
         ])?;
     }
     table.finish()
 }
 
 /// The head of `counts.tsv`.
-const COUNTS: [&str; 10] = [
+const COUNTS: [&str; 11] = [
     "nodes",
     "edges",
     "candidates",
@@ -313,12 +358,14 @@ const COUNTS: [&str; 10] = [
     "unproved",
     "rank_proved",
     "components_proved",
+    "solutions",
 ];
 
-fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Result<()> {
+fn write_counts(out: &mut dyn Write, counts: &[(usize, Counts)]) -> std::io::Result<()> {
     let mut table = Values::tabs(out);
     table.row(COUNTS)?;
-    for (nodes, summary) in counts {
+    for (nodes, counts) in counts {
+        let summary = &counts.summary;
         let cells = [
             *nodes as u64,
             least_edges(*nodes) as u64,
@@ -331,7 +378,8 @@ fn write_counts(out: &mut dyn Write, counts: &[(usize, Summary)]) -> std::io::Re
             summary.rank_proved,
             summary.components_proved,
         ];
-        table.row(cells.map(|cell| cell.to_string()))?;
+        let cells = cells.iter().map(u64::to_string);
+        table.row(cells.chain([counts.solutions()]))?;
     }
     table.finish()
 }
@@ -347,6 +395,7 @@ const CENSUS_ROW: &str = "| `census.tsv` | connected graphs by numbers of nodes 
 fn readme(
     certified: &RangeInclusive<usize>,
     listed: &RangeInclusive<usize>,
+    counted: u8,
     census: bool,
 ) -> String {
     let (option, row) = match census {
@@ -360,6 +409,7 @@ fn readme(
         ("{first-listed}", listed.start().to_string()),
         ("{first-listed-02}", format!("{:02}", listed.start())),
         ("{last-listed}", listed.end().to_string()),
+        ("{last-counted}", counted.to_string()),
         ("{last-drawn}", DRAWN.to_string()),
         ("{prime}", PRIME.to_string()),
     ];
@@ -375,6 +425,6 @@ mod tests {
     #[test]
     fn the_page_is_the_published_one() {
         let published = include_str!("../../certificates/README.md");
-        assert_eq!(readme(&(3..=10), &(11..=12), true), published);
+        assert_eq!(readme(&(3..=10), &(11..=12), 11, true), published);
     }
 }

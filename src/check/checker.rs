@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 use viewcert::certificate::hex;
 use viewcert::graph::sha256;
-use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verdict, Verified};
 use viewcert_formats::read::graphs;
 use viewcert_formats::{ReadOptions, read_displacements, read_graphs, read_parts};
 
@@ -15,6 +15,8 @@ pub(super) struct Proved {
     pub(super) sha256: String,
     /// The verdict.
     pub(super) verdict: String,
+    /// The number of solutions, or bounds for it, if there are finitely many: "2", "1-3", "1-".
+    pub(super) solutions: Option<String>,
     /// All of it in words, on several lines.
     pub(super) text: String,
 }
@@ -24,8 +26,23 @@ impl Proved {
         Self {
             sha256: verified.sha256.clone(),
             verdict: verified.verdict.0.to_string(),
+            solutions: solutions(verified),
             text: verified.to_string(),
         }
+    }
+}
+
+/// What is proved of the number of solutions; a number is proved by `solvable` as well.
+fn solutions(verified: &Verified) -> Option<String> {
+    match (verified.verdict.0, verified.solutions) {
+        (Verdict::NotFiniteSolvable, _) => None,
+        (Verdict::Solvable, _) => Some("1".into()),
+        (Verdict::FiniteSolvable, None) => Some("1-".into()),
+        (Verdict::FiniteSolvable, Some(count)) => Some(match count.at_most {
+            Some(most) if most == count.at_least => most.to_string(),
+            Some(most) => format!("{}-{most}", count.at_least),
+            None => format!("{}-", count.at_least),
+        }),
     }
 }
 

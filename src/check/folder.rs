@@ -170,17 +170,19 @@ pub(super) fn name(path: &Path) -> String {
 }
 
 fn describe(contents: Option<&Contents>) -> String {
-    let Some(Contents { graphs, verdicts }) = contents else {
+    let Some(contents) = contents else {
         return "no certificates".into();
     };
-    let verdicts: Vec<String> = verdicts
-        .iter()
-        .map(|(verdict, count)| format!("{count} {}", printable(verdict)))
-        .collect();
+    let verdicts = contents.verdicts.iter();
+    let verdicts = verdicts.map(|(verdict, count)| format!("{count} {}", printable(verdict)));
+    let solutions = contents.solutions.iter();
+    let solutions =
+        solutions.map(|(number, count)| format!("{count} with {} solutions", printable(number)));
+    let all: Vec<String> = verdicts.chain(solutions).collect();
     format!(
         "{} ({})",
-        counted(*graphs as usize, "graph"),
-        verdicts.join(", ")
+        counted(contents.graphs as usize, "graph"),
+        all.join(", ")
     )
 }
 

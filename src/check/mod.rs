@@ -204,6 +204,9 @@ fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
                     Ok(proved) => {
                         verified += 1;
                         *contents.verdicts.entry(proved.verdict).or_default() += 1;
+                        if let Some(solutions) = proved.solutions {
+                            *contents.solutions.entry(solutions).or_default() += 1;
+                        }
                         of_file.insert(proved.sha256);
                     }
                     Err(Failure::Rejected(rejection)) => {

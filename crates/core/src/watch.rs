@@ -48,6 +48,8 @@ pub enum Step {
     Counting,
     /// Further draws, for an error bound.
     Draws,
+    /// The number of solutions.
+    Solutions,
 }
 
 /// What is being done, to how many cameras.
@@ -71,6 +73,7 @@ impl fmt::Display for Stage {
             Step::Components => "components",
             Step::Counting => "counting",
             Step::Draws => "draws for an error bound",
+            Step::Solutions => return write!(f, "number of solutions of {cameras} cameras"),
         };
         write!(f, "core of {cameras} cameras: {step}")
     }

@@ -7,4 +7,5 @@ pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
 pub mod solutions;
+pub mod thin;
 pub mod values;

@@ -50,7 +50,7 @@ use crate::contract::piece::{Assembly, Members, Split};
 use crate::decide::evidence::PieceVerdict;
 use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
-use crate::watch::Step;
+use crate::watch::{Step, Stopped};
 use std::sync::Arc;
 
 /// Decides a graph.
@@ -95,7 +95,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         rigid,
         pieces,
     };
-    Ok(found.conclude(sha256, contraction))
+    Ok(found.conclude(sha256, contraction)?)
 }
 
 /// Whether the known parts are parts of the graph, and can be bodies.
@@ -139,16 +139,16 @@ impl Found<'_> {
     /// Sums up over the pieces (Theorem 4.3 and Corollary 4.6 of docs/theory.md; calibrated:
     /// Theorem 4.10 and Corollary 4.12; affine: Theorem 13.10 and Corollary 13.12;
     /// with displacements: Theorems 13.17 and 13.18).
-    fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Verdict {
+    fn conclude(self, sha256: [u8; 32], contraction: Contraction) -> Result<Verdict, Stopped> {
         let rigid_rank = self.rigid_rank();
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
         let upper = rigid_rank + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
         let value = self.value(rank);
         let value_strength = self.strength(value, upper);
-        let solutions = self.solutions(value, &contraction);
+        let solutions = self.solutions(value, &contraction)?;
         let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
         let contraction = Arc::new(contraction);
-        Verdict {
+        Ok(Verdict {
             model: self.options.model,
             known_parts: self.options.known_parts.clone(),
             displacements: self.options.displacements.clone(),
@@ -162,7 +162,7 @@ impl Found<'_> {
             contraction,
             rigid: self.rigid,
             pieces: self.pieces,
-        }
+        })
     }
 
     /// The rank of a finite solvable graph with as many nodes.
@@ -206,17 +206,28 @@ impl Found<'_> {
     }
 
     /// How many solutions there are (section 10), if finitely many.
-    fn solutions(&self, value: Value, contraction: &Contraction) -> Option<SolutionCount> {
+    fn solutions(
+        &self,
+        value: Value,
+        contraction: &Contraction,
+    ) -> Result<Option<SolutionCount>, Stopped> {
         let effort = match self.options.contraction {
             true => self.options.solutions,
             false => CountSolutions::Off,
         };
         let seed = self.options.seed;
-        match value {
+        let task = self.options.watch.task(Step::Solutions, self.graph.nodes());
+        Ok(match value {
             Value::Solvable => Some(SolutionCount::one()),
-            Value::FiniteSolvable => Some(SolutionCount::of(self.graph, contraction, effort, seed)),
+            Value::FiniteSolvable => Some(SolutionCount::of(
+                self.graph,
+                contraction,
+                effort,
+                seed,
+                &task,
+            )?),
             Value::NotFiniteSolvable => None,
-        }
+        })
     }
 
     /// How strong the answer is: full rank and a bound below it are proofs.

@@ -9,6 +9,7 @@ use crate::decide::claim::Strength;
 use crate::decide::options::CountSolutions;
 use crate::graph::Graph;
 use crate::solutions::{Effort, Solutions, count_in};
+use crate::watch::{Stopped, Task};
 use crate::wording::counted;
 use std::fmt;
 use std::sync::Arc;
@@ -43,26 +44,31 @@ impl SolutionCount {
 
     /// Counts the solutions of a finite solvable graph in the projective model, or says that one
     /// there is.
+    ///
+    /// # Errors
+    /// If the work is stopped.
     pub(super) fn of(
         graph: &Graph,
         contraction: &Contraction,
         effort: CountSolutions,
         seed: u64,
-    ) -> Self {
+        task: &Task<'_>,
+    ) -> Result<Self, Stopped> {
         let [nodes, unknowns] = size(graph, contraction);
         let worth_it = match effort {
             CountSolutions::Off => false,
             CountSolutions::Quick => nodes <= QUICK[0] && unknowns <= QUICK[1],
             CountSolutions::Full => true,
         };
-        let found = worth_it
-            .then(|| count_in(graph, contraction, Effort::default(), seed))
-            .flatten();
-        Self {
+        let found = match worth_it {
+            true => count_in(graph, contraction, Effort::default(), seed, task)?,
+            false => None,
+        };
+        Ok(Self {
             at_least: found.as_ref().map_or(1, |found| found.at_least),
             at_most: found.as_ref().and_then(|found| found.at_most),
             evidence: found.map(Arc::new),
-        }
+        })
     }
 
     /// The number of solutions, if it is known.

@@ -6,7 +6,6 @@
 
 use super::echelon::Echelon;
 use super::members::{Members, Set, bits, shared};
-use crate::geometry::model::Model;
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
 
@@ -187,15 +186,6 @@ impl Core {
     /// The rank of N(u) at a solution, at most: 3 n' - 4.
     pub(super) fn target(&self) -> usize {
         self.columns() - 4
-    }
-
-    /// Equations less unknowns: the sum of 11 |s| - 15 over all members, less 11 n - 15.
-    pub(super) fn excess(&self) -> i64 {
-        let required = |n: usize| Model::Projective.required(n) as i64;
-        let sizes = self.bodies.iter().map(Vec::len);
-        let bodies: i64 = sizes.map(required).sum();
-        let nodes = self.columns() / 3 + self.half_edges.len();
-        bodies + 2 * self.half_edges.len() as i64 * required(2) - required(nodes)
     }
 
     /// The chart in terms of the graph.

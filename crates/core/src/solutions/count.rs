@@ -13,6 +13,8 @@ use crate::geometry::draw::{DrawKey, centres_mod};
 use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
+use crate::watch::{Step, Stopped, Task, Work, unwatched};
+use std::collections::BTreeSet;
 
 /// What is known of the number of solutions of a finite solvable graph, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +29,9 @@ pub struct Solutions {
     pub upper: Option<Upper>,
     /// What the lower bound rests on, if it is above one.
     pub lower: Option<Lower>,
+    /// What the core has more of equations than of unknowns, before parts of it are grown; `None`
+    /// if merges leave one member.
+    pub excess: Option<i64>,
 }
 
 impl Solutions {
@@ -98,22 +103,22 @@ pub struct Effort {
     pub unknowns: usize,
 }
 
+/// A core with more unknowns is not looked at as a whole, only its parts.
+const MOST_UNKNOWNS: usize = 12;
+
+/// With more unknowns there are so many choices of a few of them that less is tried.
+const MANY_UNKNOWNS: usize = 8;
+
 impl Effort {
-    /// What costs little in every chart comes before what costs more in any: few unknowns at
-    /// the first centres, more unknowns, other centres.
-    fn rounds(self) -> Vec<Self> {
-        let few = Self {
-            draws: self.draws.min(1),
-            unknowns: self.unknowns.min(3),
-            ..self
-        };
-        let first = Self {
-            draws: self.draws.min(1),
-            ..self
-        };
-        let mut rounds = vec![few, first, self];
-        rounds.dedup();
-        rounds
+    fn for_unknowns(self, unknowns: usize) -> Self {
+        match unknowns {
+            0..MANY_UNKNOWNS => self,
+            _ => Self {
+                charts: self.charts.min(2),
+                unknowns: self.unknowns.min(FEW),
+                ..self
+            },
+        }
     }
 }
 
@@ -121,7 +126,7 @@ impl Default for Effort {
     fn default() -> Self {
         Self {
             charts: 6,
-            draws: 8,
+            draws: 48,
             unknowns: 4,
         }
     }
@@ -132,37 +137,45 @@ impl Default for Effort {
 /// [`MOST_NODES`](super::members::MOST_NODES) nodes.
 ///
 /// Bounds are proofs, whatever was drawn (docs/theory.md, section 10). `seed` selects centres.
+/// Nothing stops this; [`decide`](crate::decide::decide) counts under a watch.
 pub fn count(graph: &Graph, effort: Effort, seed: u64) -> Option<Solutions> {
-    count_in(
-        graph,
-        &Contraction::new(graph, Model::Projective),
-        effort,
-        seed,
-    )
+    let contraction = Contraction::new(graph, Model::Projective);
+    unwatched(|task| count_in(graph, &contraction, effort, seed, task))
 }
 
 /// As [`count`], with the contraction of the graph in the projective model.
+///
+/// # Errors
+/// If the work is stopped.
 pub(crate) fn count_in(
     graph: &Graph,
     contraction: &Contraction,
     effort: Effort,
     seed: u64,
-) -> Option<Solutions> {
-    let mut members = Members::new(graph, contraction)?;
+    task: &Task<'_>,
+) -> Result<Option<Solutions>, Stopped> {
+    let Some(mut members) = Members::new(graph, contraction) else {
+        return Ok(None);
+    };
     if graph.nodes() < 2 || members.sets.is_empty() {
-        return None;
+        return Ok(None);
     }
-    count_members(&mut members, effort, &Draws::new(graph, seed))
+    let work = task.at(Step::Solutions).begin(0);
+    let found = count_members(&mut members, effort, &Draws::new(graph, seed, &work));
+    // What was found after a stop is not all that there is.
+    work.done(0)?;
+    Ok(found)
 }
 
-/// Where centres and other random values come from.
-pub(super) struct Draws {
+/// Where centres and other random values come from, and what may stop the work on them.
+pub(super) struct Draws<'w> {
     field: PrimeField,
     key: DrawKey,
+    work: &'w Work<'w>,
 }
 
-impl Draws {
-    pub(super) fn new(graph: &Graph, seed: u64) -> Self {
+impl<'w> Draws<'w> {
+    pub(super) fn new(graph: &Graph, seed: u64, work: &'w Work<'w>) -> Self {
         let key = DrawKey {
             graph_sha256: sha256(graph),
             core_sha256: None,
@@ -172,6 +185,7 @@ impl Draws {
         Self {
             field: PrimeField::mersenne61(),
             key,
+            work,
         }
     }
 
@@ -197,47 +211,39 @@ impl Draws {
 }
 
 /// Bounds for a core; if they do not meet, parts of it that have one solution become members.
-fn count_members(members: &mut Members, effort: Effort, draws: &Draws) -> Option<Solutions> {
+fn count_members(members: &mut Members, effort: Effort, draws: &Draws<'_>) -> Option<Solutions> {
     let mut best = count_core(members, effort, draws)?;
+    let excess = best.excess;
     while best.exactly().is_none() {
-        let Some((inside, evidence)) = unique_part(members, effort, draws) else {
+        let Some((inside, evidence)) = unique_part(members, draws) else {
             break;
         };
         members.grow(inside, evidence);
         best = count_core(members, effort, draws)?;
     }
+    best.excess = excess;
     Some(best)
 }
 
 /// Most nodes of a core whose parts are looked through.
 const MOST_PARTED: usize = 14;
 
-/// The smallest part of a core with one solution, and why; not the core itself.
-pub(super) fn unique_part(
-    members: &Members,
-    effort: Effort,
-    draws: &Draws,
-) -> Option<(Set, Solutions)> {
+/// A part of a core with one solution, and why; not the core itself. It is the smallest one, if the
+/// core is small.
+pub(super) fn unique_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, Solutions)> {
     let nodes: Vec<usize> = bits(shared(&members.sets)).collect();
     if nodes.len() > MOST_PARTED {
-        return None;
+        return grown_part(members, draws);
     }
-    // Points are not looked for: a part is of use only if all its scales are one.
-    let effort = Effort {
-        charts: 1,
-        draws: 0,
-        ..effort
-    };
     let mut found = None;
     for size in 5..nodes.len() {
         subsets(&nodes, size, &mut |chosen| {
             let inside = chosen.iter().fold(0, |set, v| set | 1 << v);
             found = members
                 .part(inside)
-                .and_then(|part| count_core(&part, effort, draws))
-                .filter(|solutions| solutions.exactly() == Some(1))
+                .and_then(|part| unique(&part, draws))
                 .map(|solutions| (inside, solutions));
-            found.is_none()
+            found.is_none() && !draws.work.is_stopped()
         });
         if found.is_some() {
             break;
@@ -246,264 +252,341 @@ pub(super) fn unique_part(
     found
 }
 
-fn count_core(members: &Members, effort: Effort, draws: &Draws) -> Option<Solutions> {
-    let mut best = Solutions {
-        at_least: 1,
-        at_most: None,
-        merges: members.merges.clone(),
-        upper: None,
-        lower: None,
-    };
+/// A part of a large core with one solution: from a member on, node after node, always one with
+/// which most equations are left over, and of these one that has much in common with what is near.
+fn grown_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, Solutions)> {
+    let mut tried = BTreeSet::new();
+    for &seed in &members.sets {
+        let mut inside = seed & shared(&members.sets);
+        while (inside.count_ones() as usize) < MOST_PARTED && !draws.work.is_stopped() {
+            let near = members.near(inside) & !inside;
+            let worth = |&v: &usize| {
+                let node = 1 << v;
+                let common = (members.near(node) & near).count_ones();
+                (members.excess_between(inside | node), common)
+            };
+            let Some(next) = bits(near).max_by_key(worth) else {
+                break;
+            };
+            inside |= 1 << next;
+            // What was tried goes on as it did.
+            if !tried.insert(inside) {
+                break;
+            }
+            let part = members.part(inside);
+            if let Some(solutions) = part.and_then(|part| unique(&part, draws)) {
+                return Some((inside, solutions));
+            }
+        }
+    }
+    None
+}
+
+/// Evidence that a part has one solution. Points are not looked for: a part is of use only if all
+/// its scales are one.
+fn unique(part: &Members, draws: &Draws<'_>) -> Option<Solutions> {
+    let mut found = Solutions::none(part);
+    if part.sets.len() == 1 {
+        found.at_most = Some(1);
+        return Some(found);
+    }
+    Charted::new(part, 0, draws)?.conclude(draws, &mut found);
+    (found.exactly() == Some(1)).then_some(found)
+}
+
+/// Bounds for a core, chart after chart. What costs little in every chart comes before what costs
+/// more in any: few unknowns at the first centres, more unknowns, other centres.
+fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<Solutions> {
+    let mut best = Solutions::none(members);
     if members.sets.len() == 1 {
         best.at_most = Some(1);
         return Some(best);
     }
-    for effort in effort.rounds() {
-        for chart in 0..effort.charts {
-            let core = Core::new(members, chart)?;
-            let attempt = Attempt {
-                core: &core,
-                effort,
-                draws,
-            };
-            let found = attempt.run()?;
-            best.improve(found);
-            if best.exactly().is_some() {
-                return Some(best);
-            }
+    let core = Core::new(members, 0)?;
+    if core.unknowns > MOST_UNKNOWNS {
+        let centres = draws.centres(core.nodes.len(), 0)?;
+        return is_finite_solvable(&System::new(draws.field, &core, &centres)?).then_some(best);
+    }
+    let effort = effort.for_unknowns(core.unknowns);
+    let mut charts: Vec<Charted> = Vec::with_capacity(effort.charts);
+    for chart in 0..effort.charts {
+        let mut charted = Charted::new(members, chart, draws)?;
+        charted.conclude(draws, &mut best);
+        charted.few(draws, &mut best);
+        if best.exactly().is_some() || draws.work.is_stopped() {
+            return Some(best);
+        }
+        charts.push(charted);
+    }
+    for charted in &mut charts {
+        charted.more(effort.unknowns, draws, &mut best);
+        if best.exactly().is_some() || draws.work.is_stopped() {
+            return Some(best);
         }
     }
+    redraw(&charts, effort.draws, draws, &mut best);
     Some(best)
 }
 
 impl Solutions {
-    fn improve(&mut self, found: Bounds) {
-        if found
-            .lower
-            .as_ref()
-            .is_some_and(|_| found.at_least > self.at_least)
-        {
-            (self.at_least, self.lower) = (found.at_least, found.lower);
+    /// Nothing is known beyond the merges.
+    fn none(members: &Members) -> Self {
+        Self {
+            at_least: 1,
+            at_most: None,
+            merges: members.merges.clone(),
+            upper: None,
+            lower: None,
+            excess: (members.sets.len() > 1).then(|| members.excess()),
         }
-        if let Some((most, upper)) = found.upper
-            && self.at_most.is_none_or(|known| most < known)
-        {
-            (self.at_most, self.upper) = (Some(most), Some(upper));
+    }
+
+    fn lower(&mut self, at_least: usize, lower: impl FnOnce() -> Lower) {
+        if at_least > self.at_least {
+            (self.at_least, self.lower) = (at_least, Some(lower()));
+        }
+    }
+
+    fn upper(&mut self, at_most: usize, upper: impl FnOnce() -> Upper) {
+        if self.at_most.is_none_or(|known| at_most < known) {
+            (self.at_most, self.upper) = (Some(at_most), Some(upper()));
         }
     }
 }
 
-/// What one chart gives.
-struct Bounds {
-    at_least: usize,
-    lower: Option<Lower>,
-    upper: Option<(usize, Upper)>,
+/// Unknowns that are looked at in every chart before more of them are in any.
+const FEW: usize = 3;
+
+/// A core in a chart, and what is known of its unknowns at the first centres.
+struct Charted {
+    core: Core,
+    /// Whether the core has as many equations as unknowns.
+    is_tight: bool,
+    centres: Vec<[u64; 3]>,
+    /// One, where this is shown.
+    values: Values,
+    /// Why.
+    ones: Vec<One>,
+    /// The spans of a few of the other unknowns.
+    spans: Vec<Span>,
+    /// Unknowns whose points are not all rational at these centres.
+    irrational: Vec<Vec<usize>>,
 }
 
-impl Bounds {
-    fn meet(&self) -> bool {
-        let most = self.upper.as_ref().map(|&(most, _)| most);
-        most == Some(self.at_least)
-    }
-}
-
-struct Attempt<'a> {
-    core: &'a Core,
-    effort: Effort,
-    draws: &'a Draws,
-}
-
-impl Attempt<'_> {
+impl Charted {
     /// `None` if finite solvability is not proved.
-    fn run(&self) -> Option<Bounds> {
-        let centres = self.draws.centres(self.core.nodes.len(), 0)?;
-        let system = System::new(self.draws.field, self.core, &centres)?;
-        let one = system.field.from_u64(1);
-        let identity = simple::point(&system, &vec![one; self.core.unknowns])?;
-        if !identity.simple || !system.chains_are_independent() {
+    fn new(members: &Members, chart: usize, draws: &Draws<'_>) -> Option<Self> {
+        let core = Core::new(members, chart)?;
+        let centres = draws.centres(core.nodes.len(), 0)?;
+        let system = System::new(draws.field, &core, &centres)?.under(draws.work);
+        if !is_finite_solvable(&system) {
             return None;
         }
-        let mut values: Values = vec![None; self.core.unknowns];
-        let (ones, spans) = self.ones(&system, &mut values);
-        let upper = Upper {
-            place: self.place(&system),
+        let mut values: Values = vec![None; core.unknowns];
+        let (ones, spans) = ones(&system, &mut values);
+        Some(Self {
+            is_tight: members.excess() == 0,
+            core,
+            centres,
+            values,
             ones,
-            points: None,
-        };
-        let mut bounds = Bounds {
-            at_least: 1,
-            lower: None,
-            upper: None,
-        };
-        if !values.contains(&None) {
-            bounds.upper = Some((1, upper));
-            return Some(bounds);
-        }
-        self.points(&system, &values, spans, &upper, &mut bounds);
-        Some(bounds)
+            spans,
+            irrational: Vec::new(),
+        })
     }
 
-    fn place(&self, system: &System<'_>) -> Place {
-        let centre = |c: &[u64; 3]| c.map(|x| system.field.to_u64(x));
+    /// The system at some centres.
+    fn system<'a>(&'a self, centres: &'a [[u64; 3]], draws: &'a Draws<'_>) -> Option<System<'a>> {
+        Some(System::new(draws.field, &self.core, centres)?.under(draws.work))
+    }
+
+    /// There is one solution if all unknowns are one.
+    fn conclude(&self, draws: &Draws<'_>, best: &mut Solutions) {
+        if !self.values.contains(&None) {
+            best.upper(1, || self.upper(draws, None));
+        }
+    }
+
+    fn upper(&self, draws: &Draws<'_>, points: Option<(Place, AtMost)>) -> Upper {
+        Upper {
+            place: self.place(draws, &self.centres),
+            ones: self.ones.clone(),
+            points,
+        }
+    }
+
+    fn place(&self, draws: &Draws<'_>, centres: &[[u64; 3]]) -> Place {
+        let centre = |c: &[u64; 3]| c.map(|x| draws.field.to_u64(x));
+        let nodes = self.core.nodes.iter().copied();
         Place {
             chart: self.core.chart(),
-            prime: system.field.modulus(),
-            centres: self
-                .core
-                .nodes
-                .iter()
-                .copied()
-                .zip(system.centres.iter().map(centre))
-                .collect(),
+            prime: draws.field.modulus(),
+            centres: nodes.zip(centres.iter().map(centre)).collect(),
         }
     }
 
-    /// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the
-    /// unknowns that are left, as far as they were looked at.
-    fn ones(&self, system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
-        let mut steps = Vec::new();
-        loop {
-            steps.extend(settle(system, values).into_iter().map(One::Linear));
-            let open = self.open(values);
-            let mut found = None;
-            let mut others = Vec::new();
-            for size in 1..=self.effort.unknowns.min(3).min(open.len()) {
-                subsets(&open, size, &mut |unknowns| {
-                    match Span::new(system, values, unknowns) {
-                        Some(span) if span.is_unique() => found = Some(span),
-                        span => others.extend(span),
-                    }
-                    found.is_none()
-                });
-                if found.is_some() {
-                    break;
-                }
-            }
-            let Some(span) = found else {
-                return (steps, others);
-            };
-            for &f in &span.unknowns {
-                values[f] = Some(system.field.from_u64(1));
-            }
-            steps.push(One::Support {
-                bounds: span.exponents.bounds.clone(),
-                absent: span.exponents.marked(&span.absent),
-                minors: span
-                    .generators
-                    .iter()
-                    .map(|generator| generator.polynomial.minor.clone())
-                    .collect(),
-                unknowns: span.unknowns,
-            });
-        }
-    }
-
-    fn open(&self, values: &Values) -> Vec<usize> {
-        (0..values.len()).filter(|&f| values[f].is_none()).collect()
-    }
-
-    /// Bounds by points, from few unknowns to many, until they meet. `spans` are those of up to
-    /// three unknowns in this system.
-    fn points(
-        &self,
-        system: &System<'_>,
-        values: &Values,
-        spans: Vec<Span>,
-        upper: &Upper,
-        bounds: &mut Bounds,
-    ) {
-        for span in &spans {
-            self.points_of(system, values, span, upper, bounds);
-            if bounds.meet() {
+    /// Bounds by points in the few unknowns whose spans are known.
+    fn few(&mut self, draws: &Draws<'_>, best: &mut Solutions) {
+        for span in std::mem::take(&mut self.spans) {
+            if best.exactly().is_some() || draws.work.is_stopped() {
                 return;
             }
+            self.points(&span, draws, best);
         }
-        let open = self.open(values);
-        for size in 4..=self.effort.unknowns.min(open.len()) {
+    }
+
+    /// Bounds by points in more unknowns.
+    fn more(&mut self, most: usize, draws: &Draws<'_>, best: &mut Solutions) {
+        let open = open(&self.values);
+        for size in FEW + 1..=most.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
-                if let Some(span) = Span::new(system, values, unknowns) {
-                    self.points_of(system, values, &span, upper, bounds);
+                let system = self.system(&self.centres, draws);
+                let span = system.and_then(|system| Span::new(&system, &self.values, unknowns));
+                if let Some(span) = span {
+                    self.points(&span, draws, best);
                 }
-                !bounds.meet()
+                best.exactly().is_none() && !draws.work.is_stopped()
             });
-            if bounds.meet() {
-                return;
-            }
         }
     }
 
-    /// The points of some unknowns, first at the centres of a system, then at others until all
-    /// points are rational.
-    fn points_of(
-        &self,
-        system: &System<'_>,
-        values: &Values,
-        span: &Span,
-        upper: &Upper,
-        bounds: &mut Bounds,
-    ) {
-        if self.effort.draws == 0 {
+    /// Bounds by the points of a span at the first centres.
+    fn points(&mut self, span: &Span, draws: &Draws<'_>, best: &mut Solutions) {
+        let Some(system) = self.system(&self.centres, draws) else {
             return;
-        }
-        match at_most(system, values, span, &mut self.draws.residues(0)) {
-            Ok(found) => return self.enter(system, found, upper, bounds),
-            Err(NoBound::Short) => return,
-            Err(NoBound::Irrational) => {}
-        }
-        for draw in 1..self.effort.draws {
-            let Some(centres) = self.draws.centres(self.core.nodes.len(), draw) else {
-                return;
-            };
-            let Some(system) = System::new(self.draws.field, self.core, &centres) else {
-                continue;
-            };
-            let Some(span) = Span::new(&system, values, &span.unknowns) else {
-                return;
-            };
-            match at_most(&system, values, &span, &mut self.draws.residues(draw)) {
-                Ok(found) => return self.enter(&system, found, upper, bounds),
-                Err(NoBound::Short) => return,
-                Err(NoBound::Irrational) => {}
-            }
+        };
+        match at_most(&system, &self.values, span, &mut draws.residues(0)) {
+            Ok(found) => self.enter(&system, draws, found, best),
+            Err(NoBound::Short) => {}
+            Err(NoBound::Irrational) => self.irrational.push(span.unknowns.clone()),
         }
     }
 
-    fn enter(&self, system: &System<'_>, found: AtMost, upper: &Upper, bounds: &mut Bounds) {
+    /// Bounds by points at other centres; whether it is worth while to try still others.
+    fn elsewhere(
+        &self,
+        unknowns: &[usize],
+        draw: usize,
+        draws: &Draws<'_>,
+        best: &mut Solutions,
+    ) -> bool {
+        let Some(centres) = draws.centres(self.core.nodes.len(), draw) else {
+            return false;
+        };
+        let Some(system) = self.system(&centres, draws) else {
+            return true;
+        };
+        let Some(span) = Span::new(&system, &self.values, unknowns) else {
+            return false;
+        };
+        match at_most(&system, &self.values, &span, &mut draws.residues(draw)) {
+            Ok(found) => {
+                self.enter(&system, draws, found, best);
+                false
+            }
+            Err(why) => why == NoBound::Irrational,
+        }
+    }
+
+    /// What points give: an upper bound, and if the core is tight a lower one.
+    fn enter(&self, system: &System<'_>, draws: &Draws<'_>, found: AtMost, best: &mut Solutions) {
         let field = &system.field;
-        let most = found.points.len();
-        let points: Vec<Point> = found
-            .points
-            .iter()
-            .filter_map(|point| {
-                let values: Vec<u64> = point.iter().map(|&x| field.from_u64(x)).collect();
-                simple::point(system, &values).filter(|point| point.simple)
-            })
-            .collect();
-        if self.core.excess() == 0 && system.chains_are_independent() {
+        let place = || self.place(draws, system.centres);
+        if self.is_tight && system.chains_are_independent() {
+            let points = simple_points(system, &found);
             let one = field.from_u64(1);
             let identity = points
                 .iter()
                 .any(|point| point.values.iter().all(|&x| x == one));
-            let least = points.len() + usize::from(!identity);
-            if least > bounds.at_least {
-                bounds.at_least = least;
-                let residues =
-                    |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
-                bounds.lower = Some(Lower {
-                    place: self.place(system),
-                    points: points.iter().map(residues).collect(),
-                });
+            let residues = |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
+            best.lower(points.len() + usize::from(!identity), || Lower {
+                place: place(),
+                points: points.iter().map(residues).collect(),
+            });
+        }
+        let most = found.points.len();
+        best.upper(most, || self.upper(draws, Some((place(), found))));
+    }
+}
+
+/// In how many charts points are looked at anew: solutions that are not rational in one are not so
+/// in any other.
+const MOST_REDRAWN: usize = 2;
+
+/// Bounds by points at other centres, until all points are rational.
+fn redraw(charts: &[Charted], most: usize, draws: &Draws<'_>, best: &mut Solutions) {
+    let irrational = charts
+        .iter()
+        .filter_map(|charted| Some((charted, charted.irrational.first()?)));
+    let mut chosen: Vec<(&Charted, &Vec<usize>)> = irrational.take(MOST_REDRAWN).collect();
+    for draw in 1..most {
+        chosen.retain(|(charted, unknowns)| {
+            best.exactly().is_none()
+                && !draws.work.is_stopped()
+                && charted.elsewhere(unknowns, draw, draws, best)
+        });
+    }
+}
+
+/// Whether u = 1 shows at these centres that the core is finite solvable (Lemma 10.9).
+fn is_finite_solvable(system: &System<'_>) -> bool {
+    let one = system.field.from_u64(1);
+    let identity = simple::point(system, &vec![one; system.core.unknowns]);
+    identity.is_some_and(|point| point.simple) && system.chains_are_independent()
+}
+
+/// Those of the points that are simple.
+fn simple_points(system: &System<'_>, found: &AtMost) -> Vec<Point> {
+    let points = found.points.iter().filter_map(|point| {
+        let values: Vec<u64> = point.iter().map(|&x| system.field.from_u64(x)).collect();
+        simple::point(system, &values).filter(|point| point.simple)
+    });
+    points.collect()
+}
+
+/// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the unknowns
+/// that are left, of a few each.
+fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
+    let mut steps = Vec::new();
+    loop {
+        steps.extend(settle(system, values).into_iter().map(One::Linear));
+        let open = open(values);
+        let mut found = None;
+        let mut others = Vec::new();
+        for size in 1..=FEW.min(open.len()) {
+            subsets(&open, size, &mut |unknowns| {
+                if let Some(span) = Span::new(system, values, unknowns) {
+                    match span.unique(system) {
+                        Some(absent) => found = Some((span, absent)),
+                        None => others.push(span),
+                    }
+                }
+                found.is_none() && !system.is_stopped()
+            });
+            if found.is_some() {
+                break;
             }
         }
-        if bounds.upper.as_ref().is_none_or(|&(known, _)| most < known) {
-            let points = Some((self.place(system), found));
-            bounds.upper = Some((
-                most,
-                Upper {
-                    points,
-                    ..upper.clone()
-                },
-            ));
+        let Some((span, absent)) = found else {
+            return (steps, others);
+        };
+        for &f in &span.unknowns {
+            values[f] = Some(system.field.from_u64(1));
         }
+        steps.push(One::Support {
+            bounds: span.exponents.bounds.clone(),
+            absent: span.exponents.marked(&absent),
+            minors: span
+                .generators
+                .iter()
+                .map(|generator| generator.polynomial.minor.clone())
+                .collect(),
+            unknowns: span.unknowns,
+        });
     }
+}
+
+/// The unknowns without value.
+fn open(values: &Values) -> Vec<usize> {
+    (0..values.len()).filter(|&f| values[f].is_none()).collect()
 }

@@ -32,7 +32,12 @@ impl Echelon {
 
     /// Adds a row; returns whether it was independent. O(rank * length).
     pub(super) fn insert(&mut self, field: &PrimeField, mut row: Vec<u64>) -> bool {
-        self.reduce(field, &mut row);
+        self.take(field, &mut row)
+    }
+
+    /// The same, with a row that is empty afterwards if it was independent, and of no use if not.
+    pub(super) fn take(&mut self, field: &PrimeField, row: &mut Vec<u64>) -> bool {
+        self.reduce(field, row);
         let Some(pivot) = row.iter().position(|&x| x != 0) else {
             return false;
         };
@@ -42,7 +47,7 @@ impl Echelon {
         for x in &mut row[pivot..] {
             *x = field.times(*x, inverse);
         }
-        self.rows.push(row);
+        self.rows.push(std::mem::take(row));
         self.pivots.push(pivot);
         true
     }

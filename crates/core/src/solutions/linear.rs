@@ -43,7 +43,7 @@ fn step(system: &System<'_>, values: &mut Values) -> Option<Linear> {
     for size in (1..=4.min(scaled.len())).rev() {
         subsets(&scaled, size, &mut |freed| {
             found = apply(system, values, freed);
-            found.is_none()
+            found.is_none() && !system.is_stopped()
         });
         if found.is_some() {
             break;

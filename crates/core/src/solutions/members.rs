@@ -10,10 +10,10 @@ use crate::geometry::model::Model;
 use crate::graph::Graph;
 
 /// The most nodes that members may share: one bit for each.
-pub const MOST_NODES: usize = 64;
+pub const MOST_NODES: usize = 128;
 
 /// A set of shared nodes, one bit for each.
-pub(super) type Set = u64;
+pub(super) type Set = u128;
 
 /// One merge of members into one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -118,14 +118,35 @@ impl Members {
         self.sets.push(union);
     }
 
+    /// Equations less unknowns of the core: the sum of 11 k - 15 over all members, k being the
+    /// number of their shared nodes, less 11 n - 15.
+    pub(super) fn excess(&self) -> i64 {
+        self.excess_between(shared(&self.sets))
+    }
+
+    /// The same for what members have between some nodes.
+    pub(super) fn excess_between(&self, inside: Set) -> i64 {
+        let required = |set: Set| Model::Projective.required(set.count_ones() as usize) as i64;
+        let members = self.sets.iter().map(|set| set & inside);
+        members
+            .filter(|set| set.count_ones() > 1)
+            .map(required)
+            .sum::<i64>()
+            - required(inside)
+    }
+
+    /// The nodes that have a member in common with one of these, themselves included.
+    pub(super) fn near(&self, nodes: Set) -> Set {
+        let at = self.sets.iter().filter(|&set| set & nodes != 0);
+        at.fold(0, |near, set| near | set) & shared(&self.sets)
+    }
+
     /// The part of the core between some nodes: what its members have there, if it is a core with
     /// two members or more, and enough equations to be finite solvable.
     pub(super) fn part(&self, inside: Set) -> Option<Self> {
         let sets = self.sets.iter().map(|set| set & inside);
         let sets: Vec<Set> = sets.filter(|set| set.count_ones() > 1).collect();
-        let required = |set: Set| Model::Projective.required(set.count_ones() as usize);
-        let equations: usize = sets.iter().map(|&set| required(set)).sum();
-        if sets.len() < 2 || shared(&sets) != inside || equations < required(inside) {
+        if sets.len() < 2 || shared(&sets) != inside {
             return None;
         }
         let mut part = Self {
@@ -133,6 +154,9 @@ impl Members {
             sets,
             merges: Vec::new(),
         };
+        if part.excess() < 0 {
+            return None;
+        }
         part.close();
         Some(part)
     }

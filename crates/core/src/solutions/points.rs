@@ -54,7 +54,9 @@ pub(super) fn at_most(
     // Degrees as they are may do; one more for each unknown is more work and has less kernel.
     let mut found = Err(NoBound::Short);
     for more in 0..=1 {
-        let space = Space::new(&system.field, span, more)?;
+        let Some(space) = Space::new(system, span, more) else {
+            continue;
+        };
         for infinite in 0..=2.min(span.unknowns.len()) {
             found = space.points(system, values, span, infinite, draw);
             if found != Err(NoBound::Short) {
@@ -81,12 +83,10 @@ struct Form {
 }
 
 impl Space {
-    fn new(field: &PrimeField, span: &Span, more: usize) -> Result<Self, NoBound> {
-        let (exponents, absent, kernel) = span.annihilated(field, more);
-        if kernel.is_empty() {
-            return Err(NoBound::Short);
-        }
-        Ok(Self {
+    /// `None` if there are too many vectors, or none.
+    fn new(system: &System<'_>, span: &Span, more: usize) -> Option<Self> {
+        let (exponents, absent, kernel) = span.annihilated(system, more, MOST_POINTS)?;
+        (!kernel.is_empty()).then_some(Self {
             exponents,
             absent,
             kernel,
@@ -141,7 +141,7 @@ impl Space {
     ) -> Result<AtMost, NoBound> {
         let field = &system.field;
         let form = self.form(field, infinite, draw);
-        if self.kernel.len() > MOST_POINTS.min(form.inner.len()) {
+        if self.kernel.len() > form.inner.len() {
             return Err(NoBound::Short);
         }
         let multiplications = self.multiplications(field, &form)?;

@@ -9,12 +9,41 @@ use super::minors::{Minors, Polynomial};
 use super::system::{System, Values, subsets};
 use super::zeros::has_transversal;
 use crate::linalg::prime::PrimeField;
+use std::borrow::Cow;
+use std::cell::RefCell;
 
-/// A minor that is in the span, and where its coefficients are zero at all centres.
+/// A minor that is in the span.
 pub(super) struct Generator {
     pub(super) polynomial: Polynomial,
-    /// Which coefficients are the zero polynomial in the centres by Theorem 10.7.
-    pub(super) zero: Vec<bool>,
+    /// Which coefficients are the zero polynomial in the centres, as far as that was asked.
+    zero: RefCell<Vec<Option<bool>>>,
+}
+
+impl Generator {
+    fn new(polynomial: Polynomial) -> Self {
+        Self {
+            zero: RefCell::new(vec![None; polynomial.coefficients.len()]),
+            polynomial,
+        }
+    }
+
+    /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7.
+    pub(super) fn is_zero(&self, system: &System<'_>, unknowns: &[usize], place: usize) -> bool {
+        let known = self.zero.borrow()[place];
+        known.unwrap_or_else(|| {
+            let Polynomial {
+                minor,
+                degrees,
+                coefficients,
+            } = &self.polynomial;
+            let bounds = degrees.clone();
+            let exponent = &Exponents { bounds }.all()[place];
+            let zero =
+                coefficients[place] == 0 && !has_transversal(system, minor, unknowns, exponent);
+            self.zero.borrow_mut()[place] = Some(zero);
+            zero
+        })
+    }
 }
 
 /// Most values on a grid.
@@ -30,9 +59,8 @@ pub(super) struct Span {
     pub(super) exponents: Exponents,
     /// Minors none of which is a combination of shifts of those before it.
     pub(super) generators: Vec<Generator>,
-    rank: usize,
-    /// Exponents at which no shift of a generator has a coefficient, at any centres.
-    pub(super) absent: Vec<bool>,
+    /// All their shifts within the bounds.
+    shifts: Echelon,
 }
 
 impl Span {
@@ -51,47 +79,65 @@ impl Span {
         let scaled = system.scaled(values);
         for size in (0..=3.min(scaled.len())).rev() {
             let unfinished = subsets(&scaled, size, &mut |freed| {
-                minors.with_freed(freed, &mut |polynomial| {
-                    collected.add(&system.field, &exponents, polynomial)
-                })
+                !system.is_stopped()
+                    && minors.with_freed(freed, &mut |polynomial| {
+                        collected.add(&system.field, &exponents, polynomial)
+                    })
             });
             if !unfinished {
                 break;
             }
         }
-        let rank = collected.echelon.rank();
-        let generator = |polynomial: Polynomial| Generator {
-            zero: zeros(system, unknowns, &polynomial),
-            polynomial,
-        };
-        let mut span = Self {
+        let generators = collected.polynomials.into_iter().map(Generator::new);
+        Some(Self {
             unknowns: unknowns.to_vec(),
-            absent: Vec::new(),
-            generators: collected.polynomials.into_iter().map(generator).collect(),
-            rank,
+            generators: generators.collect(),
+            shifts: collected.echelon,
             exponents,
-        };
-        span.absent = span.absent(&span.exponents);
-        Some(span)
+        })
     }
 
-    /// Whether only u = 1 is left (Theorem 10.5): the rank is one less than the number of exponents,
-    /// and differences of exponents generate all of Z^unknowns.
-    pub(super) fn is_unique(&self) -> bool {
-        let present = self.absent.iter().filter(|&&absent| !absent).count();
-        self.rank + 1 == present && steps_everywhere(&self.exponents, &self.absent)
+    /// If only u = 1 is left (Theorem 10.5), the exponents that are absent: the rank is one less than
+    /// the number of the others, and their differences generate all of Z^unknowns.
+    pub(super) fn unique(&self, system: &System<'_>) -> Option<Vec<bool>> {
+        let seen = self.seen(&self.exponents);
+        let rank = self.shifts.rank();
+        // What is seen is present; what is not is asked for only if that can matter.
+        if rank + 1 < seen.iter().filter(|seen| **seen).count() {
+            return None;
+        }
+        let absent = self.absent(system, &self.exponents, &seen);
+        let present = absent.iter().filter(|&&absent| !absent).count();
+        (rank + 1 == present && steps_everywhere(&self.exponents, &absent)).then_some(absent)
+    }
+
+    /// The exponents at which some shift of a generator has a coefficient at these centres.
+    fn seen(&self, exponents: &Exponents) -> Vec<bool> {
+        let mut seen = vec![false; exponents.len()];
+        for generator in &self.generators {
+            let polynomial = &generator.polynomial;
+            let own = exponents.places(&polynomial.degrees);
+            let present = own.iter().zip(&polynomial.coefficients);
+            let present: Vec<usize> = present
+                .filter(|&(_, &coefficient)| coefficient != 0)
+                .map(|(&place, _)| place)
+                .collect();
+            for shift in exponents.places(&polynomial.room(exponents)) {
+                present.iter().for_each(|place| seen[place + shift] = true);
+            }
+        }
+        seen
     }
 
     /// The exponents at which no shift of a generator has a coefficient, at any centres.
-    fn absent(&self, exponents: &Exponents) -> Vec<bool> {
-        let mut absent = vec![true; exponents.len()];
+    fn absent(&self, system: &System<'_>, exponents: &Exponents, seen: &[bool]) -> Vec<bool> {
+        let mut absent: Vec<bool> = seen.iter().map(|seen| !seen).collect();
         for generator in &self.generators {
             let own = exponents.places(&generator.polynomial.degrees);
-            let present = own.iter().zip(&generator.zero).filter(|(_, zero)| !**zero);
-            let present: Vec<usize> = present.map(|(&place, _)| place).collect();
             for shift in exponents.places(&generator.polynomial.room(exponents)) {
-                for place in &present {
-                    absent[place + shift] = false;
+                for (k, place) in own.iter().enumerate() {
+                    let absent = &mut absent[place + shift];
+                    *absent = *absent && generator.is_zero(system, &self.unknowns, k);
                 }
             }
         }
@@ -99,24 +145,30 @@ impl Span {
     }
 
     /// All exponents up to `more` above the bounds, which of them are absent, and a basis of the
-    /// vectors on the others that all shifts of the generators annihilate.
+    /// vectors on the others that all shifts of the generators annihilate; `None` if there are
+    /// more than `most` of these.
     pub(super) fn annihilated(
         &self,
-        field: &PrimeField,
+        system: &System<'_>,
         more: usize,
-    ) -> (Exponents, Vec<bool>, Vec<Vec<u64>>) {
+        most: usize,
+    ) -> Option<(Exponents, Vec<bool>, Vec<Vec<u64>>)> {
+        let field = &system.field;
         let bounds = self.exponents.bounds.iter().map(|bound| bound + more);
         let exponents = Exponents {
             bounds: bounds.collect(),
         };
-        let mut echelon = Echelon::default();
-        for generator in &self.generators {
-            for shifted in generator.polynomial.shifts(&exponents) {
-                echelon.insert(field, shifted);
-            }
+        let shifts = match more {
+            0 => Cow::Borrowed(&self.shifts),
+            _ => Cow::Owned(self.shifts_within(field, &exponents)),
+        };
+        let seen = self.seen(&exponents);
+        // An exponent that is absent is not seen.
+        if seen.iter().filter(|seen| **seen).count() > shifts.rank() + most {
+            return None;
         }
-        let absent = self.absent(&exponents);
-        let mut kernel = echelon.kernel(field, exponents.len());
+        let absent = self.absent(system, &exponents, &seen);
+        let mut kernel = shifts.kernel(field, exponents.len());
         // At an absent exponent all shifts vanish, so it has a vector of its own.
         kernel.retain(|vector| {
             vector
@@ -124,7 +176,18 @@ impl Span {
                 .zip(&absent)
                 .any(|(&x, absent)| x != 0 && !absent)
         });
-        (exponents, absent, kernel)
+        (kernel.len() <= most).then_some((exponents, absent, kernel))
+    }
+
+    /// All shifts of the generators within some bounds.
+    fn shifts_within(&self, field: &PrimeField, exponents: &Exponents) -> Echelon {
+        let mut echelon = Echelon::default();
+        for generator in &self.generators {
+            generator.polynomial.each_shift(exponents, &mut |shifted| {
+                echelon.take(field, shifted);
+            });
+        }
+        echelon
     }
 }
 
@@ -150,12 +213,12 @@ impl Collected {
     /// Takes a polynomial in if it adds to the span; returns whether more are of use.
     fn add(&mut self, field: &PrimeField, exponents: &Exponents, polynomial: Polynomial) -> bool {
         let mut new = false;
-        for shifted in polynomial.shifts(exponents) {
-            for (seen, &coefficient) in self.seen.iter_mut().zip(&shifted) {
+        polynomial.each_shift(exponents, &mut |shifted| {
+            for (seen, &coefficient) in self.seen.iter_mut().zip(shifted.iter()) {
                 *seen |= coefficient != 0;
             }
-            new |= self.echelon.insert(field, shifted);
-        }
+            new |= self.echelon.take(field, shifted);
+        });
         if new {
             self.polynomials.push(polynomial);
             self.idle = 0;
@@ -169,18 +232,18 @@ impl Collected {
 }
 
 impl Polynomial {
-    /// All multiples by a monomial within the bounds.
-    fn shifts(&self, exponents: &Exponents) -> Vec<Vec<u64>> {
+    /// Calls `each` with all multiples by a monomial within the bounds.
+    fn each_shift(&self, exponents: &Exponents, each: &mut impl FnMut(&mut Vec<u64>)) {
         let own = exponents.places(&self.degrees);
-        let shifts = exponents.places(&self.room(exponents)).into_iter();
-        let shifted = shifts.map(|shift| {
-            let mut vector = vec![0; exponents.len()];
+        let mut vector = Vec::new();
+        for shift in exponents.places(&self.room(exponents)) {
+            vector.clear();
+            vector.resize(exponents.len(), 0);
             for (&place, &coefficient) in own.iter().zip(&self.coefficients) {
                 vector[place + shift] = coefficient;
             }
-            vector
-        });
-        shifted.collect()
+            each(&mut vector);
+        }
     }
 
     /// How far shifts may go within the bounds.
@@ -188,20 +251,6 @@ impl Polynomial {
         let room = exponents.bounds.iter().zip(&self.degrees);
         room.map(|(bound, degree)| bound - degree).collect()
     }
-}
-
-/// Which coefficients are zero at all centres by Theorem 10.7.
-fn zeros(system: &System<'_>, unknowns: &[usize], polynomial: &Polynomial) -> Vec<bool> {
-    let own = Exponents {
-        bounds: polynomial.degrees.clone(),
-    };
-    own.all()
-        .iter()
-        .zip(&polynomial.coefficients)
-        .map(|(exponent, &coefficient)| {
-            coefficient == 0 && !has_transversal(system, &polynomial.minor, unknowns, exponent)
-        })
-        .collect()
 }
 
 /// Whether for every unknown some exponent and the next one are both present.

@@ -3,6 +3,7 @@
 use super::chart::{Core, Row};
 use super::echelon::Echelon;
 use crate::linalg::prime::PrimeField;
+use crate::watch::Work;
 
 /// The rows of N(u) at given centres.
 pub(super) struct System<'a> {
@@ -13,6 +14,8 @@ pub(super) struct System<'a> {
     pub(super) columns: usize,
     /// 3 n' - 4, the rank at a solution.
     pub(super) target: usize,
+    /// What may be stopped.
+    work: Option<&'a Work<'a>>,
 }
 
 /// What is known of each unknown: its value at a point.
@@ -28,7 +31,21 @@ impl<'a> System<'a> {
             rows: core.rows(&field, centres)?,
             columns: core.columns(),
             target: core.target(),
+            work: None,
         })
+    }
+
+    /// The same, for work that may be stopped.
+    pub(super) fn under(self, work: &'a Work<'a>) -> Self {
+        Self {
+            work: Some(work),
+            ..self
+        }
+    }
+
+    /// Whether what is being computed will be thrown away.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.work.is_some_and(Work::is_stopped)
     }
 
     /// The rows with an unknown that has no value.

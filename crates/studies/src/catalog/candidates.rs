@@ -40,6 +40,16 @@ pub enum SizeError {
         /// How many edges there can be.
         most: usize,
     },
+    /// Fewer than 2 nodes, or more than Laman graphs are grown to.
+    #[error(
+        "Laman graphs with {} are not enumerated: ask for 2 to {} nodes",
+        viewcert::wording::counted(*.nodes, "node"),
+        super::laman::MOST_NODES
+    )]
+    Laman {
+        /// How many were asked for.
+        nodes: usize,
+    },
 }
 
 /// The candidates of a size.

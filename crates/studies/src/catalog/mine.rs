@@ -86,13 +86,18 @@ impl Entry {
             self.components.to_string(),
             strength(self.components_strength),
             u8::from(self.hub).to_string(),
-            match self.solutions {
-                None => String::new(),
-                Some((least, Some(most))) if least == most => least.to_string(),
-                Some((least, Some(most))) => format!("{least}-{most}"),
-                Some((least, None)) => format!("{least}-"),
-            },
+            self.solutions_in_words().unwrap_or_default(),
         ]
+    }
+
+    /// The number of solutions, or the least and the largest one that it can be: "2", "1-3", "1-";
+    /// `None` if infinitely many.
+    pub fn solutions_in_words(&self) -> Option<String> {
+        self.solutions.map(|bounds| match bounds {
+            (least, Some(most)) if least == most => least.to_string(),
+            (least, Some(most)) => format!("{least}-{most}"),
+            (least, None) => format!("{least}-"),
+        })
     }
 }
 

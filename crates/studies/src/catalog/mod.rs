@@ -3,8 +3,9 @@
 //! [`candidates`] generates the biconnected graphs with some numbers of nodes and edges,
 //! one of each isomorphism class: from [`kernel`]s by [`subdivide`]-ing, or node by node
 //! ([`grow`]) where there are many edges. [`mine`] decides them; [`minimal`] finds the
-//! graphs that are finite solvable and not so without any one edge; [`random`] samples
-//! connected random graphs; [`invariants`] describes what was found; a [`census`] counts by model.
+//! graphs that are finite solvable and not so without any one edge; [`laman`] grows the Laman
+//! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found; a
+//! [`census`] counts by model.
 
 pub mod candidates;
 pub mod canonical;
@@ -12,6 +13,7 @@ pub mod census;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;
+pub mod laman;
 pub mod mine;
 pub mod minimal;
 pub mod multigraph;

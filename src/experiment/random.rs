@@ -1,62 +1,24 @@
-//! `verify experiment`: the experiments of the paper, and numbers of solutions.
+//! `verify experiment random`: connected random graphs, the paper's Table 2.
 
-use super::progress::Progress;
-use super::{GOOD, atomic, running};
+use super::super::progress::Progress;
+use super::super::{GOOD, atomic, running};
 use crate::report::plot::{Point, plot};
 use crate::report::values::Values;
 use anyhow::{Context, Result, anyhow};
-use clap::{Args, Subcommand};
+use clap::Args;
 use std::io::Write;
-use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Strength, Value};
-use viewcert::solutions::Effort;
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::Entry;
 use viewcert_studies::catalog::random;
 use viewcert_studies::catalog::random::{Density, Sampler, fisher};
-use viewcert_studies::solutions::tally;
 use viewcert_studies::values;
-
-#[derive(Args)]
-pub(super) struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Connected random graphs (the paper's Table 2).
-    Random(Random),
-    /// How many solutions the finite solvable graphs with the fewest pairs have.
-    Solutions(Solutions),
-}
-
-/// Options of the experiment on numbers of solutions.
-#[derive(Args)]
-struct Solutions {
-    /// Numbers of nodes, as in 9 or 3-10.
-    #[arg(long, value_name = "N", default_value = "3-10", value_parser = sizes)]
-    nodes: RangeInclusive<usize>,
-    /// Seed of the centres.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-}
-
-/// Reads `9` or `3-10`.
-fn sizes(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let (first, last) = text.split_once('-').unwrap_or((text, text));
-    match (first.trim().parse(), last.trim().parse()) {
-        (Ok(first), Ok(last)) if 3 <= first && first <= last => Ok(first..=last),
-        _ => Err("write one number of nodes or two, from 3 up, as in 9 or 3-10".into()),
-    }
-}
 
 /// Options of the random experiment.
 #[derive(Args)]
-struct Random {
+pub(super) struct Arguments {
     /// Number of nodes.
     #[arg(long, value_name = "N", default_value_t = 20)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=40))]
@@ -104,60 +66,8 @@ struct Published {
 /// How many graphs are decided in one go.
 const BATCH: u64 = 1024;
 
+/// Draws and decides graphs, and prints the table.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    match &arguments.command {
-        Command::Random(arguments) => run_random(arguments),
-        Command::Solutions(arguments) => run_solutions(arguments),
-    }
-}
-
-/// Counts solutions, and lists the graphs whose number is not known exactly.
-fn run_solutions(arguments: &Solutions) -> Result<ExitCode> {
-    let options = Options::default()
-        .solutions(CountSolutions::Off)
-        .watch(running::watch());
-    let mut out = atomic::text(&[]);
-    writeln!(
-        out,
-        "nodes  fin_solv  solutions: graphs                      not exact  seconds"
-    )?;
-    let mut open = Vec::new();
-    for nodes in arguments.nodes.clone() {
-        let progress = Progress::new(None);
-        let start = Instant::now();
-        let done = |more| progress.done(more);
-        let tally = tally(nodes, &options, Effort::default(), arguments.seed, done)?;
-        progress.finish();
-        let exactly: Vec<String> = tally
-            .exactly
-            .iter()
-            .map(|(solutions, graphs)| format!("{solutions}: {graphs}"))
-            .collect();
-        writeln!(
-            out,
-            "{nodes:>5}  {:>8}  {:<38}  {:>9}  {:>7.1}",
-            tally.graphs,
-            exactly.join(", "),
-            tally.open.len(),
-            start.elapsed().as_secs_f64(),
-        )?;
-        open.extend(tally.open);
-    }
-    for graph in open {
-        let most = graph
-            .at_most
-            .map_or("unknown".into(), |most| most.to_string());
-        writeln!(
-            out,
-            "{}: at least {}, at most {most}",
-            graph.graph6, graph.at_least
-        )?;
-    }
-    out.flush().context("standard output")?;
-    Ok(ExitCode::from(GOOD))
-}
-
-fn run_random(arguments: &Random) -> Result<ExitCode> {
     let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
     let inputs = arguments.compare.as_deref();
     atomic::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
@@ -209,7 +119,7 @@ const GRAPH_COLUMNS: [&str; 7] = [
 
 /// Draws and decides all graphs at one density, and adds their rows to `keep`.
 fn at_density(
-    arguments: &Random,
+    arguments: &Arguments,
     density: &Density,
     options: &Options,
     progress: &Progress,

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Numbers of solutions, against a computer algebra system and against explicit cameras.
+
+    python3 benches/uniqueness.py VERIFY [--nodes 8 9 10] [--one 20] [--several 20] [--graph NAME SOLUTIONS]...
+
+Singular (Debian: singular-ui) solves the equations of the cameras themselves, at random centres modulo 32003: no
+charts of scales, minors or half-edges. Nodes are visited along a spanning tree; the cameras there are the root's,
+[I | 0], and Q_w = Q_v - (c_w - c_v) z^T for each further node (docs/theory.md, Proposition 10.1, with the scale 1).
+The first z is (0, 0, 0, 1), which leaves no projective transformation. A pair that is not in the tree has a scale s,
+and Q_i - s Q_j has to be a multiple of c_i - c_j in each column: eight equations. No scale is zero: 1 - t * (their
+product). The number of solutions is the dimension of the quotient by the Groebner basis; there is only the one that
+was begun with iff s - 1 is in the ideal for all scales.
+
+A count at one point is no proof for generic centres: that is what the certificates are for. It is an independent
+computation of the same numbers.
+
+Graphs with several solutions are also written as explicit cameras (`verify --witness`), and checked by
+crates/check/second/witness.py: the same fundamental matrices on all pairs, and not equivalent.
+
+Exit code 0 if all numbers agree and all witnesses are good, 1 if not.
+"""
+
+import argparse
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import time
+
+PRIME = 32003
+WITNESS = pathlib.Path(__file__).parent.parent / "crates/check/second/witness.py"
+
+
+def decoded(graph6):
+    """The number of nodes, and the pairs."""
+    nodes = ord(graph6[0]) - 63
+    bits = [ord(char) - 63 >> place & 1 for char in graph6[1:] for place in range(5, -1, -1)]
+    pairs = [(i, j) for j in range(nodes) for i in range(j)]
+    return nodes, [pair for pair, bit in zip(pairs, bits) if bit]
+
+
+def spanning_tree(nodes, pairs):
+    """Pairs (known, new) from a node of largest degree on."""
+    near = [[] for _ in range(nodes)]
+    for i, j in pairs:
+        near[i].append(j)
+        near[j].append(i)
+    reached = [max(range(nodes), key=lambda v: len(near[v]))]
+    tree = []
+    for v in reached:
+        for w in near[v]:
+            if w not in reached:
+                reached.append(w)
+                tree.append((v, w))
+    return reached[0], tree
+
+
+def program(graph6):
+    """The equations of the cameras of a graph, for Singular, and the names of the scales."""
+    nodes, pairs = decoded(graph6)
+    drawn = random.Random(graph6)
+    centre = [[drawn.randrange(PRIME) for _ in range(3)] for _ in range(nodes)]
+    difference = lambda v, w: [(a - b) % PRIME for a, b in zip(centre[v], centre[w])]
+    root, tree = spanning_tree(nodes, pairs)
+    cameras = {root: [[str(int(r == k)) for k in range(4)] for r in range(3)]}
+    unknowns = []
+    for v, w in tree:
+        z = ["0", "0", "0", "1"] if (v, w) == tree[0] else [f"z{w}_{k}" for k in range(4)]
+        unknowns += [name for name in z if name[0] == "z"]
+        d = difference(w, v)
+        cameras[w] = [[f"{cameras[v][r][k]}-{d[r]}*{z[k]}" for k in range(4)] for r in range(3)]
+    scales, equations = [], []
+    for i, j in pairs:
+        if (i, j) in tree or (j, i) in tree:
+            continue
+        s, d = f"s{i}_{j}", difference(i, j)
+        scales.append(s)
+        for k in range(4):
+            y = [f"({cameras[i][r][k]}-{s}*({cameras[j][r][k]}))" for r in range(3)]
+            equations += [f"{d[0]}*{y[r]}-{d[r]}*{y[0]}" for r in (1, 2)]
+    lines = [
+        f"ring R={PRIME},(t,{','.join(unknowns + scales)}),dp;",
+        "ideal I=" + ",\n".join(equations) + f",1-t*{'*'.join(scales)};",
+        "ideal G=slimgb(I);",
+        'print("solutions "+string(vdim(G)));',
+    ]
+    lines += [f'print("one "+string(reduce({s}-1,G)==0));' for s in scales]
+    return "\n".join([*lines, "quit;"]), len(scales)
+
+
+def by_algebra(graph6, limit):
+    """The number of solutions at random centres, and whether all scales are one; None if it takes too long."""
+    text, scales = program(graph6)
+    try:
+        run = subprocess.run(["Singular", "-q"], input=text, capture_output=True, text=True, timeout=limit)
+    except subprocess.TimeoutExpired:
+        return None
+    said = [line.split() for line in run.stdout.splitlines()]
+    numbers = [int(words[1]) for words in said if words[:1] == ["solutions"]]
+    ones = [words[1] for words in said if words[:1] == ["one"]]
+    if len(numbers) != 1 or len(ones) != scales:
+        sys.exit(f"uniqueness.py: {graph6}: Singular says\n{run.stdout}{run.stderr}")
+    return numbers[0], all(one == "1" for one in ones)
+
+
+def published(verify, nodes):
+    """The finite solvable graphs of a size with the fewest pairs, and how many solutions they are proved to have."""
+    command = [verify, "catalog", "--nodes", str(nodes), "--necessary", "--solutions", "--list", "--solvable-only"]
+    lines = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    head = lines[0].split("\t")
+    rows = (dict(zip(head, line.split("\t"))) for line in lines[1:])
+    return [(row["graph6"], int(row["solutions"])) for row in rows if row.get("solutions", "").isdigit()]
+
+
+def has_witness(verify, graph6):
+    """Whether two explicit families of cameras are written, and pass the script that checks them."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "witness.json"
+        command = [verify, "-", "--format", "graph6", "--witness", str(path)]
+        subprocess.run(command, input=graph6 + "\n", capture_output=True, text=True)
+        checked = subprocess.run([sys.executable, WITNESS, path], capture_output=True, text=True)
+        return checked.returncode == 0 and checked.stdout.startswith("VERIFIED")
+
+
+def compare(verify, graphs, arguments):
+    """Prints a line for each graph; the number of disagreements."""
+    wrong = 0
+    for graph6, solutions in graphs:
+        start = time.monotonic()
+        found = by_algebra(graph6, arguments.limit)
+        seconds = time.monotonic() - start
+        witness = "-" if solutions == 1 else "verified" if has_witness(verify, graph6) else "NONE"
+        if found is None:
+            good, words = True, f"not within {arguments.limit} s"
+        else:
+            good = found == (solutions, solutions == 1)
+            words = f"{found[0]}" + (", all scales 1" if found[1] else "")
+        good = good and witness != "NONE"
+        wrong += not good
+        row = [graph6, str(solutions), words, witness, f"{seconds:.1f}", "" if good else "DISAGREES"]
+        print("| " + " | ".join(row[:5]) + " | " + row[5], flush=True)
+    return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("verify", help="the program")
+    parser.add_argument("--nodes", type=int, nargs="+", default=[8, 9, 10], help="numbers of nodes")
+    parser.add_argument("--one", type=int, default=20, help="at least so many graphs with one solution")
+    parser.add_argument("--several", type=int, default=20, help="and so many with more")
+    parser.add_argument("--limit", type=float, default=60, help="seconds for a graph")
+    parser.add_argument("--graph", nargs=2, action="append", default=[], help="graph6 and the number of solutions")
+    arguments = parser.parse_args()
+    graphs = [entry for nodes in arguments.nodes for entry in published(arguments.verify, nodes)]
+    several = [entry for entry in graphs if entry[1] > 1]
+    one = [entry for entry in graphs if entry[1] == 1]
+    # Every so many of each kind, so that all sizes are there.
+    spread = lambda entries, count: entries[:: max(1, len(entries) // max(1, count))] if count else []
+    chosen = spread(one, arguments.one) + spread(several, arguments.several)
+    chosen += [(graph6, int(solutions)) for graph6, solutions in arguments.graph]
+    print("| graph | proved | Singular | cameras | s |\n|---|---:|---|---|---:|")
+    wrong = compare(arguments.verify, chosen, arguments)
+    print(f"{len(chosen)} graphs, {wrong} disagree")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
