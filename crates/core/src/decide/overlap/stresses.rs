@@ -1,9 +1,8 @@
 //! The stresses of a core: the left kernel of its J_P at drawn centres, as far as it is needed.
 //!
-//! By Theorem 3.2 of docs/theory.md the left kernel of the system behind J_P consists of four plane
-//! flows, one for each column of the cameras, on which Lambda vanishes: vectors of the left kernel
-//! of Lambda. Its dimension is 7 m - rank J_P, and the rows of a part D of the edges have the rank
-//! 7 |D| less the dimension of the stresses that vanish outside of D.
+//! By Lemma 5.12 of docs/theory.md a stress is four plane flows, one for each column of the cameras,
+//! that the left kernel of Lambda combines. There are 7 m - rank J_P independent ones, and a part D
+//! of the edges has the rank 7 |D| less the dimension of the stresses that vanish outside of D.
 
 use crate::contract::piece::Core;
 use crate::geometry::draw::DrawKey;
@@ -76,10 +75,9 @@ impl<'a> Stresses<'a> {
         self.dimension
     }
 
-    /// Whether each stress is the sum of one that vanishes on these members and one that vanishes
-    /// on those: what the one see and what the others see is independent. Then, and only then, the
-    /// ranks of everything without the one and of everything without the others add up to that of
-    /// everything and that of everything without both.
+    /// Whether what these members see of the stresses is independent of what those see. Then, and
+    /// only then, the ranks of everything without the one and of everything without the others add
+    /// up to that of everything and that of everything without both (Lemma 5.12 of docs/theory.md).
     pub fn independent(&self, one: u64, other: u64) -> bool {
         let mut both = self.seen(one);
         let (alone, others) = (both.dimension(), self.seen(other).dimension());
