@@ -151,9 +151,8 @@ pub(super) fn reason(report: &Report) -> String {
             format!("{parts} parts hang together in {single}, or not at all")
         }
         Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
-            let evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
-            let overlap = |one: &Evidence| matches!(one, Evidence::Overlap(_));
-            match evidence.into_iter().any(overlap) {
+            let mut evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
+            match evidence.any(|one| matches!(one, Evidence::Overlap(_))) {
                 true => format!("two parts that overlap allow rank {covered} at most"),
                 false => format!("counting allows rank {covered} at most"),
             }

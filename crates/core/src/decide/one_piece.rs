@@ -330,12 +330,12 @@ impl<'a> Piece<'a> {
         };
         let mut components = Vec::new();
         for class in classes {
-            let is_one = class.len() == 1
-                || (self.full_rank(&class, &self.assembly.split(&class), 0)?).is_some();
-            match is_one {
-                true => components.push(class),
+            let split = self.assembly.split(&class);
+            if class.len() == 1 || self.full_rank(&class, &split, 0)?.is_some() {
+                components.push(class);
+            } else {
                 // Any partition will do to count by.
-                false => components.extend(class.singles()),
+                components.extend(class.singles());
             }
         }
         let rank = self.rank_of_piece(ranks.rank);
