@@ -7,6 +7,9 @@ use common::{Run, TABLE_1, cycle, data, geng, verify, verify_with};
 use serde_json::{Value, json};
 use std::path::Path;
 
+/// The second graph of docs/theory.md, Example 5.10: no partition with hubs refutes it.
+const OVERLAP: &str = "0 5\n0 6\n0 7\n1 4\n1 8\n1 9\n2 4\n2 6\n2 7\n2 10\n2 11\n2 12\n3 5\n3 8\n\
+                       3 9\n3 10\n3 11\n3 13\n4 13\n5 12\n";
 const PSI: &str = "0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n0 9\n2 9\n0 10\n2 10\n";
 const GAMMA: &str = "0 2\n0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n";
 /// Eight nodes that no merge makes a body, with one solution.
@@ -37,6 +40,7 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("partition", cycle(5), vec![]),
         ("hub", GAMMA.into(), vec![]),
         ("nested classes", PSI.into(), vec![]),
+        ("two parts that overlap", OVERLAP.into(), vec![]),
         ("draws", PSI.into(), vec!["--no-counting"]),
         (
             "draws of the whole graph",
@@ -114,6 +118,7 @@ fn every_kind_of_evidence_is_written_and_verified() {
         "kernel",
         "linear",
         "minor",
+        "overlap",
         "pinching",
         "plane-flow",
         "plane-minor",

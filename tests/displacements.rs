@@ -324,7 +324,7 @@ fn scaled_components_that_share_a_camera_are_one() {
     let graph = Graph::new(9, pairs).unwrap();
     let known = Displacements::new(9, [(0, 1), (2, 3), (4, 8)]).unwrap();
     let options = Options::default().model(Model::Calibrated);
-    let verdict = decide_with_displacements(&graph, &known, &options).unwrap();
+    let verdict = decide(&graph, &options.displacements(known)).unwrap();
     assert_eq!((verdict.rank, verdict.required), (23, 24));
     let components = verdict.components.iter().map(|component| component.nodes());
     let components: Vec<Vec<u32>> = components.collect();

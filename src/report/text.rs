@@ -175,7 +175,11 @@ pub(super) fn reason(report: &Report) -> String {
             format!("{parts} parts hang together in {single}, or not at all")
         }
         Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
-            format!("counting allows rank {covered} at most")
+            let mut evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
+            match evidence.any(|one| matches!(one, Evidence::Overlap(_))) {
+                true => format!("two parts that overlap allow rank {covered} at most"),
+                false => format!("counting allows rank {covered} at most"),
+            }
         }
         Strength::Proof => match report.input.cameras {
             None if !verdict.known_parts.is_empty() => {

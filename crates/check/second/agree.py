@@ -316,7 +316,7 @@ def change_pivots(document, rng):
 
 
 def change_kind(document, rng):
-    kinds = (*LOWER, "pinching", "counting", "draws", "classes", "kernel", "hub")
+    kinds = (*LOWER, "pinching", "counting", "overlap", "draws", "classes", "kernel", "hub")
     rng.choice(evidence_of(document, kinds))["kind"] = rng.choice(kinds)
 
 
@@ -337,9 +337,8 @@ def copy_evidence(document, rng):
 
 def merge_groups(document, rng):
     """Two pieces, blocks, classes, parts or groups become one; or one becomes two."""
-    lists = [
-        c[k] for c, k in places(document) if k in ("pieces", "blocks", "classes", "parts", "groups") and len(c[k] or [])
-    ]
+    names = ("pieces", "blocks", "first", "second", "classes", "parts", "groups")
+    lists = [c[k] for c, k in places(document) if k in names and len(c[k] or [])]
     groups = rng.choice([entries for entries in lists if type(entries) is list])
     if len(groups) >= 2 and rng.random() < 0.6:
         a, b = rng.sample(range(len(groups)), 2)
@@ -381,6 +380,22 @@ def random_hub(document, rng):
     counting["blocks"][blocks.index(hub_block)]["hubs"] = [{**hub, "components": 0, "less": 0}]
     piece["evidence"] = [e for e in piece["evidence"] if e["kind"] != "counting" or rng.random() < 0.5]
     piece["evidence"].append(counting)
+    repair(document, rng)
+
+
+def random_overlap(document, rng):
+    """A member moves into, or out of, one of the sets of an overlap, or of what is in both."""
+    overlap = rng.choice(evidence_of(document, ["overlap"]))
+    lists = [block[name] for side in ("first", "second") for block in overlap[side] for name in ("bodies", "edges")]
+    shared = [overlap["shared"]["rigid"], *overlap["shared"]["pieces"]]
+    lists += [part[name] for part in shared for name in ("bodies", "edges")]
+    source, target = rng.choice([entries for entries in lists if entries]), rng.choice(lists)
+    member = source[rng.randrange(len(source))]
+    if rng.random() < 0.6:
+        source.remove(member)
+    if rng.random() < 0.6:
+        target.append(member)
+        target.sort()
     repair(document, rng)
 
 
@@ -503,7 +518,7 @@ def bad_cycles(document, rng):
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
-    *(random_hub, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
+    *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
     *(change_merge, bad_cycles, remake),
 )
 

@@ -892,8 +892,8 @@ class Check:
                 seen.add(member)
         need(len(seen) == len(whole), f"{where}: a member is in no group")
 
-    def check_pieces(self, rigid, values, whole, where):
-        """Section 6: the pieces of a graph, or of a class."""
+    def divide(self, rigid, values, whole, where):
+        """Section 6: the single members and the other pieces of a set of members, and the evidence of the latter."""
         bodies, edges = members(rigid, "bodies edges", f"{where}rigid")
         singles = [[member] for member in self.read_group(bodies, edges, f"{where}rigid")]
         groups, evidence = [], []
@@ -909,17 +909,23 @@ class Check:
                 leader[x] = x = leader[leader[x]]
             return x
 
-        pieces = []
         for k, group in enumerate(singles + groups):
-            nodes = self.union(group)
-            for node in nodes:
+            for node in self.union(group):
                 ours, theirs = find(("piece", k)), find(node)
                 need(ours != theirs, f"{where}pieces: a cycle of pieces through node {node}")
                 leader[ours] = theirs
-            scaled = self.is_scaled(group)
+        for k, group in enumerate(groups):
+            need(len(group) >= 2, f"{where}piece {k} has less than two members")
+        return singles, groups, evidence
+
+    def check_pieces(self, rigid, values, whole, where):
+        """Sections 6 and 7: the pieces of a graph, or of a class, with their evidence."""
+        singles, groups, evidence = self.divide(rigid, values, whole, where)
+        pieces = []
+        for group in singles + groups:
+            nodes, scaled = self.union(group), self.is_scaled(group)
             pieces.append(Piece(len(nodes), self.required(len(nodes), scaled), [nodes] if scaled else []))
         for k, (group, proofs, piece) in enumerate(zip(groups, evidence, pieces[len(singles) :])):
-            need(len(group) >= 2, f"{where}piece {k} has less than two members")
             self.check_evidence(group, proofs, piece, f"{where}piece {k}: ")
         return pieces, len(singles)
 
@@ -932,7 +938,7 @@ class Check:
     def check_evidence(self, group, proofs, piece, where):
         """Section 7: all evidence of a piece."""
         core = Core(self, group, where)
-        kinds = {"lower": [], "counting": [], "draws": [], "classes": [], "kernel": []}
+        kinds = {"lower": [], "counting": [], "overlap": [], "draws": [], "classes": [], "kernel": []}
         for k, value in enumerate(proofs):
             need(type(value) is dict and "kind" in value, f"{where}evidence {k} has no kind")
             kind = a_string(value["kind"], f"{where}evidence {k}: kind")
@@ -943,6 +949,7 @@ class Check:
         need(len(kinds["classes"]) <= 1, f"{where}more than one classes")
         need(kinds["classes"] or not kinds["kernel"], f"{where}a kernel without classes")
         bounds = [self.check_counting(value, group, at) for value, at in kinds["counting"]]
+        bounds += [self.check_overlap(value, group, at) for value, at in kinds["overlap"]]
         piece.upper = min(bounds + [piece.required])
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
@@ -1130,16 +1137,60 @@ class Check:
         groups, total = [], 0
         for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
             at = f"{where}: block {k}"
-            bodies, edges, hubs = members(block, "bodies edges hubs", at)
-            groups.append(self.read_group(bodies, edges, at))
-            need(all(member in group for member in groups[-1]), f"{at}: a member is not one of the piece")
-            total += self.required(len(self.union(groups[-1])), self.is_scaled(groups[-1]))
-            need(len(a_list(hubs, f"{at}: hubs")) <= 1, f"{at}: more than one hub")
-            for hub in hubs:
-                total -= self.check_hub(hub, groups[-1], f"{at}: hub")
+            inside, takes = self.check_block(block, group, at)
+            groups.append(inside)
+            total += takes
         self.partition(groups, set(group), f"{where}: blocks")
         need(an_int(bound, f"{where}: bound") == total, f"{where}: the bound is {total}, not {bound}")
         return total
+
+    def check_block(self, block, group, where):
+        """Section 7, a block: its members, all of the piece, and what it contributes."""
+        bodies, edges, hubs = members(block, "bodies edges hubs", where)
+        inside = self.read_group(bodies, edges, where)
+        need(all(member in group for member in inside), f"{where}: a member is not one of the piece")
+        total = self.required(len(self.union(inside)), self.is_scaled(inside))
+        need(len(a_list(hubs, f"{where}: hubs")) <= 1, f"{where}: more than one hub")
+        for hub in hubs:
+            total -= self.check_hub(hub, inside, f"{where}: hub")
+        return inside, total
+
+    def check_overlap(self, value, group, where):
+        """Section 7, overlap."""
+        need(self.projective, f"{where}: projective model only")
+        _, first, second, shared, bound = members(value, "kind first second shared bound", where)
+        sides, total = [], 0
+        for name, blocks in (("first", first), ("second", second)):
+            side = set()
+            for k, block in enumerate(a_list(blocks, f"{where}: {name}")):
+                inside, takes = self.check_block(block, group, f"{where}: {name} {k}")
+                need(inside, f"{where}: {name} {k}: a block is empty")
+                need(side.isdisjoint(inside), f"{where}: {name} {k}: a member is in two blocks")
+                side.update(inside)
+                total += takes
+            sides.append(side)
+        need(sides[0] | sides[1] == set(group), f"{where}: a member of the piece is in neither")
+        both = sides[0] & sides[1]
+        need(both, f"{where}: no member is in both")
+        rigid, values = members(shared, "rigid pieces", f"{where}: shared")
+        singles, groups, evidence = self.divide(rigid, values, both, f"{where}: shared: ")
+        total -= sum(self.required(len(self.union(single))) for single in singles)
+        for k, (inside, proofs) in enumerate(zip(groups, evidence)):
+            at = f"{where}: shared: piece {k}"
+            core, nodes = Core(self, inside, at), len(self.union(inside))
+            total -= self.core_rank_to_rank(max(self.lower_bounds(core, proofs, at)), core, nodes)
+        need(an_int(bound, f"{where}: bound") == total, f"{where}: the bound is {total}, not {bound}")
+        return total
+
+    def lower_bounds(self, core, evidence, where):
+        """Section 7: the ranks that a list of lower bounds, and of nothing else, shows for a core."""
+        need(evidence, f"{where}: no evidence")
+        found = []
+        for value in evidence:
+            need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")
+            need(value["kind"] in self.LOWER, f"{where}: the evidence is no lower bound")
+            found.append(self.check_lower(value, core, f"{where}: {value['kind']}"))
+        return found
 
     def check_hub(self, value, block, where):
         """Section 7, a hub: what it takes off."""
@@ -1227,12 +1278,8 @@ class Check:
     def check_rigid_class(self, inside, evidence, where):
         need(evidence, f"{where}: neither evidence nor split")
         core = Core(self, inside, where)
-        best = []
-        for value in evidence:
-            need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")
-            need(value["kind"] in self.LOWER, f"{where}: the evidence is no lower bound")
-            best.append(self.check_lower(value, core, f"{where}: {value['kind']}"))
-        need(max(best) == self.required(core.n, bool(core.scales)), f"{where}: the class is not shown to be rigid")
+        best = max(self.lower_bounds(core, evidence, where))
+        need(best == self.required(core.n, bool(core.scales)), f"{where}: the class is not shown to be rigid")
 
     def check_kernel(self, value, core, class_of, seed_of_draws, draws, where):
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""

@@ -303,6 +303,8 @@ class Maker:
             found.insert(self.rng.randrange(2), self.minor(core)[0])
         if self.projective and self.variety and core.n <= 6 and self.rng.random() < 0.3:
             found.insert(self.rng.randrange(2), self.integer_minor(core))
+        if self.projective and self.variety and self.rng.random() < 0.3:
+            found.append(self.overlap(group))
         if rank == required:
             return found, [group]
         seed, number = int(lower["seed"]), lower["draw"]
@@ -341,6 +343,30 @@ class Maker:
         if self.variety:
             self.rng.shuffle(found)
         return found, components
+
+    def overlap(self, group):
+        """Evidence by two random sets of members that overlap, whatever bound they give."""
+        sides, total = {"first": [], "second": []}, 0
+        where = [self.rng.choice(["first", "second", "both"]) for _ in group]
+        where[self.rng.randrange(len(group))] = "both"
+        for name in sides:
+            side = [member for member, place in zip(group, where) if place in (name, "both")]
+            one = self.rng.random() < 0.3
+            for block in [side] if one else [[member] for member in side]:
+                sides[name].append({**listed(block), "hubs": []})
+                total += self.required(len(self.union(block)))
+        singles, pieces = [], []
+        for block in self.blocks_of([member for member, place in zip(group, where) if place == "both"]):
+            nodes = len(self.union(block))
+            if len(block) == 1:
+                singles += block
+                total -= self.required(nodes)
+            else:
+                core = check.Core(self, block, "shared")
+                lower, rank = self.lower(core)
+                pieces.append({**listed(block), "evidence": [lower]})
+                total -= self.required(nodes) - (self.required(core.n) - rank)
+        return {"kind": "overlap", **sides, "shared": {"rigid": listed(singles), "pieces": pieces}, "bound": total}
 
     def hub(self, group, wanted):
         """Counting with one block and a hub, its parts the members, if that gives the wanted bound."""

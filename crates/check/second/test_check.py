@@ -851,6 +851,115 @@ class UpperBounds(Case):
         self.rejects(document, "the block is not connected")
 
 
+class Overlaps(Case):
+    """Section 7, overlap: a body, three edges between its nodes and two more, and three paths between these."""
+
+    @classmethod
+    def setUpClass(cls):
+        with open(os.path.join(HERE, "..", "tests", "certificates", "overlap.json"), encoding="utf-8") as file:
+            cls.document = json.load(file)
+
+    def changed(self, edit, *words):
+        self.broken(self.document, lambda d: edit(evidence(d, "overlap")), *words)
+
+    def test_what_it_gives(self):
+        done = self.verifies(self.document)
+        self.assertEqual(done.statements()[2], "rank: 81 of 84 required (proof)")
+        # 12 edges, three of them in the body, which has three nodes: 9 * 7 + 18.
+        self.assertEqual(evidence(self.document, "overlap")["bound"], 81)
+
+        def gone(other):
+            other["pieces"][0]["evidence"].remove(evidence(other, "overlap"))
+
+        self.broken(self.document, gone, "not separated")
+
+    def test_one_side_may_be_all(self):
+        document = copy.deepcopy(self.document)
+        overlap, piece = evidence(document, "overlap"), document["pieces"][0]
+        overlap["first"] = [{"bodies": [0], "edges": [], "hubs": []}]
+        overlap["first"] += [{"bodies": [], "edges": [edge], "hubs": []} for edge in piece["edges"]]
+        overlap["second"] = [{"bodies": [], "edges": [[4, 5]], "hubs": []}]
+        overlap["shared"] = {"rigid": {"bodies": [], "edges": [[4, 5]]}, "pieces": []}
+        self.verifies(document)
+        overlap["bound"] = 82
+        self.rejects(document, "the bound is 81, not 82")
+
+    def test_bounds(self):
+        self.changed(lambda o: o.update(bound=80), "the bound is 81, not 80")
+        self.changed(lambda o: o.update(bound=82), "the bound is 81, not 82")
+        self.changed(lambda o: o.update(bound="81"), "bound is not an int")
+        self.changed(lambda o: o["first"][0].update(hubs=[]), "the bound is 82, not 81")
+        self.changed(lambda o: o["first"][0]["hubs"][0].update(less=2), "first 0: hub", "it takes off 1")
+        self.changed(lambda o: o["first"][0].update(hubs=o["first"][0]["hubs"] * 2), "more than one hub")
+
+    def test_sides(self):
+        empty = {"bodies": [], "edges": [], "hubs": []}
+        self.changed(lambda o: o["second"].append(empty), "second 8: a block is empty")
+        self.changed(lambda o: o["second"].append(o["second"][1]), "second 8: a member is in two blocks")
+        self.changed(lambda o: o["second"].pop(), "a member of the piece is in neither")
+        self.changed(lambda o: o["second"][3]["edges"].insert(0, [0, 1]), "not one of the piece")
+        own = [[1, 6], [3, 7], [6, 7]]
+        self.changed(
+            lambda o: o.update(second=[{**empty, "edges": [edge]} for edge in own], bound=81), "no member is in both"
+        )
+
+    def test_what_is_in_both(self):
+        def change(edit):
+            return lambda o: edit(o["shared"])
+
+        piece = evidence(self.document, "overlap")["shared"]["pieces"][0]
+        self.changed(change(lambda s: s["rigid"].update(edges=[])), "shared: pieces: a member is in no group")
+        self.changed(change(lambda s: s["rigid"]["edges"].insert(0, [1, 6])), "is not a member here")
+        all_single = {"rigid": {"bodies": [0], "edges": [*piece["edges"], [4, 5]]}, "pieces": []}
+        self.changed(change(lambda s: s.update(all_single)), "a cycle of pieces")
+        alone = {"bodies": [], "edges": [[4, 5]], "evidence": piece["evidence"]}
+        self.changed(change(lambda s: s.update(rigid={"bodies": [], "edges": []}, pieces=[piece, alone])), "two members")
+        self.changed(change(lambda s: s["pieces"][0].update(evidence=[])), "shared: piece 0: no evidence")
+        self.changed(change(lambda s: s["pieces"][0].update(evidence=[{}])), "evidence without a kind")
+        for kind in ("counting", "overlap", "classes"):
+            value = {"kind": kind}
+            self.changed(change(lambda s: s["pieces"][0].update(evidence=[value])), "the evidence is no lower bound")
+
+        def weaker(shared):
+            flow = shared["pieces"][0]["evidence"][0]
+            flow["rows"].pop()
+            flow["cols"].pop()
+
+        # One pivot less is four ranks less, and the bound is above what is required.
+        self.changed(change(weaker), "the bound is 85, not 81")
+
+        def both(shared):
+            shared["pieces"][0]["evidence"].insert(0, copy.deepcopy(piece["evidence"][0]))
+            weaker(shared)
+
+        document = copy.deepcopy(self.document)
+        both(evidence(document, "overlap")["shared"])
+        self.verifies(document)
+        self.changed(change(lambda s: s["pieces"][0]["evidence"][0].update(prime="1000001")), "not a prime")
+
+    def test_projective_only(self):
+        overlap = evidence(self.document, "overlap")
+        for model in ("calibrated", "affine"):
+            document = make.make(SQUARE, model=model) if model == "affine" else make.make(
+                [(k, (k + 1) % 5) for k in range(4)] + [(0, 4)], model=model
+            )
+            self.broken(document, lambda d: d["pieces"][0]["evidence"].append(overlap), "projective model only")
+
+    def test_a_graph_that_counting_alone_does_not_refute(self):
+        with open(os.path.join(HERE, "..", "tests", "certificates", "overlap-hubs.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        self.assertEqual(self.verifies(document).statements()[1], "projective: not-finite-solvable (proof)")
+
+    def test_made_at_random(self):
+        """Sets that are taken at random give bounds that no rank exceeds."""
+        rng = random.Random(7)
+        found = 0
+        while found < 3:
+            document = make.make(GAMMA, rng=rng, variety=True)
+            found += any(e["kind"] == "overlap" for e in document["pieces"][0]["evidence"])
+            self.assertEqual(document["claim"]["rank"]["value"], 83)
+
+
 class ErrorBounds(Case):
     """Section 9."""
 

@@ -1,7 +1,7 @@
 //! `counting` (section 7 of the specification): upper bounds on the rank by the numbers of nodes of
 //! blocks, and hubs.
 
-use crate::document::{Counting, Hub, Model};
+use crate::document::{Block, Counting, Hub, Model};
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::{Part, Structure, root, unite};
@@ -16,17 +16,8 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
         .within(|| "blocks".into())?;
     let mut sum = 0;
     for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
-        sum += setting.required(part);
-        ensure!(block.hubs.len() <= 1, "blocks[{k}] has more than one hub");
-        ensure!(
-            block.hubs.is_empty() || setting.model == Model::Projective,
-            "blocks[{k}] has a hub in the {} model",
-            setting.model
-        );
-        for hub in &block.hubs {
-            let less = check_hub(hub, structure, part);
-            sum -= less.within(|| format!("blocks[{k}].hubs[0]"))?;
-        }
+        let bound = check_block(block, part, setting);
+        sum += bound.within(|| format!("blocks[{k}]"))?;
     }
     ensure!(
         sum == evidence.bound,
@@ -34,6 +25,22 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
         evidence.bound
     );
     Ok(sum)
+}
+
+/// Verifies a block of these members; returns what it contributes.
+pub(crate) fn check_block(block: &Block, part: &Part, setting: &Setting) -> Checked<i64> {
+    let structure = setting.structure;
+    let mut bound = setting.required(part);
+    ensure!(block.hubs.len() <= 1, "more than one hub");
+    ensure!(
+        block.hubs.is_empty() || setting.model == Model::Projective,
+        "a hub in the {} model",
+        setting.model
+    );
+    for hub in &block.hubs {
+        bound -= check_hub(hub, structure, part).within(|| "hubs[0]".into())?;
+    }
+    Ok(bound)
 }
 
 /// Verifies a hub; returns what it takes off (theory, Theorem 5.2).

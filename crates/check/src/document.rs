@@ -154,6 +154,7 @@ pub(crate) enum Evidence {
     Pinching(Pinching),
     PlaneMinor(Minor),
     Counting(Counting),
+    Overlap(Overlap),
     Draws(Draws),
     Classes(Classes),
     Kernel(Kernel),
@@ -208,6 +209,14 @@ pub(crate) struct Counting {
 }
 
 #[derive(Debug)]
+pub(crate) struct Overlap {
+    pub first: Vec<Block>,
+    pub second: Vec<Block>,
+    pub shared: Split,
+    pub bound: i64,
+}
+
+#[derive(Debug)]
 pub(crate) struct Draws {
     pub seed: u64,
     pub count: u64,
@@ -236,6 +245,7 @@ impl Evidence {
             Evidence::Pinching(_) => "pinching",
             Evidence::PlaneMinor(_) => "plane-minor",
             Evidence::Counting(_) => "counting",
+            Evidence::Overlap(_) => "overlap",
             Evidence::Draws(_) => "draws",
             Evidence::Classes(_) => "classes",
             Evidence::Kernel(_) => "kernel",
@@ -287,6 +297,7 @@ any_members! {
     flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
     blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
     vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
+    first: Vec<Block>, second: Vec<Block>, shared: Split,
 }
 
 /// Takes a member that the kind has.
@@ -311,6 +322,12 @@ impl AnyMembers {
             "plane-minor" => Evidence::PlaneMinor(self.minor()?),
             "counting" => Evidence::Counting(Counting {
                 blocks: own!(self, blocks),
+                bound: own!(self, bound),
+            }),
+            "overlap" => Evidence::Overlap(Overlap {
+                first: own!(self, first),
+                second: own!(self, second),
+                shared: own!(self, shared),
                 bound: own!(self, bound),
             }),
             "draws" => Evidence::Draws(Draws {

@@ -6,6 +6,7 @@ use crate::document::{self, Evidence, Members, Model};
 use crate::draws::{Drawn, check_draws};
 use crate::kernel::{Place, check_kernel};
 use crate::lower::check_lower;
+use crate::overlap::check_overlap;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::{Core, Part};
@@ -36,9 +37,7 @@ pub(crate) fn check_pieces(
     setting: &Setting,
     whole: &Part,
 ) -> Checked<Vec<Piece>> {
-    let singles = single_members(rigid, setting)?;
-    let others = parts_of_pieces(pieces, setting)?;
-    check_division(&[&singles[..], &others].concat(), setting, whole).within(|| "pieces".into())?;
+    let (singles, others) = divide(rigid, pieces, setting, whole)?;
     let singles = singles.iter().map(|part| rigid_piece(setting, part));
     let mut found: Vec<Piece> = singles.collect();
     for (k, (part, piece)) in others.iter().zip(pieces).enumerate() {
@@ -46,6 +45,19 @@ pub(crate) fn check_pieces(
         found.push(checked.within(|| format!("pieces[{k}]"))?);
     }
     Ok(found)
+}
+
+/// The pieces of a set of members: those of `rigid`, and the others.
+pub(crate) fn divide(
+    rigid: &Members,
+    pieces: &[document::Piece],
+    setting: &Setting,
+    whole: &Part,
+) -> Checked<(Vec<Part>, Vec<Part>)> {
+    let singles = single_members(rigid, setting)?;
+    let others = parts_of_pieces(pieces, setting)?;
+    check_division(&[&singles[..], &others].concat(), setting, whole).within(|| "pieces".into())?;
+    Ok((singles, others))
 }
 
 /// The pieces of `rigid`, each of one member.
@@ -135,7 +147,7 @@ impl Classes {
 struct Shown {
     /// Lower bounds on the rank of the core.
     bounds: Vec<Lower>,
-    /// The least upper bound by counting on the rank of the piece, or `required`.
+    /// The least upper bound by counting or overlap on the rank of the piece, or `required`.
     upper: i64,
     drawn: Option<Drawn>,
     classes: Option<Classes>,
@@ -146,18 +158,13 @@ struct Shown {
 /// Verifies all evidence of a piece, and says what it amounts to.
 fn check_piece(evidence: &[Evidence], setting: &Setting, piece: &Part) -> Checked<Piece> {
     let core = setting.structure.core(piece)?;
-    let nodes = setting.structure.nodes(piece).len();
-    let sizes = Sizes {
-        nodes,
-        required: setting.required(piece),
-        core_required: setting.required_of_core(&core),
-    };
+    let sizes = Sizes::new(setting, piece, &core);
     let whole = scaled(setting, piece);
     Shown::all(evidence, setting, piece, &core, &sizes)?.conclude(&sizes, whole)
 }
 
 /// What relates a piece to its core.
-struct Sizes {
+pub(crate) struct Sizes {
     nodes: usize,
     /// The rank at which the piece, and its core, are rigid.
     required: i64,
@@ -165,9 +172,18 @@ struct Sizes {
 }
 
 impl Sizes {
+    pub fn new(setting: &Setting, piece: &Part, core: &Core) -> Sizes {
+        let nodes = setting.structure.nodes(piece).len();
+        Sizes {
+            nodes,
+            required: setting.required(piece),
+            core_required: setting.required_of_core(core),
+        }
+    }
+
     /// The rank of the piece if that of the core is given: the same number is missing to what is
     /// required (theory, Corollaries 4.5, 4.12 and 13.12, Theorem 13.18).
-    fn of_piece(&self, rank: i64) -> i64 {
+    pub fn of_piece(&self, rank: i64) -> i64 {
         self.required - (self.core_required - rank)
     }
 }
@@ -211,6 +227,10 @@ impl Shown {
             }
             Evidence::Counting(blocks) => {
                 let bound = check_counting(blocks, setting, piece)?;
+                self.upper = self.upper.min(bound);
+            }
+            Evidence::Overlap(overlap) => {
+                let bound = check_overlap(overlap, setting, piece)?;
                 self.upper = self.upper.min(bound);
             }
             Evidence::Draws(draws) => {

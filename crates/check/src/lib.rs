@@ -21,6 +21,7 @@
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
 //! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
 //! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5 | `counting` |
+//! | upper bounds: parts that overlap | 7 | 5.9, 5.11 | `overlap` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
@@ -48,6 +49,7 @@ mod kernel;
 mod limits;
 mod lower;
 mod matrices;
+mod overlap;
 mod parts;
 mod pinching;
 mod pivots;

@@ -258,7 +258,7 @@ fn section_7_counting_and_classes() {
     refused(
         "affine-square",
         &[("E/1/blocks/0/hubs", hub)],
-        "E/[1] (counting): blocks[0] has a hub in the affine model",
+        "E/[1] (counting).blocks[0]: a hub in the affine model",
     );
     let split = json!({"rigid": {"bodies": [], "edges": []}, "pieces": []});
     refused(

@@ -893,12 +893,12 @@ fn section_7_counting() {
     refused(
         "pentagon-calibrated",
         &[("E/1/blocks/0/hubs", hub)],
-        "E/[1] (counting): blocks[0] has a hub in the calibrated model",
+        "E/[1] (counting).blocks[0]: a hub in the calibrated model",
     );
     refused(
         "hub",
         &[("E/1/blocks/0/hubs/0", json!("repeat"))],
-        "E/[1] (counting): blocks[0] has more than one hub",
+        "E/[1] (counting).blocks[0]: more than one hub",
     );
     let h = |member: &str| format!("E/1/blocks/0/hubs/0/{member}");
     for (member, new, wanted) in [

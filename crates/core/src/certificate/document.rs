@@ -6,7 +6,7 @@ use crate::contract::{Body, Merge, Part, Seed};
 use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
-use crate::decide::{Block, Claim, Counting, Hub, Value, Verdict};
+use crate::decide::{Block, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
 use crate::linalg::integer::Integer;
@@ -280,6 +280,25 @@ impl<'a> PieceView<'a> {
     }
 }
 
+impl<'a> From<&'a SharedPiece> for PieceView<'a> {
+    fn from(piece: &'a SharedPiece) -> Self {
+        Self {
+            bodies: &piece.members.bodies,
+            edges: &piece.members.edges,
+            evidence: List(&piece.evidence),
+        }
+    }
+}
+
+impl<'a> From<&'a Shared> for SplitView<'a> {
+    fn from(shared: &'a Shared) -> Self {
+        Self {
+            rigid: (&shared.rigid).into(),
+            pieces: shared.pieces.iter().map(PieceView::from).collect(),
+        }
+    }
+}
+
 /// A slice whose elements have their own way of being written.
 struct List<'a, T>(&'a [T]);
 
@@ -326,6 +345,18 @@ impl Serialize for View<'_, Evidence> {
             Evidence::Counting(Counting { blocks, bound }) => {
                 map.serialize_entry("kind", "counting")?;
                 map.serialize_entry("blocks", &List(blocks))?;
+                map.serialize_entry("bound", bound)?;
+            }
+            Evidence::Overlap(Overlap {
+                first,
+                second,
+                shared,
+                bound,
+            }) => {
+                map.serialize_entry("kind", "overlap")?;
+                map.serialize_entry("first", &List(&first.blocks))?;
+                map.serialize_entry("second", &List(&second.blocks))?;
+                map.serialize_entry("shared", &SplitView::from(shared))?;
                 map.serialize_entry("bound", bound)?;
             }
             Evidence::Draws(Draws { seed, count, rank }) => {

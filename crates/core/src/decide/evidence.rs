@@ -4,6 +4,7 @@
 use crate::contract::piece::Members;
 use crate::decide::claim::Strength;
 use crate::decide::counting::Counting;
+use crate::decide::overlap::Overlap;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::linalg::integer::Integer;
@@ -56,6 +57,8 @@ pub enum Evidence {
     },
     /// An upper bound by counting.
     Counting(Counting),
+    /// An upper bound from two parts that overlap.
+    Overlap(Overlap),
     /// The rank at draws that nobody can choose.
     Draws(Draws),
     /// The motion classes, which the components refine.
@@ -127,7 +130,7 @@ pub struct PieceVerdict {
     pub evidence: Vec<Evidence>,
     /// Lower bound on the rank of the piece.
     pub lower: usize,
-    /// Upper bound by counting.
+    /// Upper bound by counting, or by parts that overlap.
     pub upper: usize,
     /// Strength of `lower` being the rank.
     pub rank_strength: Strength,

@@ -12,6 +12,7 @@
 //!     class      a single member, or of full rank by itself: a component;
 //!                else split again, and its pieces decided as these are
 //!     counting   a partition and hubs -> an upper bound                     5
+//!     overlap    bounds of two parts less what they share -> another        5.11
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
@@ -19,7 +20,7 @@
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
 //! pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in `motion_class`,
-//! bounds in `counting`, the paper's own matrix (`--no-contraction`, `--rational`) in
+//! bounds in `counting` and `overlap`, the paper's own matrix (`--no-contraction`, `--rational`) in
 //! `whole_matrix`, the number of solutions in `solution_count`. What goes in is in `options`, what
 //! is found in [`evidence`], what comes out in `verdict`.
 
@@ -32,6 +33,7 @@ mod error;
 mod motion_class;
 mod one_piece;
 mod options;
+mod overlap;
 mod plane_piece;
 mod solution_count;
 mod verdict;
@@ -41,6 +43,7 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
 pub use options::{Arithmetic, CountSolutions, Options, Prime};
+pub use overlap::{Overlap, Shared, SharedPiece};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};

@@ -13,6 +13,7 @@ use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict};
 use crate::decide::options::{Arithmetic, Options};
+use crate::decide::overlap;
 use crate::decide::whole_matrix;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
@@ -39,13 +40,14 @@ pub(super) fn decide_all(
     decided.collect()
 }
 
-struct Piece<'a> {
-    assembly: &'a Assembly,
-    members: &'a Members,
-    core: &'a Core,
+/// A piece, or a part of one that is a piece by itself.
+pub(super) struct Piece<'a> {
+    pub(super) assembly: &'a Assembly,
+    pub(super) members: &'a Members,
+    pub(super) core: &'a Core,
     sha256: &'a [u8; 32],
     core_sha256: [u8; 32],
-    options: &'a Options,
+    pub(super) options: &'a Options,
 }
 
 /// Why the rank of a piece is no larger, and its motion classes no coarser.
@@ -75,11 +77,16 @@ impl<'a> Piece<'a> {
         }
     }
 
+    /// A part of it that is a piece by itself, with its core.
+    pub(super) fn part<'b>(&'b self, members: &'b Members, core: &'b Core) -> Piece<'b> {
+        Piece::new(self.assembly, members, core, self.sha256, self.options)
+    }
+
     fn nodes(&self) -> usize {
         self.core.graph.nodes()
     }
 
-    fn key(&self, draw: u64) -> DrawKey {
+    pub(super) fn key(&self, draw: u64) -> DrawKey {
         DrawKey {
             graph_sha256: *self.sha256,
             core_sha256: Some(self.core_sha256),
@@ -88,7 +95,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    fn task(&self, step: Step) -> Task<'_> {
+    pub(super) fn task(&self, step: Step) -> Task<'_> {
         self.options.watch.task(step, self.nodes())
     }
 
@@ -99,7 +106,7 @@ impl<'a> Piece<'a> {
 
     /// The rank of the piece from that of its core (Theorem 4.4; calibrated: Theorems 4.11
     /// and 13.18).
-    fn rank_of_piece(&self, core_rank: usize) -> usize {
+    pub(super) fn rank_of_piece(&self, core_rank: usize) -> usize {
         let scale = usize::from(!self.core.scales.is_empty());
         self.options.model.required(self.core.total_nodes) + scale + core_rank - self.required()
     }
@@ -190,6 +197,13 @@ impl<'a> Piece<'a> {
             upper = counting.bound;
             evidence.push(Evidence::Counting(counting));
         }
+        if lower < upper
+            && self.options.counting
+            && let Some(overlap) = overlap::search(self, lower)?
+        {
+            upper = overlap.bound;
+            evidence.push(Evidence::Overlap(overlap));
+        }
         let settled = if lower == upper {
             Settled {
                 strength: Strength::Proof,
@@ -250,40 +264,85 @@ impl<'a> Piece<'a> {
         if members.len() == 1 {
             return Ok(ClassKind::Single);
         }
-        let Split { rigid, pieces } = self.assembly.split(members);
-        if rigid.is_empty()
-            && pieces.len() == 1
-            && let Some(evidence) = self.full_rank(members, draw)?
-        {
+        let split = self.assembly.split(members);
+        if let Some(evidence) = self.full_rank(members, &split, draw)? {
             return Ok(ClassKind::Rigid(vec![evidence]));
         }
         Ok(ClassKind::Loose {
-            pieces: decide_all(self.assembly, &pieces, self.sha256, self.options)?,
-            rigid,
+            pieces: decide_all(self.assembly, &split.pieces, self.sha256, self.options)?,
+            rigid: split.rigid,
         })
     }
 
-    /// A proof that a part has full rank, from draw `from` on; `None` if it seems not to.
-    fn full_rank(&self, part: &Members, from: u64) -> Result<Option<Evidence>, VerdictError> {
+    /// A proof that a part, cut into these pieces, has full rank, from draw `from` on; `None` if it
+    /// seems not to.
+    fn full_rank(
+        &self,
+        part: &Members,
+        split: &Split,
+        from: u64,
+    ) -> Result<Option<Evidence>, VerdictError> {
+        if !split.rigid.is_empty() || split.pieces.len() != 1 {
+            return Ok(None);
+        }
         let core = self.assembly.core(part);
-        let part = Piece::new(self.assembly, part, &core, self.sha256, self.options);
-        let field = self.options.prime.for_core(part.nodes());
-        // Where bad luck is rare one draw tells: what it misses is looked at as a graph of its own.
-        let attempts = if field.modulus() >> 10 > 22 * part.nodes() as u64 {
+        let part = self.part(part, &core);
+        let (evidence, rank) = part.best_draw(from)?;
+        Ok((rank == part.required()).then_some(evidence))
+    }
+
+    /// The best lower bound for the core that draws from `from` on give, with the rank.
+    pub(super) fn best_draw(&self, from: u64) -> Result<(Evidence, usize), VerdictError> {
+        let field = self.options.prime.for_core(self.nodes());
+        // Where bad luck is rare one draw tells: what it misses is looked at in another way.
+        let attempts = if field.modulus() >> 10 > 22 * self.nodes() as u64 {
             1
         } else {
             ATTEMPTS
         };
+        let mut best = None;
         let mut next = from;
         for _ in 0..attempts {
-            let at = Centres::draw(&field, part.nodes(), part.key(next))?;
+            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
             next = at.draw.draw + 1;
-            let ranks = part.ranks(&at)?;
-            if ranks.rank == part.required() {
-                return Ok(Some(ranks.evidence()));
+            let ranks = self.ranks(&at)?;
+            if best.as_ref().is_none_or(|&(_, rank)| ranks.rank > rank) {
+                best = Some((ranks.evidence(), ranks.rank));
+            }
+            if ranks.rank == self.required() {
+                break;
             }
         }
-        Ok(None)
+        Ok(best.expect("one draw at least"))
+    }
+
+    /// The bound by counting, if it is the rank.
+    pub(super) fn counted(&self) -> Result<Option<Counting>, VerdictError> {
+        // Where to look is not a claim: a large prime looks best.
+        let field = PrimeField::mersenne61();
+        let at = Centres::draw(&field, self.nodes(), self.key(0))?;
+        let ranks = self.ranks(&at)?;
+        let whole = std::slice::from_ref(self.members);
+        let block = Counting::partition(self.options.model, self.assembly, whole);
+        if ranks.rank == self.required() {
+            return Ok(Some(block));
+        }
+        let Some((classes, _)) = self.separate(&ranks) else {
+            return Ok(None);
+        };
+        let mut components = Vec::new();
+        for class in classes {
+            let split = self.assembly.split(&class);
+            if class.len() == 1 || self.full_rank(&class, &split, 0)?.is_some() {
+                components.push(class);
+            } else {
+                // Any partition will do to count by.
+                components.extend(class.singles());
+            }
+        }
+        let rank = self.rank_of_piece(ranks.rank);
+        let bound = self.count(&at, &components, rank)?;
+        Ok(bound.filter(|bound| bound.bound <= rank))
     }
 
     /// The upper bound by counting (Theorem 5.5), unless it is not wanted.

@@ -16,6 +16,11 @@ impl Span {
         self.basis.len()
     }
 
+    /// A basis.
+    pub(crate) fn into_basis(self) -> Vec<Vec<u64>> {
+        self.basis.into_iter().map(|(_, vector)| vector).collect()
+    }
+
     fn reduce(&self, field: &PrimeField, vector: &[u64]) -> Vec<u64> {
         let mut rest = vector.to_vec();
         for (leader, b) in &self.basis {

@@ -67,7 +67,8 @@ impl Counting {
         }
     }
 
-    fn join(parts: Vec<Self>) -> Self {
+    /// Bounds of parts without a member in common, as one of all their members.
+    pub(super) fn join(parts: Vec<Self>) -> Self {
         let bound = parts.iter().map(|part| part.bound).sum();
         let mut blocks: Vec<Block> = parts.into_iter().flat_map(|part| part.blocks).collect();
         blocks.sort_by(|a, b| a.members.cmp(&b.members));

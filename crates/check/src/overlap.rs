@@ -1,0 +1,76 @@
+//! `overlap` (section 7 of the specification): upper bounds on the rank from two parts of a piece that
+//! overlap, and a lower bound on the rank of what is in both.
+
+use crate::counting::check_block;
+use crate::document::{Block, Model, Overlap, Piece, Split};
+use crate::evidence::{Sizes, divide};
+use crate::lower::check_lower;
+use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::setting::Setting;
+use crate::structure::Part;
+
+/// Verifies `overlap`; returns the bound on the rank of the piece (theory, Corollary 5.11).
+pub(crate) fn check_overlap(evidence: &Overlap, setting: &Setting, piece: &Part) -> Checked<i64> {
+    ensure!(
+        setting.model == Model::Projective,
+        "not evidence in the {} model",
+        setting.model
+    );
+    let (first, one) = check_side("first", &evidence.first, setting)?;
+    let (second, other) = check_side("second", &evidence.second, setting)?;
+    let is_both = |member: &usize| first.binary_search(member).is_ok();
+    let (both, rest): (Part, Part) = second.iter().partition(|member| is_both(member));
+    setting.structure.owners(piece, &[first, rest])?;
+    ensure!(!both.is_empty(), "nothing is in both `first` and `second`");
+    let lower = check_shared(&evidence.shared, setting, &both).within(|| "shared".into())?;
+    let bound = one + other - lower;
+    ensure!(
+        bound == evidence.bound,
+        "the bound is {}, but {one} + {other} - {lower} is {bound}",
+        evidence.bound
+    );
+    Ok(bound)
+}
+
+/// Verifies blocks, of which no two have a member in common; returns all their members, and what
+/// they contribute together.
+fn check_side(name: &str, blocks: &[Block], setting: &Setting) -> Checked<(Part, i64)> {
+    let structure = setting.structure;
+    let (mut parts, mut sum) = (Vec::new(), 0);
+    for (k, block) in blocks.iter().enumerate() {
+        let at = || format!("{name}[{k}]");
+        let part = structure.part(&block.bodies, &block.edges).within(at)?;
+        sum += check_block(block, &part, setting).within(at)?;
+        parts.push(part);
+    }
+    let mut all = parts.concat();
+    all.sort_unstable();
+    all.dedup();
+    structure.owners(&all, &parts).within(|| name.into())?;
+    Ok((all, sum))
+}
+
+/// Verifies the lower bound on the rank of the members that are in both parts; returns it. Ranks add
+/// up over pieces, and a single member is rigid (theory, Theorem 4.3).
+fn check_shared(shared: &Split, setting: &Setting, both: &Part) -> Checked<i64> {
+    let (singles, others) = divide(&shared.rigid, &shared.pieces, setting, both)?;
+    let required = |part: &Part| setting.model.required(setting.structure.nodes(part).len());
+    let mut sum = singles.iter().map(required).sum();
+    for (k, (part, piece)) in others.iter().zip(&shared.pieces).enumerate() {
+        sum += best_lower(piece, setting, part).within(|| format!("pieces[{k}]"))?;
+    }
+    Ok(sum)
+}
+
+/// The best of the lower bounds on the rank of a piece, of which there is one at least.
+fn best_lower(piece: &Piece, setting: &Setting, part: &Part) -> Checked<i64> {
+    let core = setting.structure.core(part)?;
+    let sizes = Sizes::new(setting, part, &core);
+    let mut best = None;
+    for (k, one) in piece.evidence.iter().enumerate() {
+        let bound = check_lower(one, setting, &core);
+        let bound = bound.within(|| format!("evidence[{k}] ({})", one.kind()))?;
+        best = best.max(Some(sizes.of_piece(bound.rank)));
+    }
+    best.ok_or_else(|| Failure::rejected("no lower bound on the rank"))
+}

@@ -1,0 +1,176 @@
+//! The stresses of a core: the left kernel of its J_P at drawn centres, as far as it is needed.
+//!
+//! By Lemma 5.12 of docs/theory.md a stress is four plane flows, one for each column of the cameras,
+//! that the left kernel of Lambda combines. There are 7 m - rank J_P independent ones, and a part D
+//! of the edges has the rank 7 |D| less the dimension of the stresses that vanish outside of D.
+
+use crate::contract::piece::Core;
+use crate::geometry::draw::DrawKey;
+use crate::geometry::plane_flow::PlaneFlows;
+use crate::linalg::Ring;
+use crate::linalg::dense_lu::eliminate_mod;
+use crate::linalg::matrix::Matrix;
+use crate::linalg::prime::PrimeField;
+use crate::linalg::span::Span;
+use crate::watch::{Stopped, Task};
+
+/// A basis of the stresses, by what the members see of it.
+pub(super) struct Stresses<'a> {
+    field: &'a PrimeField,
+    dimension: usize,
+    /// For each member what its edges see: vectors with an entry for each stress of the basis.
+    of_member: Vec<Vec<Vec<u64>>>,
+}
+
+impl<'a> Stresses<'a> {
+    /// The stresses at random centres, with the members that own the edges.
+    pub fn new(
+        field: &'a PrimeField,
+        core: &Core,
+        members: usize,
+        key: &DrawKey,
+        task: &Task,
+    ) -> Result<Self, Stopped> {
+        let quiet = task.untold();
+        let mut random = key.residues(field);
+        let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
+            .map(|_| std::array::from_fn(|_| random()))
+            .collect();
+        let flows = PlaneFlows::new(field, &core.graph, &centres, &quiet)?.flows(&quiet)?;
+        let edges = core.graph.edges();
+        // Lambda, transposed: entry (k, e) of the rows of a flow.
+        let entry = |flow: &[[u64; 3]], e: usize, k: usize| match k {
+            3 => field.neg(&field.dot(0, &flow[e], &centres[edges[e].1 as usize])),
+            _ => flow[e][k],
+        };
+        let lambda = Matrix::from_fn(edges.len(), 4 * flows.len(), |e, row| {
+            entry(&flows[row / 4], e, row % 4)
+        });
+        let kernel = eliminate_mod(field, lambda, &quiet)?.right_kernel();
+        let dimension = kernel.rows();
+        let mut spans = vec![Span::default(); members];
+        for (e, &owner) in core.owner.iter().enumerate() {
+            for (column, coordinate) in (0..4).flat_map(|k| (0..3).map(move |c| (k, c))) {
+                let seen: Vec<u64> = (0..dimension)
+                    .map(|s| {
+                        let of_flow = |(f, flow): (usize, &Vec<[u64; 3]>)| {
+                            field.mul(&kernel[(s, 4 * f + column)], &flow[e][coordinate])
+                        };
+                        let values = flows.iter().enumerate().map(of_flow);
+                        values.fold(0, |sum, value| field.add(&sum, &value))
+                    })
+                    .collect();
+                spans[owner as usize].insert(field, &seen);
+            }
+        }
+        Ok(Self {
+            field,
+            dimension,
+            of_member: spans.into_iter().map(Span::into_basis).collect(),
+        })
+    }
+
+    /// How many there are: 7 m - rank J_P.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Whether what these members see of the stresses is independent of what those see. Then, and
+    /// only then, the ranks of everything without the one and of everything without the others add
+    /// up to that of everything and that of everything without both (Lemma 5.12 of docs/theory.md).
+    pub fn independent(&self, one: u64, other: u64) -> bool {
+        let mut both = self.seen(one);
+        let (alone, others) = (both.dimension(), self.seen(other).dimension());
+        self.add(&mut both, other);
+        both.dimension() == alone + others
+    }
+
+    fn seen(&self, set: u64) -> Span {
+        let mut span = Span::default();
+        self.add(&mut span, set);
+        span
+    }
+
+    fn add(&self, span: &mut Span, set: u64) {
+        for (position, vectors) in self.of_member.iter().enumerate() {
+            if set >> position & 1 == 1 {
+                for vector in vectors {
+                    span.insert(self.field, vector);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::Contraction;
+    use crate::contract::piece::Assembly;
+    use crate::geometry::camera::normal_form;
+    use crate::geometry::jacobian::{dense, jacobian};
+    use crate::graph::Graph;
+    use crate::linalg::textbook;
+    use crate::watch::unwatched;
+
+    /// The rank of the whole J_P of some edges, at other centres.
+    fn rank(nodes: u32, pairs: &[(u32, u32)]) -> usize {
+        let field = PrimeField::mersenne61();
+        let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
+        let cameras: Vec<_> = (0..u64::from(nodes))
+            .map(|v| {
+                normal_form(
+                    &field,
+                    &[v * v + 2, 7 * v * v * v + v, 5 * v + 3 * v * v * v * v],
+                )
+            })
+            .collect();
+        let rows = jacobian(&field, &graph, &cameras);
+        textbook::eliminate(&field, &dense(&field, &rows, 12 * nodes as usize)).rank()
+    }
+
+    /// K_{2,3} with a further path 1-5-6-0 and the edge 01: 9 edges and a rank below 63. Parts of
+    /// it are independent exactly if the ranks of the rest say so.
+    #[test]
+    fn independent_is_what_ranks_say() {
+        let field = PrimeField::mersenne61();
+        let pairs = [
+            (0, 1),
+            (0, 2),
+            (0, 3),
+            (0, 4),
+            (0, 6),
+            (1, 2),
+            (1, 3),
+            (1, 4),
+            (1, 5),
+            (5, 6),
+        ];
+        let graph = Graph::new(7, pairs).unwrap();
+        let assembly = Assembly::new(&graph, &Contraction::none(&graph));
+        let core = assembly.core(&assembly.all());
+        let key = DrawKey {
+            graph_sha256: [1; 32],
+            core_sha256: None,
+            seed: 1,
+            draw: 0,
+        };
+        let stresses = unwatched(|task| Stresses::new(&field, &core, pairs.len(), &key, task));
+        assert_eq!(stresses.dimension(), 70 - rank(7, &pairs));
+        let without = |set: u64| -> Vec<(u32, u32)> {
+            let outside = |&k: &usize| set >> k & 1 == 0;
+            (0..pairs.len()).filter(outside).map(|k| pairs[k]).collect()
+        };
+        let mut seen = [0; 2];
+        // The edge 02 on its own, with others against the rest of them.
+        for one in 1..32u64 {
+            for other in (1..32u64).map(|set| set << 5) {
+                let modular = rank(7, &without(one)) + rank(7, &without(other))
+                    == rank(7, &pairs) + rank(7, &without(one | other));
+                assert_eq!(stresses.independent(one, other), modular, "{one} {other}");
+                seen[usize::from(modular)] += 1;
+            }
+        }
+        assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+    }
+}
