@@ -658,7 +658,7 @@ class Check:
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data, edges_format)
         self.check_claim_form(optional)
-        self.bodies, self.final = [], set()
+        self.bodies, self.final, self.rigid_only = [], set(), set()
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
@@ -724,7 +724,8 @@ class Check:
         for k, value in enumerate(a_list(bodies, "section 5: bodies")):
             where = f"section 5: body {k}"
             seed, add, merge = members(value, "seed add merge", where)
-            body = set(self.body_or_edge(seed, where))
+            unique = type(seed) is not dict and self.is_unique(seed)
+            body = set(self.body_or_edge(seed, where)) if type(seed) is not dict else self.body_by_rank(seed, where)
             for step in a_list(add, f"{where}: add"):
                 need(type(step) is list and len(step) == 3, f"{where}: {step} is not [v, a, b]")
                 v, a, b = (an_int(node, f"{where}: add") for node in step)
@@ -743,6 +744,7 @@ class Check:
                 need(len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
                 need(distinct(at), f"{where}: the nodes of at are not different")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
+                unique = unique and all(map(self.is_unique, others))
                 others = [self.body_or_edge(other, where) for other in others]
                 if size == 1:
                     shared = all(node in body and node in others[0] for node in at)
@@ -762,6 +764,26 @@ class Check:
                 body.update(*others)
             self.bodies.append(frozenset(body))
             self.final.add(k)
+            if not unique:
+                self.rigid_only.add(k)
+
+    def body_by_rank(self, value, where):
+        """Section 5: earlier bodies and edges, which are not consumed, of whose core the rank is full."""
+        need(self.projective, f"{where}: a body by rank is of the projective model only")
+        bodies, edges, evidence = members(value, "bodies edges evidence", f"{where}: seed")
+        group = self.read_group(bodies, edges, f"{where}: seed")
+        need(len(group) >= 2, f"{where}: seed: less than two bodies and edges")
+        for member in group:
+            if type(member) is int:
+                need(member in self.final, f"{where}: seed: body {member} is not an earlier one, or is consumed")
+            else:
+                need(member in self.graph.edge_set, f"{where}: seed: {member} is not an edge")
+        self.check_rigid(group, a_list(evidence, f"{where}: seed: evidence"), f"{where}: seed")
+        return self.union(group)
+
+    def is_unique(self, member):
+        """Section 5: an edge, or a body that comes from edges, nodes and merges alone."""
+        return type(member) is not int or member not in self.rigid_only
 
     def body_or_edge(self, value, where):
         """Section 5: an edge, or an earlier body, which is consumed."""
@@ -1120,7 +1142,8 @@ class Check:
             if split is None:
                 components += 1
                 if len(inside) > 1:
-                    self.check_rigid_class(inside, evidence, at)
+                    need(evidence, f"{at}: neither evidence nor split")
+                    self.check_rigid(inside, evidence, at)
                 else:
                     need(not evidence, f"{at}: a single member needs no evidence")
             else:
@@ -1133,15 +1156,16 @@ class Check:
                 errors += [error for piece in pieces for error in piece.errors]
         return of, components, errors
 
-    def check_rigid_class(self, inside, evidence, where):
-        need(evidence, f"{where}: neither evidence nor split")
+    def check_rigid(self, inside, evidence, where):
+        """Sections 5 and 7: lower bounds of which one shows that the core of some members is rigid."""
+        need(evidence, f"{where}: no evidence")
         core = Core(self, inside, where)
         best = []
         for value in evidence:
             need(type(value) is dict and type(value.get("kind")) is str, f"{where}: evidence without a kind")
             need(value["kind"] in self.LOWER, f"{where}: the evidence is no lower bound")
             best.append(self.check_lower(value, core, f"{where}: {value['kind']}"))
-        need(max(best) == self.required(core.n), f"{where}: the class is not shown to be rigid")
+        need(max(best) == self.required(core.n), f"{where}: not shown to be rigid")
 
     def check_kernel(self, value, core, class_of, seed_of_draws, draws, where):
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
@@ -1179,6 +1203,7 @@ class Check:
         need(whole, f"{where}: there is not one piece of `pieces` that has all nodes")
         need(found[0].lower == found[0].required, f"{where}: the piece is not shown to be finite solvable")
         group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
+        need(all(map(self.is_unique, group)), f"{where}: a body by rank is not shown to be unique")
         return check_solutions(value, [frozenset(self.nodes(member)) for member in group], where)
 
     def claim_of(self, pieces, singles, numbers=None):
@@ -1190,7 +1215,7 @@ class Check:
         lower, upper = sum(piece.lower for piece in pieces), sum(piece.upper for piece in pieces)
         whole = len(pieces) == 1 and pieces[0].nodes == n
         low = [piece for piece in pieces if piece.drawn is not None and piece.drawn < piece.upper]
-        unique = singles or not self.projective and lower == required or numbers is not None and numbers[1] == 1
+        unique = singles and not self.final & self.rigid_only or not self.projective and lower == required or numbers is not None and numbers[1] == 1
         if whole and unique:
             verdict = stated("solvable")
         elif whole and lower == required:

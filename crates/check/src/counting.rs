@@ -3,24 +3,26 @@
 
 use crate::document::{Counting, Hub, Model};
 use crate::rejection::{Checked, Within, ensure};
-use crate::setting::Setting;
 use crate::structure::{Part, Structure, root, unite};
 
 /// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1 and 5.5).
-pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Part) -> Checked<i64> {
-    let (structure, blocks) = (setting.structure, &evidence.blocks);
+pub(crate) fn check_counting(
+    evidence: &Counting,
+    structure: &Structure,
+    piece: &Part,
+) -> Checked<i64> {
+    let (model, blocks) = (structure.setting.model, &evidence.blocks);
     let list = blocks.iter().map(|block| (&block.bodies, &block.edges));
     let (parts, _) = structure
         .partition(piece, list)
         .within(|| "blocks".into())?;
     let mut sum = 0;
     for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
-        sum += setting.model.required(structure.nodes(part).len());
+        sum += model.required(structure.nodes(part).len());
         ensure!(block.hubs.len() <= 1, "blocks[{k}] has more than one hub");
         ensure!(
-            block.hubs.is_empty() || setting.model == Model::Projective,
-            "blocks[{k}] has a hub in the {} model",
-            setting.model
+            block.hubs.is_empty() || model == Model::Projective,
+            "blocks[{k}] has a hub in the {model} model"
         );
         for hub in &block.hubs {
             let less = check_hub(hub, structure, part);

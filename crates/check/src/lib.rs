@@ -12,7 +12,7 @@
 //! |---|---|---|---|
 //! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
-//! | bodies come from merges | 5 | 4.1, 4.9, 13.9 | `bodies` |
+//! | bodies come from merges, or have full rank | 5 | 4.1, 4.9, 4.14, 13.9 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10 | `evidence` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11 | `structure` |
@@ -127,22 +127,21 @@ impl Certificate {
         let (name, model) = (&document.graph, document.model);
         let (graph, sha256) = name.find(graph).within(|| "graph".into())?;
         let meter = &limits::Meter::new(limits);
-        let structure = &structure::Structure::new(&graph, model, &document.bodies, meter)?;
-        let setting = setting::Setting {
+        let setting = &setting::Setting {
             model,
             sha256,
-            structure,
             meter,
         };
+        let structure = &structure::Structure::new(&graph, setting, &document.bodies)?;
         let pieces = evidence::check_pieces(
             &document.rigid,
             &document.pieces,
-            &setting,
+            structure,
             &structure.everything,
         )?;
         let evidence = document.solutions.0.as_ref().map(|evidence| {
             let members = (&structure.everything, name.nodes);
-            let count = solutions::check(evidence, &setting, &pieces, members);
+            let count = solutions::check(evidence, structure, &pieces, members);
             count.within(|| "solutions".into())
         });
         let count = evidence.transpose()?;

@@ -4,7 +4,7 @@ use crate::document::Model;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::Checked;
-use crate::structure::{Core, Structure};
+use crate::structure::Core;
 
 impl Model {
     /// The rank at which nodes are solvable up to finitely many solutions (sections 3 and 6).
@@ -23,7 +23,6 @@ pub(crate) struct Setting<'a> {
     pub model: Model,
     /// The hash of the graph.
     pub sha256: [u8; 32],
-    pub structure: &'a Structure<'a>,
     pub meter: &'a Meter,
 }
 

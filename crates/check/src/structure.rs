@@ -1,12 +1,13 @@
 //! Members - final bodies and loose edges -, the pieces and other sets of them, and the cores of
 //! these (section 6 of the specification).
 
-use crate::bodies::build_all;
-use crate::document::{Body, Model, Pair};
+use crate::bodies::{Built, build_all};
+use crate::document::{Body, Pair};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
+use crate::setting::Setting;
 use sha2::{Digest, Sha256};
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
@@ -28,9 +29,11 @@ impl BodiesOfNodes {
 /// The members of the graph.
 pub(crate) struct Structure<'a> {
     graph: &'a Graph,
-    meter: &'a Meter,
+    pub setting: &'a Setting<'a>,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
     bodies: Vec<Option<Vec<u32>>>,
+    /// Whether each body comes from the rules alone.
+    unique: Vec<bool>,
     pub everything: Part,
 }
 
@@ -49,15 +52,20 @@ impl<'a> Structure<'a> {
     /// edge covered twice.
     pub fn new(
         graph: &'a Graph,
-        model: Model,
+        setting: &'a Setting<'a>,
         list: &[Body],
-        meter: &'a Meter,
     ) -> Checked<Structure<'a>> {
-        let bodies = build_all(graph, model, list)?.into_iter();
+        let bodies = build_all(graph, setting, list)?;
+        let is_unique = |body: &Option<Built>| body.as_ref().is_some_and(|body| body.unique);
+        let unique = bodies.iter().map(is_unique).collect();
+        let bodies = bodies.into_iter();
         let mut structure = Structure {
             graph,
-            meter,
-            bodies: bodies.map(|nodes| nodes.map(sorted)).collect(),
+            setting,
+            unique,
+            bodies: bodies
+                .map(|body| body.map(|body| sorted(body.nodes)))
+                .collect(),
             everything: Part::new(),
         };
         let bodies = (0..list.len()).filter(|&k| structure.bodies[k].is_some());
@@ -77,7 +85,9 @@ impl<'a> Structure<'a> {
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
             steps += short.len() as u64;
             if steps > 1 << 16 {
-                self.meter.charge(SPARSE * std::mem::take(&mut steps))?;
+                self.setting
+                    .meter
+                    .charge(SPARSE * std::mem::take(&mut steps))?;
             }
             let covering = short.iter().filter(|body| long.binary_search(body).is_ok());
             let covering = covering.count();
@@ -129,7 +139,9 @@ impl<'a> Structure<'a> {
         // The same bodies may be listed in many places. What is done with a list of members each
         // time sorts their nodes.
         let nodes = part.iter().map(|&member| self.nodes_of(member).len());
-        self.meter.charge(SPARSE * nodes.sum::<usize>() as u64)?;
+        self.setting
+            .meter
+            .charge(SPARSE * nodes.sum::<usize>() as u64)?;
         Ok(part)
     }
 
@@ -216,18 +228,39 @@ impl<'a> Structure<'a> {
         Ok(())
     }
 
-    /// The core of a part (section 6; theory, Theorems 4.4, 4.11 and 13.11).
+    /// Whether a member is not only rigid but unique: an edge, or a body that comes from the rules.
+    pub fn is_unique(&self, member: usize) -> bool {
+        self.unique.get(member).is_none_or(|&unique| unique)
+    }
+
+    /// The core of a part.
     pub fn core(&self, part: &Part) -> Checked<Core> {
-        let nodes = self.core_nodes(part);
-        self.meter.allow_core(nodes.len())?;
+        let lists: Vec<&[u32]> = part.iter().map(|&member| self.nodes_of(member)).collect();
+        let bodies = part.partition_point(|&member| member < self.bodies.len());
+        let name = |position: usize| self.name(part[position]);
+        Core::new(&lists, bodies, name, self.setting.meter)
+    }
+}
+
+impl Core {
+    /// The core of members (section 6; theory, Theorems 4.4, 4.11 and 13.11), given by their nodes in
+    /// increasing order, so many bodies first and then edges. The name of a member is for people.
+    pub fn new(
+        members: &[&[u32]],
+        bodies: usize,
+        name: impl Fn(usize) -> String,
+        meter: &Meter,
+    ) -> Checked<Core> {
+        let nodes = core_nodes(members, bodies);
+        meter.allow_core(nodes.len())?;
         let mut edges = Vec::new();
-        for (position, &member) in part.iter().enumerate() {
-            let inside = self.nodes_of(member).iter();
+        for (position, inside) in members.iter().enumerate() {
+            let inside = inside.iter();
             let chain: Vec<usize> = inside.flat_map(|node| nodes.binary_search(node)).collect();
             ensure!(
                 chain.len() >= 2,
                 "{} has fewer than two nodes in the core",
-                self.name(member)
+                name(position)
             );
             for distance in [1, 2] {
                 let pairs = chain.iter().zip(&chain[distance..]);
@@ -247,20 +280,17 @@ impl<'a> Structure<'a> {
             member,
         })
     }
+}
 
-    /// The ends of the part's edges, and the nodes that lie in two or more of its bodies.
-    fn core_nodes(&self, part: &Part) -> Vec<u32> {
-        // Nodes that come twice, if the ends of edges do in any case.
-        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
-        let all = part
-            .iter()
-            .flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
-        let all = sorted(all.flatten().copied());
-        let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
-        let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
-        nodes.dedup();
-        nodes
-    }
+/// The ends of the edges among members, and the nodes that lie in two or more of the bodies.
+fn core_nodes(members: &[&[u32]], bodies: usize) -> Vec<u32> {
+    // Nodes that come twice, if the ends of edges do in any case.
+    let all = members.iter().chain(&members[bodies..]);
+    let all = sorted(all.copied().flatten().copied());
+    let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
+    let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
+    nodes.dedup();
+    nodes
 }
 
 /// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in
@@ -281,7 +311,7 @@ fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
     hash.finalize().into()
 }
 
-fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
+pub(crate) fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
     let mut nodes: Vec<u32> = nodes.into_iter().collect();
     nodes.sort_unstable();
     nodes
