@@ -5,7 +5,8 @@
 //! two rules that are left: bodies that share two nodes, and three bodies that
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
 //! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Every
-//! step is recorded, and the record is the proof.
+//! step is recorded, and the record is the proof. Bodies by rank (Proposition 4.14) are found by
+//! whoever decides, and go on here.
 
 pub(crate) mod piece;
 
@@ -22,7 +23,7 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Graph};
+use crate::graph::{Adjacency, Graph, Lists};
 use rest::Rest;
 use sweep::Swept;
 
@@ -33,6 +34,8 @@ pub enum Seed {
     Edge(u32, u32),
     /// An earlier body, which is continued.
     Body(u32),
+    /// Members that are rigid together by their rank: an entry of [`Contraction::by_rank`].
+    Rank(u32),
 }
 
 /// Something that joins a body: an edge, or an earlier body.
@@ -88,6 +91,18 @@ pub enum Merge {
     },
 }
 
+impl Merge {
+    /// What joins.
+    pub fn parts(&self) -> &[Part] {
+        match self {
+            Self::Shared { part, .. } => std::slice::from_ref(part),
+            Self::Triangle { parts, .. } => parts,
+            Self::Cycle { parts, .. } => parts,
+            Self::Biclique { parts, .. } => parts,
+        }
+    }
+}
+
 /// A body and how it came to be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {
@@ -115,6 +130,9 @@ pub struct Contraction {
     pub finals: Vec<u32>,
     /// The edges that no body covers, in increasing order.
     pub loose: Vec<(u32, u32)>,
+    /// Earlier bodies and edges that are rigid together by their rank (Proposition 4.14), one entry
+    /// for each body that starts from such. They are rigid, and need not be unique.
+    pub by_rank: Vec<Members>,
 }
 
 impl Contraction {
@@ -133,10 +151,83 @@ impl Contraction {
     fn by_triangles(graph: &Graph, model: Model) -> Self {
         // The edges that no body owns yet.
         let mut remaining = Adjacency::new(graph);
-        let mut bodies = grow::grow(&mut remaining);
+        let bodies = grow::grow(&mut remaining);
+        Self::closed_by_triangles(graph, model, bodies, &remaining)
+    }
+
+    /// Goes on with more bodies in the projective model: for each of `unions`, members of this
+    /// contraction that are rigid together. They are not consumed; the rules that follow do that.
+    /// O(n) and what the rules take.
+    pub(crate) fn with_unions(self, graph: &Graph, unions: Vec<Members>) -> Self {
+        let Self {
+            mut bodies,
+            mut by_rank,
+            loose,
+            ..
+        } = self;
+        let first = by_rank.len() as u32;
+        let new: Vec<Body> = (first..)
+            .zip(&unions)
+            .map(|(k, union)| {
+                let held = union.bodies.iter();
+                let held = held.flat_map(|&body| &bodies[body as usize].nodes).copied();
+                let ends = union.edges.iter().flat_map(|&(i, j)| [i, j]);
+                let mut nodes: Vec<u32> = held.chain(ends).collect();
+                nodes.sort_unstable();
+                nodes.dedup();
+                Body {
+                    seed: Seed::Rank(k),
+                    add: Vec::new(),
+                    merge: Vec::new(),
+                    nodes,
+                    edges: 0,
+                }
+            })
+            .collect();
+        bodies.extend(new);
+        by_rank.extend(unions);
+        let smaller = loose.iter().map(|&(i, j)| (j, i));
+        let neighbours = smaller.chain(loose.iter().copied());
+        let remaining = Adjacency::of_lists(Lists::group(graph.nodes(), neighbours));
+        Self {
+            by_rank,
+            ..Self::closed_by_triangles(graph, Model::Projective, bodies, &remaining)
+        }
+    }
+
+    /// Whether all final bodies come from the rules alone, so that they are not only rigid but
+    /// unique. O(size of the record).
+    pub fn are_unique_finals(&self) -> bool {
+        if self.by_rank.is_empty() {
+            return true;
+        }
+        let mut unique: Vec<bool> = Vec::with_capacity(self.bodies.len());
+        for body in &self.bodies {
+            let of_seed = match body.seed {
+                Seed::Edge(..) => true,
+                Seed::Body(k) => unique[k as usize],
+                Seed::Rank(_) => false,
+            };
+            let is_unique = |part: &Part| match part {
+                Part::Edge(..) => true,
+                Part::Body(k) => unique[*k as usize],
+            };
+            let all = of_seed && body.merge.iter().flat_map(Merge::parts).all(is_unique);
+            unique.push(all);
+        }
+        self.finals.iter().all(|&k| unique[k as usize])
+    }
+
+    /// Closes bodies under the rules that need no cycle of four.
+    fn closed_by_triangles(
+        graph: &Graph,
+        model: Model,
+        mut bodies: Vec<Body>,
+        remaining: &Adjacency,
+    ) -> Self {
         let steps = bicliques::Steps::new(graph);
         loop {
-            let owners = merge::close(&mut bodies, &remaining, graph.nodes());
+            let owners = merge::close(&mut bodies, remaining, graph.nodes());
             let mut owned = Vec::new();
             let mut loose = Vec::new();
             for (v, w) in remaining.edges() {
@@ -188,6 +279,7 @@ impl Contraction {
             bodies,
             finals,
             loose,
+            by_rank: Vec::new(),
         }
     }
 
@@ -198,6 +290,7 @@ impl Contraction {
             bodies: Vec::new(),
             finals: Vec::new(),
             loose: graph.edges().to_vec(),
+            by_rank: Vec::new(),
         }
     }
 }
