@@ -244,7 +244,7 @@ fn large_cores_by_a_small_prime() {
         (by_rank > 0, found)
     };
     let [small, large] = ["536870909", "2305843009213693951"].map(|p| [p.to_owned()].into());
-    assert_eq!(primes(&["--solutions", "full"]), (false, small));
+    assert_eq!(primes(&["--solutions=full"]), (false, small));
     assert_eq!(primes(&[]), (true, large));
     assert!(primes(&["--prime"]).0);
     assert_eq!(
