@@ -282,15 +282,19 @@ fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Resu
     let mut batch = Vec::with_capacity(BATCH);
     let mut failure = None;
     let mut flush = |batch: &mut Vec<Graph>| -> Result<()> {
-        let entries = decide_all(batch, &options)?;
-        for (graph, entry) in batch.iter().zip(entries) {
+        // As they are listed: what is found of the number of solutions depends on the labels.
+        let graphs: Vec<Graph> = batch
+            .par_drain(..)
+            .map(|graph| relabelled(&graph))
+            .collect();
+        let entries = decide_all(&graphs, &options)?;
+        progress.done(graphs.len() as u64);
+        for (graph, entry) in graphs.into_iter().zip(entries) {
             counts.count(&entry);
             if entry.value != Value::NotFiniteSolvable {
-                found.push((relabelled(graph), entry));
+                found.push((graph, entry));
             }
         }
-        progress.done(batch.len() as u64);
-        batch.clear();
         Ok(())
     };
     candidates.for_each(&mut |graph| {
