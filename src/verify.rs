@@ -273,7 +273,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        atomic::ensure_apart(&outputs, arguments.parts.path().into_iter())?;
+        atomic::ensure_apart(&outputs, arguments.parts.path())?;
     }
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),

@@ -101,6 +101,17 @@ fn graph_file(folder: &std::path::Path, graph6: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
+/// A count that takes a second or so in all is over with the time.
+#[test]
+fn a_count_can_be_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = graph_file(folder.path(), r"K??hoaGO\_Gg");
+    let run = verify(&[&graph, "--solutions=full", "--time-limit", "200ms"]);
+    let said = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(3), "{said}");
+    assert!(said.contains("number of solutions of 12 cameras"), "{said}");
+}
+
 /// A certificate claims that there is one solution only where it shows it.
 #[test]
 fn certificates_say_what_they_show() {

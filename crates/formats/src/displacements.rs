@@ -112,12 +112,11 @@ impl Lines {
     fn finish(self, graph: &Graph) -> Result<NamedDisplacements, Fault> {
         // Positions are known in one frame: each is a displacement from the first.
         let first = self.positions.first().copied();
-        let star = self.positions.iter().skip(1).zip(first);
-        let pairs = self
-            .pairs
-            .iter()
-            .copied()
-            .chain(star.map(|(&v, first)| (first, v)));
+        let star = first.into_iter().flat_map(|first| {
+            let others = self.positions.iter().skip(1);
+            others.map(move |&v| (first, v))
+        });
+        let pairs = self.pairs.iter().copied().chain(star);
         let nodes = graph.nodes() as u32;
         let known = Displacements::new(nodes, pairs).expect("pairs of the graph's nodes");
         if known.is_empty() {

@@ -130,7 +130,7 @@ fn subsets(bits: u32, size: u32) -> impl Iterator<Item = u32> {
     let next = |&set: &u64| {
         let lowest = set & set.wrapping_neg();
         let carried = set + lowest;
-        Some(carried | ((set ^ carried) >> 2) / lowest)
+        Some(carried | (((set ^ carried) >> 2) / lowest))
     };
     std::iter::successors(Some(first), next)
         .take_while(move |set| set >> bits == 0)
