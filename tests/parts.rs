@@ -419,7 +419,7 @@ fn bodies_by_rank_with_parts() {
     };
     let files = Files::new(&cells.map(around).collect::<String>(), "0 18 40\n");
     let certificate = files.name("certificate.json");
-    let run = files.verify(&["--json", "--certificate", &certificate]);
+    let run = files.verify(&["--json", "--embed-graph", "--certificate", &certificate]);
     let line = &run.json()[0];
     assert_eq!(line["verdict"], "finite-solvable");
     assert_eq!((&line["parts"], &line["rank"]), (&1.into(), &3164.into()));
