@@ -109,7 +109,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     })?;
     files.write("counts.tsv", None, |out| write_counts(out, &counts))?;
     files.write("README.md", None, |out| {
-        let page = readme(&certified, &listed, arguments.counted, arguments.census.is_some());
+        let page = readme(
+            &certified,
+            &listed,
+            arguments.counted,
+            arguments.census.is_some(),
+        );
         out.write_all(page.as_bytes())
     })?;
     files.close()?;
