@@ -289,6 +289,22 @@ def cores(arguments, folder):
                     sec(result["wall"]), mib(1024 * result["peak_kib"]))
 
 
+def sparse(arguments, folder):
+    """Graphs with small separators, and without: verdict, components, certificate; checker."""
+    head("graph", "cameras", "pairs", "prover, CPU s", "peak, MiB", "checker, CPU s", "peak, MiB", "certificate, MB")
+    kinds = {"grid": lambda n: ("grid", n, n * 9048 // 5000, 1), "city": lambda n: ("city", n, n * 20687 // 10000, 1),
+             "3-regular": lambda n: ("cubic", n, 1), "4-regular": lambda n: ("regular", n, 1)}
+    for kind in arguments.graphs:
+        for nodes in arguments.nodes:
+            graph = generate(folder / "graph.txt", *kinds[kind](nodes))
+            pairs = len(graph.read_text().splitlines())
+            certificate = folder / "certificate.json"
+            prover = once([VERIFY, "--certificate", certificate, graph], os.devnull)
+            checker = once([CHECK, certificate, graph], os.devnull)
+            row(kind, nodes, pairs, sec(prover.cpu), mib(prover.peak), sec(checker.cpu), mib(checker.peak),
+                f"{certificate.stat().st_size / 1e6:.1f}")
+
+
 def sequence(arguments, folder):
     """A long image sequence: reading against everything."""
     graph = generate(folder / "sequence.txt", "sequence", arguments.nodes, 20, 1)
@@ -379,10 +395,10 @@ def readers(arguments, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sequence | tracks | "
-                                         "hubs | readers")
+    commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sparse | sequence | "
+                                         "tracks | hubs | readers")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
-                                 ("cores", cores, 3), ("sequence", sequence, 3), ("tracks", tracks, 3),
+                                 ("cores", cores, 3), ("sparse", sparse, 1), ("sequence", sequence, 3), ("tracks", tracks, 3),
                                  ("hubs", hubs, 3), ("readers", readers, 5)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
@@ -402,6 +418,9 @@ def main():
                                  help="largest graph for its dense elimination")
             command.add_argument("--flint", type=int, default=500,
                                  help="largest graph for FLINT")
+        if name == "sparse":
+            command.add_argument("--graphs", nargs="+", default=["grid", "city", "3-regular", "4-regular"])
+            command.add_argument("--nodes", type=int, nargs="+", default=[1000, 2000, 5000, 10000, 20000, 50000])
         if name == "sequence":
             command.add_argument("--nodes", type=int, default=1_000_000)
     arguments = parser.parse_args()

@@ -96,6 +96,7 @@ fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
     let merges = verdict.contraction.bodies.iter();
     let mut merges = merges.flat_map(|body| &body.merge);
     verdict.pieces.is_empty()
+        && verdict.contraction.by_rank.is_empty()
         && merges.all(|merge| matches!(merge, Merge::Shared { .. } | Merge::Triangle { .. }))
 }
 

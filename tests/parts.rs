@@ -405,6 +405,36 @@ fn solutions_with_parts() {
     );
 }
 
+/// A grid, of which regions have full rank: a known part in it is merged with these, and both
+/// checkers count it in.
+#[test]
+fn bodies_by_rank_with_parts() {
+    let node = |row: u32, column: u32| 17 * row + column;
+    let cells = (0..17).flat_map(|row| (0..17).map(move |column| (row, column)));
+    let around = |(row, column)| {
+        let here = node(row, column);
+        let right = node(row, (column + 1) % 17);
+        let below = node((row + 1) % 17, column);
+        format!("{here} {right}\n{here} {below}\n")
+    };
+    let files = Files::new(&cells.map(around).collect::<String>(), "0 18 40\n");
+    let certificate = files.name("certificate.json");
+    let run = files.verify(&["--json", "--certificate", &certificate]);
+    let line = &run.json()[0];
+    assert_eq!(line["verdict"], "finite-solvable");
+    assert_eq!((&line["parts"], &line["rank"]), (&1.into(), &3164.into()));
+    let text = fs::read_to_string(&certificate).unwrap();
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let bodies = value["bodies"].as_array().unwrap();
+    assert!(bodies.iter().any(|body| body["seed"].is_object()));
+    // The part is the body 0, and in the one that is left.
+    assert!(value["rigid"]["bodies"][0].as_u64().unwrap() >= bodies.len() as u64);
+    assert_eq!(
+        (first(&[&certificate]), second(&[&certificate])),
+        (Some(0), Some(0))
+    );
+}
+
 /// A part of 100,000 cameras is no 5 * 10^9 pairs: it is decided, certified and checked in seconds.
 #[test]
 fn large_parts_stay_small() {

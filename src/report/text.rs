@@ -193,6 +193,13 @@ pub(super) fn reason(report: &Report) -> String {
 
 /// By which minor the rank is full.
 fn full_rank(verdict: &Verdict) -> String {
+    let by_rank = verdict.by_rank.len();
+    if verdict.pieces.is_empty() && by_rank > 0 {
+        return match by_rank {
+            1 => "all cameras are in one body of full rank".into(),
+            parts => format!("{parts} parts of full rank merge into one body with all cameras"),
+        };
+    }
     let kind = verdict
         .pieces
         .iter()

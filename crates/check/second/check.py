@@ -702,7 +702,7 @@ class Check:
         self.check_claim_form(optional)
         # Section 5: what is known is there from the start.
         self.bodies = [frozenset(part) for part in self.parts]
-        self.final, self.scaled = set(range(len(self.bodies))), set()
+        self.final, self.scaled, self.rigid_only = set(range(len(self.bodies))), set(), set()
         self.groups = []
         if "displacements" in stated:
             self.check_displacements(stated["displacements"])
@@ -804,7 +804,8 @@ class Check:
         for k, value in enumerate(a_list(bodies, "section 5: bodies"), len(self.bodies)):
             where = f"section 5: body {k}"
             seed, add, merge = members(value, "seed add merge", where)
-            body = set(self.body_or_edge(seed, where))
+            unique = type(seed) is not dict and self.is_unique(seed)
+            body = set(self.body_or_edge(seed, where)) if type(seed) is not dict else self.body_by_rank(seed, where)
             scaled = self.is_scaled([seed])
             for step in a_list(add, f"{where}: add"):
                 need(type(step) is list and len(step) == 3, f"{where}: {step} is not [v, a, b]")
@@ -828,6 +829,7 @@ class Check:
                 scaled = scaled or self.is_scaled(others)
                 need(distinct(at), f"{where}: the nodes of at are not different")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
+                unique = unique and all(map(self.is_unique, others))
                 others = [self.body_or_edge(other, where) for other in others]
                 if size == 1:
                     shared = all(node in body and node in others[0] for node in at)
@@ -849,6 +851,26 @@ class Check:
             self.final.add(k)
             if scaled:
                 self.scaled.add(k)
+            if not unique:
+                self.rigid_only.add(k)
+
+    def body_by_rank(self, value, where):
+        """Section 5: earlier bodies and edges, which are not consumed, of whose core the rank is full."""
+        need(self.projective, f"{where}: a body by rank is of the projective model only")
+        bodies, edges, evidence = members(value, "bodies edges evidence", f"{where}: seed")
+        group = self.read_group(bodies, edges, f"{where}: seed")
+        need(len(group) >= 2, f"{where}: seed: less than two bodies and edges")
+        for member in group:
+            if type(member) is int:
+                need(member in self.final, f"{where}: seed: body {member} is not an earlier one, or is consumed")
+            else:
+                need(member in self.graph.edge_set, f"{where}: seed: {member} is not an edge")
+        self.check_rigid(group, a_list(evidence, f"{where}: seed: evidence"), f"{where}: seed")
+        return self.union(group)
+
+    def is_unique(self, member):
+        """Section 5: an edge, a known part, or a body that comes from these, nodes and merges alone."""
+        return type(member) is not int or member not in self.rigid_only
 
     def body_or_edge(self, value, where):
         """Section 5: an edge, or an earlier body, which is consumed."""
@@ -929,9 +951,9 @@ class Check:
             self.check_evidence(group, proofs, piece, f"{where}piece {k}: ")
         return pieces, len(singles)
 
-    def core_rank_to_rank(self, rank, core, piece):
+    def core_rank_to_rank(self, rank, core, required):
         """Section 6: a graph lacks as much as its core."""
-        return piece.required - (self.required(core.n, bool(core.scales)) - rank)
+        return required - (self.required(core.n, bool(core.scales)) - rank)
 
     # Section 7 -------------------------------------------------------------------------------------------------------
 
@@ -953,18 +975,18 @@ class Check:
         piece.upper = min(bounds + [piece.required])
         classes = [self.check_classes(value, group, at) for value, at in kinds["classes"]]
         lower = [(self.check_lower(value, core, at), value) for value, at in kinds["lower"]]
-        lower = [(self.core_rank_to_rank(rank, core, piece), value) for rank, value in lower]
+        lower = [(self.core_rank_to_rank(rank, core, piece.required), value) for rank, value in lower]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
         counted = None if core.scales else counted_rank(core.n, core.edges, self.model)
         if counted is not None:
             # Not a condition of the page: what elimination found must be what counting alone finds.
-            rank = self.core_rank_to_rank(counted, core, piece)
+            rank = self.core_rank_to_rank(counted, core, piece.required)
             need(piece.lower <= rank <= piece.upper, f"{where}the rank by counting is {rank}")
         draws, seed = (), None
         for value, at in kinds["draws"]:
             rank, seed, draws, piece.error = self.check_draws(value, core, at)
-            piece.drawn = self.core_rank_to_rank(rank, core, piece)
+            piece.drawn = self.core_rank_to_rank(rank, core, piece.required)
             need(piece.lower <= piece.drawn, f"{where}a lower bound is above the rank of draws")
         used, proved = set(), False
         for value, at in kinds["kernel"]:
@@ -1177,8 +1199,8 @@ class Check:
         total -= sum(self.required(len(self.union(single))) for single in singles)
         for k, (inside, proofs) in enumerate(zip(groups, evidence)):
             at = f"{where}: shared: piece {k}"
-            core, nodes = Core(self, inside, at), len(self.union(inside))
-            total -= self.core_rank_to_rank(max(self.lower_bounds(core, proofs, at)), core, nodes)
+            core, required = Core(self, inside, at), self.required(len(self.union(inside)))
+            total -= self.core_rank_to_rank(max(self.lower_bounds(core, proofs, at)), core, required)
         need(an_int(bound, f"{where}: bound") == total, f"{where}: the bound is {total}, not {bound}")
         return total
 
@@ -1261,7 +1283,8 @@ class Check:
                 components += 1
                 scaled += [self.union(inside)] if self.is_scaled(inside) else []
                 if len(inside) > 1:
-                    self.check_rigid_class(inside, evidence, at)
+                    need(evidence, f"{at}: neither evidence nor split")
+                    self.check_rigid(inside, evidence, at)
                 else:
                     need(not evidence, f"{at}: a single member needs no evidence")
             else:
@@ -1275,11 +1298,12 @@ class Check:
                 scaled += [nodes for piece in pieces for nodes in piece.scaled]
         return of, components, errors, scaled
 
-    def check_rigid_class(self, inside, evidence, where):
-        need(evidence, f"{where}: neither evidence nor split")
+    def check_rigid(self, inside, evidence, where):
+        """Sections 5 and 7: lower bounds of which one shows that the core of some members is rigid."""
+        need(evidence, f"{where}: no evidence")
         core = Core(self, inside, where)
         best = max(self.lower_bounds(core, evidence, where))
-        need(best == self.required(core.n, bool(core.scales)), f"{where}: the class is not shown to be rigid")
+        need(best == self.required(core.n, bool(core.scales)), f"{where}: not shown to be rigid")
 
     def check_kernel(self, value, core, class_of, seed_of_draws, draws, where):
         """Section 7, kernel: the number of the draw of section 9 (or None), and the prime, seed and number it uses."""
@@ -1319,6 +1343,7 @@ class Check:
         need(whole, f"{where}: there is not one piece of `pieces` that has all nodes")
         need(found[0].lower == found[0].required, f"{where}: the piece is not shown to be finite solvable")
         group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
+        need(all(map(self.is_unique, group)), f"{where}: a body by rank is not shown to be unique")
         return check_solutions(value, [frozenset(self.nodes(member)) for member in group], where)
 
     def claim_of(self, pieces, singles, numbers=None):
@@ -1331,7 +1356,7 @@ class Check:
         whole = len(pieces) == 1 and pieces[0].nodes == n
         low = [piece for piece in pieces if piece.drawn is not None and piece.drawn < piece.upper]
         known = self.groups and lower == required  # section 8: however many pieces there are
-        unique = singles or not self.projective and lower == required or numbers is not None and numbers[1] == 1
+        unique = singles and not self.final & self.rigid_only or not self.projective and lower == required or numbers is not None and numbers[1] == 1
         if known or whole and unique:
             verdict = stated("solvable")
         elif whole and lower == required:

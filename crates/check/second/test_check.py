@@ -414,6 +414,79 @@ class Bodies(Case):
         ):
             self.broken(document, change, "section 5", words)
 
+    def test_bodies_by_rank(self):
+        document = make.make([(a, b) for a in range(3) for b in range(3, 6)], use_bodies=False)
+        self.assertEqual(document["claim"]["verdict"]["value"], "finite-solvable")
+        seed = document["pieces"].pop()
+        document["bodies"], document["rigid"]["bodies"] = [{"seed": seed, "add": [], "merge": []}], [0]
+        self.verifies(document)
+
+        def solvable(other):
+            other["claim"]["verdict"]["value"] = "solvable"
+
+        self.broken(document, solvable, "the evidence gives finite-solvable")
+        for body in (
+            {"seed": 0, "add": [], "merge": []},
+            {"seed": [0, 3], "add": [], "merge": [{"with": [0], "at": [0, 3]}]},
+        ):
+            built = copy.deepcopy(document)
+            built["bodies"].append(body)
+            built["rigid"]["bodies"] = [1]
+            self.verifies(built)
+            self.broken(built, solvable, "the evidence gives finite-solvable")
+
+        def change(name, value):
+            return lambda other: other["bodies"][0]["seed"].__setitem__(name, value)
+
+        for edit, words in (
+            (lambda other: other.update(model="calibrated"), "projective model only"),
+            (change("edges", seed["edges"][::-1]), "increasing"),
+            (change("edges", seed["edges"][:1]), "less than two bodies and edges"),
+            (change("edges", [[0, 1], [0, 3]]), "(0, 1) is not an edge"),
+            (change("bodies", [0]), "body 0 is not an earlier one"),
+            (change("evidence", []), "no evidence"),
+            (change("evidence", [{"kind": "counting"}]), "no lower bound"),
+            (change("more", 0), "more is unknown"),
+        ):
+            self.broken(document, edit, "section 5", words)
+
+        def weaker(other):
+            flow = next(e for e in other["bodies"][0]["seed"]["evidence"] if e["kind"] == "plane-flow")
+            other["bodies"][0]["seed"]["evidence"] = [flow]
+            flow["lambda_rows"].pop()
+            flow["lambda_cols"].pop()
+
+        self.broken(document, weaker, "not shown to be rigid")
+        again = {"seed": {"bodies": [0], "edges": [[0, 3]], "evidence": []}, "add": [], "merge": []}
+        self.broken(document, lambda other: other["bodies"].append(again), "section 5", "no evidence")
+        again["seed"]["evidence"] = seed["evidence"]
+        self.broken(document, lambda other: other["bodies"].append(again), "a core edge arises twice")
+        twice = {"seed": [0, 3], "add": [], "merge": []}
+        self.broken(document, lambda other: other["bodies"].append(twice), "covered twice")
+
+        # A known part in the place of an edge: the core is the same, and the part is not consumed.
+        document["parts"] = [[0, 3]]
+        self.assertEqual(seed["edges"].pop(0), [0, 3])
+        seed["bodies"] = [0]
+        document["rigid"]["bodies"] = [0, 1]
+        self.rejects(document, "section 6", "covered twice")
+        document["bodies"].append({"seed": 1, "add": [], "merge": [{"with": [0], "at": [0, 3]}]})
+        document["rigid"]["bodies"] = [2]
+        self.verifies(document)
+        self.broken(document, solvable, "the evidence gives finite-solvable")
+
+    def test_solutions_are_counted_between_unique_members(self):
+        with open(os.path.join(HERE, "..", "tests", "solutions", "two.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        self.verifies(document)
+        triangle = [[0, 5], [0, 9], [5, 9]]
+        rows = [0, 4, 1, 10, 3, 11, 7, 8, 12, 9, 13, 14, 20, 15, 21, 16, 22, 23]
+        cols = [0, 3, 1, 2, 4, 5, 6, 7, 8, 9, 10, 12, 13, 15, 16, 18, 19, 21]
+        minor = {"kind": "minor", "prime": str(2**61 - 1), "seed": "1", "draw": 0, "rows": rows, "cols": cols}
+        seed = {"bodies": [], "edges": triangle, "evidence": [minor]}
+        body = {"seed": seed, "add": [], "merge": []}
+        self.broken(document, lambda other: other["bodies"].__setitem__(0, body), "section 12", "not shown to be unique")
+
     def test_two_bodies_that_share_two_nodes(self):
         graph = check.Graph(4, [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3)])
         document = make.Maker(graph, use_bodies=False).document()

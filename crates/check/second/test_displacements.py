@@ -120,7 +120,7 @@ class Displacements(Case):
             flow = evidence(other, "classes")["classes"][0]["evidence"][0]
             flow["rows"].pop(), flow["cols"].pop()
 
-        self.broken(document, less, "the class is not shown to be rigid")
+        self.broken(document, less, "class 0: not shown to be rigid")
         document = named("split")
         halves = evidence(document, "classes")["classes"][0]
         self.assertEqual(halves["split"]["rigid"]["bodies"], [0, 2])

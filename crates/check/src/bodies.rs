@@ -1,18 +1,25 @@
 //! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9,
-//! 10.3 and 13.9).
+//! 10.3 and 13.9; 4.14 and 13.16 for those from the start, Proposition 4.15 for those by rank).
 
-use crate::document::{Body, Merge, Model, Source};
+use crate::document::{Body, Merge, Model, Piece, Seed, Source};
+use crate::elimination::SPARSE;
 use crate::graph::Graph;
+use crate::lower::check_rigid;
 use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::setting::Setting;
+use crate::structure::{Core, Joined, sorted};
 use std::collections::HashSet;
 
 type Nodes = HashSet<u32>;
 
-/// A body.
-pub(crate) struct Rebuilt {
+/// A body, as long as no other consumes it.
+pub(crate) struct Built {
     pub nodes: Nodes,
     /// Whether it holds a known displacement.
     pub scaled: bool,
+    /// Whether it comes from the rules and what is known: then it is unique, and otherwise only
+    /// rigid.
+    pub unique: bool,
 }
 
 /// What is known besides the pairs: bodies from the start. At most one of the two is not empty.
@@ -27,26 +34,27 @@ pub(crate) struct Known<'a> {
 /// All bodies, first what is known; `None` for those that are consumed.
 pub(crate) fn build_all(
     graph: &Graph,
-    model: Model,
+    setting: &Setting,
     known: Known,
     list: &[Body],
-) -> Checked<Vec<Option<Rebuilt>>> {
+) -> Checked<Vec<Option<Built>>> {
     let body = |nodes: &Vec<u32>, scaled| {
-        Some(Rebuilt {
+        Some(Built {
             nodes: nodes.iter().copied().collect(),
             scaled,
+            unique: true,
         })
     };
     let parts = known.parts.iter().map(|part| body(part, false));
     let groups = known.groups.iter().map(|group| body(group, true));
     let mut builder = Builder {
         graph,
-        model,
+        setting,
         earlier: parts.chain(groups).collect(),
     };
     for (k, body) in list.iter().enumerate() {
-        let body = builder.build(body).within(|| format!("bodies[{k}]"))?;
-        builder.earlier.push(Some(body));
+        let built = builder.build(body).within(|| format!("bodies[{k}]"))?;
+        builder.earlier.push(Some(built));
     }
     Ok(builder.earlier)
 }
@@ -54,14 +62,18 @@ pub(crate) fn build_all(
 /// What a body is built from.
 struct Builder<'a> {
     graph: &'a Graph,
-    model: Model,
+    setting: &'a Setting<'a>,
     /// The bodies so far; `None` for those that are consumed.
-    earlier: Vec<Option<Rebuilt>>,
+    earlier: Vec<Option<Built>>,
 }
 
 impl Builder<'_> {
-    fn build(&mut self, body: &Body) -> Checked<Rebuilt> {
-        let mut built = self.take(body.seed).within(|| "seed".into())?;
+    fn build(&mut self, body: &Body) -> Checked<Built> {
+        let seed = match &body.seed {
+            Seed::Source(source) => self.take(*source),
+            Seed::Rank(members) => self.by_rank(members),
+        };
+        let mut built = seed.within(|| "seed".into())?;
         for (k, &[v, a, b]) in body.add.iter().enumerate() {
             let added = self.add(&mut built.nodes, v, [a, b]);
             added.within(|| format!("add[{k}]"))?;
@@ -73,12 +85,59 @@ impl Builder<'_> {
         Ok(built)
     }
 
+    /// Members that are rigid together, as the rank of their core shows (theory, Proposition 4.15).
+    /// They are not consumed.
+    fn by_rank(&self, members: &Piece) -> Checked<Built> {
+        let Setting { model, meter, .. } = self.setting;
+        ensure!(
+            *model == Model::Projective,
+            "bodies by rank are of the projective model only"
+        );
+        let mut lists = Vec::new();
+        for &body in &members.bodies {
+            let held = self.earlier.get(body as usize).and_then(Option::as_ref);
+            let wrong = || format!("body {body} is not an earlier one, or is consumed");
+            let held = held.ok_or_else(|| Failure::rejected(wrong()))?;
+            meter.charge(SPARSE * held.nodes.len() as u64)?;
+            lists.push(sorted(held.nodes.iter().copied()));
+        }
+        for &pair in &members.edges {
+            self.graph.edge(pair)?;
+            lists.push(pair.to_vec());
+        }
+        ensure!(
+            members.bodies.is_sorted_by(|a, b| a < b) && members.edges.is_sorted_by(|a, b| a < b),
+            "the bodies or the edges are not increasing"
+        );
+        ensure!(lists.len() >= 2, "fewer than two bodies and edges");
+        let bodies = members.bodies.len();
+        let joined = lists.iter().enumerate().map(|(position, nodes)| Joined {
+            nodes,
+            is_body: position < bodies,
+            // Displacements belong to another model.
+            is_scaled: false,
+        });
+        let joined: Vec<Joined> = joined.collect();
+        let name = |position| match members.bodies.get(position) {
+            Some(body) => format!("body {body}"),
+            None => format!("the edge {:?}", lists[position]),
+        };
+        let core = Core::new(&joined, name, meter)?;
+        check_rigid(&members.evidence, self.setting, &core)?;
+        Ok(Built {
+            nodes: lists.concat().into_iter().collect(),
+            scaled: false,
+            unique: false,
+        })
+    }
+
     /// An earlier body, which is consumed by this, or an edge.
-    fn take(&mut self, source: Source) -> Checked<Rebuilt> {
+    fn take(&mut self, source: Source) -> Checked<Built> {
         match source {
-            Source::Edge(pair) => self.graph.edge(pair).map(|_| Rebuilt {
+            Source::Edge(pair) => self.graph.edge(pair).map(|_| Built {
                 nodes: Nodes::from(pair),
                 scaled: false,
+                unique: true,
             }),
             Source::Body(k) => {
                 let body = self.earlier.get_mut(k as usize).and_then(Option::take);
@@ -102,11 +161,12 @@ impl Builder<'_> {
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
     /// Theorem 4.1, and rule 5 of Theorem 4.9), and so do six around a K_{2,3} (Theorem 10.3), and
-    /// two scaled ones that share a node (Theorem 13.16).
-    fn merge(&mut self, body: &mut Rebuilt, step: &Merge) -> Checked<()> {
+    /// two scaled ones that share a node (Theorem 13.16). What comes of it is unique if all of them
+    /// are.
+    fn merge(&mut self, body: &mut Built, step: &Merge) -> Checked<()> {
         let places = self.places(step)?;
         let parts = step.with.iter().map(|&source| self.take(source));
-        let parts = parts.collect::<Checked<Vec<Rebuilt>>>()?;
+        let parts = parts.collect::<Checked<Vec<Built>>>()?;
         ensure!(
             step.at.len() > 1 || body.scaled && parts.iter().all(|part| part.scaled),
             "only bodies with known displacements merge at one node"
@@ -126,6 +186,7 @@ impl Builder<'_> {
             );
         }
         body.scaled |= parts.iter().any(|part| part.scaled);
+        body.unique &= parts.iter().all(|part| part.unique);
         unite(&mut body.nodes, parts.into_iter().map(|part| part.nodes));
         Ok(())
     }
@@ -139,14 +200,14 @@ impl Builder<'_> {
             (2, 3) => Ok(&[&[0, 1], &[0, 2], &[1, 2]]),
             (3, 4) => {
                 ensure!(
-                    self.model == Model::Calibrated,
+                    self.setting.model == Model::Calibrated,
                     "a cycle of four is a body in the calibrated model only"
                 );
                 Ok(&[&[0, 1], &[1, 2], &[2, 3], &[0, 3]])
             }
             (5, 5) => {
                 ensure!(
-                    self.model == Model::Projective,
+                    self.setting.model == Model::Projective,
                     "six bodies are merged in the projective model only"
                 );
                 Ok(&[&[0, 2, 4], &[1, 3, 5], &[0, 1], &[2, 3], &[4, 5]])

@@ -224,7 +224,7 @@ fn decide(
     if let [piece] = pieces
         && (piece.nodes as i64, piece.lower) == (nodes, required)
     {
-        let unique = piece.is_rigid || model != Model::Projective;
+        let unique = piece.is_unique || model != Model::Projective;
         let verdict = match unique {
             true => Verdict::Solvable,
             false => Verdict::FiniteSolvable,

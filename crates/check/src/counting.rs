@@ -3,20 +3,23 @@
 
 use crate::document::{Block, Counting, Hub, Model};
 use crate::rejection::{Checked, Within, ensure};
-use crate::setting::Setting;
 use crate::structure::{Part, Structure, root, unite};
 
 /// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1, 5.5
 /// and, with displacements, 13.6).
-pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Part) -> Checked<i64> {
-    let (structure, blocks) = (setting.structure, &evidence.blocks);
+pub(crate) fn check_counting(
+    evidence: &Counting,
+    structure: &Structure,
+    piece: &Part,
+) -> Checked<i64> {
+    let blocks = &evidence.blocks;
     let list = blocks.iter().map(|block| (&block.bodies, &block.edges));
     let (parts, _) = structure
         .partition(piece, list)
         .within(|| "blocks".into())?;
     let mut sum = 0;
     for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
-        let bound = check_block(block, part, setting);
+        let bound = check_block(block, part, structure);
         sum += bound.within(|| format!("blocks[{k}]"))?;
     }
     ensure!(
@@ -28,14 +31,13 @@ pub(crate) fn check_counting(evidence: &Counting, setting: &Setting, piece: &Par
 }
 
 /// Verifies a block of these members; returns what it contributes.
-pub(crate) fn check_block(block: &Block, part: &Part, setting: &Setting) -> Checked<i64> {
-    let structure = setting.structure;
-    let mut bound = setting.required(part);
+pub(crate) fn check_block(block: &Block, part: &Part, structure: &Structure) -> Checked<i64> {
+    let model = structure.setting.model;
+    let mut bound = structure.required(part);
     ensure!(block.hubs.len() <= 1, "more than one hub");
     ensure!(
-        block.hubs.is_empty() || setting.model == Model::Projective,
-        "a hub in the {} model",
-        setting.model
+        block.hubs.is_empty() || model == Model::Projective,
+        "a hub in the {model} model"
     );
     for hub in &block.hubs {
         bound -= check_hub(hub, structure, part).within(|| "hubs[0]".into())?;

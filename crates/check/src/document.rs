@@ -3,7 +3,8 @@
 use crate::json::{Big, Name, Optional, Strict, Value, fill, objects, present, unknown};
 use crate::rejection::{Checked, Failure};
 use crate::solutions::grammar::Solutions;
-use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
 /// Reads a certificate.
@@ -34,7 +35,7 @@ objects! {
     SolutionsClaim {
         at_least: usize, at_most: Option<usize>, strength: String, error_log2: Option<i64>,
     }
-    Body { seed: Source, add: Vec<[u32; 3]>, merge: Vec<Merge> }
+    Body { seed: Seed, add: Vec<[u32; 3]>, merge: Vec<Merge> }
     Merge { with: Vec<Source>, at: Vec<u32> }
     Members { bodies: Vec<u32>, edges: Vec<Pair> }
     Piece { bodies: Vec<u32>, edges: Vec<Pair>, evidence: Vec<Evidence> }
@@ -137,11 +138,47 @@ impl Value for Source {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, entries: A) -> Result<Source, A::Error> {
-                Pair::read(serde::de::value::SeqAccessDeserializer::new(entries)).map(Source::Edge)
+                Pair::read(SeqAccessDeserializer::new(entries)).map(Source::Edge)
             }
         }
 
         from.deserialize_any(BodyOrEdge)
+    }
+}
+
+/// What a body starts from: an earlier body or an edge, or members that are rigid by their rank,
+/// with the evidence for it.
+#[derive(Debug)]
+pub(crate) enum Seed {
+    Source(Source),
+    Rank(Piece),
+}
+
+impl Value for Seed {
+    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct SourceOrMembers;
+
+        impl<'de> Visitor<'de> for SourceOrMembers {
+            type Value = Seed;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the number of a body, a pair of nodes, or an object")
+            }
+
+            fn visit_u64<E: Error>(self, body: u64) -> Result<Seed, E> {
+                Source::read(body.into_deserializer()).map(Seed::Source)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, entries: A) -> Result<Seed, A::Error> {
+                Source::read(SeqAccessDeserializer::new(entries)).map(Seed::Source)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Seed, A::Error> {
+                Piece::read(MapAccessDeserializer::new(object)).map(Seed::Rank)
+            }
+        }
+
+        from.deserialize_any(SourceOrMembers)
     }
 }
 

@@ -4,6 +4,8 @@
 use crate::algebra::{Field, LANES, Ring, SMALL, SMALL_LANES};
 use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::ops::{Add, Mul};
 use std::sync::Mutex;
 
@@ -21,12 +23,49 @@ const GROUP: usize = 16;
 pub(crate) struct Echelon<'f> {
     field: &'f Field,
     meter: &'f Meter,
-    width: usize,
     rows: Vec<EchelonRow>,
+    /// For each column the row of which it is the pivot, or `NONE`.
+    place: Vec<usize>,
+    scratch: Scratch,
     /// Whether L is kept, which only systems of equations need.
     keeps_multiples: bool,
     /// The product of the pivots: with prescribed pivots, the determinant of their minor.
     pub determinant: u64,
+}
+
+/// No row.
+const NONE: usize = usize::MAX;
+
+/// A row that is being reduced, with the columns where it has entries: no other is looked at.
+#[derive(Default)]
+struct Scratch {
+    row: Vec<u64>,
+    met: Vec<usize>,
+    is_met: Vec<bool>,
+    /// The rows of U whose pivots were met and that were not subtracted yet, the first one on top.
+    due: BinaryHeap<Reverse<usize>>,
+}
+
+impl Scratch {
+    /// Adds to an entry.
+    fn add(&mut self, field: &Field, place: &[usize], column: usize, value: u64) {
+        if !self.is_met[column] {
+            self.is_met[column] = true;
+            self.met.push(column);
+            if place[column] != NONE {
+                self.due.push(Reverse(place[column]));
+            }
+        }
+        self.row[column] = field.add(self.row[column], value);
+    }
+
+    /// Forgets the row.
+    fn clear(&mut self) {
+        for column in self.met.drain(..) {
+            self.row[column] = 0;
+            self.is_met[column] = false;
+        }
+    }
 }
 
 struct EchelonRow {
@@ -40,14 +79,18 @@ struct EchelonRow {
 
 impl<'f> Echelon<'f> {
     pub fn new(field: &'f Field, width: usize, meter: &'f Meter) -> Self {
-        let (rows, keeps_multiples, determinant) = (Vec::new(), false, field.one);
         Echelon {
             field,
             meter,
-            width,
-            rows,
-            keeps_multiples,
-            determinant,
+            rows: Vec::new(),
+            place: vec![NONE; width],
+            scratch: Scratch {
+                row: vec![0; width],
+                is_met: vec![false; width],
+                ..Scratch::default()
+            },
+            keeps_multiples: false,
+            determinant: field.one,
         }
     }
 
@@ -64,18 +107,23 @@ impl<'f> Echelon<'f> {
         entries: impl IntoIterator<Item = (usize, u64)>,
         pivot: Option<usize>,
     ) -> Checked<bool> {
-        let (field, mut row) = (self.field, vec![0; self.width]);
-        let entries = entries.into_iter();
-        entries.for_each(|(column, value)| row[column] = field.add(row[column], value));
-        let multiples = self.reduce(&mut row)?;
-        let pivot = pivot.or_else(|| row.iter().position(|&entry| entry != 0));
+        let field = self.field;
+        for (column, value) in entries {
+            self.scratch.add(field, &self.place, column, value);
+        }
+        let multiples = self.reduce_scratch()?;
+        let Scratch { row, met, .. } = &mut self.scratch;
+        met.sort_unstable();
+        let pivot = pivot.or_else(|| met.iter().copied().find(|&column| row[column] != 0));
         let Some(pivot) = pivot.filter(|&pivot| row[pivot] != 0) else {
+            self.scratch.clear();
             return Ok(false);
         };
         self.determinant = field.mul(self.determinant, row[pivot]);
         let inverse = field.inverse(row[pivot]);
-        let columns = (0..self.width).filter(|&column| row[column] != 0);
-        let reduced = columns.map(|column| (column, field.mul(inverse, row[column])));
+        let columns = met.iter().filter(|&&column| row[column] != 0);
+        let reduced = columns.map(|&column| (column, field.mul(inverse, row[column])));
+        self.place[pivot] = self.rows.len();
         self.rows.push(EchelonRow {
             pivot,
             reduced: reduced.collect(),
@@ -86,7 +134,31 @@ impl<'f> Echelon<'f> {
             },
             inverse,
         });
+        self.scratch.clear();
         Ok(true)
+    }
+
+    /// Subtracts multiples of the rows of U from the scratch row, so that it vanishes at the pivots;
+    /// returns the multiples. A row of U vanishes at the pivots before its own, so that what is met
+    /// on the way comes later.
+    fn reduce_scratch(&mut self) -> Checked<Vec<(usize, u64)>> {
+        let (mut multiples, mut entries) = (Vec::new(), 0);
+        while let Some(Reverse(k)) = self.scratch.due.pop() {
+            let EchelonRow { pivot, reduced, .. } = &self.rows[k];
+            let multiple = self.scratch.row[*pivot];
+            if multiple != 0 {
+                multiples.push((k, multiple));
+                let factor = self.field.neg(multiple);
+                for &(column, value) in reduced {
+                    let product = self.field.mul(factor, value);
+                    self.scratch.add(self.field, &self.place, column, product);
+                }
+                entries += reduced.len();
+            }
+        }
+        let steps = self.scratch.met.len() + entries;
+        self.meter.charge(SPARSE * steps as u64)?;
+        Ok(multiples)
     }
 
     /// Subtracts multiples of the rows of U so that a row vanishes at the pivots; returns the
@@ -101,7 +173,7 @@ impl<'f> Echelon<'f> {
                 entries += reduced.len();
             }
         }
-        let passed = self.width + self.rows.len();
+        let passed = row.len() + self.rows.len();
         self.meter.charge(passed as u64 + SPARSE * entries as u64)?;
         Ok(multiples)
     }

@@ -5,11 +5,11 @@ use crate::counting::check_counting;
 use crate::document::{self, Evidence, Members, Model};
 use crate::draws::{Drawn, check_draws};
 use crate::kernel::{Place, check_kernel};
-use crate::lower::check_lower;
+use crate::lower::{check_lower, check_rigid};
 use crate::overlap::check_overlap;
 use crate::rejection::{Checked, Failure, Within, ensure};
-use crate::setting::{Lower, Setting};
-use crate::structure::{Core, Part};
+use crate::setting::Lower;
+use crate::structure::{Core, Part, Structure};
 
 /// What is verified of a piece. Ranks are those of the piece, not of its core; errors are exponents
 /// of 2.
@@ -17,6 +17,8 @@ pub(crate) struct Piece {
     pub nodes: usize,
     /// A single body or a single edge.
     pub is_rigid: bool,
+    /// Such a one that is not only rigid but unique: an edge, or a body that comes from the rules.
+    pub is_unique: bool,
     pub lower: i64,
     pub upper: i64,
     /// The rank at random draws, with its error.
@@ -34,14 +36,14 @@ pub(crate) struct Piece {
 pub(crate) fn check_pieces(
     rigid: &Members,
     pieces: &[document::Piece],
-    setting: &Setting,
+    structure: &Structure,
     whole: &Part,
 ) -> Checked<Vec<Piece>> {
-    let (singles, others) = divide(rigid, pieces, setting, whole)?;
-    let singles = singles.iter().map(|part| rigid_piece(setting, part));
+    let (singles, others) = divide(rigid, pieces, structure, whole)?;
+    let singles = singles.iter().map(|part| rigid_piece(structure, part));
     let mut found: Vec<Piece> = singles.collect();
     for (k, (part, piece)) in others.iter().zip(pieces).enumerate() {
-        let checked = check_piece(&piece.evidence, setting, part);
+        let checked = check_piece(&piece.evidence, structure, part);
         found.push(checked.within(|| format!("pieces[{k}]"))?);
     }
     Ok(found)
@@ -51,30 +53,31 @@ pub(crate) fn check_pieces(
 pub(crate) fn divide(
     rigid: &Members,
     pieces: &[document::Piece],
-    setting: &Setting,
+    structure: &Structure,
     whole: &Part,
 ) -> Checked<(Vec<Part>, Vec<Part>)> {
-    let singles = single_members(rigid, setting)?;
-    let others = parts_of_pieces(pieces, setting)?;
-    check_division(&[&singles[..], &others].concat(), setting, whole).within(|| "pieces".into())?;
+    let singles = single_members(rigid, structure)?;
+    let others = parts_of_pieces(pieces, structure)?;
+    check_division(&[&singles[..], &others].concat(), structure, whole)
+        .within(|| "pieces".into())?;
     Ok((singles, others))
 }
 
 /// The pieces of `rigid`, each of one member.
-fn single_members(rigid: &Members, setting: &Setting) -> Checked<Vec<Part>> {
+fn single_members(rigid: &Members, structure: &Structure) -> Checked<Vec<Part>> {
     if rigid.bodies.is_empty() && rigid.edges.is_empty() {
         return Ok(Vec::new());
     }
-    let members = setting.structure.part(&rigid.bodies, &rigid.edges);
+    let members = structure.part(&rigid.bodies, &rigid.edges);
     let members = members.within(|| "rigid".into())?.into_iter();
     Ok(members.map(|member| vec![member]).collect())
 }
 
 /// The members of each of `pieces`, of which there are two at least.
-fn parts_of_pieces(pieces: &[document::Piece], setting: &Setting) -> Checked<Vec<Part>> {
+fn parts_of_pieces(pieces: &[document::Piece], structure: &Structure) -> Checked<Vec<Part>> {
     let mut parts = Vec::new();
     for (k, piece) in pieces.iter().enumerate() {
-        let part = setting.structure.part(&piece.bodies, &piece.edges);
+        let part = structure.part(&piece.bodies, &piece.edges);
         let part = part.within(|| format!("pieces[{k}]"))?;
         ensure!(
             part.len() >= 2,
@@ -87,30 +90,31 @@ fn parts_of_pieces(pieces: &[document::Piece], setting: &Setting) -> Checked<Vec
 
 /// Sees that pieces are a partition of the whole without a cycle, so that ranks add up over them
 /// and no component lies in two (theory, Lemma 4.7, Theorems 4.3, 4.10, 13.10 and 13.17).
-fn check_division(parts: &[Part], setting: &Setting, whole: &Part) -> Checked<()> {
-    setting.structure.owners(whole, parts)?;
-    setting.structure.check_acyclic(parts)
+fn check_division(parts: &[Part], structure: &Structure, whole: &Part) -> Checked<()> {
+    structure.owners(whole, parts)?;
+    structure.check_acyclic(parts)
 }
 
 /// A piece that is a single member.
-fn rigid_piece(setting: &Setting, part: &Part) -> Piece {
-    let rank = setting.required(part);
+fn rigid_piece(structure: &Structure, part: &Part) -> Piece {
+    let rank = structure.required(part);
     Piece {
-        nodes: setting.structure.nodes(part).len(),
+        nodes: structure.nodes(part).len(),
         is_rigid: true,
+        is_unique: part.iter().all(|&member| structure.is_unique(member)),
         lower: rank,
         upper: rank,
         drawn: None,
         components: 1,
-        scaled: scaled(setting, part),
+        scaled: scaled(structure, part),
         separated: Some(Vec::new()),
         notes: Vec::new(),
     }
 }
 
 /// A component, if it holds a known displacement.
-fn scaled(setting: &Setting, component: &Part) -> Vec<Part> {
-    match setting.structure.is_scaled(component) {
+fn scaled(structure: &Structure, component: &Part) -> Vec<Part> {
+    match structure.is_scaled(component) {
         true => vec![component.clone()],
         false => Vec::new(),
     }
@@ -156,11 +160,11 @@ struct Shown {
 }
 
 /// Verifies all evidence of a piece, and says what it amounts to.
-fn check_piece(evidence: &[Evidence], setting: &Setting, piece: &Part) -> Checked<Piece> {
-    let core = setting.structure.core(piece)?;
-    let sizes = Sizes::new(setting, piece, &core);
-    let whole = scaled(setting, piece);
-    Shown::all(evidence, setting, piece, &core, &sizes)?.conclude(&sizes, whole)
+fn check_piece(evidence: &[Evidence], structure: &Structure, piece: &Part) -> Checked<Piece> {
+    let core = structure.core(piece)?;
+    let sizes = Sizes::new(structure, piece, &core);
+    let whole = scaled(structure, piece);
+    Shown::all(evidence, structure, piece, &core, &sizes)?.conclude(&sizes, whole)
 }
 
 /// What relates a piece to its core.
@@ -172,12 +176,12 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
-    pub fn new(setting: &Setting, piece: &Part, core: &Core) -> Sizes {
-        let nodes = setting.structure.nodes(piece).len();
+    pub fn new(structure: &Structure, piece: &Part, core: &Core) -> Sizes {
+        let nodes = structure.nodes(piece).len();
         Sizes {
             nodes,
-            required: setting.required(piece),
-            core_required: setting.required_of_core(core),
+            required: structure.required(piece),
+            core_required: structure.setting.required_of_core(core),
         }
     }
 
@@ -192,7 +196,7 @@ impl Shown {
     /// Verifies each evidence, also what the claim does not rest on (section 7).
     fn all(
         evidence: &[Evidence],
-        setting: &Setting,
+        structure: &Structure,
         piece: &Part,
         core: &Core,
         sizes: &Sizes,
@@ -209,40 +213,46 @@ impl Shown {
         let all = || evidence.iter().enumerate();
         let others = all().filter(|one| !is_kernel(&one));
         for (k, one) in others.chain(all().filter(|one| is_kernel(&one))) {
-            let checked = shown.add(one, setting, piece, core);
+            let checked = shown.add(one, structure, piece, core);
             checked.within(|| format!("evidence[{k}] ({})", one.kind()))?;
         }
         Ok(shown)
     }
 
     /// Verifies one evidence.
-    fn add(&mut self, one: &Evidence, setting: &Setting, piece: &Part, core: &Core) -> Checked<()> {
+    fn add(
+        &mut self,
+        one: &Evidence,
+        structure: &Structure,
+        piece: &Part,
+        core: &Core,
+    ) -> Checked<()> {
         match one {
             Evidence::Minor(_)
             | Evidence::IntegerMinor(_)
             | Evidence::PlaneFlow(_)
             | Evidence::Pinching(_)
             | Evidence::PlaneMinor(_) => {
-                self.bounds.push(check_lower(one, setting, core)?);
+                self.bounds.push(check_lower(one, structure.setting, core)?);
             }
             Evidence::Counting(blocks) => {
-                let bound = check_counting(blocks, setting, piece)?;
+                let bound = check_counting(blocks, structure, piece)?;
                 self.upper = self.upper.min(bound);
             }
             Evidence::Overlap(overlap) => {
-                let bound = check_overlap(overlap, setting, piece)?;
+                let bound = check_overlap(overlap, structure, piece)?;
                 self.upper = self.upper.min(bound);
             }
             Evidence::Draws(draws) => {
                 ensure!(self.drawn.is_none(), "a second `draws` in the piece");
-                self.drawn = Some(check_draws(draws, setting, core)?);
+                self.drawn = Some(check_draws(draws, structure.setting, core)?);
             }
             Evidence::Classes(list) => {
                 ensure!(self.classes.is_none(), "a second `classes` in the piece");
-                self.classes = Some(check_classes(list, setting, piece)?);
+                self.classes = Some(check_classes(list, structure, piece)?);
             }
             Evidence::Kernel(kernel) => {
-                let place = self.place(kernel, setting, core)?;
+                let place = self.place(kernel, structure, core)?;
                 self.apart.push(place);
             }
         }
@@ -250,11 +260,22 @@ impl Shown {
     }
 
     /// Verifies a kernel vector; returns where it tells the classes apart.
-    fn place(&self, kernel: &document::Kernel, setting: &Setting, core: &Core) -> Checked<Place> {
+    fn place(
+        &self,
+        kernel: &document::Kernel,
+        structure: &Structure,
+        core: &Core,
+    ) -> Checked<Place> {
         let missing = || Failure::rejected("a kernel in a piece without `classes`");
         let classes = self.classes.as_ref().ok_or_else(missing)?;
         let classes = (&classes.owner[..], classes.count);
-        check_kernel(kernel, setting, core, classes, self.drawn.as_ref())
+        check_kernel(
+            kernel,
+            structure.setting,
+            core,
+            classes,
+            self.drawn.as_ref(),
+        )
     }
 
     /// What follows for the piece; `whole` is the piece itself if it is scaled.
@@ -273,6 +294,7 @@ impl Shown {
         Ok(Piece {
             nodes: sizes.nodes,
             is_rigid: false,
+            is_unique: false,
             lower,
             upper: self.upper,
             drawn,
@@ -337,13 +359,12 @@ impl Shown {
 /// Verifies `classes`, all but their separation (theory, Proposition 6.5).
 fn check_classes(
     evidence: &document::Classes,
-    setting: &Setting,
+    structure: &Structure,
     piece: &Part,
 ) -> Checked<Classes> {
     let list = evidence.classes.iter();
     let list = list.map(|class| (&class.bodies, &class.edges));
-    let (parts, owner) = setting
-        .structure
+    let (parts, owner) = structure
         .partition(piece, list)
         .within(|| "classes".into())?;
     ensure!(parts.len() >= 2, "fewer than two classes");
@@ -355,10 +376,10 @@ fn check_classes(
         scaled: Vec::new(),
     };
     for (k, (part, class)) in parts.iter().zip(&evidence.classes).enumerate() {
-        let inside = check_class(class, setting, part).within(|| format!("classes[{k}]"))?;
+        let inside = check_class(class, structure, part).within(|| format!("classes[{k}]"))?;
         if inside.is_none() {
             classes.others += 1;
-            classes.scaled.extend(scaled(setting, part));
+            classes.scaled.extend(scaled(structure, part));
         }
         classes.inside.extend(inside.into_iter().flatten());
     }
@@ -369,13 +390,13 @@ fn check_classes(
 /// in the third case.
 fn check_class(
     class: &document::Class,
-    setting: &Setting,
+    structure: &Structure,
     part: &Part,
 ) -> Checked<Option<Vec<Piece>>> {
     let single = part.len() == 1;
     if let Some(split) = &class.split {
         ensure!(!single, "a class that is single is not split");
-        return check_split(class, split, setting, part).map(Some);
+        return check_split(class, split, structure, part).map(Some);
     }
     if single {
         ensure!(
@@ -383,7 +404,8 @@ fn check_class(
             "evidence for a class that is single"
         );
     } else {
-        check_rigid_class(&class.evidence, setting, part)?;
+        let core = structure.core(part)?;
+        check_rigid(&class.evidence, structure.setting, &core)?;
     }
     Ok(None)
 }
@@ -394,36 +416,19 @@ fn check_class(
 fn check_split(
     class: &document::Class,
     split: &document::Split,
-    setting: &Setting,
+    structure: &Structure,
     part: &Part,
 ) -> Checked<Vec<Piece>> {
     ensure!(
-        setting.model == Model::Projective || setting.structure.is_scaled(part),
+        structure.setting.model == Model::Projective || structure.is_scaled(part),
         "a split class in the {} model",
-        setting.model
+        structure.setting.model
     );
     ensure!(
         class.evidence.is_empty(),
         "evidence for a class that is split"
     );
-    check_pieces(&split.rigid, &split.pieces, setting, part).within(|| "split".into())
-}
-
-/// Sees that a class is proved to be rigid by itself.
-fn check_rigid_class(evidence: &[Evidence], setting: &Setting, part: &Part) -> Checked<()> {
-    let core = setting.structure.core(part)?;
-    let required = setting.required_of_core(&core);
-    let mut is_rigid = false;
-    for (k, one) in evidence.iter().enumerate() {
-        let bound = check_lower(one, setting, &core);
-        let bound = bound.within(|| format!("evidence[{k}] ({})", one.kind()))?;
-        is_rigid |= bound.rank == required;
-    }
-    ensure!(
-        is_rigid,
-        "the class is not proved to have the rank {required} of its core"
-    );
-    Ok(())
+    check_pieces(&split.rigid, &split.pieces, structure, part).within(|| "split".into())
 }
 
 #[cfg(test)]

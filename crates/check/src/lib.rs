@@ -14,7 +14,7 @@
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed | 3 | 13.16 | `displacements` |
-//! | bodies come from parts and merges | 5 | 4.1, 4.9, 4.14, 13.9, 13.16 | `bodies` |
+//! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `evidence` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
@@ -156,23 +156,22 @@ impl Certificate {
             parts,
             groups: groups.unwrap_or_default(),
         };
-        let bodies = (from_start, &document.bodies[..]);
-        let structure = &structure::Structure::new(&graph, model, bodies, meter)?;
-        let setting = setting::Setting {
+        let setting = &setting::Setting {
             model,
             sha256,
-            structure,
             meter,
         };
+        let bodies = (from_start, &document.bodies[..]);
+        let structure = &structure::Structure::new(&graph, setting, bodies)?;
         let pieces = evidence::check_pieces(
             &document.rigid,
             &document.pieces,
-            &setting,
+            structure,
             &structure.everything,
         )?;
         let evidence = document.solutions.0.as_ref().map(|evidence| {
             let members = (&structure.everything, name.nodes);
-            let count = solutions::check(evidence, &setting, &pieces, members);
+            let count = solutions::check(evidence, structure, &pieces, members);
             count.within(|| "solutions".into())
         });
         let count = evidence.transpose()?;

@@ -11,7 +11,7 @@ use crate::pinching::check_pinching;
 use crate::pivots::{Pivots, eliminate};
 use crate::plane_flow::check_plane_flow;
 use crate::plane_minor::check_plane_minor;
-use crate::rejection::{Checked, Failure, ensure};
+use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
 
@@ -36,6 +36,22 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
         core.nodes
     );
     Ok(lower)
+}
+
+/// Sees that lower bounds show a core to be rigid.
+pub(crate) fn check_rigid(evidence: &[Evidence], setting: &Setting, core: &Core) -> Checked<()> {
+    let required = setting.required_of_core(core);
+    let mut is_rigid = false;
+    for (k, one) in evidence.iter().enumerate() {
+        let bound = check_lower(one, setting, core);
+        let bound = bound.within(|| format!("evidence[{k}] ({})", one.kind()))?;
+        is_rigid |= bound.rank == required;
+    }
+    ensure!(
+        is_rigid,
+        "not proved to have the rank {required} of its core"
+    );
+    Ok(())
 }
 
 /// Each matrix belongs to a question.

@@ -4,7 +4,7 @@ use crate::document::Model;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::Checked;
-use crate::structure::{Core, Part, Structure};
+use crate::structure::Core;
 
 impl Model {
     /// The rank at which nodes are solvable up to finitely many solutions (sections 3 and 6).
@@ -23,7 +23,6 @@ pub(crate) struct Setting<'a> {
     pub model: Model,
     /// The hash of the graph.
     pub sha256: [u8; 32],
-    pub structure: &'a Structure<'a>,
     pub meter: &'a Meter,
 }
 
@@ -33,14 +32,8 @@ impl Setting<'_> {
         [&self.sha256, &core.sha256]
     }
 
-    /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a
-    /// known displacement (section 6; theory, Theorem 13.16).
-    pub fn required(&self, part: &Part) -> i64 {
-        let nodes = self.structure.nodes(part).len();
-        self.model.required(nodes) + i64::from(self.structure.is_scaled(part))
-    }
-
-    /// The same of its core.
+    /// The rank of a core that is solvable up to finitely many solutions: one more if it holds a
+    /// known displacement (section 6; theory, Theorem 13.18).
     pub fn required_of_core(&self, core: &Core) -> i64 {
         self.model.required(core.nodes) + i64::from(!core.scales.is_empty())
     }

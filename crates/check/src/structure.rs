@@ -1,12 +1,13 @@
 //! Members - final bodies and loose edges -, the pieces and other sets of them, and the cores of
 //! these (section 6 of the specification).
 
-use crate::bodies::{Known, Rebuilt, build_all};
-use crate::document::{Body, Model, Pair};
+use crate::bodies::{Built, Known, build_all};
+use crate::document::{Body, Pair};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
+use crate::setting::Setting;
 use sha2::{Digest, Sha256};
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
@@ -28,11 +29,13 @@ impl BodiesOfNodes {
 /// The members of the graph.
 pub(crate) struct Structure<'a> {
     graph: &'a Graph,
-    meter: &'a Meter,
+    pub setting: &'a Setting<'a>,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
     bodies: Vec<Option<Vec<u32>>>,
     /// Whether each body holds a known displacement; so not one that is consumed.
     scaled: Vec<bool>,
+    /// Whether each body comes from the rules and what is known; so not one that is consumed.
+    unique: Vec<bool>,
     pub everything: Part,
 }
 
@@ -55,16 +58,17 @@ impl<'a> Structure<'a> {
     /// them covers (sections 5 and 6); rejects an edge covered twice.
     pub fn new(
         graph: &'a Graph,
-        model: Model,
+        setting: &'a Setting<'a>,
         (known, list): (Known, &[Body]),
-        meter: &'a Meter,
     ) -> Checked<Structure<'a>> {
-        let bodies = build_all(graph, model, known, list)?;
-        let scaled = |body: &Option<Rebuilt>| body.as_ref().is_some_and(|body| body.scaled);
+        let bodies = build_all(graph, setting, known, list)?;
+        let scaled = |body: &Option<Built>| body.as_ref().is_some_and(|body| body.scaled);
+        let unique = |body: &Option<Built>| body.as_ref().is_some_and(|body| body.unique);
         let mut structure = Structure {
             graph,
-            meter,
+            setting,
             scaled: bodies.iter().map(scaled).collect(),
+            unique: bodies.iter().map(unique).collect(),
             bodies: bodies
                 .into_iter()
                 .map(|body| body.map(|body| sorted(body.nodes)))
@@ -88,7 +92,9 @@ impl<'a> Structure<'a> {
             let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
             steps += short.len() as u64;
             if steps > 1 << 16 {
-                self.meter.charge(SPARSE * std::mem::take(&mut steps))?;
+                self.setting
+                    .meter
+                    .charge(SPARSE * std::mem::take(&mut steps))?;
             }
             let covering = short.iter().filter(|body| long.binary_search(body).is_ok());
             let covering = covering.count();
@@ -140,7 +146,9 @@ impl<'a> Structure<'a> {
         // The same bodies may be listed in many places. What is done with a list of members each
         // time sorts their nodes.
         let nodes = part.iter().map(|&member| self.nodes_of(member).len());
-        self.meter.charge(SPARSE * nodes.sum::<usize>() as u64)?;
+        self.setting
+            .meter
+            .charge(SPARSE * nodes.sum::<usize>() as u64)?;
         Ok(part)
     }
 
@@ -252,20 +260,56 @@ impl<'a> Structure<'a> {
         scaled.len() - roots.len()
     }
 
-    /// The core of a part (section 6; theory, Theorems 4.4, 4.11, 13.11 and 13.18).
+    /// Whether a member is not only rigid but unique: an edge, or a body that comes from the rules
+    /// and what is known.
+    pub fn is_unique(&self, member: usize) -> bool {
+        self.unique.get(member).is_none_or(|&unique| unique)
+    }
+
+    /// The rank of a part that is solvable up to finitely many solutions: one more if it holds a
+    /// known displacement (section 6; theory, Theorem 13.16).
+    pub fn required(&self, part: &[usize]) -> i64 {
+        let nodes = self.nodes(part).len();
+        self.setting.model.required(nodes) + i64::from(self.is_scaled(part))
+    }
+
+    /// The core of a part.
     pub fn core(&self, part: &Part) -> Checked<Core> {
-        let nodes = self.core_nodes(part);
-        self.meter.allow_core(nodes.len())?;
+        let members = part.iter().map(|&member| Joined {
+            nodes: self.nodes_of(member),
+            is_body: member < self.bodies.len(),
+            is_scaled: self.is_scaled(&[member]),
+        });
+        let name = |position: usize| self.name(part[position]);
+        Core::new(&members.collect::<Vec<_>>(), name, self.setting.meter)
+    }
+}
+
+/// A member, as its core needs it.
+pub(crate) struct Joined<'a> {
+    /// Its nodes, in increasing order.
+    pub nodes: &'a [u32],
+    pub is_body: bool,
+    /// Whether it holds a known displacement.
+    pub is_scaled: bool,
+}
+
+impl Core {
+    /// The core of members (section 6; theory, Theorems 4.4, 4.11, 13.11 and 13.18). The name of a
+    /// member is for people.
+    pub fn new(members: &[Joined], name: impl Fn(usize) -> String, meter: &Meter) -> Checked<Core> {
+        let nodes = core_nodes(members);
+        meter.allow_core(nodes.len())?;
         let (mut edges, mut scales) = (Vec::new(), Vec::new());
-        for (position, &member) in part.iter().enumerate() {
-            let inside = self.nodes_of(member).iter();
+        for (position, member) in members.iter().enumerate() {
+            let inside = member.nodes.iter();
             let chain: Vec<usize> = inside.flat_map(|node| nodes.binary_search(node)).collect();
             ensure!(
                 chain.len() >= 2,
                 "{} has fewer than two nodes in the core",
-                self.name(member)
+                name(position)
             );
-            if self.is_scaled(&[member]) {
+            if member.is_scaled {
                 scales.push((chain[0], chain[1]));
             }
             for distance in [1, 2] {
@@ -285,26 +329,24 @@ impl<'a> Structure<'a> {
             edges,
             is_scaled: member
                 .iter()
-                .map(|&position| self.is_scaled(&[part[position]]))
+                .map(|&position| members[position].is_scaled)
                 .collect(),
             member,
             scales,
         })
     }
+}
 
-    /// The ends of the part's edges, and the nodes that lie in two or more of its bodies.
-    fn core_nodes(&self, part: &Part) -> Vec<u32> {
-        // Nodes that come twice, if the ends of edges do in any case.
-        let times = |member| if member < self.bodies.len() { 1 } else { 2 };
-        let all = part
-            .iter()
-            .flat_map(|&member| std::iter::repeat_n(self.nodes_of(member), times(member)));
-        let all = sorted(all.flatten().copied());
-        let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
-        let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
-        nodes.dedup();
-        nodes
-    }
+/// The ends of the edges among members, and the nodes that lie in two or more of the bodies.
+fn core_nodes(members: &[Joined]) -> Vec<u32> {
+    // Nodes that come twice, if the ends of edges do in any case.
+    let edges = members.iter().filter(|member| !member.is_body);
+    let all = members.iter().chain(edges).map(|member| member.nodes);
+    let all = sorted(all.flatten().copied());
+    let twice = all.windows(2).filter(|pair| pair[0] == pair[1]);
+    let mut nodes: Vec<u32> = twice.map(|pair| pair[0]).collect();
+    nodes.dedup();
+    nodes
 }
 
 /// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in
@@ -325,7 +367,7 @@ fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
     hash.finalize().into()
 }
 
-fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
+pub(crate) fn sorted(nodes: impl IntoIterator<Item = u32>) -> Vec<u32> {
     let mut nodes: Vec<u32> = nodes.into_iter().collect();
     nodes.sort_unstable();
     nodes

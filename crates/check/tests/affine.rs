@@ -274,7 +274,7 @@ fn section_7_counting_and_classes() {
     refused(
         "affine-hinges",
         &changes,
-        "E/[2] (classes).classes[0]: the class is not proved to have the rank 36 of its core",
+        "E/[2] (classes).classes[0]: not proved to have the rank 36 of its core",
     );
 }
 

@@ -52,9 +52,10 @@ fn what_is_supposed_is_said() {
 
 #[test]
 fn section_3_groups() {
-    let parts = [("/parts", json!([[0, 1]]))];
+    let mut both = named("displaced-path");
+    both["parts"] = json!([[0, 1]]);
     let wanted = "displacements: there are known parts as well";
-    refused("displaced-path", &parts, wanted);
+    assert_eq!(rejection(&both, None), wanted);
     let refused = |groups: Value, wanted: &str| {
         let wanted = format!("displacements: {wanted}");
         refused("displaced-path", &[("/displacements", groups)], &wanted);
@@ -153,7 +154,7 @@ fn section_7_lower_bounds() {
             (&format!("{first}/rows/11"), json!("remove")),
             (&format!("{first}/cols/11"), json!("remove")),
         ],
-        "E/[2] (classes).classes[0]: the class is not proved to have the rank 12 of its core",
+        "E/[2] (classes).classes[0]: not proved to have the rank 12 of its core",
     );
 }
 

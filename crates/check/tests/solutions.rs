@@ -82,6 +82,22 @@ fn reflected(a: &Value, b: &Value) -> Value {
     json!(((2 * a + u128::from(P) - b) % u128::from(P)).to_string())
 }
 
+/// The triangle in `two` as a body by rank: it is rigid all the same, but nothing says unique.
+#[test]
+fn members_are_unique() {
+    let rows = [
+        0, 4, 1, 10, 3, 11, 7, 8, 12, 9, 13, 14, 20, 15, 21, 16, 22, 23,
+    ];
+    let cols = [0, 3, 1, 2, 4, 5, 6, 7, 8, 9, 10, 12, 13, 15, 16, 18, 19, 21];
+    let minor = json!({"kind": "minor", "prime": P.to_string(), "seed": "1", "draw": 0, "rows": &rows[..], "cols": &cols[..]});
+    let edges = [[0, 5], [0, 9], [5, 9]];
+    let seed = json!({"bodies": [], "edges": edges, "evidence": [minor]});
+    let body = json!({"seed": seed, "add": [], "merge": []});
+    let reason = reason(&changed("two", &[("/bodies/0", body)]));
+    let wanted = "solutions: solutions are counted between members that are unique";
+    assert!(reason.starts_with(wanted), "{reason}");
+}
+
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");

@@ -24,8 +24,7 @@ use crate::document::Model;
 use crate::evidence::Piece;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Within, ensure};
-use crate::setting::Setting;
-use crate::structure::Part;
+use crate::structure::{Part, Structure};
 use chart::Chart;
 use grammar::{Lower, Solutions, Upper};
 use members::Members;
@@ -62,26 +61,30 @@ impl fmt::Display for Count {
 /// nodes.
 pub(crate) fn check(
     evidence: &Solutions,
-    setting: &Setting,
+    structure: &Structure,
     pieces: &[Piece],
     (members, all): (&Part, usize),
 ) -> Checked<Count> {
     let is_finite = |piece: &Piece| {
-        let required = setting.model.required(piece.nodes);
+        let required = structure.setting.model.required(piece.nodes);
         !piece.is_rigid && piece.lower == required
     };
     ensure!(
-        setting.model == Model::Projective
+        structure.setting.model == Model::Projective
             && matches!(pieces, [piece] if is_finite(piece) && piece.nodes == all),
         "the graph is not one piece that is finite solvable, in the projective model"
     );
+    ensure!(
+        members.iter().all(|&member| structure.is_unique(member)),
+        "solutions are counted between members that are unique, and a body by rank is not shown to be"
+    );
     let nodes = members
         .iter()
-        .map(|&member| setting.structure.nodes_of(member).to_vec());
+        .map(|&member| structure.nodes_of(member).to_vec());
     let found = bounds(
         evidence,
         Members::new(nodes.collect()),
-        setting.meter,
+        structure.setting.meter,
         Of::Graph,
     )?;
     ensure!(

@@ -90,7 +90,7 @@ objects! {
     }
 
     BodyView<'a> {
-        seed: PartView,
+        seed: SeedView<'a>,
         add: &'a [[u32; 3]],
         merge: Vec<MergeView<'a>>,
     }
@@ -160,7 +160,7 @@ impl<'a> Document<'a> {
                 .contraction
                 .bodies
                 .iter()
-                .filter_map(BodyView::new)
+                .filter_map(|body| BodyView::new(body, verdict))
                 .collect(),
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
@@ -210,14 +210,37 @@ impl Serialize for PartView {
     }
 }
 
+/// What a body starts from; members that are rigid by their rank are written as a piece is.
+enum SeedView<'a> {
+    Part(PartView),
+    Rank(PieceView<'a>),
+}
+
+impl Serialize for SeedView<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Part(part) => part.serialize(serializer),
+            Self::Rank(members) => members.serialize(serializer),
+        }
+    }
+}
+
 impl<'a> BodyView<'a> {
     /// A body as it is built; `None` for what is known, which is there before the list begins.
-    fn new(body: &'a Body) -> Option<Self> {
+    fn new(body: &'a Body, verdict: &'a Verdict) -> Option<Self> {
         Some(Self {
             seed: match body.seed {
-                Seed::Edge(i, j) => PartView::Edge([i, j]),
-                Seed::Body(k) => PartView::Body(k),
+                Seed::Edge(i, j) => SeedView::Part(PartView::Edge([i, j])),
+                Seed::Body(k) => SeedView::Part(PartView::Body(k)),
                 Seed::Known => return None,
+                Seed::Rank(k) => {
+                    let members = &verdict.contraction.by_rank[k as usize];
+                    SeedView::Rank(PieceView {
+                        bodies: &members.bodies,
+                        edges: &members.edges,
+                        evidence: List(std::slice::from_ref(&verdict.by_rank[k as usize])),
+                    })
+                }
             },
             add: &body.add,
             merge: body.merge.iter().map(MergeView::new).collect(),
@@ -236,27 +259,16 @@ impl From<Part> for PartView {
 
 impl<'a> MergeView<'a> {
     fn new(merge: &'a Merge) -> Self {
-        match merge {
-            Merge::Scaled { part, at } => Self {
-                with: vec![(*part).into()],
-                at,
-            },
-            Merge::Shared { part, at } => Self {
-                with: vec![(*part).into()],
-                at,
-            },
-            Merge::Triangle { parts, at } => Self {
-                with: parts.iter().map(|&part| part.into()).collect(),
-                at,
-            },
-            Merge::Cycle { parts, at } => Self {
-                with: parts.iter().map(|&part| part.into()).collect(),
-                at,
-            },
-            Merge::Biclique { parts, at } => Self {
-                with: parts.iter().map(|&part| part.into()).collect(),
-                at,
-            },
+        let at: &[u32] = match merge {
+            Merge::Scaled { at, .. } => at,
+            Merge::Shared { at, .. } => at,
+            Merge::Triangle { at, .. } => at,
+            Merge::Cycle { at, .. } => at,
+            Merge::Biclique { at, .. } => at,
+        };
+        Self {
+            with: merge.parts().iter().map(|&part| part.into()).collect(),
+            at,
         }
     }
 }

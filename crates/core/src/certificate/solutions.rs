@@ -143,7 +143,8 @@ pub(super) fn view<'a>(
     };
     let is_known = solutions.at_least > 1 || solutions.at_most.is_some();
     let is_finite = verdict.value != Value::NotFiniteSolvable && verdict.rigid.is_empty();
-    if !is_known || !is_finite || verdict.model != Model::Projective {
+    let are_unique = verdict.contraction.by_rank.is_empty();
+    if !is_known || !is_finite || !are_unique || verdict.model != Model::Projective {
         return Ok(None);
     }
     let bodies = piece.members.bodies.iter();

@@ -6,7 +6,7 @@
 //! pairwise share a node. In the calibrated model four bodies around a cycle are one as well
 //! (rule 5 of Theorem 4.9), in the projective one six bodies around a K_{2,3} (Theorem 10.3). Known
 //! parts are bodies from the start (Theorem 4.14). Every step is recorded, and the record is the
-//! proof.
+//! proof. Bodies by rank (Proposition 4.15) are found by whoever decides, and go on here.
 
 pub(crate) mod piece;
 
@@ -25,7 +25,7 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Displacements, Graph, KnownParts};
+use crate::graph::{Adjacency, Displacements, Graph, KnownParts, Lists};
 use given::Given;
 use rest::Rest;
 use sweep::Swept;
@@ -40,6 +40,8 @@ pub enum Seed {
     /// What is known, and there from the start: the first bodies are the known parts, or the groups
     /// of known displacements, in their order.
     Known,
+    /// Members that are rigid together by their rank: an entry of [`Contraction::by_rank`].
+    Rank(u32),
 }
 
 /// Something that joins a body: an edge, or an earlier body.
@@ -102,6 +104,18 @@ pub enum Merge {
     },
 }
 
+impl Merge {
+    /// What joins.
+    pub fn parts(&self) -> &[Part] {
+        match self {
+            Self::Scaled { part, .. } | Self::Shared { part, .. } => std::slice::from_ref(part),
+            Self::Triangle { parts, .. } => parts,
+            Self::Cycle { parts, .. } => parts,
+            Self::Biclique { parts, .. } => parts,
+        }
+    }
+}
+
 /// A body and how it came to be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {
@@ -139,6 +153,9 @@ pub struct Contraction {
     pub finals: Vec<u32>,
     /// The edges that no body covers, in increasing order.
     pub loose: Vec<(u32, u32)>,
+    /// Earlier bodies and edges that are rigid together by their rank (Proposition 4.15), one entry
+    /// for each body that starts from such. They are rigid, and need not be unique.
+    pub by_rank: Vec<Members>,
 }
 
 impl Contraction {
@@ -181,9 +198,84 @@ impl Contraction {
             given::grow(&mut bodies, &mut remaining);
         }
         bodies.extend(grow::grow(&mut remaining));
+        Self::closed_by_triangles(graph, model, bodies, &remaining)
+    }
+
+    /// Goes on with more bodies in the projective model: for each of `unions`, members of this
+    /// contraction that are rigid together. They are not consumed; the rules that follow do that.
+    /// O(n) and what the rules take.
+    pub(crate) fn with_unions(self, graph: &Graph, unions: Vec<Members>) -> Self {
+        let Self {
+            mut bodies,
+            mut by_rank,
+            loose,
+            ..
+        } = self;
+        let first = by_rank.len() as u32;
+        let new: Vec<Body> = (first..)
+            .zip(&unions)
+            .map(|(k, union)| {
+                let held = union.bodies.iter();
+                let held = held.flat_map(|&body| &bodies[body as usize].nodes).copied();
+                let ends = union.edges.iter().flat_map(|&(i, j)| [i, j]);
+                let mut nodes: Vec<u32> = held.chain(ends).collect();
+                nodes.sort_unstable();
+                nodes.dedup();
+                Body {
+                    seed: Seed::Rank(k),
+                    add: Vec::new(),
+                    merge: Vec::new(),
+                    nodes,
+                    edges: 0,
+                    // Only known displacements are of known scale, in another model.
+                    scaled: false,
+                }
+            })
+            .collect();
+        bodies.extend(new);
+        by_rank.extend(unions);
+        let smaller = loose.iter().map(|&(i, j)| (j, i));
+        let neighbours = smaller.chain(loose.iter().copied());
+        let remaining = Adjacency::of_lists(Lists::group(graph.nodes(), neighbours));
+        Self {
+            by_rank,
+            ..Self::closed_by_triangles(graph, Model::Projective, bodies, &remaining)
+        }
+    }
+
+    /// Whether all final bodies come from the rules and what is known, so that they are not only
+    /// rigid but unique. O(size of the record).
+    pub fn are_unique_finals(&self) -> bool {
+        if self.by_rank.is_empty() {
+            return true;
+        }
+        let mut unique: Vec<bool> = Vec::with_capacity(self.bodies.len());
+        for body in &self.bodies {
+            let of_seed = match body.seed {
+                Seed::Edge(..) | Seed::Known => true,
+                Seed::Body(k) => unique[k as usize],
+                Seed::Rank(_) => false,
+            };
+            let is_unique = |part: &Part| match part {
+                Part::Edge(..) => true,
+                Part::Body(k) => unique[*k as usize],
+            };
+            let all = of_seed && body.merge.iter().flat_map(Merge::parts).all(is_unique);
+            unique.push(all);
+        }
+        self.finals.iter().all(|&k| unique[k as usize])
+    }
+
+    /// Closes bodies under the rules that need no cycle of four.
+    fn closed_by_triangles(
+        graph: &Graph,
+        model: Model,
+        mut bodies: Vec<Body>,
+        remaining: &Adjacency,
+    ) -> Self {
         let steps = bicliques::Steps::new(graph);
         loop {
-            let owners = merge::close(&mut bodies, &remaining, graph.nodes());
+            let owners = merge::close(&mut bodies, remaining, graph.nodes());
             let mut owned = Vec::new();
             let mut loose = Vec::new();
             for (v, w) in remaining.edges() {
@@ -239,6 +331,7 @@ impl Contraction {
             bodies,
             finals,
             loose,
+            by_rank: Vec::new(),
         }
     }
 
@@ -249,6 +342,7 @@ impl Contraction {
             bodies: Vec::new(),
             finals: Vec::new(),
             loose: graph.edges().to_vec(),
+            by_rank: Vec::new(),
         }
     }
 }

@@ -74,6 +74,7 @@ impl Rest {
             Seed::Edge(a, b) => (*a, *b) = self.edge((*a, *b)),
             Seed::Body(k) => *k += before,
             Seed::Known => (),
+            Seed::Rank(_) => unreachable!("nothing is known of ranks here"),
         }
         body.add.iter_mut().flatten().for_each(name);
         for merge in &mut body.merge {

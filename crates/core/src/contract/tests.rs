@@ -60,6 +60,14 @@ fn replay(graph: &Graph, known: Known, contraction: &Contraction) -> Vec<Nodes> 
                 assert!(bodies.len() + sets.len() == known.sets().len());
                 sets.next().expect("a set").clone()
             }
+            Seed::Rank(k) => {
+                let members = &contraction.by_rank[k as usize];
+                assert!(members.len() >= 2 && members.edges.iter().all(|&(i, j)| is_edge(i, j)));
+                let held = members.bodies.iter();
+                let held = held.flat_map(|&k| bodies[k as usize].clone().expect("not consumed"));
+                let ends = members.edges.iter().flat_map(|&(i, j)| [i, j]);
+                held.chain(ends).collect()
+            }
         };
         for &[v, a, b] in &body.add {
             assert!(a != b && nodes.contains(&a) && nodes.contains(&b));
@@ -343,6 +351,42 @@ fn rigidity_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
 
 fn graph(nodes: u32, pairs: &[(u32, u32)]) -> Graph {
     Graph::from_pairs(nodes, pairs.to_vec()).unwrap().0
+}
+
+/// Around a hexagon with a triangle on one side: what is said to be rigid together is a body, the rules
+/// go on from there, and bodies that it names are consumed by these.
+#[test]
+fn unions_go_on_by_the_rules() {
+    let ring = (0..6).map(|v| (v, (v + 1) % 6)).chain([(0, 6), (1, 6)]);
+    let graph = Graph::new(7, ring.map(|(a, b): (u32, u32)| (a.min(b), a.max(b)))).unwrap();
+    let before = Contraction::new(&graph, Model::Projective);
+    assert_eq!((before.finals.len(), before.loose.len()), (1, 5));
+    assert!(before.are_unique_finals());
+    let union = |bodies: &[u32], edges: &[(u32, u32)]| Members {
+        bodies: bodies.to_vec(),
+        edges: edges.to_vec(),
+    };
+    // They have the node 2 in common, and no rule applies to them.
+    let unions = vec![
+        union(&before.finals, &[(1, 2)]),
+        union(&[], &[(2, 3), (3, 4)]),
+    ];
+    let after = before.clone().with_unions(&graph, unions.clone());
+    assert_eq!(after.by_rank, unions);
+    assert!(!after.are_unique_finals());
+    let none = KnownParts::default();
+    let nodes = replay(&graph, Known::Parts(&none), &after);
+    // The one that consumes the triangle comes later.
+    assert_eq!(nodes, [Nodes::from([2, 3, 4]), Nodes::from([0, 1, 2, 6])]);
+    let covered = after.finals.iter().map(|&k| after.bodies[k as usize].edges);
+    assert_eq!(covered.collect::<Vec<_>>(), [2, 4]);
+    assert_eq!(after.loose, [(0, 5), (4, 5)]);
+
+    let last = after.with_unions(&graph, vec![union(&[], &[(0, 5), (4, 5)])]);
+    let nodes = replay(&graph, Known::Parts(&none), &last);
+    assert_eq!(nodes, [(0..7).collect::<Nodes>()]);
+    assert_eq!(last.bodies[last.finals[0] as usize].edges, 8);
+    assert_eq!((last.by_rank.len(), last.loose.len()), (3, 0));
 }
 
 #[test]

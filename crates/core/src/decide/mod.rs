@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! decide(graph)
-//!   contract   graph -> rigid bodies and loose edges, the members     theory 4.1, 4.14
+//!   contract   graph -> rigid bodies and loose edges, the members           theory 4.1, 4.14
+//!   by rank    of a large core, regions of full rank -> more bodies          4.15
 //!   split      members -> single ones, which are rigid, and pieces          4.3
 //!   piece      of each piece, side by side:
 //!     core       the nodes that its members share, a chain for every body   4.4
@@ -19,13 +20,15 @@
 //! ```
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
-//! pieces are in `one_piece`, their ranks at some centres in `drawn`, classes in `motion_class`,
-//! bounds in `counting` and `overlap`, the paper's own matrix (`--no-contraction`, `--rational`) in
-//! `whole_matrix`, the number of solutions in `solution_count`. What goes in is in `options`, what
-//! is found in [`evidence`], what comes out in `verdict`.
+//! pieces are in `one_piece`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
+//! centres in `drawn`, classes in `motion_class`, bounds in `counting` and `overlap`, the paper's
+//! own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
+//! `solution_count`. What goes in is in `options`, what is found in [`evidence`], what comes out in
+//! `verdict`.
 
 pub mod evidence;
 
+mod bodies_by_rank;
 mod claim;
 mod counting;
 mod drawn;
@@ -50,7 +53,7 @@ pub use verdict::{Component, UnknownValue, Value, Verdict};
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
-use crate::decide::evidence::PieceVerdict;
+use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::watch::{Step, Stopped};
@@ -78,6 +81,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         Contraction::none(graph)
     };
     work.done(0)?;
+    let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let assembly = Assembly::new(graph, &contraction);
     let all = assembly.all();
     let Split { rigid, pieces } = if options.contraction {
@@ -95,6 +99,7 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
         graph,
         options,
         assembly: &assembly,
+        by_rank,
         rigid,
         pieces,
     };
@@ -132,6 +137,8 @@ struct Found<'a> {
     graph: &'a Graph,
     options: &'a Options,
     assembly: &'a Assembly,
+    /// Why bodies by rank are rigid.
+    by_rank: Vec<Evidence>,
     /// The members that are pieces by themselves.
     rigid: Members,
     /// The other pieces.
@@ -146,7 +153,7 @@ impl Found<'_> {
         let rigid_rank = self.rigid_rank();
         let rank = rigid_rank + self.pieces.iter().map(|piece| piece.lower).sum::<usize>();
         let upper = rigid_rank + self.pieces.iter().map(|piece| piece.upper).sum::<usize>();
-        let value = self.value(rank);
+        let value = self.value(rank, &contraction);
         let value_strength = self.strength(value, upper);
         let solutions = self.solutions(value, &contraction)?;
         let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
@@ -163,6 +170,7 @@ impl Found<'_> {
             required: self.required(),
             components: self.components(&contraction),
             contraction,
+            by_rank: self.by_rank,
             rigid: self.rigid,
             pieces: self.pieces,
         })
@@ -183,25 +191,27 @@ impl Found<'_> {
         ranks.sum()
     }
 
-    /// The answer before solutions are counted: one body is unique (Corollary 4.2), one piece of
-    /// full rank is finite (Theorem 1.3) and in the other models unique (Theorems 4.8, 13.2 and,
-    /// with displacements, 13.20).
-    fn value(&self, rank: usize) -> Value {
+    /// The answer before solutions are counted: one body that comes from the rules and what is known
+    /// is unique (Corollary 4.2), one piece of full rank, a body by rank too, is finite (Theorem 1.3)
+    /// and in the other models unique (Theorems 4.8, 13.2 and, with displacements, 13.20).
+    fn value(&self, rank: usize, contraction: &Contraction) -> Value {
         let one_piece = self.rigid.len() + self.pieces.len() == 1;
         let all_nodes =
             |part: &Members| one_piece && self.assembly.count_nodes(part) == self.graph.nodes();
         let is_body = !self.rigid.is_empty() && all_nodes(&self.rigid);
         let is_full = rank == self.required()
-            && self
-                .pieces
-                .first()
-                .is_some_and(|piece| all_nodes(&piece.members));
+            && (is_body
+                || self
+                    .pieces
+                    .first()
+                    .is_some_and(|piece| all_nodes(&piece.members)));
+        let is_unique = is_body && contraction.are_unique_finals();
         match self.options.model {
             // Pieces may hang together in scaled bodies.
             _ if !self.options.displacements.is_empty() && rank == self.required() => {
                 Value::Solvable
             }
-            _ if is_body || self.graph.nodes() == 1 => Value::Solvable,
+            _ if is_unique || self.graph.nodes() == 1 => Value::Solvable,
             Model::Calibrated | Model::Affine if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
             _ => Value::NotFiniteSolvable,
@@ -215,8 +225,8 @@ impl Found<'_> {
         contraction: &Contraction,
     ) -> Result<Option<SolutionCount>, Stopped> {
         let effort = match self.options.contraction {
-            true => self.options.solutions,
-            false => CountSolutions::Off,
+            true if contraction.by_rank.is_empty() => self.options.solutions,
+            _ => CountSolutions::Off,
         };
         let seed = self.options.seed;
         let task = self.options.watch.task(Step::Solutions, self.graph.nodes());

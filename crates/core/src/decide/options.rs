@@ -63,7 +63,8 @@ pub enum CountSolutions {
     /// members of the graph share few nodes. The others stay finite solvable.
     #[default]
     Quick,
-    /// Solutions are counted whatever it takes: minutes, where many nodes are shared.
+    /// Solutions are counted whatever it takes: minutes, where many nodes are shared. They are
+    /// counted between unique members, so large cores are decided without bodies by rank.
     Full,
 }
 

@@ -3,7 +3,7 @@
 use crate::contract::Contraction;
 use crate::contract::piece::Members;
 use crate::decide::claim::{Claim, Strength};
-use crate::decide::evidence::PieceVerdict;
+use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::{Displacements, Graph, KnownParts};
@@ -154,6 +154,9 @@ pub struct Verdict {
     pub components: Vec<Component>,
     /// Bodies and loose edges.
     pub contraction: Arc<Contraction>,
+    /// Why each of the contraction's bodies by rank is rigid, in their order: a lower bound on the
+    /// rank of its core that is as large as can be.
+    pub by_rank: Vec<Evidence>,
     /// Pieces that are a single member.
     pub rigid: Members,
     /// The other pieces.

@@ -1,0 +1,213 @@
+//! Bodies by rank: parts of a large core that are rigid by themselves (docs/theory.md, Proposition
+//! 4.15).
+//!
+//! In: a contraction that leaves large cores, as it does of grids and of paths with loop closures.
+//! Out: the contraction with more bodies, and for each of them the lower bound that shows it.
+//! The graph is cut into regions of so many core nodes, and in each what has full rank is looked
+//! for; the rules go on from there, and so do regions of what is left. A region costs no more than
+//! its own core does, so graphs with small separators take time linear in their size, and a graph
+//! without (a random one) little besides the elimination of its core.
+
+use crate::contract::Contraction;
+use crate::contract::piece::{Assembly, Core, Members};
+use crate::decide::drawn::{Centres, Ranks};
+use crate::decide::error::VerdictError;
+use crate::decide::evidence::Evidence;
+use crate::decide::options::{Arithmetic, CountSolutions, Options};
+use crate::geometry::draw::DrawKey;
+use crate::geometry::model::Model;
+use crate::graph::{Adjacency, Graph, core_sha256};
+use rayon::prelude::*;
+use std::collections::VecDeque;
+
+/// Smaller cores are decided as they are, in some milliseconds.
+const LARGE_CORE: usize = 256;
+
+/// Core nodes of a region at first: the cost of all regions grows with the square of it, what they
+/// leave of a grid falls with its root.
+const REGION: usize = 96;
+
+/// Core nodes of the largest regions: what has no rigid part of this size is left as it is.
+const LARGEST_REGION: usize = 384;
+
+/// Goes on from a contraction with bodies by rank. Returns it with a lower bound for each of them.
+/// Only the projective model has cores that are worth it, so nothing is known of scales here; and as these bodies need not be unique,
+/// none is looked for where solutions are to be counted whatever it takes.
+///
+/// # Errors
+/// If the work was stopped.
+pub(super) fn extend(
+    graph: &Graph,
+    mut contraction: Contraction,
+    sha256: &[u8; 32],
+    options: &Options,
+) -> Result<(Contraction, Vec<Evidence>), VerdictError> {
+    let mut evidence = Vec::new();
+    let is_wanted = options.model == Model::Projective
+        && options.contraction
+        && options.arithmetic == Arithmetic::Prime
+        && options.solutions != CountSolutions::Full;
+    let mut size = REGION;
+    while is_wanted && size <= LARGEST_REGION && may_be_large(&contraction) {
+        let assembly = Assembly::new(graph, &contraction);
+        let large = large_pieces(&assembly);
+        if large.iter().all(|(_, core)| core.nodes.len() < 2 * size) {
+            break;
+        }
+        let search = Search {
+            assembly: &assembly,
+            sha256,
+            options,
+        };
+        let regions = regions(graph, &contraction, &large, size);
+        let found = regions.par_iter().map(|region| search.rigid_parts(region));
+        let found: Vec<_> = found.collect::<Result<_, VerdictError>>()?;
+        let (unions, bounds): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
+        if unions.is_empty() {
+            size *= 2;
+            continue;
+        }
+        evidence.extend(bounds);
+        contraction = contraction.with_unions(graph, unions);
+    }
+    Ok((contraction, evidence))
+}
+
+/// Whether there may be a large core: its nodes are ends of loose edges, or shared by two bodies, of
+/// which any two share one node at most.
+fn may_be_large(contraction: &Contraction) -> bool {
+    let (bodies, edges) = (contraction.finals.len(), contraction.loose.len());
+    2 * edges + bodies.saturating_mul(bodies) / 2 >= LARGE_CORE
+}
+
+/// The pieces with large cores.
+fn large_pieces(assembly: &Assembly) -> Vec<(Members, Core)> {
+    let pieces = assembly.split(&assembly.all()).pieces.into_iter();
+    // A core has no more nodes than its piece.
+    let pieces = pieces.filter(|members| assembly.count_nodes(members) >= LARGE_CORE);
+    let cores = pieces.map(|members| {
+        let core = assembly.core(&members);
+        (members, core)
+    });
+    cores
+        .filter(|(_, core)| core.nodes.len() >= LARGE_CORE)
+        .collect()
+}
+
+/// Members of pieces by regions of so many core nodes: an edge is in the region that has both its
+/// ends, a body in all that have two of its core nodes. O(n + m) and sorting.
+fn regions(
+    graph: &Graph,
+    contraction: &Contraction,
+    pieces: &[(Members, Core)],
+    size: usize,
+) -> Vec<Members> {
+    let mut in_core = vec![false; graph.nodes()];
+    for &v in pieces.iter().flat_map(|(_, core)| &core.nodes) {
+        in_core[v as usize] = true;
+    }
+    let (region_of, count) = partition(graph, &in_core, size);
+    let mut regions = vec![Members::default(); count];
+    for (members, _) in pieces {
+        for &(i, j) in &members.edges {
+            if region_of[i as usize] == region_of[j as usize] {
+                regions[region_of[i as usize] as usize].edges.push((i, j));
+            }
+        }
+        for &body in &members.bodies {
+            let nodes = contraction.bodies[body as usize].nodes.iter();
+            let nodes = nodes.filter(|&&v| in_core[v as usize]);
+            let mut met: Vec<u32> = nodes.map(|&v| region_of[v as usize]).collect();
+            met.sort_unstable();
+            for same in met.chunk_by(|a, b| a == b).filter(|same| same.len() >= 2) {
+                regions[same[0] as usize].bodies.push(body);
+            }
+        }
+    }
+    for region in &mut regions {
+        region.edges.sort_unstable();
+        region.bodies.sort_unstable();
+    }
+    regions.retain(|region| region.len() >= 2);
+    regions
+}
+
+/// A number below the number of regions for every node: regions are found breadth first, each
+/// beside the one before, until it has so many core nodes.
+fn partition(graph: &Graph, in_core: &[bool], size: usize) -> (Vec<u32>, usize) {
+    const NONE: u32 = u32::MAX;
+    let neighbours = Adjacency::new(graph);
+    let mut region_of = vec![NONE; graph.nodes()];
+    let mut regions = 0;
+    // Where a region ended the next one begins.
+    let mut edge: VecDeque<u32> = VecDeque::new();
+    for first in 0..graph.nodes() as u32 {
+        edge.push_back(first);
+        while let Some(start) = edge.pop_front() {
+            if region_of[start as usize] != NONE {
+                continue;
+            }
+            let mut queue = VecDeque::from([start]);
+            let mut held = 0;
+            while let Some(v) = queue.pop_front() {
+                if region_of[v as usize] != NONE {
+                    continue;
+                }
+                if held == size {
+                    queue.push_front(v);
+                    break;
+                }
+                region_of[v as usize] = regions;
+                held += usize::from(in_core[v as usize]);
+                queue.extend(neighbours.neighbours(v));
+            }
+            edge.extend(queue);
+            regions += 1;
+        }
+    }
+    (region_of, regions as usize)
+}
+
+struct Search<'a> {
+    assembly: &'a Assembly,
+    sha256: &'a [u8; 32],
+    options: &'a Options,
+}
+
+impl Search<'_> {
+    /// Parts of two members or more that have full rank by themselves, each with the lower bound
+    /// that shows it. No member is in two of them.
+    fn rigid_parts(&self, members: &Members) -> Result<Vec<(Members, Evidence)>, VerdictError> {
+        let mut found = Vec::new();
+        let mut left = self.assembly.split(members).pieces;
+        while let Some(piece) = left.pop() {
+            let core = self.assembly.core(&piece);
+            let key = DrawKey {
+                graph_sha256: *self.sha256,
+                core_sha256: Some(core_sha256(&core.nodes, &core.graph)),
+                seed: self.options.seed,
+                draw: 0,
+            };
+            let nodes = core.graph.nodes();
+            let field = self.options.prime.for_core(nodes);
+            // A prime too small for so many centres proves nothing here.
+            let Ok(at) = Centres::draw(&field, nodes, key) else {
+                continue;
+            };
+            let ranks = Ranks::new(self.options.model, &self.options.watch, &at, &core)?;
+            if ranks.rank == self.options.model.required(nodes) {
+                found.push((piece, ranks.evidence()));
+            } else if let Some((classes, _)) = ranks.classes(&piece)
+                && classes.len() >= 2
+            {
+                for class in classes {
+                    left.extend(self.assembly.split(&class).pieces);
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+#[cfg(test)]
+mod tests;
