@@ -34,6 +34,8 @@ pub(crate) struct Verified {
     sha256: String,
     /// How many known parts are taken for given.
     parts: usize,
+    /// Between how many sets of nodes displacements are taken for given.
+    displacements: usize,
     /// The question.
     model: String,
     /// All of it in words.
@@ -57,6 +59,7 @@ impl From<viewcert_check::Verified> for Verified {
             nodes: verified.nodes,
             edges: verified.edges,
             parts: verified.parts,
+            displacements: verified.displacements.as_ref().map_or(0, |known| known.groups),
             model: verified.model.to_string(),
             text: verified.to_string(),
             sha256: verified.sha256,

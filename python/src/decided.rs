@@ -10,6 +10,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use viewcert::graph::Displacements;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Model, Options, Prime, Verdict};
@@ -33,7 +34,8 @@ pub(crate) struct Decided {
 #[pyfunction]
 #[pyo3(signature = (
     graph, *, model, seed, planar=false, solutions=Some("quick"), bounds=None, prime=None,
-    contraction=true, counting=true, parts=None, time_limit=None, memory_limit=None, progress=None
+    contraction=true, counting=true, parts=None, displacements=None, time_limit=None,
+    memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn decide(
@@ -48,6 +50,7 @@ pub(crate) fn decide(
     contraction: bool,
     counting: bool,
     parts: Option<Vec<Vec<u32>>>,
+    displacements: Option<Vec<Vec<u32>>>,
     time_limit: Option<f64>,
     memory_limit: Option<u64>,
     progress: Option<Py<PyAny>>,
@@ -95,8 +98,15 @@ pub(crate) fn decide(
         let notes = known.notes.iter().map(|note| format!("parts: {note}"));
         Arc::make_mut(&mut input).notes.extend(notes);
     }
+    let groups = displacements.unwrap_or_default();
+    // Each set as a star: displacements add up.
+    let stars = groups.iter().filter_map(|group| group.split_first());
+    let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
+    let displacements = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
+    let displacements = displacements.map_err(|error| wrong(&format!("displacements: {error}")))?;
     let options = Options::default()
         .known_parts(known.parts)
+        .displacements(displacements)
         .model(model)
         .arithmetic(arithmetic)
         .prime(prime)
@@ -161,6 +171,11 @@ impl Decided {
             verdict.components_claim().strength,
         ]
         .map(|strength| (strength.name(), strength.error_log2()))
+    }
+
+    /// The sets of nodes whose displacements it takes for given.
+    fn displacements(&self) -> Vec<Vec<u32>> {
+        self.verdict.displacements.groups().to_vec()
     }
 
     /// The known parts that it rests on.

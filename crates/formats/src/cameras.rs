@@ -1,9 +1,17 @@
-//! The nodes of a graph by what the user calls them.
+//! Files beside a graph, which name its cameras: what is common to them.
+//!
+//! In: a text, and the graph. Out: its lines, and the nodes by what the user calls them. Fields,
+//! quotes and comments are those of edge lists (docs/certificate.md, section 2).
 
 use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 use crate::NamedGraph;
 use crate::edge_list::fields::integer;
+use crate::edge_list::{BYTE_ORDER_MARK, text};
+use crate::error::{Fault, Place, Problem, ReadError};
 use viewcert::graph::Labels;
 
 /// The nodes of a graph by their labels.
@@ -41,4 +49,43 @@ impl<'a> Cameras<'a> {
         let node = u32::try_from(place).ok()?;
         ((node as usize) < self.nodes).then_some(node)
     }
+}
+
+/// Reads a file (`-` is standard input); its notes begin with its name.
+pub(crate) fn read_file<T>(
+    path: &Path,
+    read: impl FnOnce(&mut dyn Read) -> Result<T, Fault>,
+    notes: impl FnOnce(&mut T) -> &mut Vec<String>,
+) -> Result<T, ReadError> {
+    let name = path.display().to_string();
+    let found = if path == Path::new("-") {
+        read(&mut std::io::stdin().lock())
+    } else {
+        let file = File::open(path).map_err(|error| Place::Input.fault(error.into()));
+        file.and_then(|mut file| read(&mut file))
+    };
+    let mut found = found.map_err(|fault| fault.in_file(&name))?;
+    for note in notes(&mut found) {
+        *note = format!("{name}: {note}");
+    }
+    Ok(found)
+}
+
+/// Goes through the lines of a text, from line 1 on, with the cameras of a graph.
+pub(crate) fn for_each_line(
+    mut input: impl Read,
+    graph: &NamedGraph,
+    mut each: impl FnMut(u64, &str, &Cameras) -> Result<(), Problem>,
+) -> Result<(), Fault> {
+    let mut bytes = Vec::new();
+    let read = input.read_to_end(&mut bytes);
+    read.map_err(|error| Place::Input.fault(error.into()))?;
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
+    let cameras = Cameras::new(graph);
+    for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
+        let taken = text(line).and_then(|line| each(number, line, &cameras));
+        taken.map_err(|problem| Place::Line(number).fault(problem))?;
+    }
+    Ok(())
 }

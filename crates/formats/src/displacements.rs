@@ -6,14 +6,12 @@
 //! 2: fields as in edge lists, two labels per line or one, and no head (docs/models.md).
 
 use std::collections::BTreeSet;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use crate::NamedGraph;
-use crate::cameras::Cameras;
+use crate::cameras::{Cameras, for_each_line, read_file};
 use crate::edge_list::fields::{Field, split};
-use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
 use viewcert::graph::{Displacements, Graph};
 use viewcert::wording::counted;
@@ -37,37 +35,17 @@ pub fn read_displacements(
     path: impl AsRef<Path>,
     input: &NamedGraph,
 ) -> Result<NamedDisplacements, ReadError> {
-    let path = path.as_ref();
-    let name = path.display().to_string();
-    let found = if path == Path::new("-") {
-        read(std::io::stdin().lock(), input)
-    } else {
-        let file = File::open(path).map_err(|error| Place::Input.fault(error.into()));
-        file.and_then(|file| read(file, input))
-    };
-    let mut found = found.map_err(|fault| fault.in_file(&name))?;
-    for note in &mut found.notes {
-        *note = format!("{name}: {note}");
-    }
-    Ok(found)
+    let read = |text: &mut dyn Read| read(text, input);
+    read_file(path.as_ref(), read, |found| &mut found.notes)
 }
 
 /// Reads the known displacements of a graph; see [`read_displacements`].
 ///
 /// # Errors
 /// As there, but for the name of the file.
-pub fn read(mut input: impl Read, graph: &NamedGraph) -> Result<NamedDisplacements, Fault> {
-    let mut bytes = Vec::new();
-    let read = input.read_to_end(&mut bytes);
-    read.map_err(|error| Place::Input.fault(error.into()))?;
-    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
-    let cameras = Cameras::new(graph);
+pub fn read(input: impl Read, graph: &NamedGraph) -> Result<NamedDisplacements, Fault> {
     let mut lines = Lines::default();
-    for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let taken = text(line).and_then(|line| lines.take(line, &cameras));
-        taken.map_err(|problem| Place::Line(number).fault(problem))?;
-    }
+    for_each_line(input, graph, |_, line, cameras| lines.take(line, cameras))?;
     lines.finish(&graph.graph)
 }
 

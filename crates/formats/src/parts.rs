@@ -4,16 +4,14 @@
 //! ([`KnownParts`]), with notes about what counts once or says nothing. The grammar is that of
 //! docs/certificate.md, section 2: fields as in edge lists, all of them labels, and no head.
 
-use std::collections::HashMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use crate::NamedGraph;
-use crate::edge_list::fields::{Field, integer, split};
-use crate::edge_list::{BYTE_ORDER_MARK, text};
+use crate::cameras::{Cameras, for_each_line, read_file};
+use crate::edge_list::fields::{Field, split};
 use crate::error::{Fault, Place, Problem, ReadError};
-use viewcert::graph::{GraphError, KnownParts, Labels, Lists};
+use viewcert::graph::{GraphError, KnownParts, Lists};
 use viewcert::wording::counted;
 
 /// Known parts as they were read.
@@ -50,76 +48,24 @@ impl NamedParts {
 /// With file and line: what the grammar excludes, a label that the graph does not have; a file
 /// that cannot be read or holds no part.
 pub fn read_parts(path: impl AsRef<Path>, input: &NamedGraph) -> Result<NamedParts, ReadError> {
-    let path = path.as_ref();
-    let name = path.display().to_string();
-    let found = if path == Path::new("-") {
-        read(std::io::stdin().lock(), input)
-    } else {
-        let file = File::open(path).map_err(|error| Place::Input.fault(error.into()));
-        file.and_then(|file| read(file, input))
-    };
-    let mut found = found.map_err(|fault| fault.in_file(&name))?;
-    for note in &mut found.notes {
-        *note = format!("{name}: {note}");
-    }
-    Ok(found)
+    let read = |text: &mut dyn Read| read(text, input);
+    read_file(path.as_ref(), read, |found| &mut found.notes)
 }
 
 /// Reads the known parts of a graph; see [`read_parts`].
 ///
 /// # Errors
 /// As there, but for the name of the file.
-pub fn read(mut input: impl Read, graph: &NamedGraph) -> Result<NamedParts, Fault> {
-    let mut bytes = Vec::new();
-    let read = input.read_to_end(&mut bytes);
-    read.map_err(|error| Place::Input.fault(error.into()))?;
-    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
-    let cameras = Cameras::new(graph);
+pub fn read(input: impl Read, graph: &NamedGraph) -> Result<NamedParts, Fault> {
     let mut lines = Lines::default();
-    for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        let taken = text(line).and_then(|line| lines.take(number, line, &cameras));
-        taken.map_err(|problem| Place::Line(number).fault(problem))?;
-    }
+    for_each_line(input, graph, |number, line, cameras| {
+        lines.take(number, line, cameras)
+    })?;
     if lines.first.is_none() {
         return Err(Place::Input.fault(Problem::NoParts));
     }
     let nodes = graph.graph.nodes() as u32;
     Ok(lines.finish(nodes, true).expect("nodes of the graph"))
-}
-/// The nodes of a graph by their labels.
-struct Cameras<'a> {
-    labels: &'a Labels,
-    nodes: usize,
-    named: HashMap<&'a str, u32>,
-}
-
-impl<'a> Cameras<'a> {
-    fn new(graph: &'a NamedGraph) -> Self {
-        let named = match &graph.labels {
-            Labels::Names(names) | Labels::CamerasAndPoints(names) => {
-                names.iter().map(|name| &**name).zip(0..).collect()
-            }
-            Labels::Numbers { .. } | Labels::Integers(_) => HashMap::new(),
-        };
-        Self {
-            labels: &graph.labels,
-            nodes: graph.graph.nodes(),
-            named,
-        }
-    }
-
-    fn node(&self, label: &str) -> Option<u32> {
-        let place = match self.labels {
-            Labels::Numbers { first } => integer(label)?.checked_sub(*first)?,
-            Labels::Integers(values) => values.binary_search(&integer(label)?).ok()? as u64,
-            Labels::Names(_) | Labels::CamerasAndPoints(_) => {
-                return self.named.get(label).copied();
-            }
-        };
-        let node = u32::try_from(place).ok()?;
-        ((node as usize) < self.nodes).then_some(node)
-    }
 }
 
 /// What is left out, and the first line where something is.
@@ -243,6 +189,7 @@ fn nested(parts: &KnownParts, nodes: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use viewcert::graph::Labels;
     use viewcert::Graph;
 
     fn path(labels: Labels) -> NamedGraph {

@@ -115,8 +115,10 @@ class Graph:
         return dict(zip(texts, nodes))
 
 
-def numbered(graph: Graph, parts: Iterable[Iterable[Node]]) -> List[List[int]]:
-    """Sets of nodes, by the numbers of the nodes.
+def numbered(
+    graph: Graph, parts: Iterable[Iterable[Node]], what: str = "parts"
+) -> List[List[int]]:
+    """Sets of nodes, by the numbers of the nodes; `what` is the argument that they came as.
 
     Raises
     ------
@@ -127,13 +129,13 @@ def numbered(graph: Graph, parts: Iterable[Iterable[Node]]) -> List[List[int]]:
     found = []
     for part in parts:
         if isinstance(part, (str, bytes)):
-            raise InputError(f"parts: {part!r} is no set of nodes; give a list of such sets")
+            raise InputError(f"{what}: {part!r} is no set of nodes; give a list of such sets")
         try:
             found.append([numbers[node] for node in part])
         except KeyError as error:
-            raise InputError(f"parts: {error.args[0]!r} is no node of the graph") from None
+            raise InputError(f"{what}: {error.args[0]!r} is no node of the graph") from None
         except TypeError:
-            raise InputError(f"parts: {part!r} is no set of nodes; give a list of such sets") from None
+            raise InputError(f"{what}: {part!r} is no set of nodes; give a list of such sets") from None
     return found
 
 

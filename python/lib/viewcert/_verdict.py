@@ -164,6 +164,13 @@ class Verdict:
         return [frozenset(nodes[number] for number in part) for part in self._native.parts()]
 
     @property
+    def displacements(self) -> List[FrozenSet[Node]]:
+        """The sets of nodes between which the answer takes the vectors for given."""
+        nodes = self._graph.nodes
+        groups = self._native.displacements()
+        return [frozenset(nodes[number] for number in group) for group in groups]
+
+    @property
     def model(self) -> str:
         """The question: ``'projective'``, ``'calibrated'`` or ``'affine'``. What was asked as
         ``'focal'`` is decided as calibrated, see `conditions`."""
@@ -373,6 +380,7 @@ def verify(
     contraction: bool = True,
     counting: bool = True,
     parts: Optional[Iterable[Iterable[Node]]] = None,
+    displacements: Optional[Iterable[Iterable[Node]]] = None,
     name: Optional[str] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
@@ -410,6 +418,11 @@ def verify(
         Known parts: sets of nodes whose cameras are known relative to each other, from trifocal
         tensors, rigs or partial reconstructions. Each is as good as all its pairs, in every model,
         and costs no more than its nodes. The certificate states them.
+    displacements : iterable of iterables of nodes, optional
+        Sets of nodes between whose cameras not only the direction but the vector is known: the two
+        of a stereo rig, all that have GPS. Calibrated cameras (and ``'focal'``) only, and not
+        together with `parts`. Sets with a node in common are one. The scale is determined as well.
+        The certificate states them; see `Verdict.conditions`.
     name : str, optional
         What reports and certificates call the graph.
     time_limit : float, optional
@@ -446,6 +459,9 @@ def verify(
     >>> rig = viewcert.verify([(0, 1), (1, 2), (2, 3), (1, 3)], parts=[[0, 1, 2]])
     >>> rig.value, rig.parts
     ('solvable', [frozenset({0, 1, 2})])
+    >>> pairs, rigs = [(0, 2), (0, 3), (1, 2)], [(0, 1), (2, 3)]
+    >>> viewcert.verify(pairs, model="calibrated", displacements=rigs).value
+    'solvable'
     """
     given = as_graph(graph, name)
     points = given.cameras is not None
@@ -468,6 +484,17 @@ def verify(
     known = None if parts is None else numbered(given, parts)
     if known and points:
         raise InputError("parts: tracks are decided by themselves; leave out one of the two")
+    groups = None if displacements is None else numbered(given, displacements, "displacements")
+    if groups:
+        refused = {
+            f"the {chosen} model": chosen not in ("calibrated", "focal"),
+            "parts": bool(known),
+            "tracks": points,
+            "planar=True": planar,
+            "contraction=False": not contraction,
+        }
+        for other in (other for other, asked in refused.items() if asked):
+            raise InputError(f"displacements: not with {other}; leave out one of the two")
     if not 0 <= seed < 2**64:
         raise InputError(f"seed={seed}: a seed is at least 0 and below 2^64")
     if rational and not (1 <= numerator <= 100 and 1 <= denominator <= 12):
@@ -484,6 +511,7 @@ def verify(
             contraction=contraction,
             counting=counting,
             parts=known,
+            displacements=groups,
             time_limit=time_limit,
             memory_limit=memory_limit,
             progress=callback,

@@ -1,0 +1,60 @@
+"""Known displacements: the scale is determined as well, and certificates say what is taken for given."""
+
+from __future__ import annotations
+
+import json
+import pathlib
+
+import networkx as nx
+import pytest
+import viewcert
+from conftest import Program, untimed
+
+RIGS = [("a", "b"), ("c", "d")]
+PAIRS = [("a", "c"), ("a", "d"), ("b", "c")]
+
+
+def test_two_rigs() -> None:
+    """3 * 4 - 3; three pairs alone have rank 6 of 3 * 4 - 4."""
+    alone = viewcert.verify(PAIRS, model="calibrated")
+    assert (alone.value, alone.rank, alone.required) == ("not-finite-solvable", 6, 8)
+    for model in ("calibrated", "focal"):
+        verdict = viewcert.verify(PAIRS, model=model, displacements=RIGS)
+        assert (verdict.value, verdict.rank, verdict.required) == ("solvable", 9, 9)
+        assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
+        assert any("displacements" in condition for condition in verdict.conditions)
+        verified = viewcert.check(verdict)
+        assert (verified.rank, verified.displacements) == (9, 2)
+    assert viewcert.check(alone).displacements == 0
+
+
+def test_sets_that_meet_are_one() -> None:
+    verdict = viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "b", "d"), ("b", "c")])
+    assert verdict.displacements == [frozenset("abcd")]
+    assert verdict.value == "solvable"
+
+
+def test_what_does_not_go_together() -> None:
+    for options, words in [
+        ({}, "the projective model"),
+        ({"model": "affine"}, "the affine model"),
+        ({"model": "calibrated", "parts": RIGS}, "parts"),
+        ({"model": "calibrated", "planar": True}, "planar"),
+        ({"model": "calibrated", "contraction": False}, "contraction"),
+    ]:
+        with pytest.raises(viewcert.InputError, match=f"displacements: not with {words}"):
+            viewcert.verify(PAIRS, displacements=RIGS, **options)
+    with pytest.raises(viewcert.InputError, match="displacements: 'x' is no node"):
+        viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "x")])
+
+
+def test_the_program_says_the_same(program: Program, tmp_path: pathlib.Path) -> None:
+    graph = nx.random_regular_graph(3, 12, seed=5)
+    (tmp_path / "pairs.txt").write_text("".join(f"{i} {j}\n" for i, j in graph.edges))
+    (tmp_path / "rigs.txt").write_text("0 1\n2 3\n4 5\n")
+    options = ("--model", "calibrated", "--displacements", "rigs.txt", "--certificate", "one.json")
+    [expected] = program.json("pairs.txt", *options, cwd=tmp_path)
+    rigs = [(0, 1), (2, 3), (4, 5)]
+    verdict = viewcert.verify(graph, model="calibrated", displacements=rigs, name="pairs.txt")
+    assert untimed(verdict.to_dict()) == untimed(expected)
+    assert json.loads(verdict.certificate()) == json.loads((tmp_path / "one.json").read_text())
