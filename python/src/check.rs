@@ -59,7 +59,10 @@ impl From<viewcert_check::Verified> for Verified {
             nodes: verified.nodes,
             edges: verified.edges,
             parts: verified.parts,
-            displacements: verified.displacements.as_ref().map_or(0, |known| known.groups),
+            displacements: verified
+                .displacements
+                .as_ref()
+                .map_or(0, |known| known.groups),
             model: verified.model.to_string(),
             text: verified.to_string(),
             sha256: verified.sha256,

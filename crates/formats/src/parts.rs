@@ -189,8 +189,8 @@ fn nested(parts: &KnownParts, nodes: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use viewcert::graph::Labels;
     use viewcert::Graph;
+    use viewcert::graph::Labels;
 
     fn path(labels: Labels) -> NamedGraph {
         let graph = Graph::new(4, [(0, 1), (1, 2), (2, 3)]).unwrap();
