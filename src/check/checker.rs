@@ -7,7 +7,9 @@ use viewcert::certificate::hex;
 use viewcert::graph::sha256;
 use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verdict, Verified};
 use viewcert_formats::read::graphs;
-use viewcert_formats::{ReadOptions, read_displacements, read_graphs, read_parts};
+use viewcert_formats::{
+    NamedGraph, ReadError, ReadOptions, read_displacements, read_graphs, read_parts,
+};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -133,19 +135,26 @@ fn supposed(
     let name = path
         .to_str()
         .context("the path of the graph is not UTF-8")?;
+    let input = meant(certificate, read_graphs(name, options), name)?;
+    Ok(hex(&read_displacements(file, &input)?.known.sha256()))
+}
+
+/// The graph that a certificate is about, or else the first one.
+fn meant(
+    certificate: &Certificate,
+    inputs: impl Iterator<Item = Result<NamedGraph, ReadError>>,
+    name: &str,
+) -> Result<NamedGraph> {
     let mut first = None;
-    for input in read_graphs(name, options) {
+    for input in inputs {
         let input = input?;
         let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
-        if wanted || first.is_none() {
-            first = Some(input);
-        }
         if wanted {
-            break;
+            return Ok(input);
         }
+        first.get_or_insert(input);
     }
-    let input = first.with_context(|| format!("{name}: the file holds no graph"))?;
-    Ok(hex(&read_displacements(file, &input)?.known.sha256()))
+    first.with_context(|| format!("{name}: the file holds no graph"))
 }
 
 /// The graph in a file that a certificate is about; see [`check_for`].
@@ -196,23 +205,12 @@ fn converted(
     options: ReadOptions,
 ) -> Result<Graph> {
     let name = path.display().to_string();
-    let mut first = None;
     // Some formats are read from their place only.
     let inputs = match path.to_str().filter(|_| path.is_file() || path.is_dir()) {
         Some(path) => read_graphs(path, &options),
         None => graphs(name.clone(), Cursor::new(bytes), options),
     };
-    for input in inputs {
-        let input = input?;
-        let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
-        if wanted || first.is_none() {
-            first = Some(input);
-        }
-        if wanted {
-            break;
-        }
-    }
-    let input = first.with_context(|| format!("{name}: the file holds no graph"))?;
+    let input = meant(certificate, inputs, &name)?;
     let pairs = input.graph.edges().iter().copied();
     let graph = Graph::new(input.graph.nodes(), pairs).with_context(|| name)?;
     let Some(parts) = parts else {
