@@ -142,32 +142,32 @@ impl Collector {
     /// Reads a text; the next part of it comes in while the lines of the last one are read.
     fn read(&mut self, mut input: impl Read) -> Result<(), Fault> {
         let failed = |error: io::Error| Place::Input.fault(error.into());
-        let mut buffer = vec![0; READ];
-        let mut next = vec![0; READ];
-        let mut end = fill(&mut input, &mut buffer, 0).map_err(failed)?;
-        while end == buffer.len() {
-            let last = buffer.iter().rposition(|&b| b == b'\n');
+        let (mut text, mut next) = (Vec::new(), Vec::new());
+        let mut is_full = fill(&mut input, &mut text).map_err(failed)?;
+        while is_full {
+            let last = text.iter().rposition(|&b| b == b'\n');
             let complete = last.map_or(0, |last| last + 1);
-            let (lines, rest) = buffer.split_at(complete);
+            let (lines, rest) = text.split_at(complete);
             if rest.len() > LINE_LIMIT {
                 self.lines(lines)?;
                 return Err(self.long_line(rest));
             }
-            next[..rest.len()].copy_from_slice(rest);
+            next.clear();
+            next.extend_from_slice(rest);
             let mut read = Ok(());
             // The input need not be of a kind that another thread may read.
             let filled = rayon::in_place_scope(|scope| {
                 scope.spawn(|_| read = self.lines(lines));
-                fill(&mut input, &mut next, rest.len())
+                fill(&mut input, &mut next)
             });
             read?;
             if self.pairs.len() > PAIR_LIMIT {
                 return Err(Place::Input.fault(Problem::TooManyPairs));
             }
-            end = filled.map_err(failed)?;
-            std::mem::swap(&mut buffer, &mut next);
+            is_full = filled.map_err(failed)?;
+            std::mem::swap(&mut text, &mut next);
         }
-        self.lines(&buffer[..end])
+        self.lines(&text)
     }
 
     /// What is wrong with the line after those that were read, which is too long: what it is
@@ -529,17 +529,11 @@ fn ignored_columns(columns: usize) -> String {
     format!("columns 3 to {columns} are ignored (relative poses)")
 }
 
-/// Fills a buffer from a place on, as far as the input goes; returns where what was read ends.
-fn fill(input: &mut impl Read, buffer: &mut [u8], mut filled: usize) -> std::io::Result<usize> {
-    while filled < buffer.len() {
-        match input.read(&mut buffer[filled..]) {
-            Ok(0) => break,
-            Ok(got) => filled += got,
-            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(filled)
+/// Reads on until a text is as long as what is read at once, and whether it is.
+fn fill(input: &mut impl Read, text: &mut Vec<u8>) -> io::Result<bool> {
+    let room = READ - text.len();
+    let got = input.by_ref().take(room as u64).read_to_end(text)?;
+    Ok(got == room)
 }
 
 /// Whether a reader of edge lists may take a text for one. It does not if a line is such that the
