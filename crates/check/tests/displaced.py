@@ -148,7 +148,7 @@ def longer(document, filler):
 def files():
     for problem in problems():
         document, filler = certificate(*problem)
-        assert set(final_bodies(document["bodies"], document["displacements"])) <= set(range(9))
+        assert set(final_bodies(document["displacements"], document["bodies"])) <= set(range(9))
         yield f"certificates/displaced-{problem[0]}.json", written(document)
         if problem[0] == "flex":
             yield "displacements/longer.json", written(longer(document, filler))
