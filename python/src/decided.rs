@@ -33,7 +33,7 @@ pub(crate) struct Decided {
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
-    graph, *, model, seed, planar=false, solutions=Some("quick"), bounds=None, prime=None,
+    graph, *, model, seed, solutions, planar=false, bounds=None, prime=None,
     contraction=true, counting=true, parts=None, displacements=None, time_limit=None,
     memory_limit=None, progress=None
 ))]
@@ -43,8 +43,8 @@ pub(crate) fn decide(
     graph: &Graph,
     model: &str,
     seed: u64,
-    planar: bool,
     solutions: Option<&str>,
+    planar: bool,
     bounds: Option<(u64, u64)>,
     prime: Option<u64>,
     contraction: bool,

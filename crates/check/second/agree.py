@@ -44,8 +44,11 @@ def rank_of(rows):
     return rank
 
 
-def generic_rank(nodes, edges, model, rng):
-    """The rank at random centres, twice: of J_P by (2.1) of the theory, of N, or four times that of R."""
+def generic_rank(nodes, edges, model, rng, vectors=()):
+    """The rank at random centres, twice: of J_P by (2.1) of the theory, of N, or four times that of R.
+
+    Between the pairs of `vectors` the whole displacement is known (calibrated model).
+    """
     place = {node: k for k, node in enumerate(sorted(nodes))}
     best = 0
     for _ in range(2):
@@ -78,24 +81,30 @@ def generic_rank(nodes, edges, model, rng):
                         row[12 * v + 4 * r + b] += sign * tall[a][r]
                         row[12 * v + 4 * r + a] += sign * tall[b][r]
                 rows.append([e % PRIME for e in row])
+        for i, j in vectors:
+            for r in range(3):
+                row = [0] * (3 * len(place))
+                row[3 * place[i] + r], row[3 * place[j] + r] = 1, PRIME - 1
+                rows.append(row)
         best = max(best, rank_of(rows) * (4 if model == "affine" else 1))
     return best
 
 
-def required(n, model):
+def required(n, model, scaled=False):
     a, b = {"projective": (11, 15), "calibrated": (3, 4), "affine": (8, 12)}[model]
-    return 0 if n == 1 else a * n - b
+    return 0 if n == 1 else a * n - b + int(scaled)
 
 
 class Truth:
     """What is true of a graph: the rank, whether it contracts to one body, and its components (up to 9 nodes)."""
 
-    def __init__(self, n, edges, model):
+    def __init__(self, n, edges, model, vectors):
         rng = random.Random(n)
-        self.rank = generic_rank(range(n), edges, model, rng)
+        self.rank = generic_rank(range(n), edges, model, rng, vectors)
+        self.required = required(n, model, bool(vectors))
         self.solvable = n == 1 or self.contracts(n, edges)
         if model != "projective":
-            self.solvable = self.rank == required(n, model)
+            self.solvable = self.rank == self.required
         self.components = None
         if n <= 9:
             per_edge = {"projective": 7, "calibrated": 2, "affine": 4}[model]
@@ -103,9 +112,11 @@ class Truth:
             for size in range(n, 1, -1):
                 for nodes in map(set, itertools.combinations(range(n), size)):
                     inside = [edge for edge in edges if nodes.issuperset(edge)]
-                    enough = per_edge * len(inside) >= required(size, model)
+                    known = [pair for pair in vectors if nodes.issuperset(pair)]
+                    full = required(size, model, bool(known))
+                    enough = per_edge * len(inside) + 3 * len(known) >= full
                     if enough and not any(nodes <= other for other in rigid):
-                        if generic_rank(nodes, inside, model, rng) == required(size, model):
+                        if generic_rank(nodes, inside, model, rng, known) == full:
                             rigid.append(nodes)
             self.components = len(rigid)
 
@@ -141,12 +152,12 @@ class Truth:
                 return six
         return None
 
-    def contradicts(self, claim, n, model):
+    def contradicts(self, claim):
         """What is wrong with a claim, or None."""
         verdict, rank, components = (claim[name]["value"] for name in ("verdict", "rank", "components"))
         if rank != self.rank:
             return f"the rank is {self.rank}, claimed is {rank}"
-        if (verdict == "not-finite-solvable") != (self.rank < required(n, model)):
+        if (verdict == "not-finite-solvable") != (self.rank < self.required):
             return f"the rank is {self.rank}, claimed is {verdict}"
         # Nothing here knows how many solutions there are.
         if verdict == "solvable" and not self.solvable and "solutions" not in claim:
@@ -162,11 +173,17 @@ TRUTHS = {}
 def contradiction(document, data):
     """What is wrong with an accepted certificate."""
     done = check.Check(data)
-    n, edges, model = done.graph.n, done.graph.edges, document["model"]
-    key = (n, tuple(edges), model)
+    n, edges, model = done.graph.n, set(map(tuple, done.graph.edges)), document["model"]
+    # A known part is as good as all its pairs (theory, Theorem 4.14).
+    for part in document.get("parts", []):
+        edges.update(itertools.combinations(part, 2))
+    edges = sorted(edges)
+    groups = document.get("displacements", [])
+    vectors = [pair for group in groups for pair in itertools.combinations(group, 2)]
+    key = (n, tuple(edges), model, tuple(vectors))
     if key not in TRUTHS:
-        TRUTHS[key] = Truth(n, edges, model)
-    return TRUTHS[key].contradicts(document["claim"], n, model)
+        TRUTHS[key] = Truth(n, edges, model, vectors)
+    return TRUTHS[key].contradicts(document["claim"])
 
 
 # Mutants -------------------------------------------------------------------------------------------------------------
