@@ -256,10 +256,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let options = arguments.options()?;
     let [html, svg] = arguments.pages.outputs();
     let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
+    let known = arguments.parts.path().into_iter();
+    let known = known.chain(arguments.displacements.path());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    let inputs = inputs
-        .chain(arguments.parts.path())
-        .chain(arguments.displacements.path());
+    let inputs = inputs.chain(known.clone());
     let witness = (witness::OPTION, arguments.witness.as_deref());
     atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
@@ -273,7 +273,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        atomic::ensure_apart(&outputs, arguments.parts.path())?;
+        atomic::ensure_apart(&outputs, known)?;
     }
     let too_many = |what: &str| match (&single, written) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),

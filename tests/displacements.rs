@@ -338,3 +338,24 @@ fn scaled_components_that_share_a_camera_are_one() {
     let verified = viewcert_check::check(text.as_bytes(), None).unwrap();
     assert_eq!((verified.rank.0, verified.components.0), (23, 5));
 }
+
+/// No output takes the place of the file that says what is known.
+#[test]
+fn the_file_is_no_output() {
+    let graph = File::new("graph.txt", &cycle(4));
+    for option in ["--certificate", "--write-graph", "--html", "--svg"] {
+        let known = File::new("known.txt", "0 1\n");
+        let run = verify(&[
+            graph.text(),
+            "--model",
+            "calibrated",
+            "--displacements",
+            known.text(),
+            option,
+            known.text(),
+        ]);
+        assert_eq!(run.code, 2, "{option}: {}", run.out);
+        assert!(run.err.contains("known.txt"), "{option}: {}", run.err);
+        assert_eq!(std::fs::read_to_string(known.text()).unwrap(), "0 1\n");
+    }
+}

@@ -107,9 +107,8 @@ impl ActArguments {
             (!self.sweep.is_empty(), "--sweep"),
             (self.margin.is_some(), "--margin"),
         ];
-        asked
-            .into_iter()
-            .find_map(|(asked, option)| asked.then_some(option))
+        let mut asked = asked.into_iter();
+        asked.find_map(|(asked, option)| asked.then_some(option))
     }
 
     /// Refuses what a graph has no answer to.
@@ -132,16 +131,9 @@ impl ActArguments {
 
     /// One of the options that is there, for whoever has no use for it; and whether there is one.
     pub(super) fn asked(&self) -> (&'static str, bool) {
-        let options = [
-            ("--weak", self.weak.is_some()),
-            ("--suggest", self.suggest.is_some()),
-            ("--explain", self.explain.is_some()),
-            ("--sweep", !self.sweep.is_empty()),
-            ("--margin", self.margin.is_some()),
-            ("--export", self.export.is_some()),
-        ];
-        let there = options.into_iter().find(|(_, there)| *there);
-        there.unwrap_or(("", false))
+        let export = self.export.is_some().then_some("--export");
+        let asked = self.asked_of_pairs().or(export);
+        (asked.unwrap_or_default(), asked.is_some())
     }
 
     /// Whether more than the joints is asked for.
