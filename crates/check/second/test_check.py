@@ -1525,9 +1525,9 @@ class Comparison(unittest.TestCase):
         document = by_hand()
         data = json.dumps(document).encode()
         document["claim"]["rank"]["value"] = 27
-        truth = agree.Truth(4, SQUARE, "projective")
-        self.assertIsNone(truth.contradicts(json.loads(data)["claim"], 4, "projective"))
-        self.assertIn("the rank is 28", truth.contradicts(document["claim"], 4, "projective"))
+        truth = agree.Truth(4, SQUARE, "projective", [])
+        self.assertIsNone(truth.contradicts(json.loads(data)["claim"]))
+        self.assertIn("the rank is 28", truth.contradicts(document["claim"]))
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out:
             comparison = agree.Comparison("false", folder)
             comparison.run(data)
