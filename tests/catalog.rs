@@ -670,3 +670,121 @@ fn a_readme_of_somebody_else_is_not_overwritten() {
     good(&verify(&publish));
     good(&verify(&publish));
 }
+
+/// Kernel by kernel and one by one: the same counts, the same graphs.
+#[test]
+fn verdicts_are_those_of_the_table() {
+    let sizes = ["catalog", "--nodes", "3-10", "--necessary"];
+    let table = counts(&good(&verify(&sizes)));
+    let verdicts = good(&verify(&[&sizes[..], &["--verdicts"]].concat()));
+    let rows = verdicts.lines().take(9).collect::<Vec<_>>().join("\n");
+    assert_eq!(counts(&rows), table);
+    for row in rows.lines().skip(1) {
+        let cells = row.rsplit_once("necessary").unwrap().1.split_whitespace();
+        let cells: Vec<u64> = cells.flat_map(str::parse).collect();
+        let [
+            candidates,
+            finite_solvable,
+            unique,
+            refuted,
+            one,
+            several,
+            otherwise,
+            0,
+        ] = cells[..]
+        else {
+            panic!("{row}");
+        };
+        assert_eq!(candidates, finite_solvable + refuted, "{row}");
+        assert_eq!(refuted, one + several + otherwise, "{row}");
+        assert!(unique <= finite_solvable, "{row}");
+    }
+    let ten = ["catalog", "--nodes", "10", "--list"];
+    let listed = good(&verify(&ten));
+    let finite_solvable = listed
+        .lines()
+        .filter(|line| line.contains("\tfinite-solvable\t"));
+    let finite_solvable: Vec<&str> = finite_solvable
+        .map(|line| line.split('\t').next().unwrap())
+        .collect();
+    let lines = good(&verify(&[&ten[..], &["--verdicts"]].concat()));
+    assert_eq!(lines.lines().collect::<Vec<_>>(), finite_solvable);
+    // The digest is of the list, in any order.
+    let mut digest = viewcert_studies::catalog::set_digest::SetDigest::default();
+    for line in finite_solvable.iter().rev() {
+        digest.insert(line.as_bytes());
+    }
+    let last = verdicts.lines().last().unwrap();
+    assert_eq!(
+        last,
+        format!("10 nodes, 14 edges, necessary: finite solvable {digest}")
+    );
+}
+
+fn blocks(out: &Path, shard: &str) -> Command {
+    command(&[
+        "catalog",
+        "--nodes",
+        "10",
+        "--verdicts",
+        "--part",
+        "9",
+        "--shard",
+        shard,
+        "--out",
+        out.to_str().unwrap(),
+    ])
+}
+
+/// Shards of verdicts in one folder, stopped and completed, are the whole; and a merge names what is
+/// wrong with them.
+#[test]
+fn blocks_of_verdicts() {
+    let whole = good(&verify(&["catalog", "--nodes", "10", "--verdicts"]));
+    let without_time = |table: &str| -> Vec<String> {
+        let trimmed = table.lines().map(|line| match line.rsplit_once("  ") {
+            Some((row, seconds)) if seconds.trim().parse::<f64>().is_ok() => row.trim_end().into(),
+            _ => line.trim_end().into(),
+        });
+        trimmed.collect()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let merge = || verify(&["catalog", "merge", out.to_str().unwrap()]);
+    let refused = |message: &str| {
+        let run = merge();
+        assert_eq!(run.status.code(), Some(2));
+        let errors = text(&run.stderr);
+        assert!(errors.contains(message), "{errors}");
+    };
+    refused("no shards here");
+    good(&blocks(out, "2/3").output().unwrap());
+    refused("of 14 blocks are missing: 0, 2, 3");
+    good(&blocks(out, "1/3").output().unwrap());
+    good(&blocks(out, "3/3").output().unwrap());
+    assert_eq!(without_time(&good(&merge())), without_time(&whole));
+    let path = |block: usize| out.join(format!("block-{block:06}.json"));
+    let read = |block| fs::read(path(block)).unwrap();
+    let (first, last) = (read(0), read(13));
+    // What is there is not computed again; what is missing is.
+    fs::remove_file(path(13)).unwrap();
+    refused("1 of 14 blocks are missing: 13");
+    fs::write(path(0), &first[..first.len() / 2]).unwrap();
+    refused("not a block of verdicts");
+    let broken = blocks(out, "1/3").output().unwrap();
+    assert_eq!(broken.status.code(), Some(2));
+    fs::write(path(0), &first).unwrap();
+    good(&blocks(out, "1/1").output().unwrap());
+    assert_eq!(read(13), last);
+    fs::write(path(1), &first).unwrap();
+    refused("holds block 0");
+    let other = blocks(out, "1/1").args(["--seed", "2"]).output().unwrap();
+    assert_eq!(other.status.code(), Some(2));
+    assert!(text(&other.stderr).contains("another run"));
+    fs::remove_file(path(1)).unwrap();
+    let other = tempfile::tempdir().unwrap();
+    let run = blocks(other.path(), "2/14").args(["--seed", "2"]).output();
+    good(&run.unwrap());
+    fs::copy(other.path().join("block-000001.json"), path(1)).unwrap();
+    refused("another run");
+}

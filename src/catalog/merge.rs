@@ -2,11 +2,13 @@
 
 use super::super::GOOD;
 use super::parts::{DONE, Done, Shard, part_path, read_part};
+use super::verdicts;
 use crate::report::table;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_studies::catalog::mine::Summary;
@@ -20,13 +22,20 @@ pub(super) struct Arguments {
 
 /// Checks every shard and prints the table of the whole.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let row = merged(&arguments.folder)?;
-    table::write(&mut std::io::stdout().lock(), &[row]).context("standard output")?;
+    write(&mut std::io::stdout().lock(), &arguments.folder)?;
     Ok(ExitCode::from(GOOD))
 }
 
+/// Checks every shard, and writes the table of the whole.
+pub(super) fn write(out: &mut impl Write, folder: &Path) -> Result<()> {
+    if verdicts::is_here(folder)? {
+        return verdicts::write_merged(out, folder);
+    }
+    table::write(out, &[merged(folder)?]).context("standard output")
+}
+
 /// Checks every shard; the whole as a row of the table.
-pub(super) fn merged(folder: &Path) -> Result<table::Row> {
+fn merged(folder: &Path) -> Result<table::Row> {
     let mut shards = BTreeMap::new();
     let listing = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     for item in listing {

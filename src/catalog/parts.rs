@@ -24,6 +24,9 @@ use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 /// Candidates that go to the same shard together.
 const BLOCK: u64 = 64;
 
+/// Candidates per part, if nothing else is asked for.
+const CANDIDATES: u32 = 16384;
+
 /// The name of the file that closes a shard.
 pub(super) const DONE: &str = "done.json";
 
@@ -89,7 +92,7 @@ impl Run {
             source: source.name(),
             prime: arguments.prime,
             seed: arguments.seed,
-            part: arguments.part,
+            part: arguments.part.unwrap_or(CANDIDATES),
             solvable_only: arguments.solvable_only,
         }
     }

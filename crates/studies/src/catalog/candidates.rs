@@ -103,7 +103,18 @@ impl Candidates {
         Some(count)
     }
 
-    fn subdivisions(&self, kernel: &Multigraph) -> Subdivisions {
+    /// Numbers of nodes and edges.
+    pub fn size(&self) -> (usize, usize) {
+        (self.nodes, self.edges)
+    }
+
+    /// The kernels that the candidates are made from; `None` if they are made node by node.
+    pub fn kernels(&self) -> Option<&[Multigraph]> {
+        self.kernels.as_deref()
+    }
+
+    /// The candidates of one of the [`kernels`](Self::kernels).
+    pub fn subdivisions(&self, kernel: &Multigraph) -> Subdivisions {
         let edges = if self.necessary {
             Edges::Once
         } else {

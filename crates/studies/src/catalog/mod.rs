@@ -2,7 +2,8 @@
 //!
 //! [`candidates`] generates the biconnected graphs with some numbers of nodes and edges,
 //! one of each isomorphism class: from [`kernel`]s by [`subdivide`]-ing, or node by node
-//! ([`grow`]) where there are many edges. [`mine`] decides them; [`minimal`] finds the
+//! ([`grow`]) where there are many edges. [`mine`] decides them one by one; [`verdicts`] decides the
+//! subdivisions of one kernel together ([`siblings`]) and keeps counts and a [`set_digest`]; [`minimal`] finds the
 //! graphs that are finite solvable and not so without any one edge; [`laman`] grows the Laman
 //! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found; a
 //! [`census`] counts by model.
@@ -18,6 +19,9 @@ pub mod mine;
 pub mod minimal;
 pub mod multigraph;
 pub mod random;
+pub mod set_digest;
+pub mod siblings;
 pub mod subdivide;
+pub mod verdicts;
 
 pub use candidates::{Candidates, SizeError, least_edges};

@@ -128,6 +128,13 @@ impl Multigraph {
         })
     }
 
+    /// The edges in the order of [`pairs`](Self::pairs), parallel ones one after the other.
+    pub fn edge_list(&self) -> Vec<(usize, usize)> {
+        self.pairs()
+            .flat_map(|(u, v, multiplicity)| (0..multiplicity).map(move |_| (u, v)))
+            .collect()
+    }
+
     /// Adds `count` edges between two different nodes.
     ///
     /// # Panics

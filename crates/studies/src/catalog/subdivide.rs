@@ -173,6 +173,24 @@ fn falling(sum: usize, length: usize, largest: usize, code: Code, each: &mut imp
     }
 }
 
+/// Length of the graph6 of a graph with [`MAX_NODES`] nodes.
+const LINE: usize = 1 + (MAX_NODES * (MAX_NODES - 1) / 2).div_ceil(6);
+
+/// A graph as graph6.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    bytes: [u8; LINE],
+    length: usize,
+}
+
+impl std::ops::Deref for Line {
+    type Target = [u8];
+
+    fn deref(&self) -> &[u8] {
+        &self.bytes[..self.length]
+    }
+}
+
 /// A subdivision of a kernel.
 #[derive(Clone, Copy)]
 pub struct Subdivision<'a> {
@@ -199,26 +217,69 @@ impl Subdivision<'_> {
         order
     }
 
+    /// The edges of the kernel that are subdivided, as bits in the order of [`Multigraph::edge_list`];
+    /// `None` if one has several nodes.
+    pub fn subdivided(&self) -> Option<u32> {
+        let (mut set, mut edge) = (0, 0);
+        for (&(_, _, multiplicity), &code) in self.of.pairs.iter().zip(self.codes) {
+            for k in (0..multiplicity).rev() {
+                match code >> (4 * k) & 15 {
+                    1 => (),
+                    2 => set |= 1 << edge,
+                    _ => return None,
+                }
+                edge += 1;
+            }
+        }
+        Some(set)
+    }
+
     /// The graph: the kernel's nodes first.
     pub fn graph(&self) -> Graph {
         let mut pairs = Vec::with_capacity(2 * self.of.nodes);
-        let mut next = self.of.kernel.nodes() as u32;
+        self.for_each_edge(|i, j| pairs.push((i as u32, j as u32)));
+        match Graph::from_pairs(self.of.nodes as u32, pairs) {
+            Ok((graph, _)) => graph,
+            Err(error) => unreachable!("a subdivision is a graph: {error}"),
+        }
+    }
+
+    /// The same graph as graph6, without a line end: what
+    /// [`encode`](viewcert::graph::graph6::encode) makes of it, and no allocation.
+    pub fn graph6(&self) -> Line {
+        // Bit j (j - 1) / 2 + i, from the left, is that of the pair i < j.
+        let mut bits = 0u128;
+        self.for_each_edge(|i, j| {
+            let (i, j) = (i.min(j), i.max(j));
+            bits |= 1 << (127 - (j * (j - 1) / 2 + i));
+        });
+        let nodes = self.of.nodes;
+        let mut line = Line {
+            bytes: [0; LINE],
+            length: 1 + (nodes * (nodes - 1) / 2).div_ceil(6),
+        };
+        line.bytes[0] = 63 + nodes as u8;
+        for byte in &mut line.bytes[1..line.length] {
+            *byte = 63 + (bits >> 122) as u8;
+            bits <<= 6;
+        }
+        line
+    }
+
+    fn for_each_edge(&self, mut each: impl FnMut(usize, usize)) {
+        let mut next = self.of.kernel.nodes();
         for (&(u, v, _), &code) in self.of.pairs.iter().zip(self.codes) {
             let mut code = code;
             while code > 0 {
-                let mut last = u as u32;
+                let mut last = u;
                 for _ in 1..code & 15 {
-                    pairs.push((last, next));
+                    each(last, next);
                     last = next;
                     next += 1;
                 }
-                pairs.push((last, v as u32));
+                each(last, v);
                 code >>= 4;
             }
-        }
-        match Graph::from_pairs(next, pairs) {
-            Ok((graph, _)) => graph,
-            Err(error) => unreachable!("a subdivision is a graph: {error}"),
         }
     }
 }
@@ -279,6 +340,52 @@ mod tests {
                     let found = canonical(&Multigraph::from_graph(&graph).unwrap());
                     assert_eq!(found.group_order, order);
                     assert!(keys.insert(found.key));
+                }
+            }
+        }
+    }
+
+    /// graph6 by the library, and the subdivided edges from the graph.
+    #[test]
+    fn graph6_and_subdivided_edges() {
+        for (cycles, nodes) in [(3, 7), (4, 8), (5, 8)] {
+            for kernel in kernels(cycles, nodes) {
+                for edges in [Edges::Once, Edges::Any] {
+                    Subdivisions::new(&kernel, nodes, edges).for_each(&mut |subdivision| {
+                        let graph = subdivision.graph();
+                        let line = viewcert::graph::graph6::encode(&graph);
+                        assert_eq!(*subdivision.graph6(), *line.as_bytes());
+                        let single = |node: u32| {
+                            let ends = graph.edges().iter();
+                            let ends = ends.filter(|&&(i, j)| i == node || j == node);
+                            let others = ends.map(|&(i, j)| i + j - node);
+                            others.clone().count() == 2
+                                && others.max() < Some(kernel.nodes() as u32)
+                        };
+                        let inner = kernel.nodes() as u32..nodes as u32;
+                        assert_eq!(
+                            subdivision.subdivided().is_some(),
+                            inner.clone().all(single)
+                        );
+                        if let Some(set) = subdivision.subdivided() {
+                            assert_eq!(set.count_ones() as usize, inner.len());
+                            let ends: Vec<_> = (0..)
+                                .zip(kernel.edge_list())
+                                .filter(|(edge, _)| set >> edge & 1 == 1)
+                                .map(|(_, ends)| ends)
+                                .collect();
+                            let mut expected = Vec::new();
+                            for node in inner {
+                                let ends = graph.edges().iter();
+                                let ends = ends.filter(|&&(_, j)| j == node);
+                                let ends: Vec<_> = ends.map(|&(i, _)| i as usize).collect();
+                                expected.push((ends[0], ends[1]));
+                            }
+                            expected.sort_unstable();
+                            assert_eq!(ends, expected);
+                        }
+                        true
+                    });
                 }
             }
         }
