@@ -39,6 +39,7 @@ mod options;
 mod overlap;
 mod plane_piece;
 mod solution_count;
+mod stresses;
 mod verdict;
 mod whole_matrix;
 

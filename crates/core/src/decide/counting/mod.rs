@@ -12,14 +12,15 @@
 //! split off with gain are those of at most (t - 1) / 3 parts, together with all the parts
 //! whose flow these determine. At most 20,000 such sets are looked at for a node: all of them
 //! where at most 16 parts meet. Rank is then taken off the block by the best single hub. Where that
-//! does not meet the lower bound and there are at most 64 components, all this is tried again with
-//! each one of them left out as a block of its own: what is rigid without it may be a smaller block
-//! that has a hub.
+//! does not meet the lower bound and there are at most 64 components, all this is tried again on
+//! the parts whose ranks add up to that of the piece, and then with each one of the components left
+//! out as a block of its own: what is rigid without it may be a smaller block that has a hub.
 
 mod hub;
 
 use crate::contract::piece::{Assembly, Members};
 use crate::decide::motion_class;
+use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::linalg::prime::PrimeField;
@@ -126,6 +127,10 @@ pub(crate) fn count(
     if components.len() > MAX_LEFT_OUT {
         return Ok(best);
     }
+    let dependent = by_dependent_parts(assembly, piece, components, by)?;
+    if dependent.bound < best.bound {
+        best = dependent;
+    }
     for (k, left_out) in components.iter().enumerate() {
         if best.bound <= target {
             break;
@@ -142,6 +147,43 @@ pub(crate) fn count(
         }
     }
     Ok(best)
+}
+
+/// The parts of the piece whose ranks add up to that of the piece, each bounded by itself: what
+/// depends on nothing else does not hide a smaller block that has a hub.
+fn by_dependent_parts(
+    assembly: &Assembly,
+    piece: &Members,
+    components: &[Members],
+    by: &mut Search,
+) -> Result<Counting, Stopped> {
+    let core = assembly.core(piece);
+    let part_of = Stresses::new(by.field, &core, piece.len(), by.random, &by.task)?.parts();
+    let bounds = piece
+        .grouped(|member| part_of[member])
+        .into_iter()
+        .map(|part| {
+            by.task.check()?;
+            let mut inside: Vec<Members> = components
+                .iter()
+                .filter(|component| part.contains(component))
+                .cloned()
+                .collect();
+            if inside.iter().map(Members::len).sum::<usize>() < part.len() {
+                inside = part.singles();
+            }
+            let split = Counting::partition(Model::Projective, assembly, &inside);
+            if inside.len() < 2 {
+                return Ok(split);
+            }
+            let blocks = by_rigid_blocks(assembly, &part, &inside, by)?;
+            Ok(if blocks.bound < split.bound {
+                blocks
+            } else {
+                split
+            })
+        });
+    Ok(Counting::join(bounds.collect::<Result<_, _>>()?))
 }
 
 /// The parallel-rigid components of a part as blocks, each with a hub or else divided into

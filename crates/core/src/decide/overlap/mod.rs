@@ -2,23 +2,22 @@
 //!
 //! In: a piece whose bound by counting is above its rank. Out: two sets of its members that cover
 //! it, each with a bound by counting, and a lower bound for what is in both; or nothing. Where to
-//! look: `separations` has the ways to cut a small core at a few nodes, `stresses` says which of
+//! look: `separations` has the ways to cut a small core at a few nodes, [stresses](super::stresses) say which of
 //! them cut its rank as well, so that the bounds of both sides can meet it.
 
 mod separations;
-mod stresses;
 
 use crate::contract::piece::{Members, Split};
 use crate::decide::counting::Counting;
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
 use crate::decide::one_piece::Piece;
+use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
 use crate::linalg::prime::PrimeField;
 use crate::watch::Step;
 use separations::{Cut, Separation};
 use std::collections::HashMap;
-use stresses::Stresses;
 
 /// Larger cores are not cut: with 20 nodes there are 137,979 sets of up to seven.
 const MAX_NODES: usize = 20;
@@ -76,7 +75,8 @@ pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Overlap>, Ve
     let work = task.begin(0);
     // Where to look is not a claim: a large prime looks best.
     let field = PrimeField::mersenne61();
-    let stresses = Stresses::new(&field, piece.core, members, &piece.key(0), &task)?;
+    let random = &mut piece.key(0).residues(&field);
+    let stresses = Stresses::new(&field, piece.core, members, random, &task)?;
     if stresses.dimension() > MAX_STRESSES {
         return Ok(None);
     }

@@ -5,17 +5,17 @@
 //! of the edges has the rank 7 |D| less the dimension of the stresses that vanish outside of D.
 
 use crate::contract::piece::Core;
-use crate::geometry::draw::DrawKey;
 use crate::geometry::plane_flow::PlaneFlows;
-use crate::linalg::Ring;
+use crate::graph::UnionFind;
 use crate::linalg::dense_lu::eliminate_mod;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
+use crate::linalg::{Field, Ring};
 use crate::watch::{Stopped, Task};
 
 /// A basis of the stresses, by what the members see of it.
-pub(super) struct Stresses<'a> {
+pub(crate) struct Stresses<'a> {
     field: &'a PrimeField,
     dimension: usize,
     /// For each member what its edges see: vectors with an entry for each stress of the basis.
@@ -28,11 +28,10 @@ impl<'a> Stresses<'a> {
         field: &'a PrimeField,
         core: &Core,
         members: usize,
-        key: &DrawKey,
+        random: &mut dyn FnMut() -> u64,
         task: &Task,
     ) -> Result<Self, Stopped> {
         let quiet = task.untold();
-        let mut random = key.residues(field);
         let centres: Vec<[u64; 3]> = (0..core.graph.nodes())
             .map(|_| std::array::from_fn(|_| random()))
             .collect();
@@ -85,6 +84,56 @@ impl<'a> Stresses<'a> {
         both.dimension() == alone + others
     }
 
+    /// The finest partition of the members such that the stresses are the direct sum of those of its
+    /// parts, as the number of each member's part: then the rank is the sum of the parts' ranks
+    /// (Lemma 5.12), so a bound that meets it is a sum of bounds that do. A member that sees no
+    /// stress, whose rows are independent of all others, is a part by itself.
+    pub fn parts(&self) -> Vec<usize> {
+        let members = self.of_member.len();
+        let owners = (0..members).flat_map(|k| self.of_member[k].iter().map(move |_| k));
+        let owners: Vec<usize> = owners.collect();
+        let columns: Vec<&Vec<u64>> = self.of_member.iter().flatten().collect();
+        let mut rows: Vec<Vec<u64>> = (0..self.dimension)
+            .map(|s| columns.iter().map(|column| column[s]).collect())
+            .collect();
+        self.reduce(&mut rows);
+        // The reduced echelon form of a direct sum has those of the summands as its rows.
+        let mut joined = UnionFind::new(members);
+        for row in rows {
+            let mut seen = row.iter().zip(&owners).filter(|(entry, _)| **entry != 0);
+            if let Some((_, &first)) = seen.next() {
+                seen.for_each(|(_, &other)| {
+                    joined.union(first, other);
+                });
+            }
+        }
+        (0..members).map(|member| joined.find(member)).collect()
+    }
+
+    /// Brings rows to reduced echelon form, up to their scales.
+    fn reduce(&self, rows: &mut [Vec<u64>]) {
+        let field = self.field;
+        let columns = rows.first().map_or(0, Vec::len);
+        let mut rank = 0;
+        for column in 0..columns {
+            let Some(found) = (rank..rows.len()).find(|&row| rows[row][column] != 0) else {
+                continue;
+            };
+            rows.swap(rank, found);
+            let pivot = rows[rank].clone();
+            let inverse = field.inv(&pivot[column]).unwrap_or_default();
+            for (k, row) in rows.iter_mut().enumerate() {
+                if k != rank && row[column] != 0 {
+                    let scale = field.mul(&row[column], &inverse);
+                    for (entry, above) in row.iter_mut().zip(&pivot) {
+                        *entry = field.sub(entry, &field.mul(&scale, above));
+                    }
+                }
+            }
+            rank += 1;
+        }
+    }
+
     fn seen(&self, set: u64) -> Span {
         let mut span = Span::default();
         self.add(&mut span, set);
@@ -108,6 +157,7 @@ mod tests {
     use crate::contract::Contraction;
     use crate::contract::piece::Assembly;
     use crate::geometry::camera::normal_form;
+    use crate::geometry::draw::DrawKey;
     use crate::geometry::jacobian::{dense, jacobian};
     use crate::graph::Graph;
     use crate::linalg::textbook;
@@ -155,7 +205,9 @@ mod tests {
             seed: 1,
             draw: 0,
         };
-        let stresses = unwatched(|task| Stresses::new(&field, &core, pairs.len(), &key, task));
+        let stresses = unwatched(|task| {
+            Stresses::new(&field, &core, pairs.len(), &mut key.residues(&field), task)
+        });
         assert_eq!(stresses.dimension(), 70 - rank(7, &pairs));
         let without = |set: u64| -> Vec<(u32, u32)> {
             let outside = |&k: &usize| set >> k & 1 == 0;
@@ -172,5 +224,44 @@ mod tests {
             }
         }
         assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+    }
+
+    /// Two K_{2,3} that share a node with a path between them, contracted by nothing: each has
+    /// stresses of its own, and the path sees none.
+    #[test]
+    fn parts_by_hand() {
+        let field = PrimeField::mersenne61();
+        let bipartite =
+            |a: u32, b: u32, c: [u32; 3]| c.into_iter().flat_map(move |v| [(a, v), (b, v)]);
+        let one = bipartite(0, 1, [2, 3, 4]);
+        let other = bipartite(4, 5, [6, 7, 8]);
+        let path = [(0, 9), (9, 10), (5, 10)];
+        let pairs: Vec<(u32, u32)> = one.chain(other).chain(path).collect();
+        let graph = Graph::new(11, pairs.iter().map(|&(i, j)| (i.min(j), i.max(j)))).unwrap();
+        let assembly = Assembly::new(&graph, &Contraction::none(&graph));
+        let core = assembly.core(&assembly.all());
+        let mut random = DrawKey {
+            graph_sha256: [2; 32],
+            core_sha256: None,
+            seed: 1,
+            draw: 0,
+        }
+        .residues(&field);
+        let stresses =
+            unwatched(|task| Stresses::new(&field, &core, pairs.len(), &mut random, task));
+        // Each has 6 edges of rank 40 = 11 * 5 - 15 in all, and what comes together is dependent too.
+        assert_eq!(stresses.dimension(), 7 * pairs.len() - rank(11, &pairs));
+        let parts = stresses.parts();
+        for (k, &(i, j)) in core.graph.edges().iter().enumerate() {
+            for (l, &(u, v)) in core.graph.edges().iter().enumerate() {
+                let block = |i: u32, j: u32| match (i.max(j) <= 4, i.min(j) >= 4 && i.max(j) <= 8) {
+                    (true, _) => 0,
+                    (_, true) => 1,
+                    _ => 2 + i.max(j) * 100 + i.min(j),
+                };
+                let same = parts[core.owner[k] as usize] == parts[core.owner[l] as usize];
+                assert_eq!(same, block(i, j) == block(u, v), "{i} {j} and {u} {v}");
+            }
+        }
     }
 }
