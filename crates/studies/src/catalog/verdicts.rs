@@ -7,6 +7,7 @@
 //! [`siblings`]: super::siblings
 
 use super::candidates::Candidates;
+use super::multigraph::Multigraph;
 use super::set_digest::SetDigest;
 use super::siblings::{Proved, Siblings};
 use rayon::prelude::*;
@@ -32,7 +33,7 @@ pub struct Tally {
     pub by_blocks: u64,
     /// Refuted by other proofs: hubs, overlaps.
     pub otherwise: u64,
-    /// The graphs whose verdict is not proved, as graph6, sorted.
+    /// The graphs whose verdict is not proved, as graph6.
     pub unproved: Vec<String>,
     /// The finite-solvable graphs, as graph6 with the labels of the generator.
     pub finite_solvable: SetDigest,
@@ -58,23 +59,7 @@ impl Tally {
         self.by_blocks += other.by_blocks;
         self.otherwise += other.otherwise;
         self.unproved.extend(other.unproved);
-        self.unproved.sort_unstable();
         self.finite_solvable.add(&other.finite_solvable);
-    }
-
-    /// Counts what [`decide`] says about a graph.
-    fn count(&mut self, graph: &Graph, options: &Options) -> Result<bool, VerdictError> {
-        let verdict = decide(graph, options)?;
-        let strength = verdict.value_claim().strength;
-        match (verdict.value_by_rank(), strength) {
-            (Value::Solvable, _) => self.unique += 1,
-            (Value::FiniteSolvable, _) => self.finite += 1,
-            (Value::NotFiniteSolvable, Strength::Proof) => self.otherwise += 1,
-            (Value::NotFiniteSolvable, Strength::ErrorBound(_)) => {
-                self.unproved.push(graph6::encode(graph));
-            }
-        }
-        Ok(verdict.value != Value::NotFiniteSolvable)
     }
 }
 
@@ -83,7 +68,8 @@ impl Tally {
 /// goes with an empty range, all candidates are decided one by one.
 ///
 /// The digest is of graph6 lines; with `list` they are returned too, in the order of
-/// [`Candidates::for_each`]. Memory: that of the list.
+/// [`Candidates::for_each`]. Memory: that of the list, and of the graphs that are left to
+/// [`decide`].
 ///
 /// # Errors
 /// If a graph is not decided, or the work is stopped.
@@ -97,60 +83,92 @@ pub fn tally(
     list: bool,
     done: impl Fn(u64) + Sync,
 ) -> Result<(Tally, Vec<String>), VerdictError> {
-    let Some(all) = candidates.kernels() else {
-        return one_by_one(candidates, options, list);
+    let (mut tally, left) = match candidates.kernels() {
+        Some(all) => {
+            let found: Vec<(Tally, Vec<Left>)> = all[kernels]
+                .par_iter()
+                .map(|kernel| {
+                    let found = of_kernel(candidates, kernel, options, list)?;
+                    done(1);
+                    Ok(found)
+                })
+                .collect::<Result<_, VerdictError>>()?;
+            let mut tally = Tally::default();
+            let mut left = Vec::new();
+            for (of_kernel, more) in found {
+                tally.add(of_kernel);
+                left.extend(more);
+            }
+            (tally, left)
+        }
+        None => {
+            let mut left = Vec::new();
+            candidates.for_each(&mut |graph| {
+                left.push(Left::Undecided(graph));
+                true
+            });
+            let tally = Tally {
+                candidates: left.len() as u64,
+                ..Tally::default()
+            };
+            (tally, left)
+        }
     };
-    let found: Vec<(Tally, Vec<String>)> = all[kernels]
-        .par_iter()
-        .map(|kernel| {
-            let found = of_kernel(candidates, kernel, options, list)?;
-            done(1);
-            Ok(found)
+    // Few kernels have most of these, so they are decided across kernels.
+    let decided: Vec<(Tally, Option<String>)> = left
+        .into_par_iter()
+        .map(|graph| match graph {
+            Left::Listed(line) => Ok((Tally::default(), Some(line))),
+            Left::Undecided(graph) => by_decide(&graph, options),
         })
         .collect::<Result<_, VerdictError>>()?;
-    let mut tally = Tally::default();
     let mut lines = Vec::new();
-    for (of_kernel, more) in found {
-        tally.add(of_kernel);
-        lines.extend(more);
+    for (of_graph, line) in decided {
+        tally.add(of_graph);
+        lines.extend(line);
+    }
+    if !list {
+        lines.clear();
     }
     Ok((tally, lines))
 }
 
-fn one_by_one(
-    candidates: &Candidates,
-    options: &Options,
-    list: bool,
-) -> Result<(Tally, Vec<String>), VerdictError> {
+/// What a kernel leaves.
+enum Left {
+    /// A finite-solvable graph, if these are listed.
+    Listed(String),
+    /// A graph for [`decide`].
+    Undecided(Graph),
+}
+
+/// The verdict of one graph, and its line if it is finite solvable.
+fn by_decide(graph: &Graph, options: &Options) -> Result<(Tally, Option<String>), VerdictError> {
     let mut tally = Tally::default();
-    let mut lines = Vec::new();
-    let mut failure = None;
-    candidates.for_each(&mut |graph| {
-        tally.candidates += 1;
-        match tally.count(&graph, options) {
-            Ok(true) => {
-                let line = graph6::encode(&graph);
-                tally.finite_solvable.insert(line.as_bytes());
-                if list {
-                    lines.push(line);
-                }
-            }
-            Ok(false) => (),
-            Err(error) => failure = Some(error),
+    let line = graph6::encode(graph);
+    let verdict = decide(graph, options)?;
+    match (verdict.value_by_rank(), verdict.value_claim().strength) {
+        (Value::Solvable, _) => tally.unique += 1,
+        (Value::FiniteSolvable, _) => tally.finite += 1,
+        (Value::NotFiniteSolvable, Strength::Proof) => {
+            tally.otherwise += 1;
+            return Ok((tally, None));
         }
-        failure.is_none()
-    });
-    tally.unproved.sort_unstable();
-    failure.map_or(Ok((tally, lines)), Err)
+        (Value::NotFiniteSolvable, Strength::ErrorBound(_)) => {
+            tally.unproved.push(line);
+            return Ok((tally, None));
+        }
+    }
+    tally.finite_solvable.insert(line.as_bytes());
+    Ok((tally, Some(line)))
 }
 
 /// The subdivisions of one kernel.
 fn of_kernel(
     candidates: &Candidates,
-    kernel: &super::multigraph::Multigraph,
+    kernel: &Multigraph,
     options: &Options,
     list: bool,
-) -> Result<(Tally, Vec<String>), VerdictError> {
+) -> Result<(Tally, Vec<Left>), VerdictError> {
     let (nodes, edges) = candidates.size();
     if let Some(reason) = options.watch.stopped() {
         let stage = Stage {
@@ -166,46 +184,31 @@ fn of_kernel(
     let may_contract = may_contract(nodes, edges);
     let mut siblings = None;
     let mut tally = Tally::default();
-    let mut lines = Vec::new();
-    let mut failure = None;
+    let mut left = Vec::new();
     candidates
         .subdivisions(kernel)
         .for_each(&mut |subdivision| {
             let siblings =
                 siblings.get_or_insert_with(|| Siblings::new(kernel, nodes, options.seed));
             tally.candidates += 1;
-            let finite_solvable = match siblings.decide(&subdivision) {
-                Proved::RefutedByOneBlock => {
-                    tally.by_one_block += 1;
-                    false
-                }
-                Proved::RefutedByBlocks => {
-                    tally.by_blocks += 1;
-                    false
-                }
+            match siblings.decide(&subdivision) {
+                Proved::RefutedByOneBlock => tally.by_one_block += 1,
+                Proved::RefutedByBlocks => tally.by_blocks += 1,
                 Proved::FiniteSolvable if !may_contract => {
                     tally.finite += 1;
-                    true
+                    let line = subdivision.graph6();
+                    tally.finite_solvable.insert(&line);
+                    if list {
+                        left.push(Left::Listed(String::from_utf8_lossy(&line).into_owned()));
+                    }
                 }
                 Proved::FiniteSolvable | Proved::Nothing => {
-                    let counted = tally.count(&subdivision.graph(), options);
-                    counted.unwrap_or_else(|error| {
-                        failure = Some(error);
-                        false
-                    })
-                }
-            };
-            if finite_solvable {
-                let line = subdivision.graph6();
-                tally.finite_solvable.insert(&line);
-                if list {
-                    lines.push(String::from_utf8_lossy(&line).into_owned());
+                    left.push(Left::Undecided(subdivision.graph()));
                 }
             }
-            failure.is_none()
+            true
         });
-    tally.unproved.sort_unstable();
-    failure.map_or(Ok((tally, lines)), Err)
+    Ok((tally, left))
 }
 
 /// Whether a graph of this size can contract to one body: false is a proof that none does.
