@@ -120,6 +120,10 @@ struct Collector {
     doubts: Doubts,
     /// Lines read leniently whose further fields were ignored.
     lines_with_more: u64,
+    /// How many bytes the last plain lines have, if nothing else followed them.
+    trusted: usize,
+    /// Memory for the lines of a part of the text.
+    buffers: Vec<Plain>,
 }
 
 impl Default for Collector {
@@ -134,6 +138,8 @@ impl Default for Collector {
             first: None,
             doubts: Doubts::default(),
             lines_with_more: 0,
+            trusted: 0,
+            buffers: Vec::new(),
         }
     }
 }
@@ -205,25 +211,24 @@ impl Collector {
             return text;
         }
         let columns = match (&self.first, self.reading) {
-            (_, Reading::Lenient) => return self.take(text, plain::read_parts(text, ignored)),
+            (_, Reading::Lenient) => return self.parts::<true>(text, ignored),
             (_, Reading::Columns(columns)) => columns,
             (Some(first), Reading::Strict) if self.pairs.len() >= FIRST_LINES => first.columns,
             _ => return text,
         };
         let without_more = |rest| (false, rest);
         if columns == 2 {
-            let parts = plain::read_parts(text, |further| line_end(further).map(without_more));
-            return self.take(text, parts);
+            return self.parts::<true>(text, |further| line_end(further).map(without_more));
         }
         if self.reading != Reading::Strict || !self.doubts.watch_thirds() {
-            let parts = plain::read_parts(text, |further| {
+            return self.parts::<false>(text, |further| {
                 further_numbers(further, columns).map(|(_, rest)| (false, rest))
             });
-            return self.take(text, parts);
         }
         // Line by line as long as third fields matter, which is short for most texts.
         let doubts = &mut self.doubts;
-        let watched = plain::read(text, |further, a, b| {
+        let mut watched = Plain::default();
+        plain::read::<false>(text, &mut watched, |further, a, b| {
             let (third, rest) = further_numbers(further, columns)?;
             if !doubts.watch_thirds() {
                 return None;
@@ -232,7 +237,8 @@ impl Collector {
             doubts.third(Some([a.into(), b.into()]), third);
             Some((false, rest))
         });
-        let rest = self.take(text, [watched]);
+        self.take(&watched);
+        let rest = &text[watched.length..];
         if self.doubts.watch_thirds() {
             rest
         } else {
@@ -240,16 +246,27 @@ impl Collector {
         }
     }
 
-    /// Takes in plain lines at the start of a text, and returns what follows them.
-    fn take<'a>(&mut self, text: &'a [u8], lines: impl IntoIterator<Item = Plain>) -> &'a [u8] {
+    /// Takes in plain lines at the start of a text, read on all cores, and returns what follows them.
+    fn parts<'a, const BARE: bool>(
+        &mut self,
+        text: &'a [u8],
+        end: impl Fn(&'a [u8]) -> plain::End<'a> + Sync,
+    ) -> &'a [u8] {
+        let mut buffers = std::mem::take(&mut self.buffers);
         let mut length = 0;
-        for plain in lines {
-            self.line += plain.pairs.len() as u64;
-            self.lines_with_more += plain.with_more;
-            self.pairs.extend_from_slice(&plain.pairs);
+        plain::read_parts::<BARE>(text, self.trusted, &mut buffers, end, |plain| {
+            self.take(plain);
             length += plain.length;
-        }
+        });
+        self.buffers = buffers;
+        self.trusted = if length == text.len() { length } else { 0 };
         &text[length..]
+    }
+
+    fn take(&mut self, plain: &Plain) {
+        self.line += plain.pairs.len() as u64;
+        self.lines_with_more += plain.with_more;
+        self.pairs.extend_from_slice(&plain.pairs);
     }
 
     /// A line as text, without its end.

@@ -48,9 +48,11 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
     if u64::from(largest) - first + 1 == nodes as u64 {
         let first_value = first as u32;
         if first_value > 0 {
-            pairs.par_iter_mut().with_min_len(SHARE).for_each(|(a, b)| {
-                *a -= first_value;
-                *b -= first_value;
+            pairs.par_chunks_mut(SHARE).for_each(|share| {
+                for (a, b) in share {
+                    *a -= first_value;
+                    *b -= first_value;
+                }
             });
         }
         return (Labels::Numbers { first }, nodes);
@@ -59,9 +61,11 @@ pub(crate) fn number_integers(pairs: &mut [(u32, u32)], singles: &[u32]) -> (Lab
         let at = value as usize / 64;
         before[at] + (words[at] & ((1 << (value % 64)) - 1)).count_ones()
     };
-    pairs.par_iter_mut().with_min_len(SHARE).for_each(|(a, b)| {
-        *a = rank(*a);
-        *b = rank(*b);
+    pairs.par_chunks_mut(SHARE).for_each(|share| {
+        for (a, b) in share {
+            *a = rank(*a);
+            *b = rank(*b);
+        }
     });
     let mut integers = Vec::with_capacity(nodes);
     integers.extend(values());
@@ -78,9 +82,15 @@ fn occurring(pairs: &[(u32, u32)], singles: &[u32], largest: u32) -> Vec<u64> {
             word.fetch_or(bit, Ordering::Relaxed);
         }
     };
-    pairs.par_iter().with_min_len(SHARE).for_each(|&(a, b)| {
-        mark(a);
-        mark(b);
+    pairs.par_chunks(SHARE).for_each(|share| {
+        // Neighbours on the list mostly have their first ends in common.
+        let mut last = None;
+        for &(a, b) in share {
+            if last.replace(a) != Some(a) {
+                mark(a);
+            }
+            mark(b);
+        }
     });
     singles.iter().copied().for_each(mark);
     words.into_iter().map(AtomicU64::into_inner).collect()

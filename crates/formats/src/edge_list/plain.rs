@@ -30,59 +30,78 @@ pub(super) struct Plain {
 
 /// What follows the first two fields on a line, if it is plain: whether there are fields to be
 /// ignored, and the text behind the line.
-type End<'a> = Option<(bool, &'a [u8])>;
+pub(super) type End<'a> = Option<(bool, &'a [u8])>;
 
-/// Reads plain lines while `end` accepts what follows the pair on each.
+/// Reads plain lines while `end` accepts what follows the pair on each. `BARE`: it accepts a line
+/// feed there, and does not mind which pair that is. Memory that `plain` has is used again.
 #[inline]
-pub(super) fn read<'a>(
+pub(super) fn read<'a, const BARE: bool>(
     text: &'a [u8],
+    plain: &mut Plain,
     mut end: impl FnMut(&'a [u8], u32, u32) -> End<'a>,
-) -> Plain {
-    // Few lines are shorter than eight bytes.
-    let mut pairs = Vec::with_capacity(text.len().min(2 * PIECE) / 8);
-    let mut with_more = 0;
-    let mut left = text;
-    while let Some((a, b, further)) = pair(left)
-        && a != b
-        && let Some((more, rest)) = end(further, a, b)
-        && left.len() - rest.len() <= LINE_LIMIT
-    {
-        pairs.push((a, b));
-        with_more += u64::from(more);
-        left = rest;
-    }
-    Plain {
+) {
+    let Plain {
         pairs,
         with_more,
-        length: text.len() - left.len(),
+        length,
+    } = plain;
+    pairs.clear();
+    // Few lines are shorter than eight bytes.
+    pairs.reserve(text.len().min(2 * PIECE) / 8);
+    *with_more = 0;
+    let mut left = text;
+    loop {
+        while BARE
+            && let Some((a, b, rest)) = bare_line(left)
+            && a != b
+        {
+            pairs.push((a, b));
+            left = rest;
+        }
+        let Some((a, b, further)) = pair(left) else {
+            break;
+        };
+        match end(further, a, b) {
+            Some((more, rest)) if a != b && left.len() - rest.len() <= LINE_LIMIT => {
+                pairs.push((a, b));
+                *with_more += u64::from(more);
+                left = rest;
+            }
+            _ => break,
+        }
     }
+    *length = text.len() - left.len();
 }
 
-/// The same on all cores, where `end` looks at one line alone. Parts of the text, in order.
-pub(super) fn read_parts<'a>(
+/// The same on all cores, where `end` looks at one line alone; each batch of parts of the text is
+/// given to `take`, in order. `trusted` is how much has been plain before it.
+pub(super) fn read_parts<'a, const BARE: bool>(
     mut text: &'a [u8],
+    trusted: usize,
+    parts: &mut Vec<Plain>,
     end: impl Fn(&'a [u8]) -> End<'a> + Sync,
-) -> Vec<Plain> {
-    let mut parts = Vec::new();
-    let mut size = FIRST;
+    mut take: impl FnMut(&Plain),
+) {
+    let mut size = FIRST.max(trusted);
     while !text.is_empty() {
         let batch = first_lines(text, size);
         let pieces = split(batch, (batch.len() / PIECE).clamp(1, MOST_PIECES));
-        let read = pieces
+        if parts.len() < pieces.len() {
+            parts.resize_with(pieces.len(), Plain::default);
+        }
+        pieces
             .par_iter()
-            .map(|piece| read(piece, |further, _, _| end(further)));
-        let read: Vec<Plain> = read.collect();
-        for (plain, piece) in read.into_iter().zip(pieces) {
-            let whole = plain.length == piece.len();
-            parts.push(plain);
-            if !whole {
-                return parts;
+            .zip(&mut *parts)
+            .for_each(|(piece, plain)| read::<BARE>(piece, plain, |further, _, _| end(further)));
+        for (plain, piece) in parts.iter().zip(pieces) {
+            take(plain);
+            if plain.length < piece.len() {
+                return;
             }
         }
         text = &text[batch.len()..];
         size *= 2;
     }
-    parts
 }
 
 /// The lines of a text that begin within so many bytes.
@@ -105,6 +124,27 @@ fn split(text: &[u8], count: usize) -> Vec<&[u8]> {
         left = &left[piece.len()..];
     }
     pieces
+}
+
+/// The most common line: two integers of one to seven digits, one separator between them, and the
+/// line feed; and what follows it. `None` says nothing about the line.
+#[inline]
+fn bare_line(text: &[u8]) -> Option<(u32, u32, &[u8])> {
+    let start = text.first_chunk::<24>()?;
+    let first = Digits::of(*start.first_chunk()?);
+    if !(1..8).contains(&first.count) {
+        return None;
+    }
+    let at = first.count + 1;
+    let second = Digits::of(*start[at..].first_chunk()?);
+    if !(1..8).contains(&second.count) {
+        return None;
+    }
+    let end = at + second.count;
+    let zeros = (start[0] == b'0') & (first.count > 1) | (start[at] == b'0') & (second.count > 1);
+    let separated = matches!(start[first.count], b' ' | b'\t' | b',');
+    (separated & (start[end] == b'\n') & !zeros)
+        .then(|| (first.value(), second.value(), &text[end + 1..]))
 }
 
 /// Two integers at the start of a line with one separator between them, and what follows.
@@ -293,6 +333,26 @@ mod tests {
             prop_assert_eq!(small_integer(&text), long_integer(&text));
         }
 
+        /// A bare line is what the general way makes of it, if it is taken for one.
+        #[test]
+        fn bare_lines(
+            line in "[0-9]{0,9}[ \t,x]{1,2}[0-9]{0,9}[ \r]?\n|[1-9][0-9]{0,6}[ \t,][1-9][0-9]{0,6}\n",
+            behind in "[0-9 \n]{0,30}",
+        ) {
+            let text = format!("{line}{behind}");
+            let text = text.as_bytes();
+            let general = pair(text).and_then(|(a, b, further)| Some((a, b, line_end(further)?)));
+            let bare = bare_line(text);
+            prop_assert!(bare.is_none() || bare == general);
+            let digits = |field: &str| {
+                (1..8).contains(&field.len()) && field.bytes().all(|b| b.is_ascii_digit())
+                    && (field.len() == 1 || !field.starts_with('0'))
+            };
+            let plain = line.trim_end_matches('\n').split([' ', '\t', ',']).collect::<Vec<_>>();
+            let is_bare = plain.len() == 2 && plain.iter().all(|field| digits(field));
+            prop_assert_eq!(bare.is_some(), is_bare && text.len() >= 24);
+        }
+
         /// Pieces together are the text, and all but the last end with a line.
         #[test]
         fn pieces(text in "[ab\n]{0,200}", count in 1..20usize) {
@@ -313,16 +373,31 @@ mod tests {
                 })
                 .collect()
         };
-        for stop in [0, 1, 77_777, 199_999, 200_000] {
+        for (stop, trusted) in [
+            (0, 0),
+            (1, 0),
+            (77_777, 1 << 20),
+            (199_999, 0),
+            (200_000, 1 << 19),
+        ] {
             let text = lines(stop);
-            let parts = read_parts(text.as_bytes(), ignored);
-            let pairs: Vec<_> = parts.iter().flat_map(|plain| plain.pairs.clone()).collect();
+            let (mut pairs, mut length, mut with_more) = (Vec::new(), 0, 0);
+            let take = |plain: &Plain| {
+                pairs.extend_from_slice(&plain.pairs);
+                length += plain.length;
+                with_more += plain.with_more;
+            };
+            // What a buffer holds from before does not matter.
+            let mut parts = vec![Plain {
+                pairs: vec![(7, 8)],
+                with_more: 9,
+                length: 10,
+            }];
+            read_parts::<true>(text.as_bytes(), trusted, &mut parts, ignored, take);
             let expected: Vec<_> = (0..stop.min(200_000) as u32).map(|k| (k, k + 1)).collect();
             assert_eq!(pairs, expected);
-            let length: usize = parts.iter().map(|plain| plain.length).sum();
             assert_eq!(text[length..].is_empty(), stop == 200_000);
             assert!(stop == 200_000 || text[length..].starts_with("a b\n"));
-            let with_more: u64 = parts.iter().map(|plain| plain.with_more).sum();
             assert_eq!(with_more, stop as u64);
         }
     }
