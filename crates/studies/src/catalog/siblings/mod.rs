@@ -1,8 +1,8 @@
 //! Verdicts of all subdivisions of one kernel, and of nothing else: no ranks, no components.
 //!
 //! For each of them either N and Lambda have full rank modulo a prime, and it is finite solvable
-//! ([`flows`]), or a partition bounds the rank below what is required, and it is not
-//! ([`surplus`]): both are proofs. The few that remain, which take a hub, say, are
+//! (`flows`), or a partition bounds the rank below what is required, and it is not
+//! (`surplus`): both are proofs. The few that remain, which take a hub, say, are
 //! for [`decide`](viewcert::decide::decide).
 
 mod flows;
