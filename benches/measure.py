@@ -21,10 +21,12 @@ other things as well the CPU time (user + system) is the steadier of the two.
 
 import argparse
 import csv
+import importlib.util
 import json
 import os
 import random
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -393,13 +395,47 @@ def readers(arguments, folder):
         row(name, sec(figures.wall), sec(figures.cpu), mib(figures.peak))
 
 
+# How others read a list of pairs of integers; each prints how many pairs there are.
+PEERS = {
+    "networkx": "import networkx, sys; print(networkx.read_edgelist(sys.argv[1], nodetype=int).number_of_edges())",
+    "rustworkx": "import rustworkx, sys; print(rustworkx.PyGraph.read_edge_list(sys.argv[1]).num_edges())",
+    "igraph": "import igraph, sys; print(igraph.Graph.Read_Edgelist(sys.argv[1], directed=False).ecount())",
+    "numpy.loadtxt": "import numpy, sys; print(len(numpy.loadtxt(sys.argv[1], dtype=int)))",
+}
+
+
+def peers(arguments, folder):
+    """Others on the same work: reading a list of pairs, and enumerating candidates."""
+    graph = generate(folder / "sequence.txt", "sequence", arguments.nodes, 20, 1)
+    megabytes = graph.stat().st_size / 1e6
+    print(f"{size(graph)[1]} pairs, {megabytes:.0f} MB\n")
+    head("reads the list", "wall clock, s", "CPU, s", "MB a second", "peak, MiB")
+    commands = {"viewcert": [EXAMPLES / "read_only", graph], "wc -l (the limit)": ["/usr/bin/wc", "-l", graph]}
+    for name, program in PEERS.items():
+        if importlib.util.find_spec(name.split(".")[0]) is None:
+            print(f"{name} is not installed", file=sys.stderr)
+            continue
+        commands[name] = [sys.executable, "-c", program, graph]
+    for name, its in zip(commands, compare(list(commands.values()), arguments.runs)):
+        row(name, sec(its.wall), sec(its.cpu), f"{megabytes / its.wall:.0f}", mib(its.peak))
+    geng = shutil.which("geng") or shutil.which("nauty-geng")
+    if geng is None:
+        sys.exit("geng (nauty) is not installed")
+    print()
+    head("all biconnected graphs with 12 nodes and 17 edges", "CPU, s")
+    commands = {"geng -C, counted": [geng, "-Cuq", "12", "17:17"],
+                "verify catalog --verdicts, each one decided": [VERIFY, "catalog", "--nodes", "12", "--verdicts"]}
+    for name, its in zip(commands, compare(list(commands.values()), arguments.runs)):
+        row(name, sec(its.cpu))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sparse | sequence | "
-                                         "tracks | hubs | readers")
+                                         "tracks | hubs | readers | peers")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
                                  ("cores", cores, 3), ("sparse", sparse, 1), ("sequence", sequence, 3), ("tracks", tracks, 3),
-                                 ("hubs", hubs, 3), ("readers", readers, 5)]:
+                                 ("hubs", hubs, 3), ("readers", readers, 5), ("peers", peers, 3)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
@@ -421,6 +457,8 @@ def main():
         if name == "sparse":
             command.add_argument("--graphs", nargs="+", default=["grid", "city", "3-regular", "4-regular"])
             command.add_argument("--nodes", type=int, nargs="+", default=[1000, 2000, 5000, 10000, 20000, 50000])
+        if name == "peers":
+            command.add_argument("--nodes", type=int, default=100_000)
         if name == "sequence":
             command.add_argument("--nodes", type=int, default=1_000_000)
     arguments = parser.parse_args()
