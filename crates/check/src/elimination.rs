@@ -39,6 +39,8 @@ const NONE: usize = usize::MAX;
 /// A row that is being reduced, with the columns where it has entries: no other is looked at.
 #[derive(Default)]
 struct Scratch {
+    /// Sums of products of two elements. If p < `SMALL` a sum is an element once it is reduced, by
+    /// `entry`; otherwise it is kept as one.
     row: Vec<u64>,
     met: Vec<usize>,
     is_met: Vec<bool>,
@@ -47,8 +49,8 @@ struct Scratch {
 }
 
 impl Scratch {
-    /// Adds to an entry.
-    fn add(&mut self, field: &Field, place: &[usize], column: usize, value: u64) {
+    /// Adds a product to an entry.
+    fn add(&mut self, field: &Field, place: &[usize], column: usize, [a, b]: [u64; 2]) {
         if !self.is_met[column] {
             self.is_met[column] = true;
             self.met.push(column);
@@ -56,7 +58,24 @@ impl Scratch {
                 self.due.push(Reverse(place[column]));
             }
         }
-        self.row[column] = field.add(self.row[column], value);
+        let sum = &mut self.row[column];
+        if field.p < SMALL {
+            // The product is below 2^58, and the sum before it below 2^63.
+            *sum += a * b;
+            if *sum >> 63 != 0 {
+                *sum %= field.p;
+            }
+        } else {
+            *sum = field.add(*sum, field.mul(a, b));
+        }
+    }
+
+    /// The entry that a sum of products stands for.
+    fn entry(&self, field: &Field, column: usize) -> u64 {
+        match field.p < SMALL {
+            true => field.add_products(0, u128::from(self.row[column])),
+            false => self.row[column],
+        }
     }
 
     /// Forgets the row.
@@ -109,20 +128,27 @@ impl<'f> Echelon<'f> {
     ) -> Checked<bool> {
         let field = self.field;
         for (column, value) in entries {
-            self.scratch.add(field, &self.place, column, value);
+            self.scratch
+                .add(field, &self.place, column, [value, field.one]);
         }
         let multiples = self.reduce_scratch()?;
-        let Scratch { row, met, .. } = &mut self.scratch;
-        met.sort_unstable();
-        let pivot = pivot.or_else(|| met.iter().copied().find(|&column| row[column] != 0));
-        let Some(pivot) = pivot.filter(|&pivot| row[pivot] != 0) else {
-            self.scratch.clear();
+        self.scratch.met.sort_unstable();
+        let met = self.scratch.met.iter();
+        let row = met.map(|&column| (column, self.scratch.entry(field, column)));
+        let row: Vec<(usize, u64)> = row.filter(|&(_, entry)| entry != 0).collect();
+        self.scratch.clear();
+        let at = match pivot {
+            Some(pivot) => row.iter().find(|&&(column, _)| column == pivot),
+            None => row.first(),
+        };
+        let Some(&(pivot, at_pivot)) = at else {
             return Ok(false);
         };
-        self.determinant = field.mul(self.determinant, row[pivot]);
-        let inverse = field.inverse(row[pivot]);
-        let columns = met.iter().filter(|&&column| row[column] != 0);
-        let reduced = columns.map(|&column| (column, field.mul(inverse, row[column])));
+        self.determinant = field.mul(self.determinant, at_pivot);
+        let inverse = field.inverse(at_pivot);
+        let reduced = row
+            .iter()
+            .map(|&(column, entry)| (column, field.mul(inverse, entry)));
         self.place[pivot] = self.rows.len();
         self.rows.push(EchelonRow {
             pivot,
@@ -134,7 +160,6 @@ impl<'f> Echelon<'f> {
             },
             inverse,
         });
-        self.scratch.clear();
         Ok(true)
     }
 
@@ -145,12 +170,12 @@ impl<'f> Echelon<'f> {
         let (mut multiples, mut entries) = (Vec::new(), 0);
         while let Some(Reverse(k)) = self.scratch.due.pop() {
             let EchelonRow { pivot, reduced, .. } = &self.rows[k];
-            let multiple = self.scratch.row[*pivot];
+            let multiple = self.scratch.entry(self.field, *pivot);
             if multiple != 0 {
                 multiples.push((k, multiple));
                 let factor = self.field.neg(multiple);
                 for &(column, value) in reduced {
-                    let product = self.field.mul(factor, value);
+                    let product = [factor, value];
                     self.scratch.add(self.field, &self.place, column, product);
                 }
                 entries += reduced.len();
