@@ -83,7 +83,7 @@ impl Blocks {
         found.is_some()
     }
 
-    /// Whether several blocks without common edges do.
+    /// Whether several blocks without common edges do. False says nothing: the search is bounded.
     pub(super) fn several_refute(&self, subdivided: u32) -> bool {
         let mut positive: Vec<Block> = self
             .blocks
@@ -95,7 +95,8 @@ impl Blocks {
             .filter(|block| block.surplus > 0)
             .collect();
         positive.sort_by_key(|block| -block.surplus);
-        exceed(&positive, 0, self.spare)
+        let left = positive.iter().fold(0, |all, block| all | block.edges);
+        exceed(&positive, left, self.spare, &mut { STEPS })
     }
 }
 
@@ -110,12 +111,87 @@ fn surplus(edges: u32, nodes: u32) -> i32 {
     7 * edges.count_ones() as i32 - 11 * nodes as i32 + 15
 }
 
-/// Whether some of the blocks, which have no edge in common with `taken` or each other, have more
-/// than `spare` in all.
-fn exceed(blocks: &[Block], taken: u32, spare: i32) -> bool {
-    blocks.iter().enumerate().any(|(k, block)| {
-        block.edges & taken == 0
-            && (block.surplus > spare
-                || exceed(&blocks[k + 1..], taken | block.edges, spare - block.surplus))
-    })
+/// After so many blocks the search for several is given up.
+const STEPS: u32 = 1000;
+
+/// Whether some of the blocks, given by falling surplus, without common edges and within those that
+/// are `left`, have more than `spare` in all. `steps` is how many more blocks may be looked at.
+fn exceed(blocks: &[Block], left: u32, spare: i32, steps: &mut u32) -> bool {
+    // A block has three edges of the kernel at least, unless it is two or more parallel ones.
+    let most = left.count_ones() as i32 / 2;
+    for (k, block) in blocks.iter().enumerate() {
+        if *steps == 0 || most * block.surplus <= spare {
+            return false;
+        }
+        *steps -= 1;
+        if block.edges & !left != 0 {
+            continue;
+        }
+        let rest = left & !block.edges;
+        if block.surplus > spare || exceed(&blocks[k + 1..], rest, spare - block.surplus, steps) {
+            return true;
+        }
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All sets of blocks.
+    fn by_brute_force(blocks: &[Block], spare: i32) -> bool {
+        (0u32..1 << blocks.len()).any(|set| {
+            let chosen = blocks.iter().enumerate();
+            let chosen = chosen
+                .filter(|(k, _)| set >> k & 1 == 1)
+                .map(|(_, block)| block);
+            let disjoint = chosen.clone().try_fold(0, |all: u32, block| {
+                (all & block.edges == 0).then_some(all | block.edges)
+            });
+            let sum: i32 = chosen.map(|block| block.surplus).sum();
+            disjoint.is_some() && sum > spare
+        })
+    }
+
+    #[test]
+    fn several_blocks_against_all_sets() {
+        let mut state = 1u64;
+        let mut next = |below: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 33) % below
+        };
+        let mut seen = [0, 0];
+        for _ in 0..3000 {
+            let mut blocks: Vec<Block> = (0..next(9))
+                .map(|_| Block {
+                    edges: (0..2 + next(4)).fold(0, |set, k| set | 0b11 << (2 * k) << next(8)),
+                    surplus: 1 + next(6) as i32,
+                })
+                .collect();
+            blocks.sort_by_key(|block| -block.surplus);
+            let spare = next(14) as i32;
+            let left = blocks.iter().fold(0, |all, block| all | block.edges);
+            let expected = by_brute_force(&blocks, spare);
+            assert_eq!(exceed(&blocks, left, spare, &mut { STEPS }), expected);
+            seen[usize::from(expected)] += 1;
+        }
+        assert!(seen[0] > 500 && seen[1] > 500, "{seen:?}");
+    }
+
+    /// Many small blocks: the search ends.
+    #[test]
+    fn the_search_is_bounded() {
+        let blocks: Vec<Block> = (0..1 << 12)
+            .map(|k: u32| Block {
+                edges: k | 0b11 << 12,
+                surplus: 1,
+            })
+            .collect();
+        let mut steps = STEPS;
+        assert!(!exceed(&blocks, (1 << 14) - 1, 6, &mut steps));
+        assert_eq!(steps, 0);
+    }
 }
