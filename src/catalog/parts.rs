@@ -24,6 +24,9 @@ use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 /// Candidates that go to the same shard together.
 const BLOCK: u64 = 64;
 
+/// What a run was made by.
+pub(super) const PROGRAM: &str = concat!("viewcert ", env!("CARGO_PKG_VERSION"));
+
 /// Candidates per part, if nothing else is asked for.
 const CANDIDATES: u32 = 16384;
 
@@ -56,7 +59,12 @@ impl FromStr for Shard {
 impl Shard {
     /// Whether the shard decides the candidate with this number.
     pub(super) fn owns(self, candidate: u64) -> bool {
-        candidate / BLOCK % self.count == self.index - 1
+        self.has_turn(candidate / BLOCK)
+    }
+
+    /// Whether a block with this number is the shard's: blocks go to the shards in turn.
+    pub(super) fn has_turn(self, block: u64) -> bool {
+        block % self.count == self.index - 1
     }
 
     /// How many of so many candidates the shard decides.
@@ -88,7 +96,7 @@ pub(super) struct Run {
 impl Run {
     pub(super) fn new(arguments: &Arguments, source: &Source) -> Self {
         Self {
-            program: concat!("viewcert ", env!("CARGO_PKG_VERSION")).into(),
+            program: PROGRAM.into(),
             source: source.name(),
             prime: arguments.prime,
             seed: arguments.seed,

@@ -9,7 +9,7 @@
 use super::super::progress::Progress;
 use super::super::{GOOD, atomic};
 use super::Arguments;
-use super::parts::Shard;
+use super::parts::PROGRAM;
 use super::source::Source;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
@@ -83,7 +83,7 @@ pub(super) fn run(
             unreachable!("a size, as nothing else goes with --verdicts");
         };
         let run = Run {
-            program: concat!("viewcert ", env!("CARGO_PKG_VERSION")).into(),
+            program: PROGRAM.into(),
             source: source.name(),
             seed: arguments.seed,
             kernels: candidates.kernels().map_or(0, <[_]>::len),
@@ -114,8 +114,7 @@ fn of_size(
     if let Some(folder) = &arguments.out {
         fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     }
-    let Shard { index, count } = arguments.shard;
-    let own = (0..run.blocks()).filter(|&block| block as u64 % count == index - 1);
+    let own = (0..run.blocks()).filter(|&block| arguments.shard.has_turn(block as u64));
     let kernels = own.clone().map(|block| run.kernels_of(block).len() as u64);
     let progress = Progress::new(Some(kernels.sum()));
     let mut whole = Tally::default();

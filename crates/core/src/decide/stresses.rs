@@ -7,11 +7,12 @@
 use crate::contract::piece::Core;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::UnionFind;
+use crate::linalg::Ring;
 use crate::linalg::dense_lu::eliminate_mod;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
-use crate::linalg::{Field, Ring};
+use crate::linalg::textbook;
 use crate::watch::{Stopped, Task};
 
 /// A basis of the stresses, by what the members see of it.
@@ -93,45 +94,18 @@ impl<'a> Stresses<'a> {
         let owners = (0..members).flat_map(|k| self.of_member[k].iter().map(move |_| k));
         let owners: Vec<usize> = owners.collect();
         let columns: Vec<&Vec<u64>> = self.of_member.iter().flatten().collect();
-        let mut rows: Vec<Vec<u64>> = (0..self.dimension)
-            .map(|s| columns.iter().map(|column| column[s]).collect())
-            .collect();
-        self.reduce(&mut rows);
-        // The reduced echelon form of a direct sum has those of the summands as its rows.
+        let seen = Matrix::from_fn(self.dimension, columns.len(), |s, k| columns[k][s]);
+        // Of a direct sum each column depends on columns of its summand alone.
         let mut joined = UnionFind::new(members);
-        for row in rows {
-            let mut seen = row.iter().zip(&owners).filter(|(entry, _)| **entry != 0);
-            if let Some((_, &first)) = seen.next() {
-                seen.for_each(|(_, &other)| {
+        for dependence in textbook::kernel(self.field, &seen) {
+            let mut meets = dependence.iter().zip(&owners).filter(|(x, _)| **x != 0);
+            if let Some((_, &first)) = meets.next() {
+                meets.for_each(|(_, &other)| {
                     joined.union(first, other);
                 });
             }
         }
         (0..members).map(|member| joined.find(member)).collect()
-    }
-
-    /// Brings rows to reduced echelon form, up to their scales.
-    fn reduce(&self, rows: &mut [Vec<u64>]) {
-        let field = self.field;
-        let columns = rows.first().map_or(0, Vec::len);
-        let mut rank = 0;
-        for column in 0..columns {
-            let Some(found) = (rank..rows.len()).find(|&row| rows[row][column] != 0) else {
-                continue;
-            };
-            rows.swap(rank, found);
-            let pivot = rows[rank].clone();
-            let inverse = field.inv(&pivot[column]).unwrap_or_default();
-            for (k, row) in rows.iter_mut().enumerate() {
-                if k != rank && row[column] != 0 {
-                    let scale = field.mul(&row[column], &inverse);
-                    for (entry, above) in row.iter_mut().zip(&pivot) {
-                        *entry = field.sub(entry, &field.mul(&scale, above));
-                    }
-                }
-            }
-            rank += 1;
-        }
     }
 
     fn seen(&self, set: u64) -> Span {
@@ -160,7 +134,6 @@ mod tests {
     use crate::geometry::draw::DrawKey;
     use crate::geometry::jacobian::{dense, jacobian};
     use crate::graph::Graph;
-    use crate::linalg::textbook;
     use crate::watch::unwatched;
 
     /// The rank of the whole J_P of some edges, at other centres.

@@ -58,11 +58,12 @@ pub(super) fn read<'a, const BARE: bool>(
             pairs.push((a, b));
             left = rest;
         }
-        let Some((a, b, further)) = pair(left) else {
+        // A pair of a label with itself is for the general way, before `end` takes note of it.
+        let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) else {
             break;
         };
         match end(further, a, b) {
-            Some((more, rest)) if a != b && left.len() - rest.len() <= LINE_LIMIT => {
+            Some((more, rest)) if left.len() - rest.len() <= LINE_LIMIT => {
                 pairs.push((a, b));
                 *with_more += u64::from(more);
                 left = rest;

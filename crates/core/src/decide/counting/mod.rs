@@ -124,7 +124,7 @@ pub(crate) fn count(
             best = bound;
         }
     }
-    if components.len() > MAX_LEFT_OUT {
+    if best.bound <= target || components.len() > MAX_LEFT_OUT {
         return Ok(best);
     }
     let dependent = by_dependent_parts(assembly, piece, components, by)?;
@@ -164,24 +164,14 @@ fn by_dependent_parts(
         .into_iter()
         .map(|part| {
             by.task.check()?;
-            let mut inside: Vec<Members> = components
-                .iter()
-                .filter(|component| part.contains(component))
-                .cloned()
-                .collect();
+            let mut inside = within(components, &part);
             if inside.iter().map(Members::len).sum::<usize>() < part.len() {
                 inside = part.singles();
             }
-            let split = Counting::partition(Model::Projective, assembly, &inside);
-            if inside.len() < 2 {
-                return Ok(split);
+            match inside.len() {
+                1 => Ok(Counting::partition(Model::Projective, assembly, &inside)),
+                _ => by_rigid_blocks(assembly, &part, &inside, by),
             }
-            let blocks = by_rigid_blocks(assembly, &part, &inside, by)?;
-            Ok(if blocks.bound < split.bound {
-                blocks
-            } else {
-                split
-            })
         });
     Ok(Counting::join(bounds.collect::<Result<_, _>>()?))
 }
@@ -197,11 +187,7 @@ fn by_rigid_blocks(
     let rigid = parallel_rigid_components(assembly, part, by)?;
     let blocks = rigid.iter().map(|block| {
         by.task.check()?;
-        let inside: Vec<Members> = components
-            .iter()
-            .filter(|component| block.contains(component))
-            .cloned()
-            .collect();
+        let inside = within(components, block);
         let split = Counting::partition(Model::Projective, assembly, &inside);
         if inside.len() < 2 {
             return Ok(split);
@@ -210,6 +196,13 @@ fn by_rigid_blocks(
         Ok(if one.bound < split.bound { one } else { split })
     });
     Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
+}
+
+/// Those components that lie in a part.
+fn within(components: &[Members], part: &Members) -> Vec<Members> {
+    let inside = components.iter();
+    let inside = inside.filter(|component| part.contains(component));
+    inside.cloned().collect()
 }
 
 /// One block, with the best hub that the search finds (Theorem 5.2).

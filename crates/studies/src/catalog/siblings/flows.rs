@@ -8,12 +8,23 @@
 //! for each of them.
 
 use super::super::kernel::MAX_CYCLES;
-use super::super::multigraph::{MAX_NODES, Multigraph};
+use super::super::multigraph::Multigraph;
 use rand::RngExt;
 use rand::rand_core::Rng;
+use std::sync::LazyLock;
+use viewcert::graph::UnionFind;
+use viewcert::linalg::Ring;
+use viewcert::linalg::dense_lu::eliminate_mod;
+use viewcert::linalg::matrix::Matrix;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::watch::unwatched;
 
 /// All is computed modulo this prime, 2^31 - 1: a rank there is a lower bound (Proposition 1.4).
 const P: u64 = (1 << 31) - 1;
+
+/// For what is computed once per kernel.
+static FIELD: LazyLock<PrimeField> =
+    LazyLock::new(|| PrimeField::new(P).expect("2^31 - 1 is a prime"));
 
 /// The most edges of a kernel.
 pub(super) const MAX_EDGES: usize = 3 * (MAX_CYCLES - 1);
@@ -46,8 +57,7 @@ impl PlaneFlows {
     /// The flows of a kernel at random centres. O((n + m) m^2) for n nodes and m edges.
     pub(super) fn new(kernel: &Multigraph, random: &mut impl Rng) -> Self {
         let ends = kernel.edge_list();
-        let (centres, pencils) = draw(kernel.nodes(), &ends, random);
-        debug_assert_eq!(centres.len(), kernel.nodes());
+        let pencils = draw(kernel.nodes(), &ends, random);
         let cotree = outside_of_a_tree(kernel.nodes(), &ends);
         let flows = conserved(kernel.nodes(), &ends, &pencils)
             .iter()
@@ -191,26 +201,9 @@ fn negative(a: u32) -> u32 {
     if a == 0 { 0 } else { P as u32 - a }
 }
 
-/// The inverse of a residue other than 0, by Fermat.
-fn inverse(a: u32) -> u32 {
-    let (mut power, mut result, mut exponent) = (a, 1, P - 2);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = multiply(result, power);
-        }
-        power = multiply(power, power);
-        exponent >>= 1;
-    }
-    result
-}
-
-/// Centres of the kernel's nodes, and for every edge two planes through its ends, the first one
-/// through a random inner node as well and the second one not. Centres that are joined are distinct.
-fn draw(
-    nodes: usize,
-    ends: &[(usize, usize)],
-    random: &mut impl Rng,
-) -> (Vec<Vector>, Vec<[Vector; 2]>) {
+/// For every edge two planes through the random centres of its ends, which are distinct: the first
+/// one through a random inner node as well and the second one not.
+fn draw(nodes: usize, ends: &[(usize, usize)], random: &mut impl Rng) -> Vec<[Vector; 2]> {
     loop {
         let mut point = || -> Vector {
             let [x, y, z] = std::array::from_fn(|_| random.random_range(0..P as u32));
@@ -228,7 +221,7 @@ fn draw(
             })
             .collect();
         if let Some(pencils) = pencils {
-            return (centres, pencils);
+            return pencils;
         }
     }
 }
@@ -257,69 +250,36 @@ fn dot(plane: &Vector, point: &Vector) -> u32 {
 
 /// The edges that do not join two trees of those before them.
 fn outside_of_a_tree(nodes: usize, ends: &[(usize, usize)]) -> Vec<usize> {
-    let mut tree: Vec<usize> = (0..nodes).collect();
-    let mut outside = Vec::new();
-    for (edge, &(u, v)) in ends.iter().enumerate() {
-        let (from, to) = (tree[u], tree[v]);
-        if from == to {
-            outside.push(edge);
-        }
-        tree.iter_mut()
-            .filter(|t| **t == from)
-            .for_each(|t| *t = to);
-    }
-    outside
+    let mut trees = UnionFind::new(nodes);
+    let joins_none = |&edge: &usize| !trees.union(ends[edge].0, ends[edge].1);
+    (0..ends.len()).filter(joins_none).collect()
 }
 
-/// Two coordinates for every edge.
-type Coordinates = [u32; 2 * MAX_EDGES];
-
-/// A basis of the plane flows: the planes sum to zero at every node. Three coordinates of the sum
-/// are enough, as all planes there hold the centre, whose last coordinate is 1.
-fn conserved(nodes: usize, ends: &[(usize, usize)], pencils: &[[Vector; 2]]) -> Vec<Coordinates> {
-    let unknowns = 2 * ends.len();
-    let mut equations = [[0u32; 2 * MAX_EDGES]; 3 * MAX_NODES];
-    let equations = &mut equations[..3 * nodes];
+/// A basis of the plane flows, two coordinates for every edge: the planes sum to zero at every node.
+/// Three coordinates of the sum are enough, as all planes there hold the centre, whose last
+/// coordinate is 1.
+fn conserved(nodes: usize, ends: &[(usize, usize)], pencils: &[[Vector; 2]]) -> Vec<Vec<u32>> {
+    let field = &*FIELD;
+    let columns = 2 * ends.len();
+    let mut equations = Matrix::new(3 * nodes, columns, vec![0; 3 * nodes * columns]);
     for (edge, (&(u, v), pencil)) in ends.iter().zip(pencils).enumerate() {
         for (k, plane) in pencil.iter().enumerate() {
             for (r, &entry) in plane[..3].iter().enumerate() {
-                equations[3 * u + r][2 * edge + k] = entry;
-                equations[3 * v + r][2 * edge + k] = negative(entry);
+                let entry = field.from_u64(entry.into());
+                equations.row_mut(3 * u + r)[2 * edge + k] = entry;
+                equations.row_mut(3 * v + r)[2 * edge + k] = field.neg(&entry);
             }
         }
     }
-    // Reduced: a pivot is 1, and alone in its column.
-    let mut pivots = Vec::with_capacity(unknowns);
-    for column in 0..unknowns {
-        let rank = pivots.len();
-        let Some(row) = (rank..3 * nodes).find(|&row| equations[row][column] != 0) else {
-            continue;
-        };
-        equations.swap(rank, row);
-        let scale = inverse(equations[rank][column]);
-        for entry in &mut equations[rank][column..unknowns] {
-            *entry = multiply(*entry, scale);
-        }
-        let pivot = equations[rank];
-        for (other, equation) in equations.iter_mut().enumerate() {
-            if other != rank && equation[column] != 0 {
-                let minus = P - u64::from(equation[column]);
-                for (entry, &above) in equation[column..unknowns].iter_mut().zip(&pivot[column..]) {
-                    *entry = reduce(u64::from(*entry) + u64::from(above) * minus);
-                }
-            }
-        }
-        pivots.push(column);
-    }
-    (0..unknowns)
-        .filter(|column| !pivots.contains(column))
-        .map(|free| {
-            let mut flow = [0; 2 * MAX_EDGES];
-            flow[free] = 1;
-            for (equation, &pivot) in equations.iter().zip(&pivots) {
-                flow[pivot] = negative(equation[free]);
-            }
-            flow
+    let echelon = unwatched(|task| eliminate_mod(field, equations, task));
+    let flows = echelon.right_kernel();
+    (0..flows.rows())
+        .map(|k| {
+            flows
+                .row(k)
+                .iter()
+                .map(|&x| field.to_u64(x) as u32)
+                .collect()
         })
         .collect()
 }
@@ -351,7 +311,7 @@ mod tests {
             assert_eq!(u64::from(reduce(x)), x % P, "{x}");
         }
         for a in [1, 2, 3, 12345, p - 1] {
-            assert_eq!(multiply(a, inverse(a)), 1);
+            assert_eq!(u64::from(multiply(a, a)), u64::from(a) * u64::from(a) % P);
             assert_eq!((a + negative(a)) % p, 0);
         }
         assert_eq!(negative(0), 0);
@@ -364,8 +324,8 @@ mod tests {
         let through = plane(&a, &b, &c);
         assert!([a, b, c].iter().all(|point| dot(&through, point) == 0));
         // x + y + z = 1.
-        let scale = multiply(through[0], inverse(dot(&through, &[0, 0, 0, 1])));
-        assert_eq!(scale, P as u32 - 1);
+        assert_eq!(through[0], negative(dot(&through, &[0, 0, 0, 1])));
+        assert_ne!(through[0], 0);
         assert_eq!([through[1], through[2]], [through[0]; 2]);
     }
 
