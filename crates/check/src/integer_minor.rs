@@ -5,11 +5,11 @@
 use crate::algebra::{Field, Integers, is_prime};
 use crate::cameras::{self, Camera, Stream, gcd};
 use crate::document::IntegerMinor;
-use crate::elimination::{Echelon, SPARSE};
+use crate::elimination::{Echelon, Factors, SPARSE};
 use crate::json::Big;
 use crate::limits::Meter;
 use crate::matrices::{jacobian, map_motion, scale_motion};
-use crate::pivots::{Pivots, eliminate};
+use crate::pivots::Pivots;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
@@ -96,8 +96,8 @@ impl IntegerMatrix {
     /// Sees that a minor does not vanish modulo a prime, with these pivots.
     fn check_non_singular(&self, pivots: &Pivots, prime: u64, meter: &Meter) -> Checked<()> {
         let field = &Field::new(prime)?;
-        let echelon = Echelon::new(field, self.width, meter);
-        eliminate(echelon, pivots, |row| self.modulo(field, row)).map(drop)
+        let row = |row| self.modulo(field, row);
+        Factors::new(Echelon::new(field, self.width, meter), pivots, row).map(drop)
     }
 
     /// Sees that a minor is the claimed number, which is not zero, and that no pivot vanishes over

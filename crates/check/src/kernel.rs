@@ -176,12 +176,11 @@ fn edge_motion(
     for motion in motions {
         echelon.push(motion, None)?;
     }
-    let mut moved = ends
-        .map(|v| &vector[3 * columns * v..3 * columns * (v + 1)])
-        .concat();
-    let mut x = echelon.solve(&mut moved)?;
+    let moved = ends.map(|v| &vector[3 * columns * v..3 * columns * (v + 1)]);
+    let mut moved: Vec<[u64; 1]> = moved.concat().into_iter().map(|entry| [entry]).collect();
+    let mut x = echelon.solve(&mut moved)?.concat();
     ensure!(
-        moved.iter().all(|&entry| entry == 0),
+        moved.iter().all(|&entry| entry == [0]),
         "not a kernel vector at the core edge {edge}"
     );
     x.truncate(4 * columns);

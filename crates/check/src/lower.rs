@@ -4,11 +4,11 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::document::{Evidence, Minor, Model};
-use crate::elimination::Echelon;
+use crate::elimination::{Echelon, Factors};
 use crate::integer_minor::check_integer_minor;
 use crate::matrices::jacobian;
 use crate::pinching::check_pinching;
-use crate::pivots::{Pivots, eliminate};
+use crate::pivots::Pivots;
 use crate::plane_flow::check_plane_flow;
 use crate::plane_minor::check_plane_minor;
 use crate::rejection::{Checked, Failure, Within, ensure};
@@ -73,7 +73,7 @@ fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> 
     let cameras = cameras::general(&mut stream, field, core.nodes)?;
     let pivots = Pivots::of_jacobian(&minor.rows, &minor.cols, core)?;
     let echelon = Echelon::new(field, 12 * core.nodes, setting.meter);
-    eliminate(echelon, &pivots, |row| jacobian(field, core, &cameras, row))?;
+    Factors::new(echelon, &pivots, |row| jacobian(field, core, &cameras, row))?;
     Ok(Lower {
         rank: minor.rows.len() as i64,
         at: None,

@@ -1,7 +1,6 @@
 //! Pivots: the rows and columns of a minor, in an order in which elimination meets no zero (section
 //! 7 of the specification).
 
-use crate::elimination::Echelon;
 use crate::rejection::{Checked, ensure};
 use crate::structure::Core;
 use std::collections::HashSet;
@@ -40,24 +39,4 @@ impl<'p> Pivots<'p> {
     pub fn of_jacobian(rows: &'p [usize], cols: &'p [usize], core: &Core) -> Checked<Pivots<'p>> {
         Pivots::new(rows, cols, [10 * core.edges.len(), 12 * core.nodes])
     }
-
-    /// The rows with their columns.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, usize)> {
-        self.rows.iter().copied().zip(self.cols.iter().copied())
-    }
-}
-
-/// Eliminates along pivots, none of which may vanish.
-pub(crate) fn eliminate<'f, E: IntoIterator<Item = (usize, u64)>>(
-    mut echelon: Echelon<'f>,
-    pivots: &Pivots,
-    row: impl Fn(usize) -> E,
-) -> Checked<Echelon<'f>> {
-    for (k, (number, column)) in pivots.iter().enumerate() {
-        ensure!(
-            echelon.push(row(number), Some(column))?,
-            "pivot {k} vanishes"
-        );
-    }
-    Ok(echelon)
 }

@@ -4,10 +4,10 @@
 use crate::algebra::{Field, Ring};
 use crate::cameras::{self, Stream};
 use crate::document::{Model, PlaneFlow};
-use crate::elimination::{Echelon, SPARSE, check_diagonal, for_all};
+use crate::elimination::{Dense, Echelon, Factors, SPARSE, TOGETHER, for_all};
 use crate::limits::Meter;
 use crate::matrices::{Bearing, bearings, dot, lengths};
-use crate::pivots::{Pivots, eliminate};
+use crate::pivots::Pivots;
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
@@ -36,13 +36,13 @@ pub(crate) fn check_plane_flow(
     let centres = &cameras::centres(&mut stream, field, core.nodes)?;
     let flows = Flows::new(evidence, setting, core, field, centres)?;
     let stream = Stream::new("flow", setting.hashes(core), *seed, *draw);
-    let mut lambda = flows.lambda(evidence, stream)?;
-    check_diagonal(field, setting.meter, &mut lambda).within(|| "Lambda".into())?;
+    let lambda = flows.lambda(evidence, stream)?;
     let (a, b, m) = (
         rows.len() as i64,
         lambda.len() as i64,
         core.edges.len() as i64,
     );
+    Dense::new(field, setting.meter, lambda, 0).within(|| "Lambda".into())?;
     let rank = match setting.model {
         Model::Projective => 4 * a + b - m,
         _ => a,
@@ -63,7 +63,7 @@ struct Flows<'a> {
     centres: &'a [[u64; 3]],
     n: Vec<Bearing>,
     /// The pivot rows of N, eliminated.
-    echelon: Echelon<'a>,
+    factors: Factors<'a>,
     pivots: Pivots<'a>,
     /// The rows of N that are not pivots, at which the entries of flows are prescribed.
     free: Vec<usize>,
@@ -93,12 +93,12 @@ impl<'a> Flows<'a> {
         let lengths = lengths(field, core, centres);
         let pivots = Pivots::new(&evidence.rows, &evidence.cols, [height, width]);
         let pivots = pivots.within(|| "N".into())?;
-        let echelon = Echelon::new(field, width, setting.meter).solvable();
         let row = |row: usize| match row.checked_sub(directions) {
             None => n[row].to_vec(),
             Some(length) => lengths[length].to_vec(),
         };
-        let echelon = eliminate(echelon, &pivots, row).within(|| "N".into())?;
+        let echelon = Echelon::new(field, width, setting.meter).solvable();
+        let factors = Factors::new(echelon, &pivots, row).within(|| "N".into())?;
         // The left kernel of the pivots' columns has no more dimensions than this.
         let most = height - pivots.rows.len();
         ensure!(
@@ -120,7 +120,7 @@ impl<'a> Flows<'a> {
             core,
             centres,
             n,
-            echelon,
+            factors,
             pivots,
             free,
         })
@@ -147,9 +147,8 @@ impl<'a> Flows<'a> {
             let numbers = first..(first + batch).min(*flows);
             let mut all = self.next_flows(numbers, &mut stream, &mut rest);
             for_all(&mut all, |flows| {
-                for flow in flows {
-                    flow.rows = self.rows_of_lambda(flow, lambda_cols);
-                }
+                let together = flows.chunks_mut(TOGETHER);
+                together.for_each(|flows| self.complete(flows, lambda_cols));
             });
             for (number, flow) in (first..).zip(all) {
                 let rows = flow.rows.within(|| format!("flow {number}"))?;
@@ -185,32 +184,51 @@ impl<'a> Flows<'a> {
         numbers.map(flow).collect()
     }
 
-    /// Completes a flow and sees that it vanishes in all columns of N; returns what is wanted of
-    /// its four rows of Lambda.
-    fn rows_of_lambda(&self, flow: &mut Flow, columns: &[usize]) -> Checked<Vec<Vec<u64>>> {
-        let (field, entries) = (self.field, &mut flow.entries);
+    /// Completes at most `TOGETHER` flows, and computes what is wanted of their rows of Lambda.
+    fn complete(&self, flows: &mut [Flow], columns: &[usize]) {
+        let field = self.field;
+        let mut product = vec![[0; TOGETHER]; 3 * self.core.nodes];
+        for (lane, flow) in flows.iter().enumerate() {
+            for &free in &self.free {
+                for (at, value) in self.n[free] {
+                    let term = field.mul(flow.entries[free], value);
+                    product[at][lane] = field.add(product[at][lane], term);
+                }
+            }
+        }
+        // At the pivots, a flow takes off what its prescribed entries leave in the columns of N.
+        let taken_off = match self.factors.solve(&mut product) {
+            Ok(taken_off) => taken_off,
+            Err(failure) => {
+                flows[0].rows = Err(failure);
+                return;
+            }
+        };
+        for (lane, flow) in flows.iter_mut().enumerate() {
+            for (&row, entry) in self.pivots.rows.iter().zip(&taken_off) {
+                flow.entries[row] = field.neg(entry[lane]);
+            }
+            let vanishes = product.iter().all(|entry| entry[lane] == 0);
+            flow.rows = self.rows_of_lambda(flow, columns, vanishes);
+        }
+    }
+
+    /// What is wanted of the four rows of Lambda that come from a flow, which must vanish in all
+    /// columns of N.
+    fn rows_of_lambda(
+        &self,
+        flow: &Flow,
+        columns: &[usize],
+        vanishes: bool,
+    ) -> Checked<Vec<Vec<u64>>> {
         let outside = self.free.len() + flow.wanted.len() * columns.len();
         self.meter
             .charge(2 * SPARSE * (self.n.len() + outside) as u64)?;
-        let mut product = vec![0; 3 * self.core.nodes];
-        for &free in &self.free {
-            for (at, value) in self.n[free] {
-                product[at] = field.add(product[at], field.mul(entries[free], value));
-            }
-        }
-        // At the pivots, the flow takes off what its prescribed entries leave in the columns of N.
-        let taken_off = self.echelon.solve(&mut product)?;
-        for (&row, entry) in self.pivots.rows.iter().zip(taken_off) {
-            entries[row] = field.neg(entry);
-        }
-        ensure!(
-            product.iter().all(|&entry| entry == 0),
-            "it does not vanish in all columns of N"
-        );
+        ensure!(vanishes, "it does not vanish in all columns of N");
         let row = |&(row, _): &(usize, usize)| {
             columns
                 .iter()
-                .map(|&e| self.lambda_entry(entries, e, row % 4))
+                .map(|&e| self.lambda_entry(&flow.entries, e, row % 4))
                 .collect()
         };
         Ok(flow.wanted.iter().map(row).collect())

@@ -4,9 +4,9 @@
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
 use crate::document::Minor;
-use crate::elimination::Echelon;
+use crate::elimination::{Echelon, Factors};
 use crate::matrices::plane_direction;
-use crate::pivots::{Pivots, eliminate};
+use crate::pivots::Pivots;
 use crate::rejection::Checked;
 use crate::setting::{Lower, Setting};
 use crate::structure::Core;
@@ -19,7 +19,7 @@ pub(crate) fn check_plane_minor(minor: &Minor, setting: &Setting, core: &Core) -
     let (height, width) = (core.edges.len(), 2 * core.nodes);
     let pivots = Pivots::new(&minor.rows, &minor.cols, [height, width])?;
     let echelon = Echelon::new(field, width, setting.meter);
-    eliminate(echelon, &pivots, |row| {
+    Factors::new(echelon, &pivots, |row| {
         plane_direction(field, core, &points, row)
     })?;
     Ok(Lower {

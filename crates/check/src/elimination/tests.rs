@@ -1,6 +1,9 @@
+use super::dense::{TILE, add_lanes};
 use super::*;
+use crate::algebra::{LANES, SMALL_LANES};
 use crate::cameras::Stream;
-use crate::limits::Limits;
+use crate::limits::{Limits, Meter};
+use crate::pivots::Pivots;
 use crate::rejection::Failure;
 use std::sync::LazyLock;
 
@@ -26,6 +29,17 @@ fn sparse(row: &[u64]) -> Vec<(usize, u64)> {
     row.iter().copied().enumerate().collect()
 }
 
+/// The combination of rows with these multiples.
+fn combination(field: &Field, multiples: &[u64], rows: &[Vec<u64>]) -> Vec<u64> {
+    let mut sums = vec![0; rows[0].len()];
+    for (&multiple, row) in multiples.iter().zip(rows) {
+        for (sum, &entry) in sums.iter_mut().zip(row) {
+            *sum = field.add(*sum, field.mul(multiple, entry));
+        }
+    }
+    sums
+}
+
 #[test]
 fn solutions_solve_the_system_at_every_density() {
     // 2^29 - 3 is the largest prime whose products are summed before they are reduced.
@@ -49,20 +63,11 @@ fn solutions_solve_the_system_at_every_density() {
                     .all(|row| echelon.push(sparse(row), None).unwrap())
             );
             for wanted in &random(&field, size, 30)[..size.min(20)] {
-                let mut left = wanted.clone();
+                let mut left: Vec<[u64; 1]> = wanted.iter().map(|&entry| [entry]).collect();
                 let solution = echelon.solve(&mut left).unwrap();
-                assert!(left.iter().all(|&entry| entry == 0));
-                for (column, wanted) in wanted.iter().enumerate() {
-                    let products = solution
-                        .iter()
-                        .zip(&matrix)
-                        .map(|(&x, row)| field.mul(x, row[column]));
-                    assert_eq!(
-                        products.fold(0, |sum, product| field.add(sum, product)),
-                        *wanted,
-                        "{size}, {share}"
-                    );
-                }
+                assert!(left.iter().all(|&entry| entry == [0]));
+                let found = combination(&field, &solution.concat(), &matrix);
+                assert_eq!(&found, wanted, "{size}, {share}");
             }
         }
     }
@@ -88,9 +93,9 @@ fn the_difference_is_left() {
         !echelon.push([(2, field.element(1))], Some(1)).unwrap(),
         "zero at the prescribed pivot"
     );
-    let mut row = [1, 5, 7].map(|entry| field.element(entry));
-    assert_eq!(echelon.solve(&mut row).unwrap(), [field.element(51)]);
-    assert_eq!(row, [0, 3, 7].map(|entry| field.element(entry)));
+    let mut row = [1, 5, 7].map(|entry| [field.element(entry)]);
+    assert_eq!(echelon.solve(&mut row).unwrap(), [[field.element(51)]]);
+    assert_eq!(row, [0, 3, 7].map(|entry| [field.element(entry)]));
 }
 
 /// The same leading minors by both kinds of elimination, at sizes around multiples of the lanes and
@@ -104,7 +109,7 @@ fn diagonal_is_that_of_prescribed_pivots() {
             let mut echelon = Echelon::new(&field, size, &METER).solvable();
             let vanishing =
                 (0..size).find(|&k| !echelon.push(sparse(&matrix[k]), Some(k)).unwrap());
-            let found = check_diagonal(&field, &METER, &mut matrix.clone());
+            let found = Dense::new(&field, &METER, matrix.clone(), 0);
             let wanted = vanishing.map(|k| format!("pivot {k} vanishes"));
             assert_eq!(
                 found.err().map(|error| error.to_string()),
@@ -112,6 +117,80 @@ fn diagonal_is_that_of_prescribed_pivots() {
                 "{p}, {size}"
             );
         }
+    }
+}
+
+/// Rows at different densities, the pivots in any order, with columns that have none: the dense end
+/// is all, nothing or a part, and what is left outside the pivots is the same.
+#[test]
+fn sparse_and_dense_factors_solve_the_same_systems() {
+    for p in [1_000_003, (1 << 29) - 3, (1 << 62) - 57] {
+        let field = Field::new(p).unwrap();
+        for (size, share, tail) in [
+            (0, 0, 0..=0),
+            (1, 100, 0..=0),
+            (15, 100, 0..=0),
+            (30, 100, 14..=14),
+            (150, 0, 0..=0),
+            (150, 100, 134..=134),
+            (150, 2, 1..=130),
+            (300, 1, 1..=150),
+            (300, 2, 1..=250),
+        ] {
+            // The last columns have no pivots.
+            let matrix = random(&field, size + size / 2 + 3, share);
+            let cols: Vec<usize> = (0..size).map(|k| (7 * k + 3) % size).collect();
+            let pivots = Pivots {
+                rows: &cols,
+                cols: &cols,
+            };
+            let row = |k: usize| sparse(&matrix[k]);
+            let width = matrix.len();
+            let echelon = Echelon::new(&field, width, &METER).solvable();
+            let factors = Factors::new(echelon, &pivots, row).unwrap();
+            let found = factors.tail.size();
+            assert!(tail.contains(&found), "{size}, {share}: {found}");
+            let wanted = random(&field, width, 30);
+            let mut left: Vec<[u64; 3]> = (0..width)
+                .map(|column| [0, 1, 2].map(|k| wanted[k][column]))
+                .collect();
+            if size == 0 {
+                assert!(factors.solve(&mut left).unwrap().is_empty());
+                continue;
+            }
+            let solution = factors.solve(&mut left).unwrap();
+            let rows: Vec<_> = cols.iter().map(|&k| matrix[k].clone()).collect();
+            for lane in 0..3 {
+                let multiples: Vec<u64> = solution.iter().map(|entry| entry[lane]).collect();
+                let found = combination(&field, &multiples, &rows);
+                for (column, (&found, left)) in found.iter().zip(&left).enumerate() {
+                    assert!(column >= size || left[lane] == 0);
+                    assert_eq!(field.add(found, left[lane]), wanted[lane][column]);
+                }
+            }
+        }
+    }
+}
+
+/// A pivot that vanishes has the same number before the dense end and in it.
+#[test]
+fn factors_name_the_vanishing_pivot() {
+    let field = Field::new(1_000_003).unwrap();
+    for vanishing in [0, 5, 15, 16, 30, 99] {
+        let mut matrix = random(&field, 100, 100);
+        matrix[vanishing] = match vanishing {
+            0 => vec![0; 100],
+            _ => matrix[vanishing - 1].clone(),
+        };
+        let all: Vec<usize> = (0..100).collect();
+        let pivots = Pivots {
+            rows: &all,
+            cols: &all,
+        };
+        let echelon = Echelon::new(&field, 100, &METER);
+        let found = Factors::new(echelon, &pivots, |k| sparse(&matrix[k]));
+        let wanted = format!("pivot {vanishing} vanishes");
+        assert_eq!(found.err().unwrap().to_string(), wanted);
     }
 }
 
@@ -150,14 +229,11 @@ fn a_vanishing_pivot_is_named() {
     let field = Field::new(7).unwrap();
     // Rows 0 and 1 agree in columns 0 and 1, so that the second pivot vanishes although the matrix
     // is invertible.
-    let mut matrix =
+    let matrix =
         [[1, 1, 0], [1, 1, 1], [0, 1, 1]].map(|row| row.map(|entry| field.element(entry)).to_vec());
-    assert_eq!(
-        check_diagonal(&field, &METER, &mut matrix)
-            .unwrap_err()
-            .to_string(),
-        "pivot 1 vanishes"
-    );
+    let found = |before| Dense::new(&field, &METER, matrix.to_vec(), before).err();
+    assert_eq!(found(0).unwrap().to_string(), "pivot 1 vanishes");
+    assert_eq!(found(9).unwrap().to_string(), "pivot 10 vanishes");
 }
 
 #[test]
@@ -196,7 +272,16 @@ fn elimination_is_charged() {
         .iter()
         .find_map(|row| echelon.push(sparse(row), None).err());
     assert!(matches!(failed, Some(Failure::TooLarge(_))));
-    let failed = check_diagonal(&field, &meter, &mut matrix.clone()).unwrap_err();
-    assert!(matches!(failed, Failure::TooLarge(_)));
-    assert!(check_diagonal(&field, &METER, &mut matrix.clone()).is_ok());
+    let failed = Dense::new(&field, &meter, matrix.clone(), 0).err();
+    assert!(matches!(failed, Some(Failure::TooLarge(_))));
+    // 78,336 operations, and then 4 * 40 * 40 for each of four rows.
+    let meter = Meter::new(&Limits {
+        operations: 90_000,
+        ..Limits::default()
+    });
+    let dense = Dense::new(&field, &meter, matrix, 0).unwrap();
+    assert!(matches!(
+        dense.solve(vec![[1; 4]; 40]),
+        Err(Failure::TooLarge(_))
+    ));
 }
