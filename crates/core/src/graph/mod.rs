@@ -118,34 +118,16 @@ impl Graph {
 
     /// Builds a graph from pairs in any order and orientation; pairs given more
     /// than once are merged. Returns the graph and how many pairs were merged
-    /// away. O(m log m), or O(m + r log r) where only r pairs, few, are out of order; in place.
+    /// away. O(m log m), or O(m + r log m) where only r pairs, few, are out of order; in place.
     ///
     /// # Errors
     /// A self-loop, or a node that is not below `nodes`.
     pub fn from_pairs(nodes: u32, mut pairs: Vec<(u32, u32)>) -> Result<(Self, usize), GraphError> {
-        let orient = |pair: &mut (u32, u32)| {
-            let (i, j) = *pair;
-            *pair = (i.min(j), i.max(j));
-            match pair.1 {
-                _ if i == j => Some(GraphError::SelfLoop(i)),
-                node if node >= nodes => Some(GraphError::OutOfRange { node, nodes }),
-                _ => None,
-            }
-        };
-        let shares = pairs.par_chunks_mut(SHARE);
-        let refused = shares.find_map_first(|share| share.iter_mut().find_map(orient));
-        if let Some(error) = refused {
-            return Err(error);
-        }
         let given = pairs.len();
-        let disorder = (0..given.div_ceil(SHARE)).into_par_iter().find_first(|k| {
-            let share = &pairs[k * SHARE..given.min((k + 1) * SHARE + 1)];
-            !share.is_sorted_by(|a, b| a < b)
-        });
-        if let Some(k) = disorder {
-            sort::sort(&mut pairs, k * SHARE);
-            pairs.dedup();
-        }
+        let shares = pairs.par_chunks_mut(SHARE);
+        let looked: Vec<_> = shares.map(|share| sort::orient(nodes, share)).collect();
+        let descents: Vec<Vec<u16>> = looked.into_iter().collect::<Result<_, _>>()?;
+        sort::sort(&mut pairs, &descents);
         let merged = given - pairs.len();
         Ok((
             Self {

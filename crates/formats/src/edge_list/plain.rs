@@ -51,12 +51,8 @@ pub(super) fn read<'a, const BARE: bool>(
     *with_more = 0;
     let mut left = text;
     loop {
-        while BARE
-            && let Some((a, b, rest)) = bare_line(left)
-            && a != b
-        {
-            pairs.push((a, b));
-            left = rest;
+        if BARE {
+            left = bare_lines(left, pairs);
         }
         // A pair of a label with itself is for the general way, before `end` takes note of it.
         let Some((a, b, further)) = pair(left).filter(|(a, b, _)| a != b) else {
@@ -127,25 +123,84 @@ fn split(text: &[u8], count: usize) -> Vec<&[u8]> {
     pieces
 }
 
-/// The most common line: two integers of one to seven digits, one separator between them, and the
-/// line feed; and what follows it. `None` says nothing about the line.
+/// Pairs of the most common lines at the start of a text, two integers of one to seven digits with
+/// one separator between them and the line feed; returns what follows these lines.
 #[inline]
-fn bare_line(text: &[u8]) -> Option<(u32, u32, &[u8])> {
-    let start = text.first_chunk::<24>()?;
-    let first = Digits::of(*start.first_chunk()?);
-    if !(1..8).contains(&first.count) {
-        return None;
+fn bare_lines<'a>(text: &'a [u8], pairs: &mut Vec<(u32, u32)>) -> &'a [u8] {
+    let mut left = text;
+    let mut first = FirstField::default();
+    while let Some(start) = left.first_chunk::<24>() {
+        // Lists are mostly sorted: then neighbours have their first fields in common.
+        let eight = *start.first_chunk().unwrap_or(&[0; 8]);
+        if !first.is_before(eight) {
+            match FirstField::of(eight) {
+                Some(another) => first = another,
+                None => break,
+            }
+        }
+        let second = Digits::of(*start[first.length..].first_chunk().unwrap_or(&[0; 8]));
+        let end = first.length + second.count;
+        let zeros = (start[first.length] == b'0') & (second.count > 1);
+        if !(1..8).contains(&second.count) || zeros || start[end] != b'\n' {
+            break;
+        }
+        let (a, b) = (first.value, second.value());
+        if a == b {
+            break;
+        }
+        pairs.push((a, b));
+        left = &left[end + 1..];
     }
-    let at = first.count + 1;
-    let second = Digits::of(*start[at..].first_chunk()?);
-    if !(1..8).contains(&second.count) {
-        return None;
+    left
+}
+
+/// An integer of one to seven digits and the separator behind it.
+#[derive(Clone, Copy)]
+struct FirstField {
+    /// These bytes, and zeros behind them.
+    bytes: u64,
+    /// Ones in place of these bytes.
+    mask: u64,
+    length: usize,
+    value: u32,
+}
+
+impl Default for FirstField {
+    /// Before no text.
+    fn default() -> Self {
+        Self {
+            bytes: 1,
+            mask: 0,
+            length: 0,
+            value: 0,
+        }
     }
-    let end = at + second.count;
-    let zeros = (start[0] == b'0') & (first.count > 1) | (start[at] == b'0') & (second.count > 1);
-    let separated = matches!(start[first.count], b' ' | b'\t' | b',');
-    (separated & (start[end] == b'\n') & !zeros)
-        .then(|| (first.value(), second.value(), &text[end + 1..]))
+}
+
+impl FirstField {
+    /// The field that a line begins with. `None` says nothing about the line.
+    #[inline]
+    fn of(eight: [u8; 8]) -> Option<Self> {
+        let digits = Digits::of(eight);
+        if !(1..8).contains(&digits.count) {
+            return None;
+        }
+        let length = digits.count + 1;
+        let mask = u64::MAX >> (64 - 8 * length);
+        let separated = matches!(eight[digits.count], b' ' | b'\t' | b',');
+        (separated && !(eight[0] == b'0' && digits.count > 1)).then(|| Self {
+            bytes: u64::from_le_bytes(eight) & mask,
+            mask,
+            length,
+            value: digits.value(),
+        })
+    }
+
+    /// Whether a line begins with this field.
+    #[inline]
+    fn is_before(&self, eight: [u8; 8]) -> bool {
+        u64::from_le_bytes(eight) & self.mask == self.bytes
+    }
 }
 
 /// Two integers at the start of a line with one separator between them, and what follows.
@@ -334,24 +389,39 @@ mod tests {
             prop_assert_eq!(small_integer(&text), long_integer(&text));
         }
 
-        /// A bare line is what the general way makes of it, if it is taken for one.
+        /// Bare lines are what the general way makes of them, whether or not they have their first
+        /// fields in common, up to the first line that is not bare.
         #[test]
-        fn bare_lines(
-            line in "[0-9]{0,9}[ \t,x]{1,2}[0-9]{0,9}[ \r]?\n|[1-9][0-9]{0,6}[ \t,][1-9][0-9]{0,6}\n",
+        fn bare_lines_are_plain_pairs(
+            lines in prop::collection::vec(
+                ("|0|7|70|7070707|707070|12345678|070|7x", "[ \t,x]|, ", "[0-9]{0,9}|[1-9][0-9]{0,6}", "[ \r]?"),
+                0..12,
+            ),
             behind in "[0-9 \n]{0,30}",
         ) {
-            let text = format!("{line}{behind}");
-            let text = text.as_bytes();
-            let general = pair(text).and_then(|(a, b, further)| Some((a, b, line_end(further)?)));
-            let bare = bare_line(text);
-            prop_assert!(bare.is_none() || bare == general);
+            let line = |(a, separator, b, end): &(String, String, String, String)| {
+                format!("{a}{separator}{b}{end}\n")
+            };
+            let text = lines.iter().map(line).collect::<String>() + &behind;
             let digits = |field: &str| {
                 (1..8).contains(&field.len()) && field.bytes().all(|b| b.is_ascii_digit())
                     && (field.len() == 1 || !field.starts_with('0'))
             };
-            let plain = line.trim_end_matches('\n').split([' ', '\t', ',']).collect::<Vec<_>>();
-            let is_bare = plain.len() == 2 && plain.iter().all(|field| digits(field));
-            prop_assert_eq!(bare.is_some(), is_bare && text.len() >= 24);
+            let (mut left, mut expected) = (text.as_bytes(), Vec::new());
+            while let Some((a, b, rest)) = pair(left)
+                && a != b
+                && left.len() >= 24
+                && let Some(behind) = line_end(rest)
+                && let length = left.len() - behind.len()
+                && let Ok(line) = std::str::from_utf8(&left[..length - 1])
+                && line.split([' ', '\t', ',']).all(digits)
+            {
+                expected.push((a, b));
+                left = behind;
+            }
+            let mut found = vec![(7, 8)];
+            prop_assert_eq!(bare_lines(text.as_bytes(), &mut found), left);
+            prop_assert_eq!(&found[1..], expected);
         }
 
         /// Pieces together are the text, and all but the last end with a line.
