@@ -7,7 +7,10 @@ use common::{Run, TABLE_1, cycle, data, geng, verify, verify_with};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The second graph of docs/theory.md, Example 5.10: no partition with hubs refutes it.
+/// The third graph of docs/theory.md, Example 5.14: the pairs 34 and 56 are implied.
+const ADDED: &str = "0 5\n0 9\n0 10\n1 7\n1 11\n1 12\n2 4\n2 11\n2 12\n2 13\n2 14\n2 15\n3 5\n3 6\n\
+                     3 8\n4 5\n4 6\n6 7\n7 13\n8 9\n8 10\n8 14\n8 15\n";
+/// The second graph of Example 5.10: no partition with hubs refutes it.
 const OVERLAP: &str = "0 5\n0 6\n0 7\n1 4\n1 8\n1 9\n2 4\n2 6\n2 7\n2 10\n2 11\n2 12\n3 5\n3 8\n\
                        3 9\n3 10\n3 11\n3 13\n4 13\n5 12\n";
 const PSI: &str = "0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n0 9\n2 9\n0 10\n2 10\n";
@@ -41,6 +44,7 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("hub", GAMMA.into(), vec![]),
         ("nested classes", PSI.into(), vec![]),
         ("two parts that overlap", OVERLAP.into(), vec![]),
+        ("pairs that are implied", ADDED.into(), vec![]),
         ("draws", PSI.into(), vec!["--no-counting"]),
         (
             "draws of the whole graph",

@@ -176,9 +176,14 @@ pub(super) fn reason(report: &Report) -> String {
         }
         Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
             let mut evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
-            match evidence.any(|one| matches!(one, Evidence::Overlap(_))) {
-                true => format!("two parts that overlap allow rank {covered} at most"),
-                false => format!("counting allows rank {covered} at most"),
+            let is_more =
+                |one: &&Evidence| matches!(one, Evidence::Overlap(_) | Evidence::Added(_));
+            match evidence.find(is_more) {
+                Some(Evidence::Added(_)) => {
+                    format!("pairs that are implied allow rank {covered} at most")
+                }
+                Some(_) => format!("two parts that overlap allow rank {covered} at most"),
+                None => format!("counting allows rank {covered} at most"),
             }
         }
         Strength::Proof => match report.input.cameras {

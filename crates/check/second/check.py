@@ -1155,6 +1155,7 @@ class Check:
 
     def check_counting(self, value, group, where):
         """Section 7, counting."""
+        value, group = self.with_added(value, group, where)
         _, blocks, bound = members(value, "kind blocks bound", where)
         groups, total = [], 0
         for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
@@ -1165,6 +1166,24 @@ class Check:
         self.partition(groups, set(group), f"{where}: blocks")
         need(an_int(bound, f"{where}: bound") == total, f"{where}: the bound is {total}, not {bound}")
         return total
+
+    def with_added(self, value, group, where):
+        """Section 7, added: the evidence without its added edges, and the members of the piece with them."""
+        if "added" not in value:
+            return value, group
+        need(self.projective, f"{where}: added: projective model only")
+        value = dict(value)
+        added = [a_pair(pair, f"{where}: added") for pair in a_list(value.pop("added"), f"{where}: added")]
+        need(added, f"{where}: nothing is added")
+        increasing(added, f"{where}: added")
+        nodes = set(self.union(group))
+        for pair in added:
+            need(nodes.issuperset(pair), f"{where}: added: {pair} are not nodes of the piece")
+        for member in group:
+            inside = set(self.nodes(member))
+            for pair in added:
+                need(not inside.issuperset(pair), f"{where}: added: {pair} are nodes of one member")
+        return value, list(group) + added
 
     def check_block(self, block, group, where):
         """Section 7, a block: its members, all of the piece, and what it contributes."""
@@ -1180,6 +1199,7 @@ class Check:
     def check_overlap(self, value, group, where):
         """Section 7, overlap."""
         need(self.projective, f"{where}: projective model only")
+        value, group = self.with_added(value, group, where)
         _, first, second, shared, bound = members(value, "kind first second shared bound", where)
         sides, total = [], 0
         for name, blocks in (("first", first), ("second", second)):

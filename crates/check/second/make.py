@@ -305,6 +305,8 @@ class Maker:
             found.insert(self.rng.randrange(2), self.integer_minor(core))
         if self.projective and self.variety and self.rng.random() < 0.3:
             found.append(self.overlap(group))
+        if self.projective and self.variety and self.rng.random() < 0.3:
+            found.append(self.counting(group))
         if rank == required:
             return found, [group]
         seed, number = int(lower["seed"]), lower["draw"]
@@ -334,6 +336,8 @@ class Maker:
         hub = None if self.force_draws else self.hub(group, self.required(nodes) - (required - rank))
         if hub:
             return [*found, hub, kernel], components
+        # Elsewhere counting gives the rank, unless it is too low at a draw modulo a small prime.
+        check.need(self.projective, "an unlucky draw")
         length = required.bit_length()
         count = -(-120 // (56 - length))
         seed = self.rng.randrange(2**64)
@@ -344,9 +348,25 @@ class Maker:
             self.rng.shuffle(found)
         return found, components
 
+    def added(self, group):
+        """Pairs of nodes of a piece, none of one member: some of these, perhaps none."""
+        inside = [set(self.nodes(member)) for member in group]
+        pairs = itertools.combinations(sorted(self.union(group)), 2)
+        apart = [pair for pair in pairs if not any(nodes.issuperset(pair) for nodes in inside)]
+        return sorted(self.rng.sample(apart, min(len(apart), self.rng.randrange(3))))
+
+    def counting(self, group):
+        """Evidence by single members and pairs that are added, whatever bound they give."""
+        added = self.added(group)
+        members = group + added
+        blocks = [{**listed([member]), "hubs": []} for member in members]
+        total = sum(self.required(len(self.union([member]))) for member in members)
+        return {"kind": "counting", "blocks": blocks, "bound": total, **listed_pairs(added)}
+
     def overlap(self, group):
         """Evidence by two random sets of members that overlap, whatever bound they give."""
-        sides, total = {"first": [], "second": []}, 0
+        sides, total, added = {"first": [], "second": []}, 0, self.added(group)
+        group = group + added
         where = [self.rng.choice(["first", "second", "both"]) for _ in group]
         where[self.rng.randrange(len(group))] = "both"
         for name in sides:
@@ -366,7 +386,8 @@ class Maker:
                 lower, rank = self.lower(core)
                 pieces.append({**listed(block), "evidence": [lower]})
                 total -= self.required(nodes) - (self.required(core.n) - rank)
-        return {"kind": "overlap", **sides, "shared": {"rigid": listed(singles), "pieces": pieces}, "bound": total}
+        shared = {"rigid": listed(singles), "pieces": pieces}
+        return {"kind": "overlap", **sides, "shared": shared, "bound": total, **listed_pairs(added)}
 
     def hub(self, group, wanted):
         """Counting with one block and a hub, its parts the members, if that gives the wanted bound."""
@@ -436,6 +457,11 @@ class Maker:
         if check_it:
             document["claim"] = check.Check(document).evidence_claim
         return document
+
+
+def listed_pairs(added):
+    """The member for pairs that are added, if there are any."""
+    return {"added": [list(pair) for pair in added]} if added else {}
 
 
 def empty_claim():

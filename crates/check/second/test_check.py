@@ -1010,6 +1010,49 @@ class Overlaps(Case):
         self.verifies(document)
         self.changed(change(lambda s: s["pieces"][0]["evidence"][0].update(prime="1000001")), "not a prime")
 
+    def test_added(self):
+        """A bound by counting for the piece with two pairs more, member by member."""
+        document, added = copy.deepcopy(self.document), [[0, 2], [4, 8]]
+        piece = document["pieces"][0]
+        blocks = [{"bodies": [0], "edges": [], "hubs": []}]
+        blocks += [{"bodies": [], "edges": [edge], "hubs": []} for edge in piece["edges"] + added]
+        bound = 18 + 7 * (len(piece["edges"]) + 2)
+        piece["evidence"].append({"kind": "counting", "blocks": blocks, "bound": bound, "added": added})
+        self.verifies(document)
+
+        def changed(edit, *words):
+            self.broken(document, lambda d: edit(evidence(d, "counting")), *words)
+
+        changed(lambda c: c.pop("added"), "a member is not one of the piece")
+        changed(lambda c: c.update(added=[[0, 2]]), "a member is not one of the piece")
+        changed(lambda c: c["blocks"].pop(), "a member is in no group")
+        changed(lambda c: c.update(bound=81), f"the bound is {bound}, not 81")
+        changed(lambda c: c.update(added=[]), "nothing is added")
+        changed(lambda c: c.update(added={}), "added is not a list")
+        changed(lambda c: c.update(added=added[::-1]), "added", "increasing")
+        changed(lambda c: c.update(added=[added[0], *added]), "added", "increasing")
+        changed(lambda c: c.update(added=[[2, 0], added[1]]), "added", "pair")
+        changed(lambda c: c.update(added=[added[0], [4, 9]]), "are not nodes of the piece")
+        for pair in ([2, 3], [0, 1], [0, 8]):
+            changed(lambda c: c.update(added=sorted([added[0], pair])), "are nodes of one member")
+        self.broken(document, lambda d: evidence(d, "classes").update(added=added), "added")
+        for model in ("calibrated", "affine"):
+            other = make.make(SQUARE, model=model) if model == "affine" else make.make(
+                [(k, (k + 1) % 5) for k in range(4)] + [(0, 4)], model=model
+            )
+            self.broken(other, lambda d: d["pieces"][0]["evidence"].append(evidence(document, "counting")), "projective")
+
+    def test_implied_pairs(self):
+        """A graph whose rank needs them; that these two pairs are implied, and others are not, by ranks alone."""
+        with open(os.path.join(HERE, "..", "tests", "certificates", "added.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        self.assertEqual(self.verifies(document).statements()[1], "projective: not-finite-solvable (proof)")
+        edges = list(check.read_graph6(document["graph"]["graph6"]).edges)
+        for more, expected in (([], 160), ([(2, 5), (6, 13)], 160), ([(5, 7)], 161)):
+            self.assertEqual(agree.generic_rank(range(16), edges + more, "projective", random.Random(5)), expected)
+        for wrong in (159, 161):
+            self.broken(document, lambda d: evidence(d, "overlap").update(bound=wrong), "the bound is 160")
+
     def test_projective_only(self):
         overlap = evidence(self.document, "overlap")
         for model in ("calibrated", "affine"):

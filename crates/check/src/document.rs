@@ -243,6 +243,7 @@ pub(crate) struct Pinching {
 pub(crate) struct Counting {
     pub blocks: Vec<Block>,
     pub bound: i64,
+    pub added: Option<Vec<Pair>>,
 }
 
 #[derive(Debug)]
@@ -251,6 +252,7 @@ pub(crate) struct Overlap {
     pub second: Vec<Block>,
     pub shared: Split,
     pub bound: i64,
+    pub added: Option<Vec<Pair>>,
 }
 
 #[derive(Debug)]
@@ -334,7 +336,7 @@ any_members! {
     flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
     blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
     vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
-    first: Vec<Block>, second: Vec<Block>, shared: Split,
+    first: Vec<Block>, second: Vec<Block>, shared: Split, added: Vec<Pair>,
 }
 
 /// Takes a member that the kind has.
@@ -360,12 +362,14 @@ impl AnyMembers {
             "counting" => Evidence::Counting(Counting {
                 blocks: own!(self, blocks),
                 bound: own!(self, bound),
+                added: self.added.take(),
             }),
             "overlap" => Evidence::Overlap(Overlap {
                 first: own!(self, first),
                 second: own!(self, second),
                 shared: own!(self, shared),
                 bound: own!(self, bound),
+                added: self.added.take(),
             }),
             "draws" => Evidence::Draws(Draws {
                 seed: own!(self, seed).0,

@@ -1,6 +1,7 @@
 //! Pieces, their evidence, and what it amounts to (sections 6, 7 and 9 of the specification; items
 //! 2 to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
 
+use crate::added;
 use crate::counting::check_counting;
 use crate::document::{self, Evidence, Members, Model};
 use crate::draws::{Drawn, check_draws};
@@ -235,13 +236,19 @@ impl Shown {
             | Evidence::PlaneMinor(_) => {
                 self.bounds.push(check_lower(one, structure.setting, core)?);
             }
-            Evidence::Counting(blocks) => {
-                let bound = check_counting(blocks, structure, piece)?;
-                self.upper = self.upper.min(bound);
+            Evidence::Counting(counting) => {
+                let added = counting.added.as_deref();
+                let bound = added::check_with(added, structure, piece, |structure, piece| {
+                    check_counting(counting, structure, piece)
+                });
+                self.upper = self.upper.min(bound?);
             }
             Evidence::Overlap(overlap) => {
-                let bound = check_overlap(overlap, structure, piece)?;
-                self.upper = self.upper.min(bound);
+                let added = overlap.added.as_deref();
+                let bound = added::check_with(added, structure, piece, |structure, piece| {
+                    check_overlap(overlap, structure, piece)
+                });
+                self.upper = self.upper.min(bound?);
             }
             Evidence::Draws(draws) => {
                 ensure!(self.drawn.is_none(), "a second `draws` in the piece");

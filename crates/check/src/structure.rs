@@ -107,6 +107,47 @@ impl<'a> Structure<'a> {
         Ok(loose)
     }
 
+    /// All edges of the graph.
+    pub fn pairs(&self) -> &[Pair] {
+        &self.graph.pairs
+    }
+
+    /// How many nodes the graph has.
+    pub fn count_nodes(&self) -> usize {
+        self.graph.nodes()
+    }
+
+    /// The same members in a graph with more edges, and a piece with the added ones as members.
+    pub fn with_edges<'b>(
+        &'b self,
+        graph: &'b Graph,
+        piece: &Part,
+        added: &[Pair],
+    ) -> Checked<(Structure<'b>, Part)> {
+        let size: usize = self.bodies.iter().flatten().map(Vec::len).sum();
+        let size = self.bodies.len() + size + graph.pairs.len();
+        self.setting.meter.charge(SPARSE * size as u64)?;
+        let renumbered = |&member: &usize| match member.checked_sub(self.bodies.len()) {
+            None => Ok(member),
+            Some(edge) => Ok(self.bodies.len() + graph.edge(self.graph.pairs[edge])?),
+        };
+        let own = piece.iter().map(renumbered);
+        let new = added
+            .iter()
+            .map(|&pair| Ok(self.bodies.len() + graph.edge(pair)?));
+        let mut whole = own.chain(new).collect::<Checked<Part>>()?;
+        whole.sort_unstable();
+        let larger = Structure {
+            graph,
+            setting: self.setting,
+            bodies: self.bodies.clone(),
+            scaled: self.scaled.clone(),
+            unique: self.unique.clone(),
+            everything: whole.clone(),
+        };
+        Ok((larger, whole))
+    }
+
     fn bodies_of_nodes(&self) -> BodiesOfNodes {
         // The bodies of node i end at end[i + 1], which is where its next one goes until all are
         // there.

@@ -6,7 +6,9 @@ use crate::contract::{Body, Merge, Part, Seed};
 use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
-use crate::decide::{Block, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict};
+use crate::decide::{
+    Added, Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
+};
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
 use crate::linalg::integer::Integer;
@@ -354,22 +356,14 @@ impl Serialize for View<'_, Evidence> {
                 seed_and_draw(&mut map, draw)?;
                 rows_and_cols(&mut map, pivots)?;
             }
-            Evidence::Counting(Counting { blocks, bound }) => {
-                map.serialize_entry("kind", "counting")?;
-                map.serialize_entry("blocks", &List(blocks))?;
-                map.serialize_entry("bound", bound)?;
-            }
-            Evidence::Overlap(Overlap {
-                first,
-                second,
-                shared,
-                bound,
-            }) => {
-                map.serialize_entry("kind", "overlap")?;
-                map.serialize_entry("first", &List(&first.blocks))?;
-                map.serialize_entry("second", &List(&second.blocks))?;
-                map.serialize_entry("shared", &SplitView::from(shared))?;
-                map.serialize_entry("bound", bound)?;
+            Evidence::Counting(found) => counting(&mut map, found)?,
+            Evidence::Overlap(found) => overlap(&mut map, found)?,
+            Evidence::Added(Added { pairs, bound }) => {
+                match bound {
+                    Bound::Counting(found) => counting(&mut map, found)?,
+                    Bound::Overlap(found) => overlap(&mut map, found)?,
+                }
+                map.serialize_entry("added", pairs)?;
             }
             Evidence::Draws(Draws { seed, count, rank }) => {
                 map.serialize_entry("kind", "draws")?;
@@ -390,6 +384,27 @@ impl Serialize for View<'_, Evidence> {
         }
         map.end()
     }
+}
+
+fn counting<M: SerializeMap>(map: &mut M, found: &Counting) -> Result<(), M::Error> {
+    let Counting { blocks, bound } = found;
+    map.serialize_entry("kind", "counting")?;
+    map.serialize_entry("blocks", &List(blocks))?;
+    map.serialize_entry("bound", bound)
+}
+
+fn overlap<M: SerializeMap>(map: &mut M, found: &Overlap) -> Result<(), M::Error> {
+    let Overlap {
+        first,
+        second,
+        shared,
+        bound,
+    } = found;
+    map.serialize_entry("kind", "overlap")?;
+    map.serialize_entry("first", &List(&first.blocks))?;
+    map.serialize_entry("second", &List(&second.blocks))?;
+    map.serialize_entry("shared", &SplitView::from(shared))?;
+    map.serialize_entry("bound", bound)
 }
 
 /// The new node, the ends of the pinched edge, the further ends.

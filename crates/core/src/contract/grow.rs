@@ -1,7 +1,7 @@
 //! Growing bodies from triangles: a node seen from two nodes of a body joins it.
 
 use super::{Body, Seed};
-use crate::graph::Adjacency;
+use crate::graph::{Adjacency, Lists};
 
 const NONE: u32 = u32::MAX;
 
@@ -67,8 +67,14 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
 
 /// The nodes by falling degree, and where each node stands in that order.
 pub(super) fn by_falling_degree(graph: &Adjacency) -> (Vec<u32>, Vec<u32>) {
-    let mut order: Vec<u32> = (0..graph.nodes() as u32).collect();
-    order.sort_by_key(|&v| std::cmp::Reverse(graph.degree(v)));
+    let nodes = 0..graph.nodes() as u32;
+    let most = nodes.clone().map(|v| graph.degree(v)).max().unwrap_or(0);
+    let by_degree = Lists::group(
+        most + 1,
+        nodes.map(|v| ((most - graph.degree(v)) as u32, v)),
+    );
+    let lists = (0..by_degree.len()).flat_map(|k| by_degree.of(k));
+    let order: Vec<u32> = lists.copied().collect();
     let mut rank = vec![0u32; graph.nodes()];
     for (k, &v) in (0..).zip(&order) {
         rank[v as usize] = k;

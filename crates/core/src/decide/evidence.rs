@@ -2,6 +2,7 @@
 //! section 7, as the pipeline finds them.
 
 use crate::contract::piece::Members;
+use crate::decide::added::Added;
 use crate::decide::claim::Strength;
 use crate::decide::counting::Counting;
 use crate::decide::overlap::Overlap;
@@ -59,6 +60,8 @@ pub enum Evidence {
     Counting(Counting),
     /// An upper bound from two parts that overlap.
     Overlap(Overlap),
+    /// One of these for the piece with more pairs.
+    Added(Added),
     /// The rank at draws that nobody can choose.
     Draws(Draws),
     /// The motion classes, which the components refine.

@@ -14,6 +14,7 @@
 //!                else split again, and its pieces decided as these are
 //!     counting   a partition and hubs -> an upper bound                     5
 //!     overlap    bounds of two parts less what they share -> another        5.11
+//!     added      one of both for the piece with pairs that it implies        5.13
 //!                a gap is left: draws that nobody chooses, an error bound   7.2
 //!   conclude   ranks add up; the verdict, and the components                4.6
 //!   solutions  how many a finite solvable graph has: one makes it solvable   10
@@ -21,13 +22,14 @@
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
 //! pieces are in `one_piece`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
-//! centres in `drawn`, classes in `motion_class`, bounds in `counting` and `overlap`, the paper's
-//! own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
+//! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
+//! paper's own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What goes in is in `options`, what is found in [`evidence`], what comes out in
 //! `verdict`.
 
 pub mod evidence;
 
+mod added;
 mod bodies_by_rank;
 mod claim;
 mod counting;
@@ -43,6 +45,7 @@ mod stresses;
 mod verdict;
 mod whole_matrix;
 
+pub use added::{Added, Bound};
 pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
@@ -73,14 +76,16 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
-    let sha256 = sha256(graph);
-    let contraction = if !options.displacements.is_empty() {
-        Contraction::with_displacements(graph, &options.displacements)
-    } else if options.contraction {
-        Contraction::with_parts(graph, &options.known_parts, options.model)
-    } else {
-        Contraction::none(graph)
+    let contract = || {
+        if !options.displacements.is_empty() {
+            Contraction::with_displacements(graph, &options.displacements)
+        } else if options.contraction {
+            Contraction::with_parts(graph, &options.known_parts, options.model)
+        } else {
+            Contraction::none(graph)
+        }
     };
+    let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let assembly = Assembly::new(graph, &contraction);

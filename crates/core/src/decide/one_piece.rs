@@ -6,6 +6,7 @@
 //! one is (Theorem 6.3).
 
 use crate::contract::piece::{Assembly, Core, Members, Split};
+use crate::decide::added;
 use crate::decide::claim::Strength;
 use crate::decide::counting;
 use crate::decide::counting::Counting;
@@ -125,7 +126,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    fn ranks<'c>(&'c self, at: &'c Centres) -> Result<Ranks<'c>, Stopped> {
+    pub(super) fn ranks<'c>(&'c self, at: &'c Centres) -> Result<Ranks<'c>, Stopped> {
         Ranks::new(self.options.model, &self.options.watch, at, self.core)
     }
 
@@ -203,6 +204,13 @@ impl<'a> Piece<'a> {
         {
             upper = overlap.bound;
             evidence.push(Evidence::Overlap(overlap));
+        }
+        if lower < upper
+            && self.options.counting
+            && let Some(added) = added::search(self, lower)?
+        {
+            upper = added.bound.value();
+            evidence.push(Evidence::Added(added));
         }
         let settled = if lower == upper {
             Settled {

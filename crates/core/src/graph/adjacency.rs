@@ -17,11 +17,7 @@ impl Adjacency {
             i32::try_from(graph.edges().len()).is_ok(),
             "more than 2^31 - 1 edges"
         );
-        // Edges are sorted, so the smaller neighbours of all nodes first and then the larger
-        // ones leave every list in increasing order.
-        let smaller = graph.edges().iter().map(|&(i, j)| (j, i));
-        let larger = graph.edges().iter().copied();
-        Self(Lists::group(graph.nodes(), smaller.chain(larger)))
+        Self(Lists::of_edges(graph))
     }
 
     /// Lists that hold every edge at both its ends, in any order.

@@ -1,5 +1,14 @@
 //! Lists of numbers, one after another in one array.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::{Graph, SHARE};
+
+/// Lists of neighbours are made by so many threads at most, as each of them looks at all edges.
+const MOST_SHARES: usize = 4;
+
 /// Lists for the keys `0..len`, compressed: 4 bytes an item, 8 bytes a list. Lists can shrink.
 #[derive(Clone, Debug)]
 pub struct Lists {
@@ -32,6 +41,44 @@ impl Lists {
             len[key] += 1;
         }
         start.pop();
+        Self { start, len, items }
+    }
+
+    /// The neighbours of every node in increasing order. O(n + m) for each thread; there are
+    /// several if there are many edges.
+    pub(super) fn of_edges(graph: &Graph) -> Self {
+        let (nodes, edges) = (graph.nodes(), graph.edges());
+        let count = |end: fn(&(u32, u32)) -> u32| {
+            let mut counts = vec![0u32; nodes];
+            edges
+                .iter()
+                .for_each(|edge| counts[end(edge) as usize] += 1);
+            counts
+        };
+        let (smaller, larger) = rayon::join(|| count(|edge| edge.1), || count(|edge| edge.0));
+        let len: Vec<u32> = smaller.iter().zip(&larger).map(|(a, b)| a + b).collect();
+        let start = sums(&len);
+        let first_edge = sums(&larger);
+        drop((smaller, larger));
+        let mut items = vec![0; 2 * edges.len()];
+        // Each thread fills the lists of as many neighbours as the others.
+        let shares = (edges.len() / SHARE).clamp(1, rayon::current_num_threads().min(MOST_SHARES));
+        let (mut rest, mut from, mut parts) = (&mut items[..], 0, Vec::with_capacity(shares));
+        for share in 1..=shares {
+            let before = share * 2 * edges.len() / shares;
+            let to = match share == shares {
+                true => nodes,
+                false => start.partition_point(|&start| (start as usize) < before),
+            };
+            let size: usize = len[from..to].iter().map(|&len| len as usize).sum();
+            let (own, others) = rest.split_at_mut(size);
+            parts.push((from..to, own));
+            (rest, from) = (others, to);
+        }
+        let places = [&start[..], &first_edge];
+        parts
+            .into_par_iter()
+            .for_each(|(nodes, items)| fill(nodes, items, edges, places));
         Self { start, len, items }
     }
 
@@ -82,9 +129,71 @@ impl Lists {
     }
 }
 
+/// Fills the lists of some nodes with their neighbours, given where every list begins, and where
+/// the edges of every node do.
+fn fill(
+    nodes: Range<usize>,
+    items: &mut [u32],
+    edges: &[(u32, u32)],
+    [start, first_edge]: [&[u32]; 2],
+) {
+    let Some(&base) = start.get(nodes.start) else {
+        return;
+    };
+    let end = first_edge.get(nodes.end);
+    let end = end.map_or(edges.len(), |&end| end as usize);
+    // Where the next smaller neighbour goes, and after these the larger ones.
+    let mut at: Vec<u32> = start[nodes.clone()].iter().map(|s| s - base).collect();
+    for &(i, j) in &edges[..end] {
+        if nodes.contains(&(j as usize)) {
+            let at = &mut at[j as usize - nodes.start];
+            items[*at as usize] = i;
+            *at += 1;
+        }
+    }
+    let own = &edges[first_edge[nodes.start] as usize..end];
+    for larger in own.chunk_by(|a, b| a.0 == b.0) {
+        let at = at[larger[0].0 as usize - nodes.start] as usize;
+        let items = items[at..].iter_mut().zip(larger);
+        items.for_each(|(item, &(_, j))| *item = j);
+    }
+}
+
+/// The sums of all numbers before each.
+fn sums(numbers: &[u32]) -> Vec<u32> {
+    let mut sum = 0;
+    let before = |number: &u32| {
+        let after = sum + number;
+        std::mem::replace(&mut sum, after)
+    };
+    numbers.iter().map(before).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// As by grouping, in one share and in several.
+        #[test]
+        fn neighbours_are_those_of_edges(
+            nodes in 2..60u32,
+            pairs in prop::collection::vec((any::<u32>(), any::<u32>()), 0..200),
+            more in prop::sample::select(vec![0, 3 * SHARE as u32]),
+        ) {
+            let wide = nodes + more;
+            let pairs = pairs.into_iter().map(|(i, j)| (i % wide, j % wide)).filter(|(i, j)| i != j);
+            // A path makes many edges of few.
+            let path = (1..wide).filter(|_| more > 0).map(|v| (v - 1, v));
+            let graph = Graph::new(wide, pairs.chain(path)).unwrap();
+            let back = graph.edges().iter().map(|&(i, j)| (j, i));
+            let both = back.chain(graph.edges().iter().copied());
+            let grouped = Lists::group(wide as usize, both);
+            let found = Lists::of_edges(&graph);
+            prop_assert!((0..wide as usize).all(|v| found.of(v) == grouped.of(v)));
+        }
+    }
 
     #[test]
     fn items_keep_their_order_and_lists_shrink() {

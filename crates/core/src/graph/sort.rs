@@ -85,7 +85,9 @@ fn take_out(pairs: &[(u32, u32)], descents: &[usize]) -> Option<Order> {
         let before = kept.next().map(|before| pairs[before]);
         if last.is_some_and(|last| last > next) && before.is_none_or(|before| before < next) {
             strays.extend(last);
-            runs.last_mut().map(|run| run.end -= 1);
+            if let Some(run) = runs.last_mut() {
+                run.end -= 1;
+            }
             runs.pop_if(|run| Range::is_empty(run));
         } else if let Some(last) = last {
             let run_pairs = &pairs[run.clone()];

@@ -20,7 +20,7 @@ use separations::{Cut, Separation};
 use std::collections::HashMap;
 
 /// Larger cores are not cut: with 20 nodes there are 137,979 sets of up to seven.
-const MAX_NODES: usize = 20;
+pub(super) const MAX_NODES: usize = 20;
 
 /// Members are counted by the bits of a word.
 const MAX_MEMBERS: usize = 64;
