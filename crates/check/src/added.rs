@@ -3,8 +3,7 @@
 
 use crate::document::{Model, Pair};
 use crate::elimination::SPARSE;
-use crate::graph::Graph;
-use crate::rejection::{Checked, Failure, Within, ensure};
+use crate::rejection::{Checked, Within, ensure};
 use crate::structure::{Part, Structure};
 
 /// Verifies an upper bound for a piece with these edges, if there are any, or else for the piece
@@ -19,12 +18,7 @@ pub(crate) fn check_with(
         return check(structure, piece);
     };
     check_pairs(added, structure, piece).within(|| "added".into())?;
-    let pairs = structure.pairs().iter().chain(added);
-    let pairs = pairs.map(|&[i, j]| (i, j));
-    // Ends of edges are nodes of the piece, so of the graph.
-    let graph = Graph::new(structure.count_nodes(), pairs)
-        .map_err(|unreadable| Failure::rejected(unreadable.to_string()))?;
-    let (larger, whole) = structure.with_edges(&graph, piece, added)?;
+    let (larger, whole) = structure.with_edges(piece, added);
     check(&larger, &whole)
 }
 
@@ -39,6 +33,10 @@ fn check_pairs(added: &[Pair], structure: &Structure, piece: &Part) -> Checked<(
         !added.is_empty() && added.is_sorted_by(|a, b| a < b),
         "not an increasing list of pairs"
     );
+    let members = piece.iter().map(|&member| structure.nodes_of(member));
+    let sizes = members.map(|nodes| nodes.len() + added.len());
+    let steps = SPARSE * (added.len() + sizes.sum::<usize>()) as u64;
+    structure.setting.meter.charge(steps)?;
     let nodes = structure.nodes(piece);
     for pair in added {
         let [i, j] = *pair;
@@ -48,8 +46,6 @@ fn check_pairs(added: &[Pair], structure: &Structure, piece: &Part) -> Checked<(
             "[{i}, {j}] is not a pair (i < j) of nodes of the piece"
         );
     }
-    let comparisons = SPARSE * added.len() as u64 * piece.len() as u64;
-    structure.setting.meter.charge(comparisons)?;
     for &member in piece {
         let nodes = structure.nodes_of(member);
         let has = |node| nodes.binary_search(node).is_ok();

@@ -9,9 +9,11 @@ use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
 use crate::setting::Setting;
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 
 /// A set of members, in increasing order. The number of a final body is its position in the list of
 /// known parts and bodies; that of a loose edge is the length of this list plus the edge's number.
+/// Edges that are added come behind all edges of the graph.
 pub(crate) type Part = Vec<usize>;
 
 /// The final bodies in which each node lies: those of node i from end[i] to end[i + 1].
@@ -31,11 +33,13 @@ pub(crate) struct Structure<'a> {
     graph: &'a Graph,
     pub setting: &'a Setting<'a>,
     /// The nodes of final bodies, in increasing order; `None` for bodies that are consumed.
-    bodies: Vec<Option<Vec<u32>>>,
+    bodies: Cow<'a, [Option<Vec<u32>>]>,
     /// Whether each body holds a known displacement; so not one that is consumed.
-    scaled: Vec<bool>,
+    scaled: Cow<'a, [bool]>,
     /// Whether each body comes from the rules and what is known; so not one that is consumed.
-    unique: Vec<bool>,
+    unique: Cow<'a, [bool]>,
+    /// The edges that are added, in increasing order.
+    added: &'a [Pair],
     pub everything: Part,
 }
 
@@ -73,6 +77,7 @@ impl<'a> Structure<'a> {
                 .into_iter()
                 .map(|body| body.map(|body| sorted(body.nodes)))
                 .collect(),
+            added: &[],
             everything: Part::new(),
         };
         let bodies = (0..structure.bodies.len()).filter(|&k| structure.bodies[k].is_some());
@@ -107,45 +112,22 @@ impl<'a> Structure<'a> {
         Ok(loose)
     }
 
-    /// All edges of the graph.
-    pub fn pairs(&self) -> &[Pair] {
-        &self.graph.pairs
-    }
-
-    /// How many nodes the graph has.
-    pub fn count_nodes(&self) -> usize {
-        self.graph.nodes()
-    }
-
-    /// The same members in a graph with more edges, and a piece with the added ones as members.
-    pub fn with_edges<'b>(
-        &'b self,
-        graph: &'b Graph,
-        piece: &Part,
-        added: &[Pair],
-    ) -> Checked<(Structure<'b>, Part)> {
-        let size: usize = self.bodies.iter().flatten().map(Vec::len).sum();
-        let size = self.bodies.len() + size + graph.pairs.len();
-        self.setting.meter.charge(SPARSE * size as u64)?;
-        let renumbered = |&member: &usize| match member.checked_sub(self.bodies.len()) {
-            None => Ok(member),
-            Some(edge) => Ok(self.bodies.len() + graph.edge(self.graph.pairs[edge])?),
-        };
-        let own = piece.iter().map(renumbered);
-        let new = added
-            .iter()
-            .map(|&pair| Ok(self.bodies.len() + graph.edge(pair)?));
-        let mut whole = own.chain(new).collect::<Checked<Part>>()?;
-        whole.sort_unstable();
+    /// The same members and some edges more, which no member of a piece holds; and the piece with
+    /// these.
+    pub fn with_edges<'b>(&'b self, piece: &Part, added: &'b [Pair]) -> (Structure<'b>, Part) {
+        let first = self.bodies.len() + self.graph.pairs.len();
+        let mut whole = piece.clone();
+        whole.extend(first..first + added.len());
         let larger = Structure {
-            graph,
+            graph: self.graph,
             setting: self.setting,
-            bodies: self.bodies.clone(),
-            scaled: self.scaled.clone(),
-            unique: self.unique.clone(),
+            bodies: Cow::Borrowed(&self.bodies),
+            scaled: Cow::Borrowed(&self.scaled),
+            unique: Cow::Borrowed(&self.unique),
+            added,
             everything: whole.clone(),
         };
-        Ok((larger, whole))
+        (larger, whole)
     }
 
     fn bodies_of_nodes(&self) -> BodiesOfNodes {
@@ -176,13 +158,14 @@ impl<'a> Structure<'a> {
             "{} is not a final body",
             wrong.unwrap_or(&0)
         );
-        for &pair in edges {
-            part.push(self.bodies.len() + self.graph.edge(pair)?);
-        }
         ensure!(
-            part.is_sorted_by(|a, b| a < b),
+            part.is_sorted_by(|a, b| a < b) && edges.is_sorted_by(|a, b| a < b),
             "the bodies or the edges are not increasing"
         );
+        for &pair in edges {
+            part.push(self.edge(pair)?);
+        }
+        part.sort_unstable();
         ensure!(!part.is_empty(), "neither bodies nor edges");
         // The same bodies may be listed in many places. What is done with a list of members each
         // time sorts their nodes.
@@ -232,17 +215,31 @@ impl<'a> Structure<'a> {
         Ok(owner)
     }
 
+    /// The number of a member that is an edge: one that is added, or else one of the graph.
+    fn edge(&self, pair: Pair) -> Checked<usize> {
+        let first = self.bodies.len();
+        match self.added.binary_search(&pair) {
+            Ok(added) => Ok(first + self.graph.pairs.len() + added),
+            Err(_) => Ok(first + self.graph.edge(pair)?),
+        }
+    }
+
+    /// The nodes of a member that is an edge, given how many of these come before it.
+    fn pair(&self, number: usize) -> &Pair {
+        let pairs = &self.graph.pairs;
+        let added = || &self.added[number - pairs.len()];
+        pairs.get(number).unwrap_or_else(added)
+    }
+
     fn name(&self, member: usize) -> String {
-        let edge = member
-            .checked_sub(self.bodies.len())
-            .map(|edge| self.graph.pairs[edge]);
-        edge.map_or(format!("body {member}"), |edge| {
-            format!("the edge {edge:?}")
-        })
+        match member.checked_sub(self.bodies.len()) {
+            None => format!("body {member}"),
+            Some(edge) => format!("the edge {:?}", self.pair(edge)),
+        }
     }
 
     pub fn nodes_of(&self, member: usize) -> &[u32] {
-        let edge = || &self.graph.pairs[member - self.bodies.len()][..];
+        let edge = || &self.pair(member - self.bodies.len())[..];
         self.bodies
             .get(member)
             .map_or_else(edge, |body| body.as_deref().unwrap_or_default())
