@@ -43,6 +43,12 @@ fn add_products<const N: usize>(
     }
 }
 
+/// Elements as sums of products.
+fn to_sums<const N: usize>(field: &Field, row: &mut [u64; N]) {
+    let elements = std::mem::replace(row, [0; N]);
+    add_products(field, row, &elements, field.one);
+}
+
 /// The element that a sum of products stands for.
 fn settled(field: &Field, sum: u64) -> u64 {
     match field.p < SMALL {

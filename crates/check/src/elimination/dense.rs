@@ -1,6 +1,6 @@
 //! Dense elimination along the diagonal, in blocks of rows.
 
-use super::{DENSE, DENSE_SMALL, add_products, for_all, settled};
+use super::{DENSE, DENSE_SMALL, add_products, for_all, settled, to_sums};
 use crate::algebra::{Field, LANES, Ring, SMALL, SMALL_LANES};
 use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
@@ -68,12 +68,8 @@ impl<'f> Dense<'f> {
         let (field, size) = (self.field, self.size());
         self.meter
             .charge(weight(field) * (N * size * size) as u64)?;
-        let as_sums = |row: &mut [u64; N]| {
-            let elements = std::mem::replace(row, [0; N]);
-            add_products(field, row, &elements, field.one);
-        };
         // Row after row of U, and then of L backwards, is taken off.
-        rows.iter_mut().for_each(as_sums);
+        rows.iter_mut().for_each(|row| to_sums(field, row));
         for (k, (row, &inverse)) in self.rows.iter().zip(&self.inverses).enumerate() {
             rows[k] = rows[k].map(|sum| field.mul(settled(field, sum), inverse));
             let factors = rows[k].map(|multiple| field.neg(multiple));
@@ -81,7 +77,7 @@ impl<'f> Dense<'f> {
                 add_products(field, sums, &factors, value);
             }
         }
-        rows.iter_mut().for_each(as_sums);
+        rows.iter_mut().for_each(|row| to_sums(field, row));
         for (k, row) in self.rows.iter().enumerate().rev() {
             rows[k] = rows[k].map(|sum| settled(field, sum));
             let factors = rows[k].map(|multiple| field.neg(multiple));

@@ -1,6 +1,6 @@
 //! Sparse elimination, with prescribed or found pivots.
 
-use super::{SPARSE, add_products, settled};
+use super::{SPARSE, add_products, settled, to_sums};
 use crate::algebra::{Field, Ring};
 use crate::limits::Meter;
 use crate::rejection::Checked;
@@ -171,11 +171,7 @@ impl<'f> Echelon<'f> {
     /// the pivots; returns the multiples.
     pub fn reduce<const N: usize>(&self, rows: &mut [[u64; N]]) -> Checked<Vec<(usize, [u64; N])>> {
         let field = self.field;
-        let as_sums = |row: &mut [u64; N]| {
-            let elements = std::mem::replace(row, [0; N]);
-            add_products(field, row, &elements, field.one);
-        };
-        rows.iter_mut().for_each(as_sums);
+        rows.iter_mut().for_each(|row| to_sums(field, row));
         let (mut multiples, mut entries) = (Vec::new(), 0);
         for (k, EchelonRow { pivot, reduced, .. }) in self.rows.iter().enumerate() {
             let multiple = rows[*pivot].map(|sum| settled(field, sum));
