@@ -147,8 +147,11 @@ impl<'a> Flows<'a> {
             let numbers = first..(first + batch).min(*flows);
             let mut all = self.next_flows(numbers, &mut stream, &mut rest);
             for_all(&mut all, |flows| {
-                let together = flows.chunks_mut(TOGETHER);
-                together.for_each(|flows| self.complete(flows, lambda_cols));
+                for together in flows.chunks_mut(TOGETHER) {
+                    if let Err(failure) = self.complete(together, lambda_cols) {
+                        together[0].rows = Err(failure);
+                    }
+                }
             });
             for (number, flow) in (first..).zip(all) {
                 let rows = flow.rows.within(|| format!("flow {number}"))?;
@@ -185,8 +188,11 @@ impl<'a> Flows<'a> {
     }
 
     /// Completes at most `TOGETHER` flows, and computes what is wanted of their rows of Lambda.
-    fn complete(&self, flows: &mut [Flow], columns: &[usize]) {
+    fn complete(&self, flows: &mut [Flow], columns: &[usize]) -> Checked<()> {
         let field = self.field;
+        let wanted = flows.iter().map(|flow| flow.wanted.len() * columns.len());
+        let entries = flows.len() * (self.n.len() + self.free.len()) + wanted.sum::<usize>();
+        self.meter.charge(2 * SPARSE * entries as u64)?;
         let mut product = vec![[0; TOGETHER]; 3 * self.core.nodes];
         for (lane, flow) in flows.iter().enumerate() {
             for &free in &self.free {
@@ -197,39 +203,32 @@ impl<'a> Flows<'a> {
             }
         }
         // At the pivots, a flow takes off what its prescribed entries leave in the columns of N.
-        let taken_off = match self.factors.solve(&mut product) {
-            Ok(taken_off) => taken_off,
-            Err(failure) => {
-                flows[0].rows = Err(failure);
-                return;
-            }
-        };
+        let taken_off = self.factors.solve(&mut product)?;
         for (lane, flow) in flows.iter_mut().enumerate() {
             for (&row, entry) in self.pivots.rows.iter().zip(&taken_off) {
                 flow.entries[row] = field.neg(entry[lane]);
             }
-            let vanishes = product.iter().all(|entry| entry[lane] == 0);
-            flow.rows = self.rows_of_lambda(flow, columns, vanishes);
+            let left = product.iter().map(|entry| entry[lane]);
+            flow.rows = self.rows_of_lambda(flow, columns, left);
         }
+        Ok(())
     }
 
-    /// What is wanted of the four rows of Lambda that come from a flow, which must vanish in all
-    /// columns of N.
+    /// What is wanted of the four rows of Lambda that come from a flow, of which this is left in
+    /// the columns of N.
     fn rows_of_lambda(
         &self,
         flow: &Flow,
         columns: &[usize],
-        vanishes: bool,
+        mut left: impl Iterator<Item = u64>,
     ) -> Checked<Vec<Vec<u64>>> {
-        let outside = self.free.len() + flow.wanted.len() * columns.len();
-        self.meter
-            .charge(2 * SPARSE * (self.n.len() + outside) as u64)?;
-        ensure!(vanishes, "it does not vanish in all columns of N");
+        ensure!(
+            left.all(|entry| entry == 0),
+            "it does not vanish in all columns of N"
+        );
         let row = |&(row, _): &(usize, usize)| {
-            columns
-                .iter()
-                .map(|&e| self.lambda_entry(&flow.entries, e, row % 4))
-                .collect()
+            let entry = |&e: &usize| self.lambda_entry(&flow.entries, e, row % 4);
+            columns.iter().map(entry).collect()
         };
         Ok(flow.wanted.iter().map(row).collect())
     }

@@ -80,15 +80,18 @@ fn implied(piece: &Piece) -> Result<Vec<(u32, u32)>, VerdictError> {
         Ok::<_, VerdictError>(part.ranks(&at)?.rank)
     };
     let own = rank(piece.members)?;
+    let singles = piece.members.singles();
     let nodes = &piece.core.nodes;
     let pairs = (0..nodes.len()).flat_map(|k| nodes[k + 1..].iter().map(move |&j| (nodes[k], j)));
     let mut found = Vec::new();
     for (i, j) in pairs {
         work.done(0)?;
-        let holds = |v| move |member: &Members| piece.assembly.contains_node(member, v);
-        let mut members = piece.members.singles().into_iter();
-        let apart = !members.any(|member| holds(i)(&member) && holds(j)(&member));
-        if apart && rank(&with_pairs(piece.members, &[(i, j)]))? == own {
+        let has_both = |member| {
+            [i, j]
+                .iter()
+                .all(|&v| piece.assembly.contains_node(member, v))
+        };
+        if !singles.iter().any(has_both) && rank(&with_pairs(piece.members, &[(i, j)]))? == own {
             found.push((i, j));
         }
     }

@@ -20,8 +20,8 @@ fn of(graph: &Graph, rank: usize) -> Option<Added> {
 }
 
 /// All graphs with 16 nodes and 23 edges that nothing else refutes (docs/theory.md, Example 5.14):
-/// in each of them both diagonals of one cycle of four are implied, and nothing else. A second and
-/// more is needed for each, so that only some are decided.
+/// in each of them both diagonals of one cycle of four are implied, and nothing else. Each takes more
+/// than a second, so that only some are decided.
 #[test]
 fn sixteen_graphs_with_16_nodes() {
     let graphs = [
