@@ -1,208 +1,10 @@
-//! Long work, seen and stopped from outside.
-//!
-//! The library neither prints nor keeps limits by itself: it tells an [`Observer`] what it is
-//! doing, and asks a [`Watch`] every few milliseconds whether it may go on. Whoever starts the
-//! work holds the other end: an interrupt flag, a deadline, a limit on the memory of its large
-//! matrices. A limit never changes an answer; it only decides whether there is one.
-//!
-//! ```
-//! use std::time::{Duration, Instant};
-//! use viewcert::graph::Graph;
-//! use viewcert::{Options, Value, decide};
-//! use viewcert::watch::{Limits, Watch};
-//!
-//! let watch = Watch::new(Limits {
-//!     deadline: Some(Instant::now() + Duration::from_secs(60)),
-//!     memory: Some(1 << 30),
-//! });
-//! let options = Options::default().watch(watch.clone());
-//! let graph = Graph::new(4, [(0, 1), (1, 2), (2, 3), (3, 0)])?;
-//! assert_eq!(decide(&graph, &options)?.value, Value::NotFiniteSolvable);
-//! // From any thread, at any time:
-//! watch.interrupt();
-//! assert!(decide(&graph, &options).is_err());
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! Work under a watch, and the memory that it takes.
 
+use super::limits::{Reason, Shared, Stopped, Watch};
+use super::progress::{Stage, Step};
 use std::fmt;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
-use std::time::Instant;
-
-/// A kind of work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// Contraction of the whole graph to bodies.
-    Contraction,
-    /// The elimination of the paper's whole matrix.
-    WholeMatrix,
-    /// The elimination of N, which gives the plane flows.
-    Flows,
-    /// The rows of Lambda.
-    Lambda,
-    /// The elimination of Lambda.
-    Elimination,
-    /// The motion classes, and the components in them.
-    Components,
-    /// The search for a proof by counting.
-    Counting,
-    /// Further draws, for an error bound.
-    Draws,
-    /// The number of solutions.
-    Solutions,
-}
-
-/// What is being done, to how many cameras.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stage {
-    /// What.
-    pub step: Step,
-    /// The nodes of the core, or of the whole graph.
-    pub cameras: usize,
-}
-
-impl fmt::Display for Stage {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let cameras = self.cameras;
-        let step = match self.step {
-            Step::Contraction => return write!(f, "contraction of {cameras} cameras"),
-            Step::WholeMatrix => "whole Jacobian",
-            Step::Flows => "flows",
-            Step::Lambda => "Lambda",
-            Step::Elimination => "elimination",
-            Step::Components => "components",
-            Step::Counting => "counting",
-            Step::Draws => "draws for an error bound",
-            Step::Solutions => return write!(f, "number of solutions of {cameras} cameras"),
-        };
-        write!(f, "core of {cameras} cameras: {step}")
-    }
-}
-
-/// Told what the library is doing. Calls come from many threads and should return at once.
-pub trait Observer: Send + Sync + fmt::Debug {
-    /// Work begins on a stage, of so many units; 0 if that is not known. So many units are expected
-    /// after it, if that is known. Works may be nested, and go on side by side; the number tells
-    /// them apart.
-    fn begin(&self, work: u64, stage: Stage, total: u64, later: Option<u64>);
-    /// So many more units of it are done.
-    fn done(&self, work: u64, units: u64);
-    /// It has ended.
-    fn end(&self, work: u64);
-}
-
-/// Why work was stopped.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Reason {
-    /// Somebody asked for it.
-    Interrupted,
-    /// The deadline has passed.
-    Time,
-    /// The program takes more memory than it may.
-    Memory {
-        /// The limit of the watch, in bytes, if it has one.
-        limit: Option<u64>,
-    },
-    /// One thing that is needed takes more memory than is left.
-    TooLarge {
-        /// What, in words.
-        what: String,
-        /// Its size in bytes.
-        needs: u64,
-        /// The limit, in bytes.
-        limit: u64,
-    },
-}
-
-/// Work that was stopped.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stopped {
-    /// Why.
-    pub reason: Reason,
-    /// What was being done.
-    pub stage: Stage,
-    /// How many hundredths of it were done, if that is known.
-    pub percent: Option<u8>,
-}
-
-impl std::error::Error for Stopped {}
-
-impl fmt::Display for Stopped {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match &self.reason {
-            Reason::TooLarge { what, needs, limit } => {
-                let (needs, limit) = (Bytes(*needs), Bytes(*limit));
-                return write!(
-                    f,
-                    "{}: too large: {what} would take {needs} of memory, and the limit is {limit}",
-                    self.stage
-                );
-            }
-            Reason::Interrupted => write!(f, "interrupted")?,
-            Reason::Time => write!(f, "the time limit was reached")?,
-            Reason::Memory { limit: None } => write!(f, "the memory limit was reached")?,
-            Reason::Memory { limit: Some(limit) } => {
-                write!(f, "the memory limit of {} was reached", Bytes(*limit))?;
-            }
-        }
-        write!(f, " at the {}", self.stage)?;
-        match self.percent {
-            Some(percent) => write!(f, ", {percent} % done"),
-            None => Ok(()),
-        }
-    }
-}
-
-/// A number of bytes, for people.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bytes(pub u64);
-
-impl fmt::Display for Bytes {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let (unit, shift) = match self.0 {
-            0..0x10_0000 => ("KiB", 10),
-            0x10_0000..0x4000_0000 => ("MiB", 20),
-            _ => ("GiB", 30),
-        };
-        let tenths = (u128::from(self.0) * 10) >> shift;
-        if tenths < 100 && tenths % 10 != 0 {
-            write!(f, "{}.{} {unit}", tenths / 10, tenths % 10)
-        } else {
-            write!(f, "{} {unit}", tenths / 10)
-        }
-    }
-}
-
-/// The limits of a [`Watch`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Limits {
-    /// When to stop.
-    pub deadline: Option<Instant>,
-    /// How many bytes the large matrices may take together.
-    pub memory: Option<u64>,
-}
-
-/// One end of what can stop work; the other end is a clone of it. The default one never
-/// stops anything, tells nobody, and costs nothing.
-#[derive(Clone, Debug, Default)]
-pub struct Watch {
-    shared: Option<Arc<Shared>>,
-    observer: Option<Arc<dyn Observer>>,
-}
-
-#[derive(Debug)]
-struct Shared {
-    /// 0, or one of the reasons below.
-    stop: AtomicU8,
-    limits: Limits,
-    /// Bytes of large matrices.
-    held: AtomicU64,
-    works: AtomicU64,
-}
-
-const INTERRUPTED: u8 = 1;
-const TIME: u8 = 2;
-const MEMORY: u8 = 3;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 static NOBODY: Watch = Watch {
     shared: None,
@@ -210,48 +12,6 @@ static NOBODY: Watch = Watch {
 };
 
 impl Watch {
-    /// A watch with limits, which can be interrupted.
-    pub fn new(limits: Limits) -> Self {
-        Self {
-            shared: Some(Arc::new(Shared {
-                stop: AtomicU8::new(0),
-                limits,
-                held: AtomicU64::new(0),
-                works: AtomicU64::new(0),
-            })),
-            observer: None,
-        }
-    }
-
-    /// The same watch, with somebody who is told about the work it is given to.
-    pub fn observed(&self, observer: Arc<dyn Observer>) -> Self {
-        Self {
-            observer: Some(observer),
-            ..self.clone()
-        }
-    }
-
-    /// Stops all work under this watch, and its clones. The first reason counts.
-    pub fn interrupt(&self) {
-        self.stop(INTERRUPTED);
-    }
-
-    /// The same, because the program takes too much memory.
-    pub fn out_of_memory(&self) {
-        self.stop(MEMORY);
-    }
-
-    fn stop(&self, reason: u8) {
-        if let Some(shared) = &self.shared {
-            shared.stop(reason);
-        }
-    }
-
-    /// Why all work under this watch stops; `None` if it may go on.
-    pub fn stopped(&self) -> Option<Reason> {
-        self.shared.as_deref().and_then(Shared::reason)
-    }
-
     /// Names work that is about to be done.
     pub fn task(&self, step: Step, cameras: usize) -> Task<'_> {
         Task {
@@ -260,42 +20,6 @@ impl Watch {
             told: self.observer.is_some(),
             later: Some(0),
         }
-    }
-}
-
-impl Shared {
-    fn stop(&self, reason: u8) {
-        let _ = self
-            .stop
-            .compare_exchange(0, reason, Ordering::Relaxed, Ordering::Relaxed);
-    }
-
-    #[inline]
-    fn is_stopped(&self) -> bool {
-        if self.stop.load(Ordering::Relaxed) != 0 {
-            return true;
-        }
-        let late = self
-            .limits
-            .deadline
-            .is_some_and(|deadline| Instant::now() >= deadline);
-        if late {
-            self.stop(TIME);
-        }
-        late
-    }
-
-    fn reason(&self) -> Option<Reason> {
-        if !self.is_stopped() {
-            return None;
-        }
-        Some(match self.stop.load(Ordering::Relaxed) {
-            INTERRUPTED => Reason::Interrupted,
-            TIME => Reason::Time,
-            _ => Reason::Memory {
-                limit: self.limits.memory,
-            },
-        })
     }
 }
 
@@ -528,8 +252,8 @@ pub(crate) fn matrix_bytes(rows: usize, cols: usize) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::watch::{Limits, Observer};
     use std::sync::Mutex;
-    use std::time::Duration;
 
     #[derive(Debug, Default)]
     struct Record(Mutex<Vec<String>>);
@@ -581,26 +305,6 @@ mod tests {
     }
 
     #[test]
-    fn deadlines_pass() {
-        let deadline = Some(Instant::now() + Duration::from_secs(3600));
-        let early = Watch::new(Limits {
-            deadline,
-            memory: None,
-        });
-        assert_eq!(early.stopped(), None);
-        let deadline = Some(Instant::now());
-        let late = Watch::new(Limits {
-            deadline,
-            memory: None,
-        });
-        let stopped = late.task(Step::Contraction, 9).check().unwrap_err();
-        assert_eq!(
-            stopped.to_string(),
-            "the time limit was reached at the contraction of 9 cameras"
-        );
-    }
-
-    #[test]
     fn memory_is_accounted() {
         let watch = Watch::new(Limits {
             deadline: None,
@@ -634,13 +338,5 @@ mod tests {
             assert!(!work.is_stopped() && task.check().is_ok());
             task.reserve(u64::MAX, format_args!("all"))
         });
-    }
-
-    #[test]
-    fn sizes_for_people() {
-        let shown = [0, 1024, 1536, 5 << 20, (3 << 30) + (1 << 29), 640 << 30];
-        let shown = shown.map(|bytes| Bytes(bytes).to_string());
-        let expected = ["0 KiB", "1 KiB", "1.5 KiB", "5 MiB", "3.5 GiB", "640 GiB"];
-        assert_eq!(shown, expected);
     }
 }
