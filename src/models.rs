@@ -11,7 +11,7 @@ use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::KnownParts;
-use viewcert::decide::{Options, Value, Verdict, decide};
+use viewcert::decide::{Options, Question, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 
@@ -53,8 +53,8 @@ pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
         });
         let input = &*input;
         let decided = |model: Model| -> Result<Verdict> {
-            let options = Options::default().model(model).seed(arguments.seed);
-            let options = options.known_parts(parts.clone());
+            let question = Question::with_parts(model, parts.clone());
+            let options = Options::default().question(question).seed(arguments.seed);
             let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
             running::hide();
             verdict.with_context(|| format!("{}, {model} model", input.name))

@@ -20,7 +20,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
+use viewcert::decide::{
+    Arithmetic, Calibrated, CountSolutions, Known, Method, Options, Prime, Projective,
+    ProjectiveBodies, Question, Value,
+};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
@@ -220,14 +223,6 @@ impl VerifyArguments {
         );
         self.displacements
             .check(model, &self.without_displacements())?;
-        let arithmetic = if self.rational {
-            Arithmetic::Rational {
-                numerator: self.bounds.numerator,
-                denominator: self.bounds.denominator,
-            }
-        } else {
-            Arithmetic::Prime
-        };
         let prime = match self.prime {
             None => Prime::Auto,
             Some(prime) => {
@@ -235,18 +230,58 @@ impl VerifyArguments {
             }
         };
         Ok(Options::default()
-            .model(model)
-            .arithmetic(arithmetic)
+            .question(self.question(model, Known::default()))
             .prime(prime)
-            .contraction(!self.no_contraction)
-            .counting(!self.no_counting)
-            .solutions(match self.solutions {
-                _ if self.no_solutions => CountSolutions::Off,
-                Solutions::Quick => CountSolutions::Quick,
-                Solutions::Full => CountSolutions::Full,
-            })
             .seed(self.seed)
             .watch(running::shown_watch()))
+    }
+
+    /// The question in a model. What is known was refused by name where the model, or the whole
+    /// graph, has no use for it.
+    fn question(&self, model: Model, known: Known) -> Question {
+        let counting = !self.no_counting;
+        match (model, known) {
+            (Model::Calibrated, known) => Question::Calibrated(Calibrated {
+                method: self.method(known),
+                counting,
+            }),
+            (Model::Affine, known) => Question::Affine(self.method(known.into_parts())),
+            (Model::Projective, known) => Question::Projective(Projective {
+                method: self.method(ProjectiveBodies {
+                    known_parts: known.into_parts(),
+                    solutions: self.count_solutions(),
+                }),
+                arithmetic: self.arithmetic(),
+                counting,
+            }),
+        }
+    }
+
+    fn method<B>(&self, bodies: B) -> Method<B> {
+        if self.no_contraction {
+            Method::WholeGraph
+        } else {
+            Method::Bodies(bodies)
+        }
+    }
+
+    fn count_solutions(&self) -> CountSolutions {
+        match self.solutions {
+            _ if self.no_solutions => CountSolutions::Off,
+            Solutions::Quick => CountSolutions::Quick,
+            Solutions::Full => CountSolutions::Full,
+        }
+    }
+
+    fn arithmetic(&self) -> Arithmetic {
+        if self.rational {
+            Arithmetic::Rational {
+                numerator: self.bounds.numerator,
+                denominator: self.bounds.denominator,
+            }
+        } else {
+            Arithmetic::Prime
+        }
     }
 }
 
@@ -307,12 +342,13 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         arguments.act.check_input(input)?;
         let mut options = options.clone();
         let mut noted = None;
-        if let Some((input, parts)) = arguments.parts.read(input)? {
-            options = options.known_parts(parts);
-            noted = Some(input);
-        }
-        if let Some((input, known)) = arguments.displacements.read(input)? {
-            options = options.displacements(known);
+        let parts = arguments.parts.read(input)?;
+        let displacements = arguments.displacements.read(input)?;
+        let parts = parts.map(|(input, parts)| (input, Known::Parts(parts)));
+        let known = displacements.map(|(input, known)| (input, Known::Displacements(known)));
+        if let Some((input, known)) = known.or(parts) {
+            let model = options.question.model();
+            options = options.question(arguments.question(model, known));
             noted = Some(input);
         }
         let input = noted.as_ref().unwrap_or(input);

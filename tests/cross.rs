@@ -6,7 +6,7 @@ mod common;
 use common::{TABLE_1, geng};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use viewcert::decide::{Arithmetic, Options, Verdict, decide};
+use viewcert::decide::{Arithmetic, Method, Options, Projective, Verdict, decide};
 use viewcert::geometry::draw::DrawKey;
 use viewcert::geometry::jacobian;
 use viewcert::geometry::model::Model;
@@ -89,8 +89,14 @@ fn components(graph: &Graph, verdict: &Verdict) -> Vec<Vec<(u32, u32)>> {
 #[test]
 fn pipeline_against_the_paper() {
     let field = PrimeField::mersenne61();
-    let whole = Options::default().contraction(false);
-    let bounds = Options::default().counting(false);
+    let whole = Options::default().question(Projective {
+        method: Method::WholeGraph,
+        ..Projective::default()
+    });
+    let bounds = Options::default().question(Projective {
+        counting: false,
+        ..Projective::default()
+    });
     for graph in around_the_threshold(cases(2000), 14) {
         let name = graph6::encode(&graph);
         let verdict = decide(&graph, &Options::default()).unwrap();
@@ -158,9 +164,12 @@ fn the_papers_method_merges_components_of_psi() {
 
 #[test]
 fn rational_against_prime() {
-    let rational = Options::default().arithmetic(Arithmetic::Rational {
-        numerator: 9,
-        denominator: 4,
+    let rational = Options::default().question(Projective {
+        arithmetic: Arithmetic::Rational {
+            numerator: 9,
+            denominator: 4,
+        },
+        ..Projective::default()
     });
     for graph in around_the_threshold(cases(120), 9) {
         let name = graph6::encode(&graph);

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use viewcert::decide::{CountSolutions, Options, Verdict, decide};
+use viewcert::decide::{Calibrated, Method, Options, Projective, Question, Verdict, decide};
 use viewcert::{Graph, KnownParts, Model};
 
 /// A folder with a graph and known parts.
@@ -88,20 +88,26 @@ fn parts_against_cliques() {
         let parts = KnownParts::new(nodes, parts).unwrap();
         let cliques = with_cliques(&graph, &parts);
         for model in Model::ALL {
-            let options = Options::default()
-                .model(model)
-                .solutions(CountSolutions::Quick);
-            let found = decide(&graph, &options.clone().known_parts(parts.clone())).unwrap();
-            let whole = Options::default()
-                .model(model)
-                .contraction(model == Model::Affine);
-            let expected = decide(&cliques, &whole).unwrap();
+            let known = Question::with_parts(model, parts.clone());
+            let found = decide(&graph, &Options::default().question(known)).unwrap();
+            let whole = match model {
+                Model::Projective => Question::Projective(Projective {
+                    method: Method::WholeGraph,
+                    ..Projective::default()
+                }),
+                Model::Calibrated => Question::Calibrated(Calibrated {
+                    method: Method::WholeGraph,
+                    ..Calibrated::default()
+                }),
+                Model::Affine => model.into(),
+            };
+            let expected = decide(&cliques, &Options::default().question(whole)).unwrap();
             let (value, rank, components) = answer(&found);
             let (_, rank_expected, components_expected) = answer(&expected);
             prop_assert_eq!(rank, rank_expected);
             prop_assert_eq!(components, components_expected);
             // Solutions are counted with contraction only.
-            let contracted = decide(&cliques, &options).unwrap();
+            let contracted = decide(&cliques, &Options::default().model(model)).unwrap();
             prop_assert_eq!(value, contracted.value.to_string());
             let bounds = |verdict: &Verdict| {
                 let count = verdict.solutions.as_ref();

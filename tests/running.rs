@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use viewcert::decide;
-use viewcert::decide::{Arithmetic, Options, VerdictError};
+use viewcert::decide::{Arithmetic, Options, Projective, VerdictError};
 use viewcert::graph::Graph;
 use viewcert::watch::{Limits, Observer, Reason, Stage, Step, Watch};
 use viewcert_formats::{ReadOptions, read_graphs};
@@ -352,15 +352,18 @@ fn graph(path: &str) -> Graph {
 
 /// Graphs and options that together take every step but an error bound.
 fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
-    let rational = Arithmetic::Rational {
-        numerator: 9,
-        denominator: 4,
+    let rational = Projective {
+        arithmetic: Arithmetic::Rational {
+            numerator: 9,
+            denominator: 4,
+        },
+        ..Projective::default()
     };
     let cycle: String = common::cycle(12);
     let path = folder.join("cycle.txt");
     fs::write(&path, cycle).unwrap();
     let cycle = graph(path.to_str().unwrap());
-    let whole = Options::default().arithmetic(rational);
+    let whole = Options::default().question(rational);
     vec![
         (graph(&two_cycles(folder, 300)), Options::default()),
         (cycle.clone(), Options::default()),

@@ -13,7 +13,10 @@ use std::time::{Duration, Instant};
 use viewcert::graph::Displacements;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
-use viewcert::{Arithmetic, CountSolutions, Model, Options, Prime, Verdict};
+use viewcert::{
+    Arithmetic, Calibrated, CountSolutions, Known, Method, Model, Options, Prime, Projective,
+    ProjectiveBodies, Question, Verdict,
+};
 use viewcert_cli::front;
 use viewcert_cli::front::{Answer, Questions, Weak};
 use viewcert_formats::{NamedGraph, NamedParts};
@@ -77,13 +80,6 @@ pub(crate) fn decide(
             Prime::Fixed(field.map_err(|error| wrong(&format!("prime={prime}: {error}")))?)
         }
     };
-    let arithmetic = match bounds {
-        None => Arithmetic::Prime,
-        Some((numerator, denominator)) => Arithmetic::Rational {
-            numerator,
-            denominator,
-        },
-    };
     let watch = work::watch(time_limit, memory_limit)?;
     let told = Arc::new(Told::default());
     let watched = match &progress {
@@ -104,15 +100,23 @@ pub(crate) fn decide(
     let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
     let displacements = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
     let displacements = displacements.map_err(|error| wrong(&format!("displacements: {error}")))?;
+    if !contraction && !known.parts.is_empty() {
+        let why = "known parts are bodies, and without contraction there are none";
+        return Err(wrong(&format!("{why}; leave contraction on")));
+    }
+    let known = match displacements.is_empty() {
+        true => Known::Parts(known.parts),
+        false => Known::Displacements(displacements),
+    };
+    let asked = Asked {
+        bounds,
+        contraction,
+        counting,
+        solutions,
+    };
     let options = Options::default()
-        .known_parts(known.parts)
-        .displacements(displacements)
-        .model(model)
-        .arithmetic(arithmetic)
+        .question(asked.question(model, known))
         .prime(prime)
-        .contraction(contraction)
-        .counting(counting)
-        .solutions(solutions)
         .seed(seed)
         .watch(watched);
     let (decided, threads) = (Arc::clone(&input), work::threads()?);
@@ -133,6 +137,50 @@ pub(crate) fn decide(
         seed,
         time: start.elapsed(),
     })
+}
+
+/// How a question is asked.
+struct Asked {
+    bounds: Option<(u64, u64)>,
+    contraction: bool,
+    counting: bool,
+    solutions: CountSolutions,
+}
+
+impl Asked {
+    /// The question in a model. What it has no use for was refused before (`_verdict.py`).
+    fn question(self, model: Model, known: Known) -> Question {
+        match model {
+            Model::Projective => Question::Projective(Projective {
+                method: self.method(ProjectiveBodies {
+                    solutions: self.solutions,
+                    known_parts: known.into_parts(),
+                }),
+                arithmetic: self.arithmetic(),
+                counting: self.counting,
+            }),
+            Model::Calibrated => Question::Calibrated(Calibrated {
+                method: self.method(known),
+                counting: self.counting,
+            }),
+            Model::Affine => Question::Affine(self.method(known.into_parts())),
+        }
+    }
+
+    fn method<B>(&self, bodies: B) -> Method<B> {
+        match self.contraction {
+            true => Method::Bodies(bodies),
+            false => Method::WholeGraph,
+        }
+    }
+
+    fn arithmetic(&self) -> Arithmetic {
+        self.bounds
+            .map_or(Arithmetic::Prime, |bounds| Arithmetic::Rational {
+                numerator: bounds.0,
+                denominator: bounds.1,
+            })
+    }
 }
 
 #[pymethods]

@@ -28,9 +28,9 @@ pub(crate) fn of_deciding(error: &VerdictError) -> PyErr {
     match error {
         VerdictError::TooLarge { .. } => TooLarge::new_err(error.to_string()),
         VerdictError::Stopped(stopped) => of_stopping(stopped),
-        VerdictError::PartOutsideGraph { .. }
-        | VerdictError::PartsNotContracted
-        | VerdictError::Displacements(_) => InputError::new_err(error.to_string()),
+        VerdictError::PartOutsideGraph { .. } | VerdictError::Displacements(_) => {
+            InputError::new_err(error.to_string())
+        }
         _ => Undecided::new_err(error.to_string()),
     }
 }

@@ -19,7 +19,7 @@ use anyhow::{Context, Result, anyhow, ensure};
 use clap::{Args, ValueEnum};
 use found::Names;
 use std::path::{Path, PathBuf};
-use viewcert::decide::{CountSolutions, Options};
+use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
@@ -239,8 +239,7 @@ impl<'a> Task<'a> {
             },
             names: Names::new(input),
             options: Options::default()
-                .solutions(CountSolutions::Off)
-                .model(verdict.model)
+                .question(Question::without_solutions(verdict.model))
                 .seed(seed)
                 .watch(watch),
         }

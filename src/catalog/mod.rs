@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
-use viewcert::decide::{CountSolutions, Options, Prime};
+use viewcert::decide::{CountSolutions, Options, Prime, Projective};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
@@ -173,7 +173,7 @@ impl Size {
     pub fn options(&self) -> Result<Options> {
         let prime = self.prime.unwrap_or(DEFAULT_PRIME);
         let field = PrimeField::new(prime).with_context(|| format!("prime {prime}"))?;
-        let options = Options::default().solutions(count_solutions(self.solutions));
+        let options = Options::default().question(question(self.solutions));
         Ok(options.prime(Prime::Fixed(field)).seed(self.seed))
     }
 
@@ -239,12 +239,13 @@ impl FromStr for Nodes {
     }
 }
 
-/// What a catalog spends on the number of solutions.
-fn count_solutions(solutions: bool) -> CountSolutions {
-    match solutions {
-        true => CountSolutions::Quick,
-        false => CountSolutions::Off,
-    }
+/// What a catalog asks of its graphs.
+fn question(solutions: bool) -> Projective {
+    Projective::with_solutions(if solutions {
+        CountSolutions::Quick
+    } else {
+        CountSolutions::Off
+    })
 }
 
 /// How many candidates are decided in one go, per shard.
@@ -261,7 +262,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime {}", arguments.prime))?;
     let options = Options::default()
-        .solutions(count_solutions(arguments.solutions))
+        .question(question(arguments.solutions))
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
         .watch(running::watch());

@@ -20,7 +20,9 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::decide::{CountSolutions, Options, Prime, Value, Verdict, VerdictError, decide};
+use viewcert::decide::{
+    CountSolutions, Options, Prime, Projective, Value, Verdict, VerdictError, decide,
+};
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_studies::catalog::candidates::to_graph;
@@ -162,7 +164,7 @@ impl Files<'_> {
 
 fn options(solutions: CountSolutions) -> Options {
     Options::default()
-        .solutions(solutions)
+        .question(Projective::with_solutions(solutions))
         .watch(running::watch())
 }
 

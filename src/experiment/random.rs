@@ -9,7 +9,7 @@ use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::decide::{CountSolutions, Options, Strength, Value};
+use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::Entry;
 use viewcert_studies::catalog::random;
@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         None => Vec::new(),
     };
     let options = Options::default()
-        .solutions(CountSolutions::Off)
+        .question(Projective::with_solutions(CountSolutions::Off))
         .seed(arguments.seed)
         .watch(running::watch());
     let mut columns = Vec::new();

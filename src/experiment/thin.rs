@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
-use viewcert::decide::{CountSolutions, Options, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
 use viewcert_formats::NamedGraph;
 use viewcert_studies::catalog::random::generator;
@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 fn of_graph(arguments: &Arguments, input: &NamedGraph) -> Result<Vec<Row>, VerdictError> {
     let options = Options::default()
         .seed(arguments.seed)
-        .solutions(CountSolutions::Full)
+        .question(Projective::with_solutions(CountSolutions::Full))
         .watch(running::watch());
     let progress = Progress::new(Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)

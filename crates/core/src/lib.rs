@@ -50,8 +50,9 @@ pub mod wording;
 
 pub use certificate::Certificate;
 pub use decide::{
-    Arithmetic, Claim, Component, CountSolutions, Options, Prime, SolutionCount, Strength, Value,
-    Verdict, VerdictError, decide,
+    Arithmetic, Calibrated, Claim, Component, CountSolutions, Known, Method, Options, Prime,
+    Projective, ProjectiveBodies, Question, SolutionCount, Strength, Value, Verdict, VerdictError,
+    decide,
 };
 pub use geometry::model::Model;
 pub use graph::{Graph, GraphError, KnownParts, LabelledGraph, Labels, PairedWithItself};

@@ -5,7 +5,7 @@ use crate::parts::Parts;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::Graph;
-use viewcert::decide::{CountSolutions, Options};
+use viewcert::decide::{Options, Question};
 use viewcert::{Model, Verdict, decide};
 
 /// Random graphs of 4 to 9 nodes, sparse ones and dense ones.
@@ -70,9 +70,7 @@ pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
 
 /// The question in a model.
 pub fn options(model: Model) -> Options {
-    Options::default()
-        .model(model)
-        .solutions(CountSolutions::Off)
+    Options::default().question(Question::without_solutions(model))
 }
 
 /// The verdict in a model.

@@ -139,7 +139,7 @@ fn pairs_of(
         }
     }
     let hanging: Vec<Pair> = weak.iter().map(|&(pair, ..)| pair).collect();
-    let contraction = Contraction::new(graph, options.model);
+    let contraction = Contraction::new(graph, options.question.model());
     let candidates = used(&contraction).into_iter();
     let candidates = candidates.filter(|pair| hanging.binary_search(pair).is_err());
     // What is in no body now is in none with fewer pairs.
@@ -147,7 +147,11 @@ fn pairs_of(
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
     let mut candidates = left_out::not_cleared(graph, in_bodies, options)?;
     if !candidates.is_empty() {
-        candidates = not_cleared(&thinned(graph, options.model), candidates, options)?;
+        candidates = not_cleared(
+            &thinned(graph, options.question.model()),
+            candidates,
+            options,
+        )?;
     }
     candidates.extend(loose);
     candidates.sort_unstable();
@@ -216,7 +220,7 @@ fn not_cleared(
         }
         check(graph, options)?;
         let rest = outside_bodies(
-            &Contraction::new(&without(graph, &set), options.model),
+            &Contraction::new(&without(graph, &set), options.question.model()),
             graph.nodes(),
             &set,
         );
@@ -268,7 +272,7 @@ fn decided(
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
     let contraction = loop {
-        let contraction = Contraction::new(&without(graph, &candidates), options.model);
+        let contraction = Contraction::new(&without(graph, &candidates), options.question.model());
         let rest = outside_bodies(&contraction, graph.nodes(), &candidates);
         if rest.len() == candidates.len() {
             break contraction;
@@ -374,10 +378,16 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
             None => open.push(v),
         }
     }
-    if is_one_body(&Contraction::new(graph, options.model), graph.nodes()) {
-        open = falling_apart(&thinned(graph, options.model), open, |rest| {
+    if is_one_body(
+        &Contraction::new(graph, options.question.model()),
+        graph.nodes(),
+    ) {
+        open = falling_apart(&thinned(graph, options.question.model()), open, |rest| {
             check(graph, options)?;
-            let whole = is_one_body(&Contraction::new(rest, options.model), rest.nodes());
+            let whole = is_one_body(
+                &Contraction::new(rest, options.question.model()),
+                rest.nodes(),
+            );
             Ok((!whole).then_some(Strength::Proof))
         })?
         .into_iter()

@@ -7,7 +7,7 @@
 use crate::catalog::{Candidates, SizeError, laman, least_edges};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use viewcert::decide::{CountSolutions, Options, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 
 /// Where graphs come from.
@@ -101,7 +101,8 @@ pub fn tally(
     options: &Options,
     done: impl Fn(u64) + Sync,
 ) -> Result<Tally, VerdictError> {
-    let options = options.clone().solutions(CountSolutions::Full);
+    let question = Projective::with_solutions(CountSolutions::Full);
+    let options = options.clone().question(question);
     let found: Vec<Option<Bounds>> = graphs
         .par_iter()
         .map(|graph| {

@@ -7,7 +7,7 @@
 
 use rand::{Rng, RngExt};
 use std::ops::RangeInclusive;
-use viewcert::decide::{CountSolutions, Options, Value, VerdictError, decide};
+use viewcert::decide::{CountSolutions, Options, Projective, Value, VerdictError, decide};
 use viewcert::graph::Graph;
 
 /// A number of nodes from a range, all equally likely.
@@ -28,7 +28,7 @@ pub fn piece(
 ) -> Result<Graph, VerdictError> {
     let chosen = connected_nodes(graph, nodes, generator);
     let part = induced(graph, &chosen);
-    let verdict = decide(&part, &options.clone().solutions(CountSolutions::Off))?;
+    let verdict = decide(&part, &finite(options))?;
     let largest = verdict
         .components
         .iter()
@@ -37,6 +37,12 @@ pub fn piece(
         Some(component) => subgraph(&component.nodes(), component.edges(&part)),
         None => part,
     })
+}
+
+/// Whether a graph is finite solvable is all that is asked.
+fn finite(options: &Options) -> Options {
+    let question = Projective::with_solutions(CountSolutions::Off);
+    options.clone().question(question)
 }
 
 /// A finite solvable graph without edges that it is finite solvable without: removed one after
@@ -57,7 +63,7 @@ pub fn thinned(
     shuffle(&mut edges, generator);
     let mut thin = Thin {
         nodes: graph.nodes() as u32,
-        options: &options.clone().solutions(CountSolutions::Off),
+        options: &finite(options),
         needed: Vec::new(),
     };
     if !thin.is_finite_solvable(&edges)? {
@@ -167,7 +173,7 @@ mod tests {
     }
 
     fn is_finite_solvable(graph: &Graph) -> bool {
-        let options = Options::default().solutions(CountSolutions::Off);
+        let options = finite(&Options::default());
         decide(graph, &options).unwrap().value != Value::NotFiniteSolvable
     }
 

@@ -91,11 +91,11 @@ impl<'a> Certificate<'a> {
     /// ```
     /// use viewcert::graph::graph6;
     /// use viewcert::solutions::{Effort, count};
-    /// use viewcert::decide::CountSolutions;
-    /// use viewcert::{Options, decide};
+    /// use viewcert::{CountSolutions, Options, Projective, decide};
     ///
     /// let graph = graph6::decode(b"HBQkcP_").unwrap();
-    /// let verdict = decide(&graph, &Options::default().solutions(CountSolutions::Off))?;
+    /// let finite = Projective::with_solutions(CountSolutions::Off);
+    /// let verdict = decide(&graph, &Options::default().question(finite))?;
     /// let solutions = count(&graph, Effort::default(), 1).unwrap();
     /// let certificate = verdict.certificate(&graph).with_solutions(&solutions)?.compact();
     /// let claimed = "\"solutions\":{\"at_least\":2,\"at_most\":2,\"strength\":\"proof\"";

@@ -1,7 +1,7 @@
 //! Contraction, replayed step by step and compared with the rules applied naively.
 
 use super::*;
-use crate::decide::{Options, decide};
+use crate::decide::{Method, Options, Projective, decide};
 use crate::geometry::draw::{DrawKey, centres_mod, points_mod};
 use crate::geometry::plane_direction::PlaneDirections;
 use crate::geometry::plane_flow::PlaneFlows;
@@ -316,7 +316,11 @@ fn alone(nodes: &Nodes, edges: &[(u32, u32)]) -> Graph {
 
 /// The generic rank of J_P, without contraction.
 fn paper_rank(nodes: &Nodes, edges: &[(u32, u32)]) -> usize {
-    let options = Options::default().contraction(false);
+    let whole = Projective {
+        method: Method::WholeGraph,
+        ..Projective::default()
+    };
+    let options = Options::default().question(whole);
     decide(&alone(nodes, edges), &options).unwrap().rank
 }
 

@@ -49,7 +49,7 @@ impl Bound {
 /// If cameras cannot be drawn, or the search was stopped.
 pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Added>, VerdictError> {
     let is_small = piece.core.graph.nodes() <= overlap::MAX_NODES;
-    if piece.options.model != Model::Projective || !is_small {
+    if piece.model() != Model::Projective || !is_small {
         return Ok(None);
     }
     let pairs = implied(piece)?;

@@ -13,7 +13,8 @@ use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
-use crate::decide::options::{Arithmetic, CountSolutions, Options};
+use crate::decide::options::Options;
+use crate::decide::question::{Arithmetic, CountSolutions, Method, Projective, Question};
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::graph::{Adjacency, Graph, core_sha256};
@@ -43,10 +44,14 @@ pub(super) fn extend(
     options: &Options,
 ) -> Result<(Contraction, Vec<Evidence>), VerdictError> {
     let mut evidence = Vec::new();
-    let is_wanted = options.model == Model::Projective
-        && options.contraction
-        && options.arithmetic == Arithmetic::Prime
-        && options.solutions != CountSolutions::Full;
+    let is_wanted = matches!(
+        &options.question,
+        Question::Projective(Projective {
+            method: Method::Bodies(bodies),
+            arithmetic: Arithmetic::Prime,
+            ..
+        }) if bodies.solutions != CountSolutions::Full
+    );
     let mut size = REGION;
     while is_wanted && size <= LARGEST_REGION && may_be_large(&contraction) {
         let assembly = Assembly::new(graph, &contraction);
@@ -194,8 +199,8 @@ impl Search<'_> {
             let Ok(at) = Centres::draw(&field, nodes, key) else {
                 continue;
             };
-            let ranks = Ranks::new(self.options.model, &self.options.watch, &at, &core)?;
-            if ranks.rank == self.options.model.required(nodes) {
+            let ranks = Ranks::new(Model::Projective, &self.options.watch, &at, &core)?;
+            if ranks.rank == Model::Projective.required(nodes) {
                 found.push((piece, ranks.evidence()));
             } else if let Some((classes, _)) = ranks.classes(&piece)
                 && classes.len() >= 2

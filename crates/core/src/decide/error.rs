@@ -37,8 +37,6 @@ pub enum VerdictError {
         /// How many nodes the graph has.
         nodes: usize,
     },
-    /// Known parts are bodies, and without contraction there are none.
-    PartsNotContracted,
     /// Displacements that say nothing about the question, and why.
     Displacements(&'static str),
     /// The work was stopped before there was an answer.
@@ -67,9 +65,6 @@ impl fmt::Display for VerdictError {
             Self::PartOutsideGraph { node, nodes } => write!(
                 f,
                 "a known part has the node {node}, and the graph has {nodes} nodes"
-            ),
-            Self::PartsNotContracted => f.write_str(
-                "known parts are bodies, and without contraction there are none; leave contraction on",
             ),
             Self::Displacements(why) => write!(f, "known displacements: {why}"),
             Self::Stopped(inner) => inner.fmt(f),

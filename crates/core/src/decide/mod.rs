@@ -24,8 +24,8 @@
 //! pieces are in `one_piece`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
 //! paper's own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `solution_count`. What goes in is in `options`, what is found in [`evidence`], what comes out in
-//! `verdict`.
+//! `solution_count`. What is asked is in `question`, with what it is decided in `options`, what is
+//! found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
 
@@ -40,6 +40,7 @@ mod one_piece;
 mod options;
 mod overlap;
 mod plane_piece;
+mod question;
 mod solution_count;
 mod stresses;
 mod verdict;
@@ -49,9 +50,12 @@ pub use added::{Added, Bound};
 pub use claim::{Claim, Strength, UnknownStrength};
 pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
-pub use options::{Arithmetic, CountSolutions, Options, Prime};
+pub use options::{Options, Prime};
 pub use overlap::{Overlap, Shared, SharedPiece};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
+pub use question::{
+    Arithmetic, Calibrated, CountSolutions, Known, Method, Projective, ProjectiveBodies, Question,
+};
 pub use solution_count::SolutionCount;
 pub use verdict::{Component, UnknownValue, Value, Verdict};
 
@@ -59,7 +63,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
 use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::geometry::model::Model;
-use crate::graph::{Graph, sha256};
+use crate::graph::{Displacements, Graph, KnownParts, sha256};
 use crate::watch::{Step, Stopped};
 use std::sync::Arc;
 
@@ -68,42 +72,45 @@ use std::sync::Arc;
 /// # Errors
 /// If cameras cannot be drawn, a small prime leaves the question open, the matrix is
 /// too large for the method, or the work is stopped. If known parts or displacements are of another
-/// graph, or contraction is off, which makes them bodies; if both are known, or displacements in
-/// another model than the calibrated one.
+/// graph.
 pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError> {
-    check_parts(graph, options)?;
-    check_displacements(graph, options)?;
+    let model = options.question.model();
+    let known = options.question.known();
+    if let Method::Bodies(known) = &known {
+        check_known(graph, known)?;
+    }
     let task = options.watch.task(Step::Contraction, graph.nodes());
     let work = task.begin(0);
     work.done(0)?;
-    let contract = || {
-        if !options.displacements.is_empty() {
-            Contraction::with_displacements(graph, &options.displacements)
-        } else if options.contraction {
-            Contraction::with_parts(graph, &options.known_parts, options.model)
-        } else {
-            Contraction::none(graph)
+    let contract = || match &known {
+        Method::Bodies(Known::Displacements(known)) if !known.is_empty() => {
+            Contraction::with_displacements(graph, known)
         }
+        Method::Bodies(Known::Displacements(_)) => Contraction::new(graph, model),
+        Method::Bodies(Known::Parts(parts)) => Contraction::with_parts(graph, parts, model),
+        Method::WholeGraph => Contraction::none(graph),
     };
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
     let assembly = Assembly::new(graph, &contraction);
     let all = assembly.all();
-    let Split { rigid, pieces } = if options.contraction {
-        assembly.split(&all)
-    } else {
-        assembly.whole(&all)
+    let (Split { rigid, pieces }, known) = match known {
+        Method::Bodies(known) => (assembly.split(&all), known),
+        Method::WholeGraph => (assembly.whole(&all), Known::default()),
     };
     drop(work);
-    let pieces = if options.model == Model::Affine {
+    let pieces = if model == Model::Affine {
         plane_piece::decide_all(&assembly, &pieces, &sha256, options)?
     } else {
         one_piece::decide_all(&assembly, &pieces, &sha256, options)?
     };
+    let (known_parts, displacements) = known.split();
     let found = Found {
         graph,
         options,
+        known_parts,
+        displacements,
         assembly: &assembly,
         by_rank,
         rigid,
@@ -112,36 +119,30 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     Ok(found.conclude(sha256, contraction)?)
 }
 
-/// Whether the known parts are parts of the graph, and can be bodies.
-fn check_parts(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
-    match options.known_parts.largest_node() {
-        Some(_) if !options.contraction => Err(VerdictError::PartsNotContracted),
-        Some(node) if node as usize >= graph.nodes() => Err(VerdictError::PartOutsideGraph {
-            node,
-            nodes: graph.nodes(),
-        }),
-        _ => Ok(()),
+/// Whether what is known is known of the nodes of the graph.
+fn check_known(graph: &Graph, known: &Known) -> Result<(), VerdictError> {
+    let outside = |&node: &u32| node as usize >= graph.nodes();
+    match known {
+        Known::Parts(parts) => match parts.largest_node().filter(outside) {
+            Some(node) => Err(VerdictError::PartOutsideGraph {
+                node,
+                nodes: graph.nodes(),
+            }),
+            None => Ok(()),
+        },
+        Known::Displacements(known) if known.groups().iter().flatten().any(outside) => {
+            Err(VerdictError::Displacements("the graph has fewer nodes"))
+        }
+        Known::Displacements(_) => Ok(()),
     }
-}
-
-/// Refuses displacements that say nothing about the question.
-fn check_displacements(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
-    let largest = options.displacements.groups().iter().flatten().max();
-    let reason = match largest {
-        None => return Ok(()),
-        Some(_) if options.model != Model::Calibrated => "they belong to the calibrated model",
-        Some(_) if !options.contraction => "they need contraction",
-        Some(_) if !options.known_parts.is_empty() => "they do not go with known parts",
-        Some(&node) if node as usize >= graph.nodes() => "the graph has fewer nodes",
-        Some(_) => return Ok(()),
-    };
-    Err(VerdictError::Displacements(reason))
 }
 
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
     options: &'a Options,
+    known_parts: KnownParts,
+    displacements: Displacements,
     assembly: &'a Assembly,
     /// Why bodies by rank are rigid.
     by_rank: Vec<Evidence>,
@@ -165,9 +166,9 @@ impl Found<'_> {
         let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
         let contraction = Arc::new(contraction);
         Ok(Verdict {
-            model: self.options.model,
-            known_parts: self.options.known_parts.clone(),
-            displacements: self.options.displacements.clone(),
+            model: self.model(),
+            known_parts: self.known_parts.clone(),
+            displacements: self.displacements.clone(),
             sha256,
             value: if is_one { Value::Solvable } else { value },
             value_strength,
@@ -182,10 +183,14 @@ impl Found<'_> {
         })
     }
 
+    fn model(&self) -> Model {
+        self.options.question.model()
+    }
+
     /// The rank of a finite solvable graph with as many nodes.
     fn required(&self) -> usize {
-        let scale = usize::from(!self.options.displacements.is_empty());
-        self.options.model.required(self.graph.nodes()) + scale
+        let scale = usize::from(!self.displacements.is_empty());
+        self.model().required(self.graph.nodes()) + scale
     }
 
     /// The rank of the members that are pieces by themselves.
@@ -193,7 +198,7 @@ impl Found<'_> {
         let singles = self.rigid.singles();
         let ranks = singles
             .iter()
-            .map(|part| self.assembly.required(self.options.model, part));
+            .map(|part| self.assembly.required(self.model(), part));
         ranks.sum()
     }
 
@@ -212,11 +217,9 @@ impl Found<'_> {
                     .first()
                     .is_some_and(|piece| all_nodes(&piece.members)));
         let is_unique = is_body && contraction.are_unique_finals();
-        match self.options.model {
+        match self.model() {
             // Pieces may hang together in scaled bodies.
-            _ if !self.options.displacements.is_empty() && rank == self.required() => {
-                Value::Solvable
-            }
+            _ if !self.displacements.is_empty() && rank == self.required() => Value::Solvable,
             _ if is_unique || self.graph.nodes() == 1 => Value::Solvable,
             Model::Calibrated | Model::Affine if is_full => Value::Solvable,
             Model::Projective if is_full => Value::FiniteSolvable,
@@ -230,8 +233,11 @@ impl Found<'_> {
         value: Value,
         contraction: &Contraction,
     ) -> Result<Option<SolutionCount>, Stopped> {
-        let effort = match self.options.contraction {
-            true if contraction.by_rank.is_empty() => self.options.solutions,
+        let effort = match &self.options.question {
+            Question::Projective(Projective {
+                method: Method::Bodies(bodies),
+                ..
+            }) if contraction.by_rank.is_empty() => bodies.solutions,
             _ => CountSolutions::Off,
         };
         let seed = self.options.seed;

@@ -13,8 +13,9 @@ use crate::decide::counting::Counting;
 use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict};
-use crate::decide::options::{Arithmetic, Options};
+use crate::decide::options::Options;
 use crate::decide::overlap;
+use crate::decide::question::{Arithmetic, Method, Question};
 use crate::decide::whole_matrix;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
@@ -83,6 +84,10 @@ impl<'a> Piece<'a> {
         Piece::new(self.assembly, members, core, self.sha256, self.options)
     }
 
+    pub(super) fn model(&self) -> Model {
+        self.options.question.model()
+    }
+
     fn nodes(&self) -> usize {
         self.core.graph.nodes()
     }
@@ -102,14 +107,14 @@ impl<'a> Piece<'a> {
 
     /// The rank of the core of a finite solvable piece.
     fn required(&self) -> usize {
-        self.core.required(self.options.model)
+        self.core.required(self.model())
     }
 
     /// The rank of the piece from that of its core (Theorem 4.4; calibrated: Theorems 4.11
     /// and 13.18).
     pub(super) fn rank_of_piece(&self, core_rank: usize) -> usize {
         let scale = usize::from(!self.core.scales.is_empty());
-        self.options.model.required(self.core.total_nodes) + scale + core_rank - self.required()
+        self.model().required(self.core.total_nodes) + scale + core_rank - self.required()
     }
 
     /// The verdict on a piece of full rank.
@@ -127,7 +132,7 @@ impl<'a> Piece<'a> {
     }
 
     pub(super) fn ranks<'c>(&'c self, at: &'c Centres) -> Result<Ranks<'c>, Stopped> {
-        Ranks::new(self.options.model, &self.options.watch, at, self.core)
+        Ranks::new(self.model(), &self.options.watch, at, self.core)
     }
 
     /// Decides at one draw of centres after another, until one will do.
@@ -156,20 +161,23 @@ impl<'a> Piece<'a> {
 
     /// The rank of the paper's own matrix on the core, if it was asked for.
     fn whole_matrix(&self) -> Result<Option<(Evidence, usize)>, VerdictError> {
-        if self.options.model != Model::Projective {
+        let Question::Projective(asked) = &self.options.question else {
             return Ok(None);
-        }
+        };
         let (graph, key, task) = (&self.core.graph, self.key(0), self.task(Step::WholeMatrix));
-        match self.options.arithmetic {
-            Arithmetic::Rational {
-                numerator,
-                denominator,
-            } => whole_matrix::rational(graph, numerator, denominator, &key, &task).map(Some),
-            Arithmetic::Prime if !self.options.contraction => {
+        match (asked.arithmetic, &asked.method) {
+            (
+                Arithmetic::Rational {
+                    numerator,
+                    denominator,
+                },
+                _,
+            ) => whole_matrix::rational(graph, numerator, denominator, &key, &task).map(Some),
+            (Arithmetic::Prime, Method::WholeGraph) => {
                 let field = self.options.prime.for_whole_matrix();
                 whole_matrix::modular(graph, &field, &key, &task).map(Some)
             }
-            Arithmetic::Prime => Ok(None),
+            (Arithmetic::Prime, Method::Bodies(_)) => Ok(None),
         }
     }
 
@@ -199,14 +207,14 @@ impl<'a> Piece<'a> {
             evidence.push(Evidence::Counting(counting));
         }
         if lower < upper
-            && self.options.counting
+            && self.options.question.counting()
             && let Some(overlap) = overlap::search(self, lower)?
         {
             upper = overlap.bound;
             evidence.push(Evidence::Overlap(overlap));
         }
         if lower < upper
-            && self.options.counting
+            && self.options.question.counting()
             && let Some(added) = added::search(self, lower)?
         {
             upper = added.bound.value();
@@ -331,7 +339,7 @@ impl<'a> Piece<'a> {
         let at = Centres::draw(&field, self.nodes(), self.key(0))?;
         let ranks = self.ranks(&at)?;
         let whole = std::slice::from_ref(self.members);
-        let block = Counting::partition(self.options.model, self.assembly, whole);
+        let block = Counting::partition(self.model(), self.assembly, whole);
         if ranks.rank == self.required() {
             return Ok(Some(block));
         }
@@ -360,7 +368,7 @@ impl<'a> Piece<'a> {
         components: &[Members],
         lower: usize,
     ) -> Result<Option<Counting>, Stopped> {
-        if !self.options.counting {
+        if !self.options.question.counting() {
             return Ok(None);
         }
         // Where to look is not a claim: a large prime looks best.
@@ -373,7 +381,7 @@ impl<'a> Piece<'a> {
             task: work.task(),
         };
         counting::count(
-            self.options.model,
+            self.model(),
             self.assembly,
             self.members,
             components,

@@ -1,7 +1,8 @@
-//! What is asked of a graph, and how the answer is looked for.
+//! A question, and what it is decided with: primes, draws, and who may stop it.
 
+use crate::decide::question::{Calibrated, Known, Question};
 use crate::geometry::model::Model;
-use crate::graph::{Displacements, KnownParts};
+use crate::graph::Displacements;
 use crate::linalg::prime::{PrimeField, SMALL_PRIME};
 use crate::watch::Watch;
 
@@ -38,63 +39,22 @@ impl Prime {
     }
 }
 
-/// The arithmetic of the rank computation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arithmetic {
-    /// Residues modulo a prime.
-    #[default]
-    Prime,
-    /// Integers, at cameras with small rational entries.
-    Rational {
-        /// Largest absolute value of a numerator.
-        numerator: u64,
-        /// Largest denominator.
-        denominator: u64,
-    },
-}
-
-/// How much is spent on the number of solutions of a graph that is finite solvable in the projective
-/// model and no single body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CountSolutions {
-    /// Nothing: for many graphs of which only 'finite or not' is asked.
-    Off,
-    /// Solutions are counted where it takes some milliseconds, and about a second at most: where the
-    /// members of the graph share few nodes. The others stay finite solvable.
-    #[default]
-    Quick,
-    /// Solutions are counted whatever it takes: minutes, where many nodes are shared. They are
-    /// counted between unique members, so large cores are decided without bodies by rank.
-    Full,
-}
-
-/// How the question is decided. Start from the default, and say what is to be different:
+/// What is asked of a graph, and how its cameras are drawn. Start from the default, and say what is to
+/// be different:
 ///
 /// ```
 /// use viewcert::{Model, Options};
 ///
 /// let options = Options::default().model(Model::Calibrated).seed(7);
-/// assert_eq!((options.model, options.seed), (Model::Calibrated, 7));
+/// assert_eq!((options.question.model(), options.seed), (Model::Calibrated, 7));
 /// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Options {
-    /// Which question.
-    pub model: Model,
-    /// Integers or residues.
-    pub arithmetic: Arithmetic,
-    /// The primes of the residues (in rational mode, of components and their evidence).
+    /// What is asked.
+    pub question: Question,
+    /// The primes of the residues.
     pub prime: Prime,
-    /// Whether to contract to bodies first, and to decide piece by piece.
-    pub contraction: bool,
-    /// Whether to look for proofs by counting.
-    pub counting: bool,
-    /// How much to spend on the number of solutions. Without contraction they are not counted.
-    pub solutions: CountSolutions,
-    /// Sets of nodes whose cameras are known relative to each other.
-    pub known_parts: KnownParts,
-    /// Cameras whose displacements are known, calibrated ones.
-    pub displacements: Displacements,
     /// The seed of all draws.
     pub seed: u64,
     /// Who is told what is being done, and may stop it.
@@ -102,56 +62,20 @@ pub struct Options {
 }
 
 impl Options {
-    /// Asks another question.
+    /// Asks another question: one in full, or the usual one of a model.
     #[must_use]
-    pub fn model(mut self, model: Model) -> Self {
-        self.model = model;
+    pub fn question(mut self, question: impl Into<Question>) -> Self {
+        self.question = question.into();
         self
     }
 
-    /// Takes other arithmetic.
+    /// Asks the usual question of another model.
     #[must_use]
-    pub fn arithmetic(mut self, arithmetic: Arithmetic) -> Self {
-        self.arithmetic = arithmetic;
-        self
+    pub fn model(self, model: Model) -> Self {
+        self.question(model)
     }
 
-    /// Takes other primes.
-    #[must_use]
-    pub fn prime(mut self, prime: Prime) -> Self {
-        self.prime = prime;
-        self
-    }
-
-    /// Contracts to bodies first, or not.
-    #[must_use]
-    pub fn contraction(mut self, contraction: bool) -> Self {
-        self.contraction = contraction;
-        self
-    }
-
-    /// Looks for proofs by counting, or not.
-    #[must_use]
-    pub fn counting(mut self, counting: bool) -> Self {
-        self.counting = counting;
-        self
-    }
-
-    /// Spends more or less on the number of solutions.
-    #[must_use]
-    pub fn solutions(mut self, solutions: CountSolutions) -> Self {
-        self.solutions = solutions;
-        self
-    }
-
-    /// Takes sets of nodes for known relative to each other, in any model (Theorem 4.14).
-    #[must_use]
-    pub fn known_parts(mut self, parts: KnownParts) -> Self {
-        self.known_parts = parts;
-        self
-    }
-
-    /// Takes displacements for known, in the calibrated model (Theorems 13.16 to 13.20).
+    /// Asks of calibrated cameras some of whose displacements are known (Theorems 13.16 to 13.20).
     ///
     /// ```
     /// use viewcert::graph::Displacements;
@@ -167,8 +91,14 @@ impl Options {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn displacements(mut self, known: Displacements) -> Self {
-        self.displacements = known;
+    pub fn displacements(self, known: Displacements) -> Self {
+        self.question(Calibrated::with(Known::Displacements(known)))
+    }
+
+    /// Takes other primes.
+    #[must_use]
+    pub fn prime(mut self, prime: Prime) -> Self {
+        self.prime = prime;
         self
     }
 
@@ -190,14 +120,8 @@ impl Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            model: Model::default(),
-            arithmetic: Arithmetic::default(),
+            question: Question::default(),
             prime: Prime::default(),
-            contraction: true,
-            counting: true,
-            solutions: CountSolutions::default(),
-            known_parts: KnownParts::default(),
-            displacements: Displacements::default(),
             seed: 1,
             watch: Watch::default(),
         }

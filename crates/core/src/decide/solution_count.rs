@@ -6,7 +6,7 @@
 
 use crate::contract::Contraction;
 use crate::decide::claim::Strength;
-use crate::decide::options::CountSolutions;
+use crate::decide::question::CountSolutions;
 use crate::graph::Graph;
 use crate::solutions::{Effort, Solutions, count_in};
 use crate::watch::{Stopped, Task};
@@ -125,7 +125,7 @@ impl fmt::Display for SolutionCount {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::{Options, Value, decide};
+    use crate::decide::{Options, Projective, Question, Value, decide};
     use crate::geometry::model::Model;
     use crate::graph::graph6;
 
@@ -162,9 +162,9 @@ mod tests {
     /// eight nodes all have one (Arrigoni, Kohn, Fusiello, Pajdla).
     #[test]
     fn what_the_verdict_says() {
-        let decided = |graph6: &[u8], effort, model| {
+        let decided = |graph6: &[u8], question: Question| {
             let graph = graph6::decode(graph6).unwrap();
-            let options = Options::default().solutions(effort).model(model);
+            let options = Options::default().question(question);
             let verdict = decide(&graph, &options).unwrap();
             let solutions = verdict.solutions.clone();
             let bounds = solutions.map(|count| (count.at_least, count.at_most));
@@ -172,7 +172,8 @@ mod tests {
         };
         use CountSolutions::{Full, Off, Quick};
         use Value::{FiniteSolvable, NotFiniteSolvable, Solvable};
-        let projective = |graph6, effort| decided(graph6, effort, Model::Projective);
+        let projective =
+            |graph6, effort| decided(graph6, Projective::with_solutions(effort).into());
         // A triangle, a cycle of four, a K_{2,3}.
         for effort in [Off, Quick, Full] {
             let one = (Solvable, Some((1, Some(1))), Solvable);
@@ -180,7 +181,7 @@ mod tests {
             assert_eq!(projective(b"D]o", effort), one);
             let none = (NotFiniteSolvable, None, NotFiniteSolvable);
             assert_eq!(projective(b"Cl", effort), none);
-            assert_eq!(decided(b"Cl", effort, Model::Calibrated), one);
+            assert_eq!(decided(b"Cl", Model::Calibrated.into()), one);
         }
         let unknown = (FiniteSolvable, Some((1, None)), FiniteSolvable);
         let two = (FiniteSolvable, Some((2, Some(2))), FiniteSolvable);

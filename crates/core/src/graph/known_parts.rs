@@ -18,13 +18,14 @@ impl KnownParts {
     /// O(k log k) for k nodes of parts together.
     ///
     /// ```
-    /// use viewcert::{KnownParts, Model, Options, Value, Graph, decide};
+    /// use viewcert::{Graph, KnownParts, Model, Options, Question, Value, decide};
     ///
     /// // Two cameras see each other; with a third one they are views of one trifocal tensor.
     /// let graph = Graph::new(3, [(0, 1)])?;
     /// let parts = KnownParts::new(3, [vec![2, 0, 1], vec![1, 2, 0, 0], vec![2]])?;
     /// assert_eq!(parts.iter().collect::<Vec<_>>(), [[0, 1, 2]]);
-    /// let verdict = decide(&graph, &Options::default().known_parts(parts))?;
+    /// let question = Question::with_parts(Model::Projective, parts);
+    /// let verdict = decide(&graph, &Options::default().question(question))?;
     /// assert_eq!(verdict.value, Value::Solvable);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -78,7 +78,7 @@ fn not_cleared_without(
     let edges = graph.edges().iter().copied();
     let edges = edges.filter(|&(a, b)| !is_out[a as usize] && !is_out[b as usize]);
     let rest = Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
-    let contraction = Contraction::new(&rest, options.model);
+    let contraction = Contraction::new(&rest, options.question.model());
     let finals = (0..).zip(&contraction.finals);
     let of_node = finals.flat_map(|(k, &body): (u32, _)| {
         let nodes = contraction.bodies[body as usize].nodes.iter();

@@ -3,7 +3,7 @@
 use super::{decide, refuted, solvable};
 use crate::catalog::random::{Sampler, generator};
 use crate::catalog::{Candidates, least_edges};
-use viewcert::decide::{CountSolutions, Options, Value};
+use viewcert::decide::{CountSolutions, Options, Projective, Value};
 use viewcert::graph::{Graph, graph6};
 
 /// What the two say of a graph, as counts.
@@ -27,7 +27,7 @@ impl Agreement {
             true => CountSolutions::Full,
             false => CountSolutions::Off,
         };
-        let options = Options::default().solutions(effort);
+        let options = Options::default().question(Projective::with_solutions(effort));
         let verdict = viewcert::decide(graph, &options).unwrap();
         self.graphs += 1;
         if refuted(&conditions) {

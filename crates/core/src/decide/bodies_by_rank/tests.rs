@@ -1,6 +1,6 @@
 use super::*;
-use crate::decide::decide;
 use crate::decide::verdict::{Value, Verdict};
+use crate::decide::{ProjectiveBodies, decide};
 use crate::graph::KnownParts;
 use crate::watch::{Limits, Watch};
 
@@ -48,7 +48,11 @@ fn a_grid_becomes_bodies() {
     assert_eq!(found.components[0].edge_count(), 612);
     assert!(!found.contraction.are_unique_finals());
 
-    let whole = solve(&graph, Options::default().contraction(false));
+    let whole = Projective {
+        method: Method::WholeGraph,
+        ..Projective::default()
+    };
+    let whole = solve(&graph, Options::default().question(whole));
     assert!(whole.by_rank.is_empty());
     assert_eq!(facts(&graph, &found), facts(&graph, &whole));
 }
@@ -60,7 +64,10 @@ fn known_parts_are_members() {
     let part = vec![0, 19, 40];
     let graph = torus(17, 18, &BESIDE_A_ROW);
     let parts = KnownParts::new(306, [part.clone()]).unwrap();
-    let found = solve(&graph, Options::default().known_parts(parts));
+    let found = solve(
+        &graph,
+        Options::default().question(Question::with_parts(Model::Projective, parts)),
+    );
     let pairs = [(0, 19), (0, 40), (19, 40)];
     assert!(pairs.iter().all(|pair| !graph.edges().contains(pair)));
     let all = graph.edges().iter().copied().chain(pairs);
@@ -76,9 +83,15 @@ fn known_parts_are_members() {
     assert_eq!(found.rank, 11 * 306 - 16);
     assert!(!found.contraction.are_unique_finals());
     // Without bodies by rank, too.
-    let parts = KnownParts::new(306, [part]).unwrap();
-    let options = Options::default().solutions(CountSolutions::Full);
-    let counted = solve(&graph, options.known_parts(parts));
+    let method = Method::Bodies(ProjectiveBodies {
+        known_parts: KnownParts::new(306, [part]).unwrap(),
+        solutions: CountSolutions::Full,
+    });
+    let asked = Projective {
+        method,
+        ..Projective::default()
+    };
+    let counted = solve(&graph, Options::default().question(asked));
     assert!(counted.by_rank.is_empty());
     assert_eq!(nodes(&found), nodes(&counted));
 }
@@ -95,7 +108,10 @@ fn what_hangs_on_a_body_stays_outside() {
     let sizes = found.components.iter().map(|part| part.edge_count());
     assert_eq!(sizes.collect::<Vec<_>>(), [605, 1, 1, 1]);
     // Solutions are counted of unique members only: who wants that gets no others.
-    let counted = solve(&graph, Options::default().solutions(CountSolutions::Full));
+    let counted = solve(
+        &graph,
+        Options::default().question(Projective::with_solutions(CountSolutions::Full)),
+    );
     assert!(!found.by_rank.is_empty() && counted.by_rank.is_empty());
     assert_eq!(facts(&graph, &found), facts(&graph, &counted));
 }

@@ -68,7 +68,7 @@ pub struct SharedPiece {
 /// If cameras cannot be drawn, or the search was stopped.
 pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Overlap>, VerdictError> {
     let (nodes, members) = (piece.core.graph.nodes(), piece.members.len());
-    if piece.options.model != Model::Projective || nodes > MAX_NODES || members > MAX_MEMBERS {
+    if piece.model() != Model::Projective || nodes > MAX_NODES || members > MAX_MEMBERS {
         return Ok(None);
     }
     let task = piece.task(Step::Counting);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::decide::{Options, Strength, decide};
+use crate::decide::{Method, Options, Projective, Strength, decide};
 use crate::graph::Graph;
 use crate::graph::graph6;
 
@@ -79,7 +79,11 @@ fn a_body_is_shared() {
     assert_eq!(piece.members.bodies.len(), 1);
     assert_eq!(piece.members.edges, [(2, 7), (3, 6), (6, 7)]);
     // Without contraction 22 edges are members, and the triangle is no block by itself at once.
-    let found = of(&graph, 149, &Options::default().contraction(false));
+    let whole = Projective {
+        method: Method::WholeGraph,
+        ..Projective::default()
+    };
+    let found = of(&graph, 149, &Options::default().question(whole));
     assert_eq!(found.bound, 149);
 }
 
@@ -97,6 +101,10 @@ fn two_graphs_with_15_nodes() {
 #[test]
 fn without_counting_there_is_none() {
     let graph = graph6::decode(b"M@`?hUOcB?K?H?E??").unwrap();
-    let verdict = decide(&graph, &Options::default().counting(false)).unwrap();
+    let bounds = Projective {
+        counting: false,
+        ..Projective::default()
+    };
+    let verdict = decide(&graph, &Options::default().question(bounds)).unwrap();
     assert_ne!(verdict.rank_claim().strength, Strength::Proof);
 }

@@ -419,11 +419,12 @@ mod tests {
     /// Every claim against every verdict.
     #[test]
     fn rulings_on_the_number_of_solutions() {
-        use viewcert::decide::CountSolutions;
+        use viewcert::decide::{CountSolutions, Projective};
         use viewcert::graph::graph6;
         let ruled = |graph: &str, effort, column: &str, claimed: &str| {
             let decoded = graph6::decode(graph.as_bytes()).unwrap();
-            let verdict = decide(&decoded, &Options::default().solutions(effort)).unwrap();
+            let options = Options::default().question(Projective::with_solutions(effort));
+            let verdict = decide(&decoded, &options).unwrap();
             let claim = claim(&row(&[("graph", graph), (column, claimed)])).unwrap();
             let ruling = rule(&claim, decoded.nodes(), decoded.edges().len(), &verdict);
             match ruling {
