@@ -168,6 +168,7 @@ fn overview(
     let mut found = Overview {
         name: &input.name,
         notes: notes(arguments, source),
+        read: &input.read,
         pairs: pairs
             .as_ref()
             .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),

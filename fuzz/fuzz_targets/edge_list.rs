@@ -5,21 +5,22 @@
 use std::io::Write;
 
 use libfuzzer_sys::fuzz_target;
+use viewcert_formats::Parsed;
 use viewcert_formats::edge_list::{Reading, read};
 
 fuzz_target!(|data: &[u8]| {
     let lenient = read(data, Reading::Lenient);
-    if let Ok((graph, labels, _)) = read(data, Reading::Strict) {
+    if let Ok(Parsed { graph, labels, .. }) = read(data, Reading::Strict) {
         assert!(!graph.edges().is_empty());
-        if let Ok((whole, whole_labels, _)) = &lenient {
-            let head = whole.edges().len() - graph.edges().len();
+        if let Ok(whole) = &lenient {
+            let head = whole.graph.edges().len() - graph.edges().len();
             assert!(head <= 1);
             if head == 0 {
-                assert_eq!((whole, whole_labels), (&graph, &labels));
+                assert_eq!((&whole.graph, &whole.labels), (&graph, &labels));
             }
         }
     }
-    let Ok((graph, labels, _)) = lenient else {
+    let Ok(Parsed { graph, labels, .. }) = lenient else {
         return;
     };
     assert!(graph.edges().is_sorted_by(|a, b| a < b));
@@ -33,9 +34,8 @@ fuzz_target!(|data: &[u8]| {
     for &(i, j) in graph.edges().iter().rev() {
         writeln!(text, "{}\t{}", quoted(j), quoted(i)).unwrap();
     }
-    let (again, labels_again, notes) =
-        read(&text[..], Reading::Lenient).expect("own text is read");
-    assert_eq!(again, graph);
-    assert_eq!(labels_again, labels);
-    assert!(notes.is_empty());
+    let again = read(&text[..], Reading::Lenient).expect("own text is read");
+    assert_eq!(again.graph, graph);
+    assert_eq!(again.labels, labels);
+    assert!(again.notes.is_empty());
 });

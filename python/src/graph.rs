@@ -50,6 +50,12 @@ impl Graph {
         self.0.database.is_some()
     }
 
+    /// What the input was taken for, and what of it became the graph, in a line.
+    #[getter]
+    fn read_as(&self) -> String {
+        self.0.read.to_string()
+    }
+
     /// What was merged, ignored or guessed.
     #[getter]
     fn notes(&self) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! Exact and float side by side.
 
+use crate::report::read::ReadLine;
 use crate::report::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -96,6 +97,7 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let graph = &audit.input.graph;
     let exact = audit.exact;
     writeln!(out, "{}", audit.input.name)?;
+    writeln!(out, "  read as     {}", audit.input.read)?;
     writeln!(out, "  graph       {}", size(graph))?;
     for note in &audit.input.notes {
         writeln!(out, "  note        {note}")?;
@@ -166,6 +168,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    read: ReadLine<'a>,
     notes: &'a [String],
     exact: Side,
     float: Float,
@@ -217,6 +220,7 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         graph: &audit.input.name,
         nodes: audit.input.graph.nodes(),
         edges: audit.input.graph.edges().len(),
+        read: ReadLine::from(&audit.input.read),
         notes: &audit.input.notes,
         exact: Side {
             verdict: audit.exact.value.name(),

@@ -1,6 +1,7 @@
 //! The formulations side by side, as a table, as JSON, and as the bars of a chart.
 
 use super::bars::{Chart, Group};
+use super::read::ReadLine;
 use super::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -14,6 +15,7 @@ use viewcert_studies::formulation::compare::{Comparison, Line, MatrixLine, Outco
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
     let edges = input.graph.edges().len();
     writeln!(out, "{}", input.name)?;
+    writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
@@ -115,6 +117,7 @@ fn rank_cells(line: &Line) -> String {
 #[derive(Serialize)]
 struct Json<'a> {
     graph: JsonGraph<'a>,
+    read: ReadLine<'a>,
     notes: &'a [String],
     draw: u64,
     agree: Option<bool>,
@@ -197,6 +200,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
             nodes: input.graph.nodes(),
             edges: input.graph.edges().len(),
         },
+        read: ReadLine::from(&input.read),
         notes: &input.notes,
         draw: found.draw,
         agree: match found.outcome(&input.graph) {

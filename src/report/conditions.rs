@@ -1,5 +1,6 @@
 //! The conditions of the literature and the grounds on which they are decided.
 
+use super::read::ReadLine;
 use super::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -118,6 +119,7 @@ const SHOWN: usize = 12;
 /// Those of the writer.
 pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
+    writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size(&input.graph))?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
@@ -152,6 +154,7 @@ struct Json<'a> {
     graph: &'a str,
     nodes: usize,
     edges: usize,
+    read: ReadLine<'a>,
     notes: &'a [String],
     result: &'static str,
     conditions: Vec<JsonCondition>,
@@ -190,6 +193,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         graph: &input.name,
         nodes: input.graph.nodes(),
         edges: input.graph.edges().len(),
+        read: ReadLine::from(&input.read),
         notes: &input.notes,
         result: conclusion(found),
         conditions,

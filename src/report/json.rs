@@ -2,6 +2,7 @@
 
 use super::Report;
 use super::database::DatabaseLine;
+use super::read::ReadLine;
 use super::tracks;
 use super::tracks::TrackLine;
 use crate::act::Acted;
@@ -18,6 +19,7 @@ struct Line<'a> {
     /// How many known parts there are; left out if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     parts: Option<usize>,
+    read: ReadLine<'a>,
     notes: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     database: Option<DatabaseLine>,
@@ -174,6 +176,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let line = Line {
         graph: GraphLine::new(input, verdict),
         parts: parts(verdict),
+        read: ReadLine::from(&input.read),
         notes: &input.notes,
         database: input.database.as_deref().map(DatabaseLine::from),
         tracks: input

@@ -14,6 +14,7 @@ pub mod models;
 pub mod overview;
 pub mod page;
 pub mod plot;
+pub mod read;
 pub mod svg;
 pub mod table;
 pub mod text;

@@ -1,6 +1,7 @@
 //! Every camera model side by side, for people and for programs.
 
 use super::json::{AnswerLine, ComponentLine, GraphLine, parts};
+use super::read::ReadLine;
 use super::{size_with_parts, text};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
@@ -85,6 +86,7 @@ pub fn text(
     changes: &[Change],
 ) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
+    writeln!(out, "  read as     {}", input.read)?;
     writeln!(
         out,
         "  graph       {}",
@@ -133,6 +135,7 @@ struct Line<'a> {
     graph: GraphLine<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     parts: Option<usize>,
+    read: ReadLine<'a>,
     notes: &'a [String],
     models: Vec<ModelLine>,
     changes: Vec<ChangeLine>,
@@ -190,6 +193,7 @@ pub fn json(
     let line = Line {
         graph: GraphLine::new(input, &verdicts[0]),
         parts: parts(&verdicts[0]),
+        read: ReadLine::from(&input.read),
         notes: &input.notes,
         models: verdicts.iter().map(ModelLine::from).collect(),
         changes: changes.collect(),

@@ -6,13 +6,14 @@
 
 use super::database::DatabaseLine;
 use super::json::AnswerLine;
+use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, size_of, text, tracks};
 use crate::act::{Acted, write_joints};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
-use viewcert_formats::{NamedGraph, TrackOptions};
+use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
 const SHOWN: usize = 8;
@@ -27,6 +28,8 @@ pub struct Overview<'a> {
     pub name: &'a str,
     /// What was merged, ignored or guessed.
     pub notes: Vec<String>,
+    /// How it was read.
+    pub read: &'a ReadAs,
     /// The pairs in the projective and in the calibrated model, unless the input has tracks alone.
     pub pairs: Option<[Report<'a>; 2]>,
     /// The cameras and points.
@@ -260,6 +263,7 @@ impl Overview<'_> {
     /// Those of the writer.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}", self.name)?;
+        writeln!(out, "  read as     {}", self.read)?;
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
                 Some(facts) => database::write(out, facts)?,
@@ -344,6 +348,7 @@ impl Overview<'_> {
         });
         let line = Line {
             name: self.name,
+            read: ReadLine::from(self.read),
             notes: &self.notes,
             database,
             pairs,
@@ -369,6 +374,7 @@ impl Overview<'_> {
 #[derive(Serialize)]
 struct Line<'a> {
     name: &'a str,
+    read: ReadLine<'a>,
     notes: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     database: Option<DatabaseLine>,

@@ -17,6 +17,7 @@ const SHOWN: usize = 8;
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     let (input, verdict) = (report.input, report.verdict);
     writeln!(out, "{}", input.name)?;
+    writeln!(out, "  read as     {}", input.read)?;
     writeln!(out, "  graph       {}", size_with_parts(input, verdict))?;
     if let Some(facts) = &input.database {
         database::write(out, facts)?;

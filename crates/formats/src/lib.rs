@@ -18,6 +18,7 @@ pub mod matrix_market;
 pub mod pairs;
 pub mod parts;
 pub mod read;
+mod read_as;
 mod recognise;
 pub mod sparse6;
 pub mod tracks;
@@ -27,6 +28,7 @@ pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
 pub use parts::{NamedParts, read_parts};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
+pub use read_as::{Parsed, ReadAs};
 pub use tracks::{TrackFacts, TrackOptions};
 
 /// A note about pairs that were merged, if any were.

@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::error::{Place, Problem, ReadError};
-use crate::{NamedGraph, sparse6};
+use crate::{NamedGraph, ReadAs, sparse6};
 use viewcert::graph::{Graph, Labels, graph6};
 
 /// The longest line that is read: graph6 of about 113,000 nodes.
@@ -141,7 +141,12 @@ impl<R: Read> Iterator for Lines<R> {
                     self.seen = true;
                     let name = format!("{}:{}", self.name, self.line);
                     let graph = NamedGraph::new(name, graph, Labels::Numbers { first: 0 });
-                    return Some(Ok(NamedGraph { notes, ..graph }));
+                    let read = ReadAs::new(self.encoding.name());
+                    return Some(Ok(NamedGraph {
+                        read,
+                        notes,
+                        ..graph
+                    }));
                 }
                 // A graph without nodes is a graph of the format.
                 Err(problem) if self.guessed && !matches!(problem, Problem::NoNodes) => {

@@ -5,7 +5,7 @@
 
 use crate::edge_list::nodes::number_integers;
 use crate::error::{Place, Problem};
-use crate::{NamedGraph, ReadError, merged};
+use crate::{NamedGraph, ReadAs, ReadError, merged};
 use viewcert::graph::{Graph, GraphError, Labels};
 
 /// Most pairs, as in files.
@@ -71,6 +71,10 @@ pub fn of_nodes(
         name: name.to_owned(),
         graph,
         labels,
+        read: ReadAs {
+            merged: again,
+            ..ReadAs::new("pairs in memory")
+        },
         notes: merged(again).into_iter().collect(),
         matching: None,
         cameras: None,
@@ -120,7 +124,12 @@ mod tests {
                 a.ok().zip(b.ok())
             });
             if let Some(small) = small.collect() {
-                assert_eq!(of_integers("memory", small).unwrap(), expected);
+                let found = of_integers("memory", small).unwrap();
+                let expected = NamedGraph {
+                    read: found.read.clone(),
+                    ..expected
+                };
+                assert_eq!(found, expected);
             }
         }
     }

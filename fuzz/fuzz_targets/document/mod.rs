@@ -1,5 +1,6 @@
 //! What holds of every format that is read as a whole.
 
+use viewcert_formats::Parsed;
 use viewcert_formats::documents::{Document, read};
 
 /// Any bytes are refused, or a graph whose labels are one line each; what is read unasked is read
@@ -10,7 +11,7 @@ pub fn holds(document: Document, data: &[u8]) {
         assert_eq!(unasked, asked.expect("what is read unasked"));
         return;
     }
-    let Ok((graph, labels, _)) = asked else {
+    let Ok(Parsed { graph, labels, .. }) = asked else {
         return;
     };
     assert!(graph.edges().is_sorted_by(|a, b| a < b));

@@ -80,6 +80,11 @@ class Graph:
         return self._native.pairs()
 
     @property
+    def read_as(self) -> str:
+        """What the input was taken for, and what of it became the graph, in a line."""
+        return self._native.read_as
+
+    @property
     def notes(self) -> List[str]:
         """What was merged, ignored or guessed."""
         return self._native.notes

@@ -11,7 +11,7 @@ use super::open::Opened;
 use super::tracks;
 use super::{ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
-use crate::{Matching, NamedGraph, OtherPair, ReadOptions};
+use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
 use viewcert::wording::counted;
 
@@ -53,6 +53,7 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
     name.clone_into(&mut graph.name);
     notes.append(&mut graph.notes);
     graph.notes = notes;
+    graph.read = ReadAs::new("COLMAP database");
     graph.database = Some(Box::new(facts));
     Ok(graph)
 }

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::documents::Parsed;
 use crate::edge_list::PAIR_LIMIT;
 use crate::edge_list::nodes::Index;
 use crate::error::{Fault, Place, Problem};
+use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
@@ -114,11 +114,17 @@ impl Collected {
             GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
             GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
         })?;
+        let mut read = ReadAs {
+            merged,
+            ..ReadAs::default()
+        };
         if directed {
+            read.ignored.push("directions".to_owned());
             notes.push("the graph is directed, and directions are ignored".to_owned());
         }
         if !ignored.is_empty() {
             let names = names(&ignored);
+            read.ignored.push(format!("attributes ({names})"));
             notes.push(format!("attributes are ignored: {names}"));
         }
         let only_in_pairs = listed.iter().filter(|listed| !**listed).count();
@@ -133,7 +139,12 @@ impl Collected {
             notes.push(format!("{nodes} {are} listed again, and merged"));
         }
         notes.extend(crate::merged(merged));
-        Ok((graph, labels, notes))
+        Ok(Parsed {
+            graph,
+            labels,
+            read,
+            notes,
+        })
     }
 }
 

@@ -8,9 +8,10 @@
 use std::collections::BTreeMap;
 
 use crate::documents::collected::Collected;
-use crate::documents::{Parsed, malformed};
+use crate::documents::malformed;
 use crate::edge_list::fields::integer;
 use crate::error::{Fault, Place, Problem};
+use crate::read_as::Parsed;
 use viewcert::wording::counted;
 
 const FORMAT: &str = "g2o";

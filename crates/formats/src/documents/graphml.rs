@@ -9,8 +9,9 @@ use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
 use crate::documents::collected::Collected;
-use crate::documents::{Parsed, line_of, malformed};
+use crate::documents::{line_of, malformed};
 use crate::error::{Fault, Place, Problem};
+use crate::read_as::Parsed;
 
 const FORMAT: &str = "GraphML";
 

@@ -11,7 +11,7 @@ use std::io::Read;
 
 use crate::edge_list::{self, BYTE_ORDER_MARK};
 use crate::error::{Fault, Place, Problem};
-use viewcert::graph::{Graph, Labels};
+use crate::read_as::Parsed;
 
 mod collected;
 mod dot;
@@ -19,9 +19,6 @@ mod g2o;
 mod graphml;
 mod node_link;
 mod stars;
-
-/// A graph, what its nodes are called, and notes about how it was read.
-pub type Parsed = (Graph, Labels, Vec<String>);
 
 /// The formats of this folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +49,17 @@ impl Document {
         ]
         .into_iter()
         .find_map(|(document, is)| is.then_some(document))
+    }
+
+    /// What it is called in reports.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Dot => "DOT",
+            Self::G2o => "pose graph of g2o",
+            Self::GraphMl => "GraphML",
+            Self::NodeLink => "node-link JSON",
+            Self::Stars => "adjacency list",
+        }
     }
 
     /// What to say of a text that may be an edge list as well.
@@ -89,13 +97,15 @@ pub fn read(document: Document, mut input: impl Read, asked: bool) -> Result<Par
     {
         return Err(Place::Input.fault(doubt));
     }
-    match document {
+    let mut parsed = match document {
         Document::Dot => dot::read(text),
         Document::G2o => g2o::read(text),
         Document::GraphMl => graphml::read(text),
         Document::NodeLink => node_link::read(text),
         Document::Stars => stars::read(text, asked),
-    }
+    }?;
+    parsed.read.format = document.name();
+    Ok(parsed)
 }
 
 /// Bytes as text without control characters but tabs and the ends of lines.

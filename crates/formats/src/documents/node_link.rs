@@ -12,8 +12,9 @@ use std::fmt;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use crate::documents::collected::Collected;
-use crate::documents::{Parsed, malformed};
+use crate::documents::malformed;
 use crate::error::{Fault, Place};
+use crate::read_as::Parsed;
 
 const FORMAT: &str = "node-link JSON";
 

@@ -6,10 +6,10 @@
 //! different lengths, one of them too long for a pair with a weight, different integers on each,
 //! and first ones that increase from line to line.
 
-use crate::documents::Parsed;
 use crate::documents::collected::Collected;
 use crate::edge_list::fields::{self, integer};
 use crate::error::{Fault, Place, Problem};
+use crate::read_as::Parsed;
 
 const DOUBT: &str = "these could be lists of neighbours, and are no edge list";
 const DOUBT_ADVICE: &str = "write one pair a line; if every line joins its first field with each of the others, say --format openmvg-pairs";

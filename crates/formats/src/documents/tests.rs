@@ -4,13 +4,14 @@ use std::fmt::Write;
 use proptest::prelude::*;
 
 use super::*;
+use crate::read_as::Parsed;
 
 fn found(document: Document, text: &str) -> Result<Parsed, String> {
     read(document, text.as_bytes(), true).map_err(|fault| fault.in_file("in").to_string())
 }
 
 /// The labels of a graph's pairs, and of its nodes.
-fn listed((graph, labels, _): &Parsed) -> (BTreeSet<[String; 2]>, Vec<String>) {
+fn listed(Parsed { graph, labels, .. }: &Parsed) -> (BTreeSet<[String; 2]>, Vec<String>) {
     let label = |node: u32| labels.label(node).into_owned();
     let pair = |&(a, b): &(u32, u32)| {
         let mut pair = [label(a), label(b)];
@@ -311,7 +312,7 @@ fn ids_in_json_are_those_of_the_nodes() {
         Document::NodeLink,
         "{\"nodes\":[{\"id\":1},{\"id\":1,\"a\":0}],\"links\":[]}",
     );
-    let notes = parsed.unwrap().2;
+    let notes = parsed.unwrap().notes;
     assert_eq!(
         notes,
         [
@@ -476,10 +477,10 @@ fn agree(documents: &[Document], labels: &[String], pairs: &[(usize, usize)]) {
         let merged = pairs.len() - expected.len();
         let note = crate::merged(merged);
         assert_eq!(
-            parsed.2.iter().any(|n| n.contains("merged")),
+            parsed.notes.iter().any(|n| n.contains("merged")),
             note.is_some()
         );
-        assert!(note.is_none_or(|note| parsed.2.contains(&note)));
+        assert!(note.is_none_or(|note| parsed.notes.contains(&note)));
     }
 }
 
@@ -523,7 +524,7 @@ proptest! {
                 }
             }
             for asked in [true, false] {
-                if let Ok((graph, labels, _)) = read(document, &bytes[..], asked) {
+                if let Ok(Parsed { graph, labels, .. }) = read(document, &bytes[..], asked) {
                     prop_assert!(graph.edges().is_sorted_by(|a, b| a < b));
                     for node in 0..graph.nodes() as u32 {
                         let label = labels.label(node);

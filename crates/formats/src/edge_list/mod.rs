@@ -17,7 +17,8 @@
 use std::io::{self, Read};
 
 use crate::error::{Fault, Place, Problem};
-use viewcert::graph::{Graph, GraphError, Labels};
+use crate::read_as::{Parsed, ReadAs};
+use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
 mod doubts;
@@ -79,7 +80,7 @@ pub enum Reading {
 /// With the number of the line: whatever the grammar excludes, a pair of a label with itself, a
 /// line longer than a mebibyte. Without: an input that cannot be read, or could be something
 /// else; no pairs (read leniently: no nodes); more pairs than can be numbered.
-pub fn read(input: impl Read, reading: Reading) -> Result<(Graph, Labels, Vec<String>), Fault> {
+pub fn read(input: impl Read, reading: Reading) -> Result<Parsed, Fault> {
     let mut collector = Collector {
         reading,
         ..Collector::default()
@@ -455,7 +456,7 @@ impl Collector {
         Place::Line(line).fault(Problem::SelfLoop(label))
     }
 
-    fn finish(mut self) -> Result<(Graph, Labels, Vec<String>), Fault> {
+    fn finish(mut self) -> Result<Parsed, Fault> {
         let fault = |problem| Place::Input.fault(problem);
         if self.pairs.len() > PAIR_LIMIT {
             return Err(fault(Problem::TooManyPairs));
@@ -510,7 +511,16 @@ impl Collector {
             let lines = counted(lines_with_more as usize, "line");
             notes.push(format!("fields behind the second are ignored on {lines}"));
         }
-        Ok((graph, labels, notes))
+        let read = ReadAs {
+            merged,
+            ..ReadAs::new("edge list")
+        };
+        Ok(Parsed {
+            graph,
+            labels,
+            read,
+            notes,
+        })
     }
 
     /// Settles whether the first line is a head: then a note about it, else the pair is taken in.

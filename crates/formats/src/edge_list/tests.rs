@@ -1,13 +1,19 @@
 use proptest::prelude::*;
 
 use super::*;
+use viewcert::graph::Labels;
 
-fn strict(text: &[u8]) -> Result<(Graph, Labels, Vec<String>), Fault> {
+fn strict(text: &[u8]) -> Result<Parsed, Fault> {
     read(text, Reading::Strict)
 }
 
 fn listed(text: &[u8], reading: Reading) -> (Vec<(u32, u32)>, Vec<String>, Vec<String>) {
-    let (graph, labels, notes) = read(text, reading).unwrap();
+    let Parsed {
+        graph,
+        labels,
+        notes,
+        ..
+    } = read(text, reading).unwrap();
     let labels = (0..graph.nodes() as u32).map(|v| labels.label(v).into());
     (graph.edges().to_vec(), labels.collect(), notes)
 }
@@ -244,7 +250,7 @@ fn names_are_sorted_bytewise() {
 
 #[test]
 fn integers_are_sorted_by_value_however_large() {
-    let labels = |text: &[u8]| strict(text).unwrap().1;
+    let labels = |text: &[u8]| strict(text).unwrap().labels;
     assert_eq!(labels(b"10 9\n9 11"), Labels::Numbers { first: 9 });
     assert_eq!(labels(b"100 9\n9 11"), Labels::Integers(vec![9, 11, 100]));
     // Too far apart for a bitmap of values.
@@ -256,7 +262,7 @@ fn integers_are_sorted_by_value_however_large() {
     let beyond = b"9 10\n18446744073709551615 10\n4294967296 9";
     let values = vec![9, 10, 1 << 32, u64::MAX];
     assert_eq!(labels(beyond), Labels::Integers(values));
-    let edges = strict(&beyond[..]).unwrap().0.edges().to_vec();
+    let edges = strict(&beyond[..]).unwrap().graph.edges().to_vec();
     assert_eq!(edges, [(0, 1), (0, 2), (1, 3)]);
     let names: [&[u8]; 4] = [
         b"10 9\n9 011",
@@ -367,10 +373,10 @@ proptest! {
             .map(|(a, b, more)| format!("{a} {b}{}\n", if *more { "\t1.5" } else { "" }))
             .collect();
         let backward: String = lines.iter().rev().map(|(a, b, _)| format!("{b} {a}\r\n")).collect();
-        let (graph, labels, _) = read(Slowly(forward.as_bytes(), chunk), Reading::Lenient).unwrap();
-        let (other, other_labels, _) = read(backward.as_bytes(), Reading::Lenient).unwrap();
-        prop_assert_eq!(&graph, &other);
-        prop_assert_eq!(&labels, &other_labels);
+        let Parsed { graph, labels, .. } = read(Slowly(forward.as_bytes(), chunk), Reading::Lenient).unwrap();
+        let other = read(backward.as_bytes(), Reading::Lenient).unwrap();
+        prop_assert_eq!(&graph, &other.graph);
+        prop_assert_eq!(&labels, &other.labels);
         let sorted = |a: &str, b: &str| if a < b { (a.to_owned(), b.to_owned()) } else { (b.to_owned(), a.to_owned()) };
         let given: std::collections::BTreeSet<_> = lines.iter().map(|(a, b, _)| sorted(a, b)).collect();
         let read: std::collections::BTreeSet<_> = graph

@@ -13,6 +13,7 @@ use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
+use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::tracks::{self, TrackFacts, TrackOptions};
@@ -29,6 +30,8 @@ pub struct NamedGraph {
     pub graph: Graph,
     /// What the user calls its nodes.
     pub labels: Labels,
+    /// What the input was taken for, and what of it became the graph.
+    pub read: ReadAs,
     /// What was merged, ignored or guessed in reading it.
     pub notes: Vec<String>,
     /// What is known of its pairs, if the input is a database of matches.
@@ -48,6 +51,7 @@ impl NamedGraph {
             name: name.into(),
             graph,
             labels,
+            read: ReadAs::default(),
             notes: Vec::new(),
             matching: None,
             cameras: None,
@@ -195,7 +199,7 @@ fn graphs_at(
                 graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
             Box::new(graphs.map(|graph| {
                 graph.map(|mut graph| {
-                    graph.notes.insert(0, "read as gzip".to_owned());
+                    graph.read.compression = Some("gzip");
                     graph
                 })
             }))
@@ -313,7 +317,7 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         }
         Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
         Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
-            .map(|(graph, notes)| (graph, Labels::Numbers { first: 1 }, notes)),
+            .map(|(graph, notes)| of_matrix("MatrixMarket matrix", graph, notes)),
         Ok(Some(Kind::Text | Kind::Gzip)) => {
             let (head, whole) = (sampled.head.clone(), sampled.whole);
             edge_list::read(sampled.into_input(), edges).map_err(|fault| {
@@ -331,10 +335,13 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {
-        Ok((graph, labels, mut notes)) => {
-            notes.extend(unused);
-            let graph = NamedGraph::new(name, graph, labels);
-            Box::new(std::iter::once(Ok(NamedGraph { notes, ..graph })))
+        Ok(mut parsed) => {
+            parsed.notes.extend(unused);
+            Box::new(std::iter::once(Ok(NamedGraph {
+                read: parsed.read,
+                notes: parsed.notes,
+                ..NamedGraph::new(name, parsed.graph, parsed.labels)
+            })))
         }
         Err(fault) => failed(&name, fault),
     }
@@ -421,16 +428,23 @@ fn failed(name: &str, fault: Fault) -> Graphs {
     Box::new(std::iter::once(Err(fault.in_file(name))))
 }
 
-fn read_matlab(
-    mut input: impl Read,
-    variable: Option<&str>,
-) -> Result<(Graph, Labels, Vec<String>), Fault> {
+fn read_matlab(mut input: impl Read, variable: Option<&str>) -> Result<Parsed, Fault> {
     let mut bytes = Vec::new();
     input
         .read_to_end(&mut bytes)
         .map_err(|error| Place::Input.fault(error.into()))?;
     let (graph, chosen) = matlab::read_noting(&bytes, variable)?;
-    Ok((graph, Labels::Numbers { first: 1 }, Vec::from_iter(chosen)))
+    Ok(of_matrix("MATLAB matrix", graph, Vec::from_iter(chosen)))
+}
+
+/// The graph of a matrix, whose rows are numbered from 1.
+fn of_matrix(format: &'static str, graph: Graph, notes: Vec<String>) -> Parsed {
+    Parsed {
+        graph,
+        labels: Labels::Numbers { first: 1 },
+        read: ReadAs::new(format),
+        notes,
+    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,21 @@ pub(crate) enum TrackFile {
     Colmap { part: Part, encoding: Encoding },
 }
 
+/// What a model of COLMAP is called in reports.
+pub(super) const MODEL: &str = "model of COLMAP";
+
 impl TrackFile {
+    /// What it is called in reports.
+    pub(super) fn format(self) -> &'static str {
+        match self {
+            Self::Bal => "bundle adjustment problem (BAL)",
+            Self::Bundler => "Bundler file",
+            Self::Nvm => "NVM file of VisualSFM",
+            Self::OpenMvgMatches => "feature matches (OpenMVG)",
+            Self::Colmap { .. } => MODEL,
+        }
+    }
+
     /// What it is called in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {

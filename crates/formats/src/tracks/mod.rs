@@ -28,8 +28,9 @@ pub(crate) use model::is_model;
 use std::io::Read;
 use std::path::Path;
 
-use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
+use crate::{NamedGraph, ReadAs};
+use kind::MODEL;
 use words::Words;
 
 /// The camera-point graph of an input that begins with `head`, which is all of it if `whole`.
@@ -47,7 +48,7 @@ pub(crate) fn read(
     let Some(kind) = kind(head, whole) else {
         return Err(Place::Input.fault(Problem::NoTracks));
     };
-    match kind {
+    let graph = match kind {
         TrackFile::Bal => bal::read(Words::new(input), options),
         TrackFile::Bundler => bundler::read(Words::new(input), options),
         TrackFile::Nvm => nvm::read(Words::new(input), options),
@@ -56,7 +57,11 @@ pub(crate) fn read(
             let folder = path.map(|path| path.parent().unwrap_or(Path::new("")));
             model::beside(folder, part, encoding, input, options)
         }
-    }
+    }?;
+    Ok(NamedGraph {
+        read: ReadAs::new(kind.format()),
+        ..graph
+    })
 }
 
 /// The camera-point graph of COLMAP's model in a folder.
@@ -64,7 +69,11 @@ pub(crate) fn read(
 /// # Errors
 /// As of [`read`].
 pub(crate) fn read_folder(folder: &Path, options: TrackOptions) -> Result<NamedGraph, Fault> {
-    model::folder(folder, options)
+    let graph = model::folder(folder, options)?;
+    Ok(NamedGraph {
+        read: ReadAs::new(MODEL),
+        ..graph
+    })
 }
 
 #[cfg(test)]

@@ -12,8 +12,9 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use crate::documents::collected::Collected;
-use crate::documents::{Parsed, malformed};
+use crate::documents::malformed;
 use crate::error::{Fault, Place, Problem};
+use crate::read_as::Parsed;
 use tokens::{Token, Tokens};
 
 const FORMAT: &str = "DOT";

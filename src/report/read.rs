@@ -1,0 +1,30 @@
+//! How an input was read, for programs. (For people it is one line.)
+
+use serde::Serialize;
+use viewcert_formats::ReadAs;
+
+/// The member `read` of a report.
+#[derive(Serialize)]
+pub struct ReadLine<'a> {
+    format: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compression: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    taken: Option<&'a str>,
+    ignored: &'a [String],
+    guessed: &'a [String],
+    merged: usize,
+}
+
+impl<'a> From<&'a ReadAs> for ReadLine<'a> {
+    fn from(read: &'a ReadAs) -> Self {
+        Self {
+            format: read.format,
+            compression: read.compression,
+            taken: read.taken.as_deref(),
+            ignored: &read.ignored,
+            guessed: &read.guessed,
+            merged: read.merged,
+        }
+    }
+}
