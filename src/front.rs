@@ -173,8 +173,7 @@ pub fn save(path: &Path, bytes: &[u8]) -> Result<()> {
     atomic::write(path, |out| out.write_all(bytes))
 }
 
-/// The graph in a file that a certificate is about, of several the one with its hash: read by the
-/// checker itself if it can, else by the program's readers.
+/// The graph in a file that a certificate is about, of several the one with its hash.
 ///
 /// # Errors
 /// If there is no such graph.
@@ -183,7 +182,7 @@ pub fn graph_to_check(
     path: &Path,
     options: ReadOptions,
 ) -> Result<viewcert_check::Graph> {
-    checker::graph_at(certificate, path, None, options)
+    checker::graph_at(certificate, path, checker::Known::default(), &options)
 }
 
 /// The memory that the program takes at most, in bytes, if nothing else is said; `None` where that

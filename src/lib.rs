@@ -12,6 +12,7 @@ mod certificates;
 mod check;
 mod compare;
 mod conditions;
+mod convert;
 mod displacements;
 mod experiment;
 pub mod front;
@@ -67,6 +68,9 @@ enum Command {
     Overview(overview::OverviewArguments),
     /// Verify a certificate with the independent checker.
     Check(check::CheckArguments),
+    /// Write what both checkers read: a graph as pairs of node numbers or as graph6, or with
+    /// --parts its known parts.
+    Convert(convert::ConvertArguments),
     /// Enumerate candidates and decide them all.
     Catalog(Box<catalog::Arguments>),
     /// Repeat an experiment of the paper.
@@ -93,6 +97,7 @@ pub fn main() -> ExitCode {
     let done = running::begin(&arguments.limits).and_then(|()| match arguments.command {
         Some(Command::Overview(arguments)) => overview::run(&arguments),
         Some(Command::Check(arguments)) => check::run(&arguments),
+        Some(Command::Convert(arguments)) => convert::run(&arguments),
         Some(Command::Catalog(arguments)) => catalog::run(&arguments),
         Some(Command::Experiment(arguments)) => experiment::run(&arguments),
         Some(Command::Audit(arguments)) => audit::run(&arguments),

@@ -16,7 +16,7 @@ use crate::report::Report;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
@@ -28,9 +28,6 @@ use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
 use viewcert_reconstruction::Shapes;
-
-/// The option that names the file for the graph.
-const WRITE_GRAPH: &str = "--write-graph";
 
 /// Options of the verifier.
 #[derive(Args)]
@@ -96,10 +93,6 @@ pub(super) struct VerifyArguments {
     tracks: TrackArguments,
     #[command(flatten)]
     parts: PartArguments,
-    /// Write the graph that is decided to this file, as pairs of node numbers: what both checkers
-    /// read, whatever the graph came from.
-    #[arg(long, value_name = "FILE")]
-    write_graph: Option<PathBuf>,
     /// Write a certificate to this file, or for every graph to this folder (`-`: to standard
     /// output, and the report to standard error).
     #[arg(long, value_name = "PATH")]
@@ -290,15 +283,14 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     arguments.check_parts()?;
     let options = arguments.options()?;
     let [html, svg] = arguments.pages.outputs();
-    let written = (WRITE_GRAPH, arguments.write_graph.as_deref());
     let known = arguments.parts.path().into_iter();
     let known = known.chain(arguments.displacements.path());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     let inputs = inputs.chain(known.clone());
     let witness = (witness::OPTION, arguments.witness.as_deref());
-    atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
+    atomic::ensure_apart(&[witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-    let outputs = [certificate, written, witness, html, svg];
+    let outputs = [certificate, witness, html, svg];
     arguments.act.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
@@ -310,10 +302,9 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if single.is_some() {
         atomic::ensure_apart(&outputs, known)?;
     }
-    let too_many = |what: &str| match (&single, written) {
-        (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
-        (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
-        (None, (_, None)) => {
+    let too_many = |what: &str| match &single {
+        Some((option, file)) => Some(certificates::too_many(option, file, what)),
+        None => {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
@@ -329,13 +320,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
-    let files = [
-        arguments.certificate.as_deref(),
-        written.1,
-        witness.1,
-        html.1,
-        svg.1,
-    ];
+    let files = [arguments.certificate.as_deref(), witness.1, html.1, svg.1];
     let mut out = atomic::text(&files);
     let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
@@ -404,8 +389,6 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
-    let written = arguments.write_graph.as_deref();
-    let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
     let witness = arguments.witness.as_deref();
     let shown = witness
         .map(|path| witness::write(path, input, &verdict, options.seed))
@@ -435,13 +418,6 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }
-        if let Some((path, unpaired)) = written.zip(unpaired) {
-            let how = match unpaired {
-                0 => "",
-                _ => " (read it with --format edges: nodes without pairs are lines of one number)",
-            };
-            writeln!(out, "  written     {}{how}", path.display())?;
-        }
         if let Some((path, witness::Found::Written)) = witness.zip(shown.as_ref()) {
             writeln!(out, "  witness     {}", path.display())?;
         }
@@ -466,25 +442,4 @@ fn asked_scope(arguments: &VerifyArguments) -> Asked {
         planar: arguments.planar,
         focal: matches!(arguments.model, Some(ModelName::Focal)),
     }
-}
-
-/// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns
-/// how many of these there are.
-fn write_graph(path: &Path, input: &NamedGraph) -> Result<usize> {
-    let graph = &input.graph;
-    let mut paired = vec![false; graph.nodes()];
-    for &(i, j) in graph.edges() {
-        paired[i as usize] = true;
-        paired[j as usize] = true;
-    }
-    atomic::write(path, |out| {
-        for &(i, j) in graph.edges() {
-            writeln!(out, "{i} {j}")?;
-        }
-        for (node, _) in paired.iter().enumerate().filter(|(_, paired)| !**paired) {
-            writeln!(out, "{node}")?;
-        }
-        Ok(())
-    })?;
-    Ok(paired.iter().filter(|paired| !**paired).count())
 }

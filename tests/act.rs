@@ -544,7 +544,7 @@ fn nothing_of_the_same_run_is_replaced() {
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (graph, out) = (at("graph.txt"), at("out"));
     std::fs::write(&graph, complete(&WEST)).unwrap();
-    for option in ["--html", "--svg", "--write-graph", "--certificate"] {
+    for option in ["--html", "--svg", "--certificate"] {
         for place in ["out", "out/report", "./out/report"] {
             let run = verify(&[&graph, "--export", &out, option, &at(place)]);
             refused(&run, "is in the folder of --export");

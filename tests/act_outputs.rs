@@ -1,4 +1,4 @@
-//! What `--html`, `--svg`, `--write-graph` and `--export` do to what is there already, and that
+//! What `--html`, `--svg` and `--export` do to what is there already, and that
 //! nothing is left where nothing can be made.
 
 #![cfg(unix)]
@@ -12,7 +12,7 @@ use std::os::unix::fs::{FileTypeExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FILES: [&str; 3] = ["--html", "--svg", "--write-graph"];
+const FILES: [&str; 2] = ["--html", "--svg"];
 
 /// A folder with a graph in it.
 struct Place {

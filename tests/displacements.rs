@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Run, cycle, verify, verify_with};
+use common::{Run, cycle, first_checker, second_checker, verify, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
@@ -213,29 +213,43 @@ fn certificates_and_both_checkers() {
             certificate,
         ]);
         assert!(run.code < 2, "{}", run.err);
+        // Whoever says for which graph means that nothing else is known.
         let checked = verify(&["check", certificate, graph.text()]);
-        assert_eq!(checked.code, 0, "{pairs:?} {known:?}: {}", checked.out);
-        assert!(
-            checked
-                .out
-                .contains("VERIFIED displacements: supposed to be known"),
-            "{}",
-            checked.out
-        );
-        let checked = verify(&["check", certificate, graph.text(), "--displacements", own]);
-        assert_eq!(checked.code, 0, "{}", checked.out);
+        assert_eq!(checked.code, 1, "{pairs:?} {known:?}: {}", checked.out);
+        let wanted = "REJECTED: displacements: supposed to be known, and none are given: ";
+        assert!(checked.out.starts_with(wanted), "{}", checked.out);
+        let hash = checked.out.trim_end().rsplit(' ').next().unwrap();
+        for arguments in [
+            &[certificate][..],
+            &[certificate, graph.text(), "--displacements", own],
+        ] {
+            let checked = verify(&[&["check"], arguments].concat());
+            assert_eq!(checked.code, 0, "{}", checked.out);
+            let said = "VERIFIED displacements: supposed to be known";
+            assert!(checked.out.contains(said), "{}", checked.out);
+        }
         let checked = verify(&["check", certificate, graph.text(), "--displacements", other]);
         assert_eq!(checked.code, 1);
-        let wanted = "REJECTED: displacements: other displacements are supposed to be known";
+        let wanted = "REJECTED: displacements: others are supposed to be known: ";
         assert!(checked.out.starts_with(wanted), "{}", checked.out);
-        let second = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/second/check.py");
-        let second = Command::new("python3")
-            .arg(second)
-            .args([certificate, graph.text()])
-            .output();
-        let second = second.unwrap();
-        let told = String::from_utf8_lossy(&second.stderr).into_owned();
-        assert!(second.status.success(), "{pairs:?} {known:?}: {told}");
+        let plain = graph.text();
+        let converted = folder.join("pairs.txt").to_str().unwrap().to_owned();
+        assert_eq!(verify(&["convert", plain, "-o", &converted]).code, 0);
+        let zeros = "0".repeat(64);
+        for checker in [first_checker, second_checker] {
+            for (arguments, code) in [
+                (vec![certificate], 0),
+                (vec![certificate, "--displacements", hash], 0),
+                (vec![certificate, "--displacements", "none"], 1),
+                (vec![certificate, &converted], 1),
+                (vec![certificate, &converted, "--displacements", hash], 0),
+                (vec![certificate, &converted, "--displacements", "none"], 1),
+                (vec![certificate, &converted, "--displacements", &zeros], 1),
+            ] {
+                let run = checker(&arguments);
+                assert_eq!(run.code, code, "{pairs:?} {arguments:?}: {}", run.err);
+            }
+        }
     }
     // Without any the certificate is what it always was, and supposes nothing.
     let graph = File::new("graph.txt", &cycle(4));
@@ -343,7 +357,7 @@ fn scaled_components_that_share_a_camera_are_one() {
 #[test]
 fn the_file_is_no_output() {
     let graph = File::new("graph.txt", &cycle(4));
-    for option in ["--certificate", "--write-graph", "--html", "--svg"] {
+    for option in ["--certificate", "--html", "--svg"] {
         let known = File::new("known.txt", "0 1\n");
         let run = verify(&[
             graph.text(),

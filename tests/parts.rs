@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{cycle, verify, verify_with};
+use common::{cycle, first_checker, second_checker, verify, verify_with};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::collections::BTreeSet;
@@ -312,20 +312,15 @@ fn models_side_by_side() {
 }
 
 fn second(arguments: &[&str]) -> Option<i32> {
-    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let checker = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/second/check.py");
-    let run = Command::new(python).arg(checker).args(arguments).output();
-    run.unwrap().status.code()
+    Some(second_checker(arguments).code)
 }
 
 fn first(arguments: &[&str]) -> Option<i32> {
-    let run = Command::new(env!("CARGO_BIN_EXE_viewcert-check"))
-        .args(arguments)
-        .output();
-    run.unwrap().status.code()
+    Some(first_checker(arguments).code)
 }
 
-/// Certificates of every model, for a graph with names: the three checkers want the same parts.
+/// Certificates of every model, for a graph with names: both checkers, and the program in the names
+/// of the graph, want the same parts.
 #[test]
 fn certificates_are_about_graph_and_parts() {
     let graph = "a b\nb c\n\"c d\" a\ne f\ng h\n";
@@ -337,30 +332,43 @@ fn certificates_are_about_graph_and_parts() {
         let run = files.verify(&["--model", model, "--certificate", &certificate]);
         assert!(run.code < 2, "{}", run.err);
         let (graph, parts) = (&*files.name("graph.txt"), &*files.name("parts.txt"));
-        let numbers = files.name("numbers.txt");
+        let [pairs, numbers, fewer] =
+            ["pairs.txt", "numbers.txt", "fewer.txt"].map(|name| files.name(name));
+        for (known, out) in [
+            (None, &pairs),
+            (Some(parts), &numbers),
+            (Some(&*other), &fewer),
+        ] {
+            let known: Vec<&str> = known.map_or(vec![], |known| vec!["--parts", known]);
+            let run = verify(&[&["convert", graph, "-o", out], &known[..]].concat());
+            assert_eq!((run.code, &*run.out), (0, ""), "{}", run.err);
+        }
+        let names = [graph, parts, &*other];
+        let in_numbers = [&*pairs, &*numbers, &*fewer];
+        let codes = |[graph, parts, other]: [&str; 3], check: &dyn Fn(&[&str]) -> Option<i32>| {
+            let given = [
+                vec![graph, "--parts", parts],
+                vec![graph],
+                vec![graph, "--parts", other],
+            ];
+            given.map(|given| check(&[&[&*certificate], &given[..]].concat()).unwrap())
+        };
+        let own = |arguments: &[&str]| Some(verify(&[&["check"], arguments].concat()).code);
+        assert_eq!(codes(names, &own), [0, 1, 1]);
+        assert_eq!(codes(in_numbers, &first), [0, 1, 1]);
+        assert_eq!(codes(in_numbers, &second), [0, 1, 1]);
+        assert_eq!(codes([graph, &numbers, &numbers], &own), [2, 1, 2]);
+        for check in [&first as &dyn Fn(&[&str]) -> Option<i32>, &second] {
+            // Names are nothing that a checker reads.
+            assert_eq!(codes(names, check), [2; 3]);
+        }
+        for check in [&own as &dyn Fn(&[&str]) -> Option<i32>, &first, &second] {
+            assert_eq!(check(&[&certificate]), Some(0));
+            assert_eq!(check(&[&certificate, "--parts", &numbers]), Some(0));
+            assert_eq!(check(&[&certificate, "--parts", &fewer]), Some(1));
+        }
         let text: serde_json::Value =
             serde_json::from_str(&fs::read_to_string(&certificate).unwrap()).unwrap();
-        let lists = text["parts"].as_array().unwrap().iter();
-        let lists = lists.map(|part| {
-            let nodes = part.as_array().unwrap().iter().map(|node| node.to_string());
-            nodes.collect::<Vec<_>>().join(" ") + "\n"
-        });
-        fs::write(&numbers, lists.collect::<String>()).unwrap();
-        for (arguments, code) in [
-            (vec![&*certificate], 0),
-            (vec![&*certificate, graph, "--parts", parts], 0),
-            (vec![&*certificate, "--parts", &numbers], 0),
-            (vec![&*certificate, graph], 1),
-            (vec![&*certificate, graph, "--parts", &other], 1),
-            (vec![&*certificate, graph, "--parts", &numbers], 2),
-        ] {
-            let own = verify(&[&["check"][..], &arguments].concat()).code;
-            assert_eq!(
-                (own, first(&arguments), second(&arguments)),
-                (code, Some(code), Some(code)),
-                "{arguments:?}"
-            );
-        }
         // A hash alone does not say that parts are known.
         let sha256 = text["graph"]["sha256"].as_str().unwrap();
         assert_eq!(first(&[&certificate, "--sha256", sha256]), Some(1));

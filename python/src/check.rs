@@ -1,11 +1,14 @@
 //! The independent checker.
 
+use crate::decided::known_displacements;
 use crate::errors::{InputError, of_any, of_checking};
 use crate::graph::Graph;
 use crate::work;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
+use viewcert::certificate::hex;
+use viewcert::graph::Displacements;
 use viewcert::watch::Watch;
 use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
 use viewcert_cli::front;
@@ -74,8 +77,8 @@ impl From<viewcert_check::Verified> for Verified {
 enum Given {
     /// From the certificate.
     Held,
-    /// From memory, with known parts.
-    Graph(Arc<NamedGraph>, Vec<Vec<u32>>),
+    /// From memory, with known parts and displacements.
+    Graph(Arc<NamedGraph>, Vec<Vec<u32>>, Displacements),
     /// From a file.
     File(PathBuf),
 }
@@ -89,17 +92,24 @@ enum Problem {
 
 /// Verifies a certificate.
 #[pyfunction]
-#[pyo3(signature = (certificate, *, graph=None, parts=None, file=None, max_operations=None))]
+#[pyo3(signature = (
+    certificate, *, graph=None, parts=None, displacements=None, file=None, max_operations=None
+))]
 pub(crate) fn check(
     py: Python<'_>,
     certificate: Vec<u8>,
     graph: Option<&Graph>,
     parts: Option<Vec<Vec<u32>>>,
+    displacements: Option<Vec<Vec<u32>>>,
     file: Option<PathBuf>,
     max_operations: Option<u64>,
 ) -> PyResult<Verified> {
     let given = match (graph, file) {
-        (Some(graph), _) => Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default()),
+        (Some(graph), _) => {
+            let nodes = graph.0.graph.nodes() as u32;
+            let known = known_displacements(nodes, &displacements.unwrap_or_default())?;
+            Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default(), known)
+        }
         (None, Some(file)) => Given::File(file),
         (None, None) => Given::Held,
     };
@@ -110,11 +120,15 @@ pub(crate) fn check(
         let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
         let graph = match given {
             Given::Held => None,
-            Given::Graph(input, parts) => {
+            Given::Graph(input, parts, known) => {
                 let edges = input.graph.edges().iter().copied();
                 let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
                 let graph = graph.and_then(|graph| graph.with_parts(parts));
-                Some(graph.map_err(Problem::Graph)?)
+                let graph = graph.map_err(Problem::Graph)?;
+                Some(match known.is_empty() {
+                    true => graph,
+                    false => graph.with_displacements(hex(&known.sha256())),
+                })
             }
             Given::File(path) => {
                 let graph = front::graph_to_check(&certificate, &path, ReadOptions::default());

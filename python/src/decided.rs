@@ -33,6 +33,15 @@ pub(crate) struct Decided {
     time: Duration,
 }
 
+/// The displacements that sets of nodes know, of a graph with so many.
+pub(crate) fn known_displacements(nodes: u32, groups: &[Vec<u32>]) -> PyResult<Displacements> {
+    // Each set as a star: displacements add up.
+    let stars = groups.iter().filter_map(|group| group.split_first());
+    let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
+    let known = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
+    known.map_err(|error| InputError::new_err(format!("displacements: {error}")))
+}
+
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
@@ -94,12 +103,7 @@ pub(crate) fn decide(
         let notes = known.notes.iter().map(|note| format!("parts: {note}"));
         Arc::make_mut(&mut input).notes.extend(notes);
     }
-    let groups = displacements.unwrap_or_default();
-    // Each set as a star: displacements add up.
-    let stars = groups.iter().filter_map(|group| group.split_first());
-    let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
-    let displacements = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
-    let displacements = displacements.map_err(|error| wrong(&format!("displacements: {error}")))?;
+    let displacements = known_displacements(nodes, &displacements.unwrap_or_default())?;
     if !contraction && !known.parts.is_empty() {
         let why = "known parts are bodies, and without contraction there are none";
         return Err(wrong(&format!("{why}; leave contraction on")));

@@ -23,6 +23,10 @@ def test_two_rigs() -> None:
         assert (verdict.value, verdict.rank, verdict.required) == ("solvable", 9, 9)
         assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
         assert any("displacements" in condition for condition in verdict.conditions)
+        certificate = verdict.certificate()
+        assert viewcert.check(certificate, PAIRS, displacements=RIGS).displacements == 2
+        with pytest.raises(viewcert.Rejected, match="supposed to be known, and none are given"):
+            viewcert.check(certificate, PAIRS)
         verified = viewcert.check(verdict)
         assert (verified.rank, verified.displacements) == (9, 2)
     assert viewcert.check(alone).displacements == 0

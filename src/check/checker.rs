@@ -1,15 +1,11 @@
 //! All calls of the independent checker.
 
 use anyhow::{Context, Result};
-use std::io::Cursor;
 use std::path::Path;
 use viewcert::certificate::hex;
-use viewcert::graph::sha256;
-use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verdict, Verified};
-use viewcert_formats::read::graphs;
-use viewcert_formats::{
-    NamedGraph, ReadError, ReadOptions, read_displacements, read_graphs, read_parts,
-};
+use viewcert::graph::{Labels, sha256};
+use viewcert_check::{Certificate, Failure, Graph, Verdict, Verified};
+use viewcert_formats::{NamedGraph, ReadOptions, read_displacements, read_graphs, read_parts};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -53,6 +49,34 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
     viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }
 
+/// Files of what is known besides the pairs, in the labels of the graph.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Known<'a> {
+    pub(crate) parts: Option<&'a Path>,
+    pub(crate) displacements: Option<&'a Path>,
+}
+
+impl Known<'_> {
+    /// The checker's graph with what is known of it, in node numbers.
+    fn of(self, graph: Graph, input: &NamedGraph) -> Result<Graph> {
+        let graph = match self.parts {
+            None => graph,
+            Some(file) => {
+                let found = read_parts(file, input)?.parts;
+                let graph = graph.with_parts(found.iter().map(<[u32]>::to_vec));
+                graph.with_context(|| file.display().to_string())?
+            }
+        };
+        Ok(match self.displacements {
+            None => graph,
+            Some(file) => {
+                let found = read_displacements(file, input)?.known;
+                graph.with_displacements(hex(&found.sha256()))
+            }
+        })
+    }
+}
+
 /// What a certificate proves about the graph that it holds, with the known parts of a file, which
 /// are sets of node numbers.
 ///
@@ -63,30 +87,25 @@ pub(super) fn check_with_parts(text: &[u8], parts: &Path) -> Result<Result<Prove
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let held = certificate.held_graph().ok().flatten();
-    let held = held.map(|graph| of_file(graph, parts, &Labels::Numbers));
-    let checked = certificate.check(held.transpose()?.as_ref());
+    // Where the certificate holds no graph, it is rejected for that.
+    let held = match certificate.held_graph() {
+        Ok(Some(graph)) => {
+            let nodes = viewcert::Graph::new(u32::try_from(graph.nodes())?, [])?;
+            let input = NamedGraph::new("", nodes, Labels::Numbers { first: 0 });
+            let known = Known {
+                parts: Some(parts),
+                ..Known::default()
+            };
+            Some(known.of(graph, &input)?)
+        }
+        _ => None,
+    };
+    let checked = certificate.check(held.as_ref());
     Ok(checked.map(|verified| Proved::new(&verified)))
 }
 
-/// A graph with the known parts of a file, read by the checker.
-fn of_file(graph: Graph, parts: &Path, labels: &Labels) -> Result<Graph> {
-    let file = super::read(parts)?;
-    let graph = graph.with_parts_of(&file, labels);
-    graph.with_context(|| parts.display().to_string())
-}
-
-/// Files of what is known besides the pairs.
-#[derive(Clone, Copy)]
-pub(super) struct Known<'a> {
-    pub(super) parts: Option<&'a Path>,
-    pub(super) displacements: Option<&'a Path>,
-}
-
-/// What a certificate proves about the graph in a file. The checker reads edge lists and graph6 by
-/// itself; what it refuses (MATLAB, MatrixMarket, sparse6, gzip), or what is said to be of some
-/// format, comes through this program's reader, of several graphs the one that is named. Known parts,
-/// and displacements of a file, have to be those that the certificate supposes.
+/// What a certificate proves about the graph in a file, of several the one that is named. Known
+/// parts and displacements have to be those that the certificate supposes.
 ///
 /// # Errors
 /// If there is no such graph.
@@ -94,131 +113,40 @@ pub(super) fn check_for(
     text: &[u8],
     path: &Path,
     known: Known,
-    options: ReadOptions,
+    options: &ReadOptions,
 ) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let expected = known.displacements;
-    let expected = expected.map(|file| supposed(&certificate, path, &options, file));
-    let expected = expected.transpose()?;
-    let graph = graph_at(&certificate, path, known.parts, options)?;
-    let verified = match certificate.check(Some(&graph)) {
-        Ok(verified) => verified,
-        Err(failure) => return Ok(Err(failure)),
-    };
-    let known = verified.displacements.as_ref().map(|known| &known.sha256);
-    if expected.is_some() && known != expected.as_ref() {
-        let reason = match known {
-            Some(_) => "other displacements are supposed to be known than those of the file",
-            None => "no displacements are supposed to be known",
-        };
-        return Ok(Err(Failure::Rejected(Rejection {
-            step: "displacements".into(),
-            reason: reason.into(),
-        })));
-    }
-    Ok(Ok(Proved::new(&verified)))
+    let graph = graph_at(&certificate, path, known, options)?;
+    let checked = certificate.check(Some(&graph));
+    Ok(checked.map(|verified| Proved::new(&verified)))
 }
 
-/// The hash of the displacements in a file, in the names of the graph that a certificate is about.
+/// The graph in a file that a certificate is about, or else the first one, with what is known of it.
 ///
 /// # Errors
-/// If there is no such graph; those of the file.
-fn supposed(
-    certificate: &Certificate,
-    path: &Path,
-    options: &ReadOptions,
-    file: &Path,
-) -> Result<String> {
-    let name = path
-        .to_str()
-        .context("the path of the graph is not UTF-8")?;
-    let input = meant(certificate, read_graphs(name, options), name)?;
-    Ok(hex(&read_displacements(file, &input)?.known.sha256()))
-}
-
-/// The graph that a certificate is about, or else the first one.
-fn meant(
-    certificate: &Certificate,
-    inputs: impl Iterator<Item = Result<NamedGraph, ReadError>>,
-    name: &str,
-) -> Result<NamedGraph> {
-    let mut first = None;
-    for input in inputs {
-        let input = input?;
-        let wanted = hex(&sha256(&input.graph)) == certificate.graph_sha256();
-        if wanted {
-            return Ok(input);
-        }
-        first.get_or_insert(input);
-    }
-    first.with_context(|| format!("{name}: the file holds no graph"))
-}
-
-/// The graph in a file that a certificate is about; see [`check_for`].
-///
-/// # Errors
-/// If there is no such graph, or no such parts.
+/// If there is no such graph, or nothing of the kind is known.
 pub(crate) fn graph_at(
     certificate: &Certificate,
     path: &Path,
-    parts: Option<&Path>,
-    options: ReadOptions,
+    known: Known,
+    options: &ReadOptions,
 ) -> Result<Graph> {
-    // A folder may be a model.
-    let bytes = if path.is_dir() {
-        Vec::new()
-    } else {
-        super::read(path)?
-    };
-    let own = match options {
-        ReadOptions {
-            format: None,
-            variable: None,
-            tracks: None,
-            ..
-        } => {
-            let wanted = || Some(certificate.graph_sha256());
-            match parts {
-                None => Graph::read(&bytes, wanted).map(|graph| (graph, Labels::Numbers)),
-                Some(_) => Graph::read_labelled(&bytes, false, wanted),
-            }
-            .ok()
+    let (mut meant, mut first) = (None, None);
+    for input in read_graphs(path, options) {
+        let input = input?;
+        if hex(&sha256(&input.graph)) == certificate.graph_sha256() {
+            meant = Some(input);
+            break;
         }
-        _ => None,
-    };
-    match (own, parts) {
-        (Some((graph, _)), None) => Ok(graph),
-        (Some((graph, labels)), Some(parts)) => of_file(graph, parts, &labels),
-        (None, parts) => converted(certificate, bytes, (path, parts), options),
+        first.get_or_insert(input);
     }
-}
-
-/// The graph that a certificate is about, or else the first one, and its known parts, by this
-/// program's readers.
-fn converted(
-    certificate: &Certificate,
-    bytes: Vec<u8>,
-    (path, parts): (&Path, Option<&Path>),
-    options: ReadOptions,
-) -> Result<Graph> {
-    let name = path.display().to_string();
-    // Some formats are read from their place only.
-    let inputs = match path.to_str().filter(|_| path.is_file() || path.is_dir()) {
-        Some(path) => read_graphs(path, &options),
-        None => graphs(name.clone(), Cursor::new(bytes), options),
-    };
-    let input = meant(certificate, inputs, &name)?;
+    let name = || path.display().to_string();
+    let no_graph = || format!("{}: the file holds no graph", name());
+    let input = meant.or(first).with_context(no_graph)?;
     let pairs = input.graph.edges().iter().copied();
-    let graph = Graph::new(input.graph.nodes(), pairs).with_context(|| name)?;
-    let Some(parts) = parts else {
-        return Ok(graph);
-    };
-    let found = read_parts(parts, &input)?.parts;
-    let lists = found.iter().map(<[u32]>::to_vec);
-    graph
-        .with_parts(lists)
-        .with_context(|| parts.display().to_string())
+    let graph = Graph::new(input.graph.nodes(), pairs).with_context(name)?;
+    known.of(graph, &input)
 }

@@ -42,7 +42,7 @@ pub(super) struct CheckArguments {
     #[command(flatten)]
     parts: PartArguments,
     /// The displacements that the certificate has to suppose, in the names of the graph (as for
-    /// `verify GRAPH`): others, or none, are a rejection.
+    /// `verify GRAPH`): others are a rejection. With GRAPH and without this option: none.
     #[arg(long, value_name = "FILE", requires = "graph")]
     displacements: Option<PathBuf>,
 }
@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
                 parts,
                 displacements: arguments.displacements.as_deref(),
             };
-            checker::check_for(&text, graph, known, options)?
+            checker::check_for(&text, graph, known, &options)?
         }
     };
     let mut out = std::io::stdout().lock();

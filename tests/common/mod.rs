@@ -134,6 +134,20 @@ pub fn verify(arguments: &[&str]) -> Run {
     )
 }
 
+/// Runs `viewcert-check`.
+pub fn first_checker(arguments: &[&str]) -> Run {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_viewcert-check"));
+    Run::new(command.args(arguments).output().unwrap())
+}
+
+/// Runs the second checker.
+pub fn second_checker(arguments: &[&str]) -> Run {
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let checker = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/second/check.py");
+    let mut command = Command::new(python);
+    Run::new(command.arg(checker).args(arguments).output().unwrap())
+}
+
 /// Runs `verify` with something on standard input.
 pub fn verify_with(input: &[u8], arguments: &[&str]) -> Run {
     use std::io::Write;

@@ -35,7 +35,7 @@ from notation import (
     same,
 )
 from pebbles import counted_rank
-from solutions import check_solutions
+from solutions import WORK_LIMIT, Meter, check_solutions
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
 # Exponents of Mersenne primes: moduli for determinants and ranks over Q.
@@ -46,11 +46,10 @@ MERSENNE = (61, 521, 1279, 2203, 4423, 9689, 11213, 19937, 23209, 44497, 86243)
 
 
 class Graph:
-    """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form; `number` has the nodes by label."""
+    """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form."""
 
-    def __init__(self, n, edges, number=None):
+    def __init__(self, n, edges):
         self.n = n
-        self.number = number  # None: labels are numbers
         self.edges = sorted(set(edges))
         self.edge_set = frozenset(self.edges)
         flat = itertools.chain.from_iterable(self.edges)
@@ -60,7 +59,7 @@ class Graph:
 
 def read_graph6(line):
     """The graph of a graph6 line, or None if it is not one: n in its shortest form, no bit behind the last."""
-    if not line or any(not "?" <= c <= "~" for c in line):
+    if not re.fullmatch("[?-~]+", line):
         return None
     values = [ord(c) - 63 for c in line]
     skip, size = (2, 6) if values[:2] == [63, 63] else (1, 3) if values[0] == 63 else (0, 1)
@@ -83,165 +82,80 @@ def read_graph6(line):
     return Graph(n, edges)
 
 
-def text_lines(data):
-    """Section 2, text: it, and its lines without their ends."""
-    try:
-        text = data.decode("utf-8")
-    except UnicodeDecodeError:
-        raise Unreadable("not UTF-8") from None
-    text = text[1:] if text.startswith("\ufeff") else text
-    lines = [line[:-1] if line.endswith("\r") else line for line in (text + "\n").split("\n")[:-1]]
-    if not text.endswith("\n") and text.endswith("\r"):
-        lines[-1] += "\r"  # the last line has no end, so its carriage return is not dropped
-    for number, line in enumerate(lines, 1):
-        if re.search("[\x00-\x08\x0a-\x1f\x7f\ufeff]", line):
-            raise Unreadable(f"line {number}: a control character")
-    return text, lines
+def lines_of(data):
+    """Section 2: the lines of a file without their ends, as bytes, each with its number."""
+    *lines, last = data.split(b"\n")
+    lines = [line[:-1] if line.endswith(b"\r") else line for line in lines]
+    return enumerate(lines + [last] if last else lines, 1)
+
+
+def read_graph(data, sha256):
+    """Section 2, files that hold a graph: the graph that the certificate means."""
+    if not re.match(b"[>?-~]", data):
+        return read_pairs(data)
+    graphs = []
+    for k, line in lines_of(data[10:] if data.startswith(b">>graph6<<") else data):
+        graphs.append(read_graph6(line.decode("latin-1")))
+        if graphs[-1] is None:
+            raise Unreadable(f"line {k}: not graph6")
+    if not graphs:
+        raise Unreadable("no graph in it")
+    return next((graph for graph in graphs if graph.hash.hex() == sha256), graphs[0])
+
+
+def numbers_of(line, where):
+    """Section 2: the numbers of a line, with a single blank or tab between them."""
+    fields = [b""] if re.search(b"[^0-9 \t]", line) else re.split(b"[ \t]", line)
+    if not all(re.fullmatch(b"0|[1-9][0-9]{0,9}", field) and int(field) < 2**32 - 1 for field in fields):
+        raise Unreadable(f"{where}: not node numbers with a single blank or tab between them")
+    return [int(field) for field in fields]
+
+
+def read_pairs(data):
+    """Section 2, pairs."""
+    edges, alone = set(), set()
+    for k, line in lines_of(data):
+        if line.startswith(b"#"):
+            continue
+        nodes = numbers_of(line, f"line {k}")
+        if len(nodes) > 2:
+            raise Unreadable(f"line {k}: more than two numbers")
+        if not distinct(nodes):
+            raise Unreadable(f"line {k}: a node is paired with itself")
+        known = edges if len(nodes) == 2 else alone
+        if tuple(sorted(nodes)) in known:
+            raise Unreadable(f"line {k}: this is there already")
+        known.add(tuple(sorted(nodes)))
+    paired = set(itertools.chain.from_iterable(edges))
+    alone = set(itertools.chain.from_iterable(alone))
+    if paired & alone:
+        raise Unreadable("a node stands alone and is in a pair")
+    n = len(paired | alone)
+    if not n:
+        raise Unreadable("no node in it")
+    if max(paired | alone) >= n:
+        raise Unreadable("a number below the largest does not occur")
+    return Graph(n, edges)
 
 
 def read_parts(data, graph):
     """Section 2, files of known parts: these in their canonical form."""
-    parts = []
-    for k, line in enumerate(text_lines(data)[1], 1):
-        part = set()
-        for text, _ in split_fields(line, f"line {k}"):
-            if graph.number is None:
-                node = int(text) if is_integer(text) and int(text) < graph.n else None
-            else:
-                node = graph.number.get(text)
-            if node is None:
-                raise Unreadable(f"line {k}: {text} is no node of the graph")
-            part.add(node)
-        if part:
-            parts.append(sorted(part))
+    parts = set()
+    for k, line in lines_of(data):
+        if line.startswith(b"#"):
+            continue
+        part = tuple(sorted(numbers_of(line, f"line {k}")))
+        if len(part) < 2 or not distinct(part):
+            raise Unreadable(f"line {k}: not two different nodes or more")
+        if part[-1] >= graph.n:
+            raise Unreadable(f"line {k}: {part[-1]} is no node of the graph")
+        if part in parts:
+            raise Unreadable(f"line {k}: the part is there already")
+        parts.add(part)
     if not parts:
         raise Unreadable("no known part in it")
-    return sorted(map(list, {tuple(part) for part in parts if len(part) > 1}))
+    return [list(part) for part in sorted(parts)]
 
-
-def read_graph(data, sha256, edges_format):
-    """Section 2, files that hold a graph: the graph that the certificate means."""
-    text, lines = text_lines(data)
-    if not edges_format:
-        header = text.startswith(">>graph6<<")
-        graphs = []
-        for line in [lines[0][10:]] + lines[1:] if header else lines:
-            if line.strip(" \t"):
-                graphs.append(read_graph6(line.strip(" \t")))
-                if graphs[-1] is None:
-                    break
-        if graphs and graphs[-1] is not None:
-            return next((graph for graph in graphs if graph.hash.hex() == sha256), graphs[0])
-        if header:
-            raise Unreadable("not graph6, although the header says so")
-        if re.match(r"[ \t\r\n]*[\[{<]", text):
-            raise Unreadable("JSON or XML (say so with --format edges if it is an edge list)")
-    return read_edges(lines, edges_format)
-
-
-HEADS = {
-    tuple(pair.split())
-    for pair in """source target, from to, src dst, node1 node2, node_1 node_2, image1 image2, image_1 image_2,
-    image_id1 image_id2, name1 name2, name_1 name_2, id1 id2""".split(",")
-}
-NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
-
-
-QUOTED = re.compile(r'"((?:[^"]|"")+)"(?=[ \t,]|$)')
-PLAIN = re.compile(r'([^ \t,"]+)(?=[ \t,]|$)')
-
-
-def split_fields(line, where):
-    """The fields of a line, as pairs of text and whether it was quoted."""
-    fields, comma, at = [], False, 0
-    while at < len(line):
-        if line[at] in " \t":
-            at += 1
-        elif line[at] == ",":
-            if comma or not fields:
-                raise Unreadable(f"{where}: an empty field")
-            comma, at = True, at + 1
-        elif line[at] in "#%":
-            break
-        else:
-            quoted = line[at] == '"'
-            found = (QUOTED if quoted else PLAIN).match(line, at)
-            if not found:
-                raise Unreadable(f"{where}: a quotation mark out of place")
-            fields.append((found[1].replace('""', '"') if quoted else found[1], quoted))
-            comma, at = False, found.end()
-    if comma:
-        raise Unreadable(f"{where}: an empty field")
-    return fields
-
-
-def is_integer(text):
-    return bool(re.fullmatch(r"0|[1-9][0-9]{0,19}", text)) and int(text) < 2**64
-
-
-def read_edges(lines, edges_format):
-    """Section 2: an edge list."""
-    rows = [(f"line {k}", split_fields(line, f"line {k}")) for k, line in enumerate(lines, 1)]
-    rows = [(where, fields) for where, fields in rows if fields]
-    if not edges_format:
-        width = len(rows[0][1]) if rows else 0
-        if width not in (2, 3, 9, 14):
-            raise Unreadable("not an edge list: its lines have 2, 3, 9 or 14 fields")
-        for where, fields in rows:
-            if len(fields) != width:
-                raise Unreadable(f"{where}: another number of fields than before")
-            for text, quoted in fields:
-                if not quoted and (not re.search("[A-Za-z0-9\x80-\U0010ffff]", text) or text.startswith("//")):
-                    raise Unreadable(f"{where}: {text} is no label")
-
-        def numbers(fields):
-            return all(not quoted and NUMBER.fullmatch(text) for text, quoted in fields[2:])
-
-        first = [text for text, _ in rows[0][1][:2]]
-        others = {text for _, fields in rows[1:] for text, _ in fields[:2]}
-        named = tuple(ascii_lower(text) for text in first) in HEADS and not others & set(first)
-        if not numbers(rows[0][1]) or named:
-            head, rows = rows[:1], rows[1:]
-        else:
-            head = []
-        for where, fields in rows:
-            if not numbers(fields):
-                raise Unreadable(f"{where}: a field behind the labels is no number")
-        if not head:
-            refuse_other_kinds([fields for _, fields in rows], width)
-    pairs, labels = [], set()
-    for where, fields in rows:
-        pair = [text for text, _ in fields[:2]]
-        labels.update(pair)
-        if len(pair) == 2:
-            pairs.append(pair)
-            if pair[0] == pair[1]:
-                raise Unreadable(f"{where}: a label is paired with itself")
-    if not (labels if edges_format else pairs):
-        raise Unreadable("no pair in it")
-    numeric = all(map(is_integer, labels))
-    order = sorted(labels, key=int if numeric else lambda label: label.encode())
-    number = {label: k for k, label in enumerate(order)}
-    return Graph(len(order), [tuple(sorted((number[a], number[b]))) for a, b in pairs], number)
-
-
-def ascii_lower(text):
-    return re.sub("[A-Z]", lambda found: found[0].lower(), text)
-
-
-def refuse_other_kinds(rows, width):
-    """Section 2: counts, a matrix, stars."""
-    if all(not quoted and text in ("0", "1") for fields in rows for text, quoted in fields) and len(rows) == width:
-        raise Unreadable("this may be a matrix (say so with --format edges if it is not)")
-    if width > 3 or not all(not quoted and is_integer(text) for fields in rows for text, quoted in fields):
-        return
-    values = [[int(text) for text, _ in fields] for fields in rows]
-    labels = {value for fields in values[1:] for value in fields}
-    if width == 2 and values[0][1] == len(rows) - 1 and values[0][0] >= len(labels):
-        raise Unreadable("the first line may hold counts (say so with --format edges if it does not)")
-    if width == 3 and all(a < b < c for a, b, c in values):
-        if all(c <= max(b for _, b, _ in values) + 1 for _, _, c in values):
-            raise Unreadable("this may be a list of stars (say so with --format edges if it is not)")
 
 
 # Section 4: draws ----------------------------------------------------------------------------------------------------
@@ -673,9 +587,11 @@ def stated(value, error=None):
 class Check:
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
-    def __init__(self, data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT, parts_data=None):
+    def __init__(
+        self, data, graph_data=None, core_limit=CORE_LIMIT, parts_data=None, displacements=None, work_limit=WORK_LIMIT
+    ):
         document = parse(data) if isinstance(data, bytes) else data
-        self.core_limit = core_limit
+        self.core_limit, self.work_limit = core_limit, work_limit
         names = "format version program graph model claim bodies rigid pieces"
         if type(document) is dict and same(document.get("format"), "viewcert certificate"):
             version = document.get("version")
@@ -694,9 +610,10 @@ class Check:
         a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
-        self.read_graph(graph, graph_data, edges_format)
+        self.read_graph(graph, graph_data)
         self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
-        if graph_data is not None or parts_data is not None:
+        expects = graph_data is not None or parts_data is not None or displacements is not None
+        if expects:
             given = [] if parts_data is None else read_parts(parts_data, self.graph)
             need(self.parts == given, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
@@ -706,13 +623,16 @@ class Check:
         self.groups = []
         if "displacements" in stated:
             self.check_displacements(stated["displacements"])
+        if expects:
+            given = None if displacements == "none" else displacements
+            need(self.displacements_hash() == given, "section 3: the known displacements that are given are others")
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
         numbers = [self.count_solutions(value, pieces, found) for value in solutions]
         self.evidence_claim = self.claim_of(found, rigid_count, *numbers)
 
-    def read_graph(self, value, graph_data, edges_format):
+    def read_graph(self, value, graph_data):
         """Section 3: the graph."""
         name, nodes, edges, sha256, graph6 = members(value, "name nodes edges sha256 graph6", "section 3: graph")
         a_string(name, "section 3: graph name")
@@ -726,7 +646,7 @@ class Check:
             need(self.graph is not None, "section 3: graph6 is not a graph6 graph")
             need(self.graph.hash.hex() == sha256, "section 3: the hash of the embedded graph is another")
         if graph_data is not None:
-            self.graph = read_graph(graph_data, sha256, edges_format)
+            self.graph = read_graph(graph_data, sha256)
             need(self.graph.hash.hex() == sha256, "section 3: the hash of the given graph is another")
         need(self.graph.n == nodes, "section 3: the number of nodes is another")
         need(len(self.graph.edges) == edges, "section 3: the number of edges is another")
@@ -1364,7 +1284,8 @@ class Check:
         need(found[0].lower == found[0].required, f"{where}: the piece is not shown to be finite solvable")
         group = self.read_group(pieces[0]["bodies"], pieces[0]["edges"], where)
         need(all(map(self.is_unique, group)), f"{where}: a body by rank is not shown to be unique")
-        return check_solutions(value, [frozenset(self.nodes(member)) for member in group], where)
+        sets = [frozenset(self.nodes(member)) for member in group]
+        return check_solutions(value, sets, where, Meter(self.work_limit))
 
     def claim_of(self, pieces, singles, numbers=None):
         """Section 8: the claim that the evidence gives; `numbers` are those of solutions, if they are bounded."""
@@ -1407,14 +1328,20 @@ class Check:
                 reason = f"section 8: {name}: {member} is claimed {claimed}, the evidence gives {value}"
                 need(same(claimed, value), reason)
 
+    def displacements_hash(self):
+        """Section 3: the hash of the displacements, or None if there are none."""
+        if not self.groups:
+            return None
+        form = b"viewcert displacements 1\n" + struct.pack("<Q", len(self.groups))
+        for group in self.groups:
+            form += struct.pack(f"<Q{len(group)}I", len(group), *group)
+        return hashlib.sha256(form).hexdigest()
+
     def supposed(self):
         """Section 3: what is supposed besides the graph, with its hash."""
         if not self.groups:
             return []
-        form = b"viewcert displacements 1\n" + struct.pack("<Q", len(self.groups))
-        for group in self.groups:
-            form += struct.pack(f"<Q{len(group)}I", len(group), *group)
-        count, digits = sum(map(len, self.groups)), hashlib.sha256(form).hexdigest()
+        count, digits = sum(map(len, self.groups)), self.displacements_hash()
         return [f"displacements: supposed to be known, {count} nodes in groups: {len(self.groups)}, SHA-256 {digits}"]
 
     def statements(self):
@@ -1487,10 +1414,10 @@ def count_components(sets):
 # The program ---------------------------------------------------------------------------------------------------------
 
 
-def check(data, graph_data=None, edges_format=False, core_limit=CORE_LIMIT, parts_data=None):
-    """Checks one certificate; gives the check if it is right, and raises Reject, Unreadable or TooLarge if not."""
+def check(data, **given):
+    """Checks one certificate (with what `Check` takes); gives the check if it is right, else raises why it is not."""
     try:
-        done = Check(data, graph_data, edges_format, core_limit, parts_data)
+        done = Check(data, **given)
         done.compare_claim()
         return done
     except (Reject, Unreadable, TooLarge):
@@ -1529,12 +1456,12 @@ def certificates_in(path):
         raise Unreadable(f"{path}: {error}") from None
 
 
-def check_list(paths, core_limit):
+def check_list(paths, **limits):
     count = {0: 0, 1: 0, 3: 0}
     for path in paths:
         for where, data in certificates_in(path):
             try:
-                statements = check(data, core_limit=core_limit).statements()
+                statements = check(data, **limits).statements()
                 print(f"VERIFIED {shown(where)}: {'; '.join(statements[1:])}")
                 count[0] += 1
             except Reject as error:
@@ -1547,24 +1474,36 @@ def check_list(paths, core_limit):
     return 2 if not any(count.values()) else 1 if count[1] else 3 if count[3] else 0
 
 
+def hash_or_none(text):
+    if not re.fullmatch("none|[0-9a-f]{64}", text.lower()):
+        raise argparse.ArgumentTypeError("it is none, or 64 hexadecimal digits")
+    return text.lower()
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
-    parser.add_argument("--format", choices=["auto", "edges"], default="auto", help="edges: the graph is an edge list")
-    parser.add_argument("--parts", metavar="FILE", help="the known parts that it has to take for given, and no others")
+    parser.add_argument("--parts", metavar="FILE", help="the known parts that it has to suppose; with GRAPH, default none")
+    parser.add_argument("--displacements", metavar="HEX", type=hash_or_none,
+                        help="the hash of the displacements that it has to suppose, or none; with GRAPH, default none")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
+    parser.add_argument("--max-operations", type=int, default=WORK_LIMIT, metavar="N", help=f"of section 12, default {WORK_LIMIT}")
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
+    if options.list and (options.parts or options.displacements):
+        parser.error("known parts and displacements are those of one certificate, not of a --list")
+    limits = {"core_limit": options.max_core_nodes, "work_limit": options.max_operations}
     try:
         if options.list:
-            return check_list(options.list, options.max_core_nodes)
+            return check_list(options.list, **limits)
         graph_data = read_file(options.graph) if options.graph else None
         parts_data = read_file(options.parts) if options.parts else None
-        edges_format = options.format == "edges"
-        done = check(read_file(options.certificate), graph_data, edges_format, options.max_core_nodes, parts_data)
+        text = read_file(options.certificate)
+        known = {"parts_data": parts_data, "displacements": options.displacements}
+        done = check(text, graph_data=graph_data, **known, **limits)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

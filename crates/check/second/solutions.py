@@ -9,23 +9,38 @@ import itertools
 from notation import TooLarge, a_big, a_list, an_int, distinct, increasing, is_prime, members, need
 
 EXPONENTS = 4096  # (S12)
-WORK_LIMIT = 2 * 10**8  # multiplications for the minors of one list; plain Python needs minutes beyond
+WORK_LIMIT = 2 * 10**9  # operations; plain Python needs minutes
+SPARSE, DENSE = 8, 4  # what one multiplication counts as (section 11)
+
+
+class Meter:
+    """Section 11: counts operations as they are performed, or just before."""
+
+    def __init__(self, limit=WORK_LIMIT):
+        self.limit = self.left = limit
+
+    def charge(self, operations):
+        self.left -= operations
+        if self.left < 0:
+            raise TooLarge(f"section 12 takes more than {self.limit} operations, raise it with --max-operations")
 
 
 # Linear algebra modulo p ---------------------------------------------------------------------------------------------
 
 
-def echelon(rows, p, extra=0):
+def echelon(rows, p, meter, extra=0):
     """Rows reduced by the rows before them, with 1 at their pivots, and the rows that are left without a column.
 
     Columns from `extra` on (if it is not 0) are carried along and are no pivots.
     """
     done, left = [], []
     for row in rows:
+        meter.charge(SPARSE * (len(row) + 1) + len(done))
         row = {c: v % p for c, v in row.items() if v % p}
         for pivot, other in done:
             factor = row.get(pivot, 0)
             if factor:
+                meter.charge(SPARSE * len(other))
                 for c, v in other.items():
                     value = (row.get(c, 0) - factor * v) % p
                     if value:
@@ -41,23 +56,26 @@ def echelon(rows, p, extra=0):
     return done, left
 
 
-def rank_of(rows, p):
-    return len(echelon(rows, p)[0])
+def rank_of(rows, p, meter):
+    return len(echelon(rows, p, meter)[0])
 
 
-def left_kernel(rows, width, p):
+def left_kernel(rows, width, p, meter):
     """A basis of the vectors w with w M = 0."""
     rows = list(rows)
     marked = [{**row, width + k: 1} for k, row in enumerate(rows)]
-    left = echelon(marked, p, extra=width)[1]
+    left = echelon(marked, p, meter, extra=width)[1]
+    meter.charge(SPARSE * len(left) * len(rows))
     return [[row.get(width + k, 0) for k in range(len(rows))] for row in left]
 
 
-def kernel(rows, width, p):
+def kernel(rows, width, p, meter):
     """A basis of the vectors y with M y = 0."""
-    done = dict(echelon(rows, p)[0])
+    done = dict(echelon(rows, p, meter)[0])
+    entries = sum(map(len, done.values()))
     basis = []
     for free in (c for c in range(width) if c not in done):
+        meter.charge(SPARSE * (width + entries))
         y = [0] * width
         y[free] = 1
         # The rows found last have no pivots of the rows found first, so they go first.
@@ -67,8 +85,9 @@ def kernel(rows, width, p):
     return basis
 
 
-def determinant(matrix, p):
+def determinant(matrix, p, meter):
     """Of a list of lists, which is used up."""
+    meter.charge(DENSE * (len(matrix) + 1) ** 3)
     value = 1
     for k in range(len(matrix)):
         pivot = next((t for t in range(k, len(matrix)) if matrix[t][k] % p), None)
@@ -118,22 +137,23 @@ def a_residue(value, p, where, least=0):
     return a_big(value, where, least=least, below=p)
 
 
-def check_solutions(value, sets, where):
-    """Section 12: at_least and at_most (or None), for members with these nodes."""
+def check_solutions(value, sets, where, meter, is_part=False):
+    """Section 12: at_least and at_most (or None), for members with these nodes; of a part, that it is finite solvable."""
     merges, upper, lower = members(value, "merges upper lower", where)
-    left = merged(merges, shared_nodes(sets), where)
+    meter.charge(SPARSE * sum(map(len, sets)))
+    left = merged(merges, shared_nodes(sets), where, meter)
     if len(left) == 1:
         need(upper is None and lower is None, f"{where}: one member is left, so upper and lower are null")
         return 1, 1
     need(upper is not None or lower is not None, f"{where}: neither upper nor lower, and {len(left)} members are left")
     core = shared_nodes(left)
-    at_most = None if upper is None else check_upper(upper, core, f"{where}: upper")
-    at_least = 1 if lower is None else check_lower(lower, core, f"{where}: lower")
+    at_most = None if upper is None else check_upper(upper, core, f"{where}: upper", meter, is_part)
+    at_least = 1 if lower is None else check_lower(lower, core, f"{where}: lower", meter)
     need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
     return at_least, at_most
 
 
-def merged(merges, sets, where):
+def merged(merges, sets, where, meter):
     """(S1) to (S3): the members that are left after the merges."""
     sets, used = list(sets), set()
     for k, merge in enumerate(a_list(merges, f"{where}: merges")):
@@ -145,8 +165,9 @@ def merged(merges, sets, where):
         need(not used & set(sources), f"{at}: (S1) a member was used up")
         nodes = [an_int(node, f"{at}: at") for node in a_list(nodes, f"{at}: at")]
         chosen = [sets[member] for member in sources]
+        meter.charge(SPARSE * (sum(map(len, chosen)) + len(nodes)))
         if rule == "part":
-            check_part(inner, nodes, chosen, at)
+            check_part(inner, nodes, chosen, at, meter)
         else:
             check_rule(rule, inner, nodes, chosen, at)
         used.update(sources)
@@ -166,23 +187,16 @@ def check_rule(rule, inner, nodes, chosen, where):
     need(fits, f"{where}: (S2) a member contains none of the pairs")
 
 
-def check_part(inner, nodes, chosen, where):
+def check_part(inner, nodes, chosen, where, meter):
     """(S3): a part with one solution."""
     increasing(nodes, f"{where}: (S3) at")
-    inside = [nodes_of & set(nodes) for nodes_of in chosen]
+    kept = frozenset(nodes)
+    inside = [nodes_of & kept for nodes_of in chosen]
     need(all(len(nodes_of) >= 2 for nodes_of in inside), f"{where}: (S3) a member has less than two of the nodes")
     need(inner is not None, f"{where}: (S3) solutions is null")
-    merges, upper, lower = members(inner, "merges upper lower", f"{where}: solutions")
-    need(lower is None, f"{where}: (S3) lower is not null")
-    at_most = check_solutions(inner, inside, f"{where}: solutions")[1]
+    need(members(inner, "merges upper lower", f"{where}: solutions")[2] is None, f"{where}: (S3) lower is not null")
+    at_most = check_solutions(inner, inside, f"{where}: solutions", meter, is_part=True)[1]
     need(at_most == 1, f"{where}: (S3) the part is not shown to have one solution")
-    if upper is not None:
-        # The chart and the centres were read before: they are right in every other respect.
-        core = shared_nodes(merged(merges, shared_nodes(inside), f"{where}: solutions"))
-        chart = Chart(upper["chart"], core, f"{where}: solutions: upper: chart")
-        rows = Rows(chart, upper["centres"], f"{where}: solutions: upper: centres")
-        check_independent(rows, f"{where}: (S3)")
-        check_point(rows, [1] * len(chart.unknowns), f"{where}: (S3) the part is not shown to be finite solvable")
 
 
 # Charts --------------------------------------------------------------------------------------------------------------
@@ -191,8 +205,9 @@ def check_part(inner, nodes, chosen, where):
 class Chart:
     """(S4) to (S6): chains, half-edges, and which scales are unknown."""
 
-    def __init__(self, value, core, where):
+    def __init__(self, value, core, where, meter):
         chains, half_edges, unknowns = members(value, "chains half_edges unknowns", where)
+        meter.charge(SPARSE * sum(map(len, core)) * len(core).bit_length())
         self.chains = [self.read_nodes(chain, f"{where}: chains") for chain in a_list(chains, f"{where}: chains")]
         half_edges = a_list(half_edges, f"{where}: half_edges")
         self.half_edges = [self.read_nodes(triple, f"{where}: half_edges") for triple in half_edges]
@@ -215,6 +230,7 @@ class Chart:
         need(len(core) >= 2, f"{where}: (S4) less than two members")
         need(all(len(nodes) >= 2 for nodes in core), f"{where}: (S4) a member has less than two nodes")
         need(all(map(distinct, self.chains)), f"{where}: (S4) a node is in a chain twice")
+        self.in_chain = [frozenset(chain) for chain in self.chains]
         mine = self.chains + [[one[0], end] for one in self.half_edges for end in one[1:]]
         fits = sorted(map(sorted, mine)) == sorted(map(sorted, core))
         need(fits, f"{where}: (S4) the chains and half-edges are not the members")
@@ -237,7 +253,7 @@ class Chart:
             member = an_int(unknown[0], at, 0, len(self.chains) + len(self.half_edges))
             node = an_int(unknown[1], at)
             half = member - len(self.chains)
-            fits = node == self.half_edges[half][2] if half >= 0 else node in self.chains[member]
+            fits = node == self.half_edges[half][2] if half >= 0 else node in self.in_chain[member]
             need(fits, f"{at}: (S6) not a node of this chain, or not the b of this half-edge")
             need((member, node) not in self.unknowns, f"{at}: (S6) it is listed twice")
             self.unknowns[member, node] = k
@@ -249,7 +265,7 @@ class Chart:
 
         def find(x):
             while leader.setdefault(x, x) != x:
-                x = leader[x]
+                leader[x] = x = leader[leader[x]]
             return x
 
         for name, nodes, member in named:
@@ -276,9 +292,9 @@ class Side:
 class Rows:
     """(S7), (S8), and the rows of N(u), each as its two sides."""
 
-    def __init__(self, chart, centres, where):
+    def __init__(self, chart, centres, where, meter):
         prime, values = members(centres, "prime values", where)
-        self.chart = chart
+        self.chart, self.meter = chart, meter
         self.p = p = a_big(prime, f"{where}: prime", least=5, below=2**62)
         need(is_prime(p), f"{where}: (S7) {p} is not a prime")
         need(len(a_list(values, f"{where}: values")) == len(chart.all_nodes), f"{where}: (S7) another number of centres")
@@ -323,17 +339,18 @@ class Rows:
         return {c: v % self.p for c, v in [*first.items(), *((c, -v) for c, v in second.items())]}
 
     def matrix(self, values):
+        self.meter.charge(SPARSE * 6 * len(self.sides))
         return [self.at(row, values) for row in range(len(self.sides))]
 
 
 # An upper bound ------------------------------------------------------------------------------------------------------
 
 
-def check_upper(value, core, where):
+def check_upper(value, core, where, meter, is_part):
     """Section 12, an upper bound: the number of solutions at most."""
     chart, centres, steps, points = members(value, "chart centres steps points", where)
-    chart = Chart(chart, core, f"{where}: chart")
-    rows = Rows(chart, centres, f"{where}: centres")
+    chart = Chart(chart, core, f"{where}: chart", meter)
+    rows = Rows(chart, centres, f"{where}: centres", meter)
     known = {}
     for k, step in enumerate(a_list(steps, f"{where}: steps")):
         at = f"{where}: step {k}"
@@ -343,10 +360,13 @@ def check_upper(value, core, where):
         else:
             unknowns = check_support(step, rows, known, at)
             known.update((f, 1) for f in unknowns)
-    if points is not None:
-        return check_points(points, chart, known, f"{where}: points")
-    need(len(known) == len(chart.unknowns), f"{where}: an unknown is not known after the steps")
-    return 1
+    if points is None:
+        need(len(known) == len(chart.unknowns), f"{where}: an unknown is not known after the steps")
+    count = 1 if points is None else check_points(points, chart, known, f"{where}: points", meter)
+    if is_part:
+        check_independent(rows, f"{where}: (S3)")
+        check_point(rows, [1] * len(chart.unknowns), f"{where}: (S3) the part is not shown to be finite solvable")
+    return count
 
 
 def check_linear(value, rows, known, where):
@@ -361,13 +381,14 @@ def check_linear(value, rows, known, where):
         open_sides = [k for k, side in enumerate(rows.sides[row]) if side.unknown not in known and side.unknown is not None]
         need(len(open_sides) == 1, f"{where}: (S9) row {row} has {len(open_sides)} sides that are not known")
         own.append(open_sides[0])
+    rows.meter.charge(SPARSE * 6 * len(rows.sides))
     constant = [row for row in range(len(rows.sides)) if all(f in known for f in rows.unknowns_of(row))]
     matrix = [rows.at(row, known) for row in constant]
     for row in freed:
         matrix += [side.scaled(known.get(side.unknown, 1)) for side in rows.sides[row]]
     due = len(constant) + len(freed) - (width - 4)
     need(due > 0, f"{where}: (S10) too few rows")
-    vectors = left_kernel(matrix, width, p)
+    vectors = left_kernel(matrix, width, p, rows.meter)
     need(len(vectors) == due, f"{where}: (S10) the left kernel has the dimension {len(vectors)}, not {due}")
     settled = a_list(settled, f"{where}: settled")
     settled = [an_int(f, f"{where}: settled", 0, len(rows.chart.unknowns)) for f in settled]
@@ -395,7 +416,7 @@ class Support:
         self.unknowns = [an_int(f, f"{where}: unknowns", 0, count) for f in a_list(unknowns, f"{where}: unknowns")]
         need(self.unknowns and distinct(self.unknowns), f"{where}: (S12) no unknown, or one twice")
         need(not any(f in known for f in self.unknowns), f"{where}: (S12) an unknown is known already")
-        self.bounds = [an_int(bound, f"{where}: bounds", 0) for bound in a_list(bounds, f"{where}: bounds")]
+        self.bounds = [an_int(bound, f"{where}: (S12) bounds", 1) for bound in a_list(bounds, f"{where}: bounds")]
         need(len(self.bounds) == len(self.unknowns), f"{where}: (S12) another number of bounds")
         size = 1
         for bound in self.bounds:
@@ -405,7 +426,8 @@ class Support:
         self.absent = increasing(absent, f"{where}: (S12) absent")
         gone = set(absent)
         self.exponents = [a for a in itertools.product(*(range(d + 1) for d in self.bounds)) if a not in gone]
-        self.coefficients, self.work = [], 0
+        self.coefficients, self.meter = [], rows.meter
+        self.meter.charge(SPARSE * len(self.unknowns) * size)
         for k, minor in enumerate(a_list(minors, f"{where}: minors")):
             self.add_minor(minor, f"{where}: minor {k}")
 
@@ -438,11 +460,14 @@ class Support:
         degrees = [min(count, 3) for count in counts]
         need(all(d <= bound for d, bound in zip(degrees, self.bounds)), f"{where}: (S13) a degree is above its bound")
         shifts = list(itertools.product(*(range(bound - d + 1) for d, bound in zip(degrees, self.bounds))))
+        self.meter.charge(SPARSE * len(degrees) * len(shifts) * (len(self.absent) + 1))
         inside = {tuple(a - b for a, b in zip(exponent, shift)) for exponent in self.absent for shift in shifts}
         for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
+            self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
             need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
         polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
+        self.meter.charge(SPARSE * len(degrees) * len(shifts) * len(polynomial))
         for shift in shifts:
             self.coefficients.append({tuple(map(sum, zip(e, shift))): v for e, v in polynomial.items()})
 
@@ -490,7 +515,7 @@ class Support:
                 moving.append(row)
             else:
                 fixed.append(within(self.rows.at(row, self.known)))
-        done, _ = echelon(fixed, p)
+        done, _ = echelon(fixed, p, self.meter)
         if len(done) < len(fixed):
             return {}
         free = [c for c in range(len(cols)) if c not in dict(done)]
@@ -499,31 +524,31 @@ class Support:
             pair = []
             for side, sign in zip(sides[row], (1, -1)):
                 scale = sign * self.known.get(side.unknown, 1)
-                rest = reduced(within(side.scaled(scale)), done, p)
+                rest = reduced(within(side.scaled(scale)), done, p, self.meter)
                 unknown = self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
                 pair.append(([rest.get(c, 0) for c in free], unknown))
             split.append(pair)
         grid = list(itertools.product(*(range(d + 1) for d in degrees)))
-        self.work += len(grid) * (len(free) ** 3 + 1) + len(fixed) ** 3
-        if self.work > WORK_LIMIT:
-            raise TooLarge(f"{self.where}: minors take more than {WORK_LIMIT} multiplications")
+        self.meter.charge(SPARSE * len(grid) * 4 * (len(degrees) + 1))
         values = {}
         for point in grid:
             matrix = []
             for (x, f), (y, g) in split:
                 s, t = (1 if h is None else point[h] for h in (f, g))
                 matrix.append([(s * a + t * b) % p for a, b in zip(x, y)])
-            values[point] = determinant(matrix, p)
+            values[point] = determinant(matrix, p, self.meter)
         return interpolated(values, degrees, p)
 
     def matrix(self):
         """(S16): the coefficients at the exponents, as rows."""
+        self.meter.charge(SPARSE * (len(self.exponents) + sum(map(len, self.coefficients))))
         number = {a: k for k, a in enumerate(self.exponents)}
         return [{number[e]: v for e, v in row.items() if e in number and v} for row in self.coefficients]
 
     def neighbours(self):
         """For each unknown the exponents to which 1 can be added at its place."""
         inside = set(self.exponents)
+        self.meter.charge(SPARSE * len(inside) * len(self.unknowns) ** 2)
 
         def up(a, f):
             return a[:f] + (a[f] + 1,) + a[f + 1 :]
@@ -531,11 +556,13 @@ class Support:
         return [{a for a in inside if up(a, f) in inside} for f in range(len(self.unknowns))]
 
 
-def reduced(row, done, p):
+def reduced(row, done, p, meter):
     """A row less what makes it vanish at the pivots of others."""
+    meter.charge(len(done))
     for pivot, other in done:
         factor = row.get(pivot, 0)
         if factor:
+            meter.charge(SPARSE * len(other))
             for c, v in other.items():
                 row[c] = (row.get(c, 0) - factor * v) % p
     return row
@@ -574,7 +601,7 @@ def check_support(value, rows, known, where):
     _, unknowns, bounds, absent, minors = members(value, "kind unknowns bounds absent minors", where)
     support = Support(unknowns, bounds, absent, minors, rows, known, where)
     need(all(support.neighbours()), f"{where}: (S15) an unknown that the exponents do not tell apart")
-    rank, due = rank_of(support.matrix(), rows.p), len(support.exponents) - 1
+    rank, due = rank_of(support.matrix(), rows.p, rows.meter), len(support.exponents) - 1
     need(rank == due, f"{where}: (S16) the coefficients have the rank {rank}, not {due}")
     return support.unknowns
 
@@ -586,7 +613,7 @@ class Form:
         p, tau = support.rows.p, len(support.unknowns)
         zero = (0,) * tau
         units = [zero[:f] + (1,) + zero[f + 1 :] for f in range(tau)]
-        self.p, self.weights = p, {zero: 1, **{unit: 0 for unit in units}}
+        self.p, self.meter, self.weights = p, support.meter, {zero: 1, **{unit: 0 for unit in units}}
         if value is not None:
             self.weights = {}
             for k, term in enumerate(a_list(value, f"{where}: form")):
@@ -594,6 +621,7 @@ class Form:
             there = all(d in self.weights for d in (zero, *units))
             need(there, f"{where}: form: the zero exponent is missing, or one with a single 1")
         inside = set(support.exponents)
+        support.meter.charge(SPARSE * tau * len(inside) * len(self.weights))
         self.places = [a for a in support.exponents if all(added(a, d) in inside for d in self.weights)]
 
     def add_term(self, value, tau, where):
@@ -605,6 +633,7 @@ class Form:
 
     def of(self, vector):
         """L(x), without zeros."""
+        self.meter.charge(SPARSE * len(self.places) * len(self.weights) * len(self.weights).bit_length())
         found = {}
         for a in self.places:
             value = sum(weight * vector[added(a, d)] for d, weight in self.weights.items()) % self.p
@@ -623,13 +652,13 @@ def added(a, d):
     return tuple(map(sum, zip(a, d)))
 
 
-def check_points(value, chart, known, where):
+def check_points(value, chart, known, where, meter):
     """(S17) to (S18a): the number of points that count."""
     names = "centres unknowns bounds absent minors points"
     optional = [name for name in ("form", "outside") if type(value) is dict and name in value]
     centres, unknowns, bounds, absent, minors, points, *more = members(value, " ".join([names, *optional]), where)
     more = dict(zip(optional, more))
-    rows = Rows(chart, centres, f"{where}: centres")
+    rows = Rows(chart, centres, f"{where}: centres", meter)
     p = rows.p
     support = Support(unknowns, bounds, absent, minors, rows, known, where)
     need("form" not in more or type(more["form"]) is list, f"{where}: form is not a list")
@@ -660,7 +689,9 @@ def check_kernel(support, form, points, where):
     """(S17): the points, those of `outside` as well, span the kernel of the matrix of (S16)."""
     p, matrix = support.rows.p, support.matrix()
     images, quotients = [], []
+    entries_of_matrix = sum(map(len, matrix))
     for values in points:
+        support.meter.charge(SPARSE * (len(support.exponents) * (len(values) + 1) + entries_of_matrix))
         vector = {a: power(values, a, support.bounds, p) for a in support.exponents}
         entries = list(vector.values())
         fits = all(sum(v * entries[c] for c, v in row.items()) % p == 0 for row in matrix)
@@ -671,8 +702,8 @@ def check_kernel(support, form, points, where):
     need(distinct(quotients), f"{where}: (S17) two points are the same")
     number = {a: k for k, a in enumerate(form.places)}
     images = [{number[a]: v for a, v in image.items()} for image in images]
-    need(rank_of(images, p) == len(points), f"{where}: (S17) the points are not independent")
-    free = len(support.exponents) - rank_of(matrix, p)
+    need(rank_of(images, p, support.meter) == len(points), f"{where}: (S17) the points are not independent")
+    free = len(support.exponents) - rank_of(matrix, p, support.meter)
     need(free == len(points), f"{where}: (S17) {len(points)} points, but {free} dimensions")
 
 
@@ -704,6 +735,7 @@ class Outside:
     def check(self):
         """What is to hold at the point, apart from (S17)."""
         where, sides = self.where, self.rows.sides
+        self.rows.meter.charge(SPARSE * (len(self.values) + len(sides)))
         times = [0] * len(self.values)
         for row, pair in enumerate(sides):
             for f in self.rows.unknowns_of(row):
@@ -722,7 +754,7 @@ class Outside:
         matrix = [line for own in dependent for line in self.derivatives(own, unknowns)]
         square = len(matrix) == len(unknowns)
         need(square, f"{where}: (S18a) {len(matrix)} equations of {len(unknowns)} unknowns")
-        need(determinant(matrix, self.rows.p), f"{where}: (S18a) the derivatives are not invertible")
+        need(determinant(matrix, self.rows.p, self.rows.meter), f"{where}: (S18a) the derivatives are not invertible")
         rank = sum(len(self.columns(own)) - 4 for own in blocks)
         rank += sum(len(own) - 1 for own in dependent) + len(sides) - len(used)
         need(rank <= self.rows.chart.width - 4, f"{where}: (S18a) the rank may be {rank}, above 3 n' - 4")
@@ -747,16 +779,17 @@ class Outside:
 
     def derivatives(self, own, unknowns):
         """The w^T (dR/du_f) y of a list R: a row for each y of a basis."""
-        p, columns = self.rows.p, self.columns(own)
+        p, meter, columns = self.rows.p, self.rows.meter, self.columns(own)
         number = {c: k for k, c in enumerate(columns)}
         matrix = []
         for row in own:
             entries = [item for side, sign, scale in self.kept(row) for item in side.scaled(sign * scale).items()]
             matrix.append({number[c]: v % p for c, v in entries})
-        relations = left_kernel(matrix, len(columns), p)
+        relations = left_kernel(matrix, len(columns), p, meter)
         need(len(relations) == 1, f"{self.where}: (S18a) a dependent list has {len(relations)} relations, not one")
         lines = []
-        for y in kernel(matrix, len(columns), p):
+        for y in kernel(matrix, len(columns), p, meter):
+            meter.charge(SPARSE * (len(unknowns) + 6 * len(own)))
             line = dict.fromkeys(unknowns, 0)
             for row, w in zip(own, relations[0]):
                 for side, sign, _ in self.kept(row):
@@ -769,11 +802,11 @@ class Outside:
 # A lower bound -------------------------------------------------------------------------------------------------------
 
 
-def check_lower(value, core, where):
+def check_lower(value, core, where, meter):
     """(S19) to (S23): the number of solutions at least."""
     chart, centres, points = members(value, "chart centres points", where)
-    chart = Chart(chart, core, f"{where}: chart")
-    rows = Rows(chart, centres, f"{where}: centres")
+    chart = Chart(chart, core, f"{where}: chart", meter)
+    rows = Rows(chart, centres, f"{where}: centres", meter)
     check_independent(rows, where)
     parsed = []
     for k, point in enumerate(a_list(points, f"{where}: points")):
@@ -795,15 +828,15 @@ def check_independent(rows, where):
     """(S19)."""
     ones = [1] * len(rows.chart.unknowns)
     for k, own in enumerate(rows.of_chain):
-        rank = rank_of([rows.at(row, ones) for row in own], rows.p)
+        rank = rank_of([rows.at(row, ones) for row in own], rows.p, rows.meter)
         need(rank == len(own), f"{where}: (S19) the rows of chain {k} are not independent")
 
 
 def check_point(rows, values, where):
     """(S20) to (S22) at a point: the cameras Q_v there."""
-    p, chart = rows.p, rows.chart
+    p, chart, meter = rows.p, rows.chart, rows.meter
     matrix = rows.matrix(values)
-    right = kernel(matrix, chart.width, p)
+    right = kernel(matrix, chart.width, p, meter)
     need(len(right) == 4, f"{where}: (S20) the kernel of N(u) has the dimension {len(right)}, not 4")
     cameras = {}
     for node, place in chart.place.items():
@@ -812,14 +845,14 @@ def check_point(rows, values, where):
         unknown = chart.unknowns.get((k, b))
         s = 1 if unknown is None else values[unknown]
         cameras[v] = meeting(rows, cameras, (v, a, b), s)
-    centre = {node: camera_centre(camera, p) for node, camera in cameras.items()}
+    centre = {node: camera_centre(camera, p, meter) for node, camera in cameras.items()}
     need(None not in centre.values(), f"{where}: (S21) a camera has rank below 3")
     groups = chart.chains + [[v, end] for v, *ends in chart.half_edges for end in ends]
     apart = all(distinct([centre[node] for node in group]) for group in groups)
     need(apart, f"{where}: (S21) two centres in a member agree")
-    left = left_kernel(matrix, chart.width, p)
+    left = left_kernel(matrix, chart.width, p, meter)
     columns = derivative(rows, left, right)
-    need(rank_of(columns, p) == len(chart.unknowns), f"{where}: (S22) the point is not simple")
+    need(rank_of(columns, p, meter) == len(chart.unknowns), f"{where}: (S22) the point is not simple")
     return cameras
 
 
@@ -840,9 +873,9 @@ def meeting(rows, cameras, nodes, s):
     return [[column[r] for column in columns] for r in range(3)]
 
 
-def camera_centre(camera, p):
+def camera_centre(camera, p, meter):
     """The kernel of a 3 x 4 matrix, with 1 as its first entry that is not 0; None if the rank is below 3."""
-    basis = kernel([dict(enumerate(row)) for row in camera], 4, p)
+    basis = kernel([dict(enumerate(row)) for row in camera], 4, p, meter)
     if len(basis) != 1:
         return None
     unit = pow(next(x for x in basis[0] if x), -1, p)
@@ -851,6 +884,7 @@ def camera_centre(camera, p):
 
 def derivative(rows, left, right):
     """(S22): for each unknown the values w^T (dN/du) y, for all w and y, as a row."""
+    rows.meter.charge(SPARSE * 2 * len(rows.sides) * len(right) * (3 + len(left)))
     found = [{} for _ in rows.chart.unknowns]
     for row, sides in enumerate(rows.sides):
         for side, sign in zip(sides, (1, -1)):
@@ -866,13 +900,13 @@ def derivative(rows, left, right):
 # What (S23) means, in the words of the paper -------------------------------------------------------------------------
 
 
-def fundamental(first, second, p):
+def fundamental(first, second, p, meter):
     """The paper's formula: entry (h, k) is (-1)^(h+k) det [P_i without row k; P_j without row h]; scaled, or None if 0."""
     entries = []
     for h in range(3):
         for k in range(3):
             rows = [first[r] for r in range(3) if r != k] + [second[r] for r in range(3) if r != h]
-            entries.append((-1) ** (h + k) * determinant([row[:] for row in rows], p) % p)
+            entries.append((-1) ** (h + k) * determinant([row[:] for row in rows], p, meter) % p)
     lead = next((x for x in entries if x), None)
     return None if lead is None else tuple(x * pow(lead, -1, p) % p for x in entries)
 
@@ -884,11 +918,12 @@ def check_cameras(rows, families, where):
     nodes = chart.all_nodes
     given = {node: [[1, 0, 0, -c[0]], [0, 1, 0, -c[1]], [0, 0, 1, -c[2]]] for node, c in rows.centres.items()}
     groups = chart.chains + [[v, end] for v, *ends in chart.half_edges for end in ends]
+    rows.meter.charge(SPARSE * (len(nodes) ** 2 + sum(len(group) ** 2 for group in groups)))
     inside = {pair for group in groups for pair in itertools.combinations(sorted(group), 2)}
     others = [pair for pair in itertools.combinations(nodes, 2) if pair not in inside]
 
     def matrix(cameras, pair):
-        return fundamental(cameras[pair[0]], cameras[pair[1]], p)
+        return fundamental(cameras[pair[0]], cameras[pair[1]], p, rows.meter)
 
     for cameras in families:
         same = all(matrix(cameras, pair) == matrix(given, pair) != None for pair in inside)  # noqa: E711

@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import check  # noqa: E402
-from test_check import Case, evidence  # noqa: E402
+from test_check import Case, by_hand, evidence  # noqa: E402
 
 CERTIFICATES = os.path.join(HERE, "..", "tests", "certificates")
 
@@ -44,6 +44,23 @@ class Displacements(Case):
             self.assertEqual(claim["components"]["value"], components, name)
         lines = self.verifies(named("rigs")).statements()
         self.assertIn("displacements: supposed to be known, 4 nodes in groups: 2, SHA-256 2eaec72a", "\n".join(lines))
+
+    def test_given(self):
+        """Section 3: they are those whose hash is given, and none where something is expected without them."""
+        document = named("rigs")
+        graph, own = document["graph"]["graph6"].encode(), self.verifies(document).displacements_hash()
+        self.verifies(document, graph_data=graph, displacements=own)
+        self.verifies(document, displacements=own)
+        for options in (
+            {"graph_data": graph},
+            {"displacements": "none"},
+            {"graph_data": graph, "displacements": "none"},
+            {"displacements": "0" * 64},
+        ):
+            self.rejects(document, "section 3: the known displacements that are given are others", **options)
+        pair = by_hand()
+        self.verifies(pair, graph_data=b"Cl", displacements="none")
+        self.rejects(pair, "the known displacements that are given are others", displacements=own)
 
     def test_without_them(self):
         def forget(document):

@@ -2,6 +2,7 @@
 //! 13.16).
 
 use crate::document::Model;
+use crate::graph::Graph;
 use crate::rejection::{Checked, ensure};
 use sha2::{Digest, Sha256};
 use std::fmt;
@@ -69,6 +70,21 @@ pub(crate) fn check_groups(
         nodes: groups.iter().map(Vec::len).sum(),
         sha256: hash(groups),
     })
+}
+
+/// Sees that a certificate supposes just those that are known of the given graph.
+pub(crate) fn check_given(stated: Option<&Displacements>, given: &Graph) -> Checked<()> {
+    let (stated_hash, known) = (stated.map(|stated| &stated.sha256), &given.displacements);
+    ensure!(
+        stated_hash == known.as_ref(),
+        "{}",
+        match (stated, known) {
+            (None, _) => "no displacements are supposed to be known".into(),
+            (Some(stated), None) => format!("supposed to be known, and none are given: {stated}"),
+            (Some(stated), Some(_)) => format!("others are supposed to be known: {stated}"),
+        }
+    );
+    Ok(())
 }
 
 fn hash(groups: &[Vec<u32>]) -> String {

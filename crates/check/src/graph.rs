@@ -1,19 +1,14 @@
 //! Graphs: their canonical form and hash, and the graph6 format (section 2 of the specification).
-//! `file` says what a file holds, `edge_list` reads it if it is an edge list; `parts` reads known
-//! parts.
+//! `file` reads the files that hold one, or known parts.
 
-mod edge_list;
 mod file;
-mod parts;
 
 use crate::document::{GraphName, Pair};
 use crate::rejection::{Checked, Failure, Unreadable, ensure};
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 
-pub use parts::Labels;
-
-/// A simple graph, with its known parts.
+/// A simple graph, with what is known besides its edges.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Graph {
     /// [i, j], i < j, in lexicographic order.
@@ -22,6 +17,8 @@ pub struct Graph {
     start: Vec<usize>,
     /// Sets of nodes whose cameras are known relative to each other, in canonical form.
     pub(crate) parts: Vec<Vec<u32>>,
+    /// The hash of the displacements that are known, if there are any.
+    pub(crate) displacements: Option<String>,
 }
 
 impl Graph {
@@ -54,7 +51,15 @@ impl Graph {
             pairs: edges,
             start,
             parts: Vec::new(),
+            displacements: None,
         })
+    }
+
+    /// The same graph with known displacements, which their hash names (section 3 of the
+    /// specification; lower-case hexadecimal digits), in the place of those it has.
+    pub fn with_displacements(mut self, sha256: impl Into<String>) -> Graph {
+        self.displacements = Some(sha256.into());
+        self
     }
 
     /// The number of nodes.

@@ -13,7 +13,7 @@
 //! | the text is of the grammar | 1, 3 | | `document`, by the strict reader in `json` |
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
-//! | displacements are well formed | 3 | 13.16 | `displacements` |
+//! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
 //! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `evidence` |
@@ -66,15 +66,15 @@ mod structure;
 pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
 pub use document::Model;
-pub use graph::{Graph, Labels};
+pub use graph::Graph;
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;
 
 use rejection::Within;
 
-/// Verifies a certificate, for the given graph with its known parts or, without one, for the graph
-/// that it holds with the parts that it states.
+/// Verifies a certificate, for the given graph with its known parts and displacements or, without
+/// one, for the graph that it holds with what it states.
 ///
 /// Takes time linear in the certificate and the graph, plus the elimination of the matrices of the
 /// pieces' cores.
@@ -154,6 +154,10 @@ impl Certificate {
             known.within(|| "displacements".into())
         });
         let known = known.transpose()?;
+        if let Some(given) = given {
+            let agree = displacements::check_given(known.as_ref(), given);
+            agree.within(|| "displacements".into())?;
+        }
         let from_start = bodies::Known {
             parts,
             groups: groups.unwrap_or_default(),

@@ -1,8 +1,6 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
-use crate::{
-    Certificate, Failure, Graph, Labels, Limits, Model, Strength, Unreadable, Verdict, Verified,
-};
+use crate::{Certificate, Failure, Graph, Limits, Model, Strength, Unreadable, Verdict, Verified};
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -30,24 +28,20 @@ fn help() -> String {
 
 Usage: viewcert-check [OPTIONS] CERTIFICATE [GRAPH]
 
-CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or an edge list; without it
-the certificate must hold the graph.
+CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or pairs of node numbers, as
+`verify convert` writes them of any other; without it the certificate must hold the graph.
 
-What the certificate must be about (verified, but something else: exit code 1):
+What the certificate must be about (verified, but something else: exit code 1). With GRAPH or any of
+these no known parts and displacements may be supposed but those that are named:
   --expect VERDICT     solvable, finite-solvable or not-finite-solvable
   --model MODEL        projective, calibrated or affine
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
-  --parts FILE         the known parts, one a line, by the labels of GRAPH, or without it by the
-                       numbers of nodes; with GRAPH or --sha256 and without this option: none
-  --displacements HEX  the hash of the known displacements, or none (with --expect or --model: none,
-                       unless something else is said)
-  --proofs-only        proofs, no error bounds
+  --parts FILE         the known parts, the node numbers of one on each line
+  --displacements HEX  the hash of the known displacements, or none
 
-How GRAPH is read:
-  --format FORMAT      auto (what can be read in one way only; the default), or edges: the first
-                       two fields of each line are a pair, whatever else is there
+  --proofs-only        proofs, no error bounds
 
 Limits (beyond them: exit code 3):
   --max-bytes N        size of each file [{MAX_BYTES}]
@@ -80,7 +74,6 @@ struct Arguments {
     certificate: OsString,
     graph: Option<OsString>,
     parts: Option<OsString>,
-    edges_only: bool,
     max_bytes: u64,
     limits: Limits,
     expected: Expected,
@@ -96,7 +89,7 @@ struct Expected {
     sha256: Option<String>,
     /// Whether known parts are given.
     parts: bool,
-    /// A hash, or `none`; anything but `none` has to be said.
+    /// A hash, or `none`.
     displacements: Option<Option<String>>,
     proofs_only: bool,
 }
@@ -147,7 +140,7 @@ fn arguments() -> Result<Request, Stop> {
 }
 
 fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
-    let (mut files, mut parts, mut edges_only) = (Vec::new(), None, false);
+    let (mut files, mut parts) = (Vec::new(), None);
     let mut max_bytes = MAX_BYTES;
     let (mut limits, mut expected) = (Limits::default(), Expected::default());
     while let Some(argument) = parser.next()? {
@@ -167,7 +160,6 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
                 expected.displacements = Some(parser.value()?.parse_with(hash_or_none)?);
             }
             Long("proofs-only") => expected.proofs_only = true,
-            Long("format") => edges_only = parser.value()?.parse_with(is_edges)?,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
             Long("max-core") => limits.core = number(&mut parser)?,
             Long("max-flows") => limits.flows = number(&mut parser)?,
@@ -195,7 +187,6 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
         certificate,
         graph,
         parts,
-        edges_only,
         max_bytes,
         limits,
         expected,
@@ -239,14 +230,6 @@ fn hash_or_none(text: &str) -> Result<Option<String>, &'static str> {
     }
 }
 
-fn is_edges(text: &str) -> Result<bool, &'static str> {
-    match text {
-        "auto" => Ok(false),
-        "edges" => Ok(true),
-        _ => Err("it is auto or edges"),
-    }
-}
-
 /// Checks the files; returns the exit code.
 fn check(arguments: &Arguments) -> Result<u8, Stop> {
     let text = read(&arguments.certificate, arguments.max_bytes)?;
@@ -266,22 +249,23 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
             let certificate = LazyLock::force(&certificate).as_ref();
             certificate.ok().map(Certificate::graph_sha256)
         };
-        let labels = parts.is_some();
-        file.as_ref()
-            .map(|file| graph(file, arguments.edges_only, labels, wanted))
+        let graph = |(path, file): &Opened| Graph::read(file, wanted).map_err(in_file(path));
+        file.as_ref().map(graph)
     });
-    let graph = graph.transpose()?;
-    let graph = match (graph, &parts) {
-        (graph, None) => graph.map(|(graph, _)| graph),
+    let graph = match (graph.transpose()?, &parts) {
+        (graph, None) => graph,
         (Some(graph), Some(parts)) => Some(with_parts(graph, parts)?),
         // Where the certificate holds no graph, it is rejected for that.
         (None, Some(parts)) => {
             let certificate = LazyLock::force(&certificate).as_ref().ok();
             let held = certificate.and_then(|certificate| certificate.held_graph().ok()?);
-            let held = held.map(|graph| with_parts((graph, Labels::Numbers), parts));
-            held.transpose()?
+            held.map(|graph| with_parts(graph, parts)).transpose()?
         }
     };
+    let graph = graph.map(|graph| match &arguments.expected.displacements {
+        Some(Some(sha256)) => graph.with_displacements(sha256),
+        Some(None) | None => graph,
+    });
     let checked = match &*certificate {
         Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
         Err(failure) => Err(failure.clone()),
@@ -307,25 +291,9 @@ fn in_file(path: &OsString) -> impl Fn(Unreadable) -> Stop {
     move |error| Stop::no_answer(format!("{}: {error}", path.display()))
 }
 
-/// Reads the graph, of several the one that the certificate is about; with its labels if these are
-/// wanted.
-fn graph<'w>(
-    (path, file): &Opened,
-    edges_only: bool,
-    labels: bool,
-    wanted: impl Fn() -> Option<&'w str>,
-) -> Result<(Graph, Labels), Stop> {
-    let graph = match (labels, edges_only) {
-        (true, _) => Graph::read_labelled(file, edges_only, wanted),
-        (false, true) => Graph::read_edges(file).map(|graph| (graph, Labels::Numbers)),
-        (false, false) => Graph::read(file, wanted).map(|graph| (graph, Labels::Numbers)),
-    };
-    graph.map_err(in_file(path))
-}
-
 /// The graph with the known parts of a file.
-fn with_parts((graph, labels): (Graph, Labels), (path, file): &Opened) -> Result<Graph, Stop> {
-    graph.with_parts_of(file, &labels).map_err(in_file(path))
+fn with_parts(graph: Graph, (path, file): &Opened) -> Result<Graph, Stop> {
+    graph.with_parts_of(file).map_err(in_file(path))
 }
 
 /// Says what was verified, if it is what was expected.
@@ -375,12 +343,14 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         sha256.as_ref().is_some_and(|hash| *hash != verified.sha256),
         format!("the graph has the SHA-256 {}", verified.sha256),
     );
+    // Whoever expects something expects it of the pairs alone, unless they say what else is known.
+    let expects = (verdict.is_some() || model.is_some() || sha256.is_some())
+        || (nodes.is_some() || edges.is_some())
+        || (*parts || displacements.is_some());
     see(
-        sha256.is_some() && !parts && verified.parts > 0,
+        expects && !parts && verified.parts > 0,
         format!("{} known parts are taken for given", verified.parts),
     );
-    // Whoever expects something expects it of the pairs alone, unless they say what else is known.
-    let expects = verdict.is_some() || model.is_some() || displacements.is_some();
     let known = verified.displacements.as_ref();
     let supposed = displacements.as_ref().and_then(Option::as_ref);
     see(

@@ -104,7 +104,7 @@ fn help_and_version() {
         "--max-operations",
         "[20000]",
         "[2000000000000]",
-        "--format",
+        "verify convert",
     ] {
         assert!(help.contains(option), "{option}");
     }
@@ -123,7 +123,7 @@ fn bad_usage() {
         &[&square, "--nodes", "four"],
         &[&square, "--nodes", "-4"],
         &[&square, "--sha256", "9ac8"],
-        &[&square, "--format", "graph6"],
+        &[&square, "--format", "edges"],
         &[&square, "--max-core", "1e3"],
         &["-", "-"],
         &["no-such-file.json"],
@@ -242,36 +242,30 @@ fn limits_have_an_answer_of_their_own() {
 #[test]
 fn graphs_in_files() {
     let square = path("square");
-    let list = file("square.txt", b"a b\nb c\nc d\nd a\n");
+    let list = file("square.txt", b"# 0 left\n0 1\n1 2\n2 3\n3 0\n");
     assert_eq!(run(&[&square, &list]).code, 0);
-    let other = file("path.txt", b"a b\nb c\nc d\n");
+    let other = file("path.txt", b"0 1\n1 2\n2 3\n");
     let run_other = run(&[&square, &other]);
     assert_eq!((run_other.code, run_other.out.as_str()), (1, "REJECTED\n"));
     // The right one of several, as the certificate says.
     let several = file("several.g6", b"Bw\nC~\nCl\n");
     assert_eq!(run(&[&square, &several]).code, 0);
     // A line that is a graph6 graph makes no graph6 file.
-    let mixed = file("mixed.txt", b"Cl\na b\nb c\n");
+    let mixed = file("mixed.txt", b"Cl\n0 1\n");
     let unreadable = run(&[&square, &mixed]);
     assert_eq!((unreadable.code, unreadable.out.as_str()), (2, ""));
     assert!(
-        unreadable
-            .err
-            .contains("mixed.txt: line 1: one field is no pair"),
+        unreadable.err.contains("mixed.txt: line 2: graph6: "),
         "{}",
         unreadable.err
     );
-    // Five columns: only who says that it is an edge list is believed.
-    let wide = file("wide.txt", b"a b 1 2 3\nb c x y z\nc d\nd a -\n");
-    assert_eq!(run(&[&square, &wide]).code, 2);
-    assert_eq!(run(&[&square, &wide, "--format", "edges"]).code, 0);
-    assert_eq!(run(&[&square, &wide, "--format", "auto"]).code, 2);
     for (name, bytes) in [
         ("square.mat", &b"MATLAB 5.0 MAT-file\0"[..]),
         ("square.gz", b"\x1f\x8b\x08"),
         ("square.json", b"{\"edges\": []}"),
         ("square.xml", b"<graphml>"),
-        ("square.bin", b"a b\0"),
+        ("square.bin", b"0 1\0"),
+        ("names.txt", b"a b\nb c\nc d\nd a\n"),
     ] {
         let unreadable = run(&[&square, &file(name, bytes)]);
         assert_eq!(
@@ -279,6 +273,8 @@ fn graphs_in_files() {
             (2, ""),
             "{name}"
         );
+        // What to do about it.
+        assert!(unreadable.err.contains("`verify convert`"), "{name}");
     }
     // An unreadable graph is no answer about a certificate that is wrong.
     let wrong = file(
@@ -293,24 +289,66 @@ fn graphs_in_files() {
 
 /// Whoever expects something of the pairs alone gets no answer that supposes more.
 #[test]
-fn expected_displacements() {
-    let rigs = path("displaced-rigs");
+fn hypotheses_are_none_unless_they_are_named() {
+    let (rigs, rig) = (path("displaced-rigs"), path("parts-rig"));
     let hash = "2eaec72a74890accb2edf31caf4b2e9e8351715092f824e37a10c1317e13c424";
     let supposed =
         format!("displacements are supposed to be known: 4 nodes in 2 groups, SHA-256 {hash}");
-    assert_eq!(run(&[&rigs]).code, 0);
-    for arguments in [
-        &["--expect", "solvable"][..],
-        &["--model", "calibrated"],
-        &["--displacements", "none"],
-        &["--displacements", &"0".repeat(64)],
+    let graph_of = |certificate: &str| {
+        let text = std::fs::read_to_string(certificate).unwrap();
+        let field = |name: &str| {
+            let rest = text
+                .split(&format!("\"{name}\":"))
+                .nth(1)
+                .unwrap()
+                .trim_start();
+            let end = rest.find([',', '}']).unwrap();
+            rest[..end].trim().trim_matches('"').to_owned()
+        };
+        ["graph6", "sha256", "nodes", "edges"].map(field)
+    };
+    for (certificate, own, reason) in [
+        (
+            &rigs,
+            ["--displacements".to_owned(), hash.to_owned()],
+            &*supposed,
+        ),
+        (
+            &rig,
+            [
+                "--parts".to_owned(),
+                file("rig.txt", b"0 1 2\n2 4\n2 4 5\n3 5\n"),
+            ],
+            "4 known parts are taken for given",
+        ),
     ] {
-        let run = run(&[arguments, &[&rigs]].concat());
-        assert_eq!((run.code, run.out.as_str()), (1, ""), "{arguments:?}");
-        assert!(run.err.contains(&supposed), "{}", run.err);
+        let [line, sha256, nodes, edges] = graph_of(certificate);
+        let model = ["calibrated", "projective"][usize::from(certificate == &rig)];
+        let graph = file("hypotheses.g6", line.as_bytes());
+        assert_eq!(run(&[certificate]).code, 0);
+        for arguments in [
+            ["--expect", "solvable"],
+            ["--model", model],
+            ["--nodes", &nodes],
+            ["--edges", &edges],
+            ["--sha256", &sha256],
+            ["--displacements", "none"],
+        ] {
+            let alone = run(&[&arguments[..], &[certificate]].concat());
+            assert_eq!((alone.code, alone.out.as_str()), (1, ""), "{arguments:?}");
+            assert!(alone.err.contains(reason), "{}", alone.err);
+            if !own.contains(&arguments[0].to_owned()) {
+                let named = [&arguments[..], &[certificate, &own[0], &own[1]]].concat();
+                assert_eq!(run(&named).code, 0, "{named:?}");
+            }
+        }
+        let given = run(&[certificate, &graph]);
+        assert_eq!((given.code, given.out.as_str()), (1, "REJECTED\n"));
+        assert_eq!(run(&[certificate, &graph, &own[0], &own[1]]).code, 0);
     }
-    let known = ["--expect", "solvable", "--displacements", hash];
-    assert_eq!(run(&[&known[..], &[&rigs]].concat()).code, 0);
+    let other = run(&["--displacements", &"0".repeat(64), &rigs]);
+    assert_eq!((other.code, other.out.as_str()), (1, ""));
+    assert!(other.err.contains(&supposed), "{}", other.err);
     let square = path("square-calibrated");
     assert_eq!(run(&["--displacements", "none", &square]).code, 0);
     let other = run(&["--displacements", hash, &square]);

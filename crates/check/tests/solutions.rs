@@ -541,6 +541,22 @@ fn s12_unknowns_and_exponents() {
         &[("U/steps", again)],
         "U.steps[1] (support): unknown 0 is listed twice, or known, or none",
     );
+    for (name, place) in [("support", "steps/0"), ("two", "points")] {
+        let at = |member: &str| format!("U/{place}/{member}");
+        let step = if place == "points" {
+            "points"
+        } else {
+            "steps[0] (support)"
+        };
+        let nothing = [at("unknowns"), at("bounds")];
+        let nothing = nothing.each_ref().map(|at| (&**at, json!([])));
+        refused(name, &nothing, &format!("U.{step}: no unknown is listed"));
+        refused(
+            name,
+            &[(&at("bounds"), json!([0]))],
+            &format!("U.{step}: bounds[0] is not positive"),
+        );
+    }
     refused(
         "support",
         &[("U/steps/0/bounds", json!([2, 2]))],
@@ -981,6 +997,11 @@ fn s23_the_points_of_a_tight_core() {
             json!({"chart": chart, "centres": centres, "points": [["1", "1", "1", "1"]]}),
         )],
         "solutions.lower: the core is not tight, but has an excess of 4",
+    );
+    refused(
+        "two",
+        &[("L/points", json!([]))],
+        "solutions.lower: there is no point",
     );
     refused(
         "two",

@@ -17,6 +17,7 @@ def check(
     graph: Any = None,
     *,
     parts: Optional[Iterable[Iterable[Node]]] = None,
+    displacements: Optional[Iterable[Iterable[Node]]] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
     """Verifies a certificate with the independent checker, which shares no code with the prover.
@@ -31,6 +32,8 @@ def check(
     parts : iterable of iterables of nodes, optional
         The known parts that the certificate takes for given, if a graph is given (of a verdict its
         own); without them, none.
+    displacements : iterable of iterables of nodes, optional
+        The sets of nodes whose displacements it takes for given, in the same way.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
@@ -49,7 +52,7 @@ def check(
     TooLarge
         If checking would cost more than the limits allow.
     InputError
-        If `graph` is no graph, or `parts` are no parts of it.
+        If `graph` is no graph, or `parts` or `displacements` are not sets of its nodes.
     OSError
         If the file of the certificate cannot be read.
 
@@ -70,17 +73,23 @@ def check(
         if graph is None:
             graph = certificate.graph
             parts = certificate.parts if parts is None else parts
+            displacements = certificate.displacements if displacements is None else displacements
     elif isinstance(certificate, (bytes, bytearray, memoryview)):
         text = bytes(certificate)
     else:
         with open(certificate, "rb") as file:
             text = file.read()
-    if parts is not None and (graph is None or isinstance(graph, (str, os.PathLike))):
-        raise InputError("parts: their nodes are those of a graph; give the graph itself, not a file")
+    stated = {"parts": parts, "displacements": displacements}
+    for what in (what for what, sets in stated.items() if sets is not None):
+        if graph is None or isinstance(graph, (str, os.PathLike)):
+            raise InputError(f"{what}: their nodes are those of a graph; give the graph itself, not a file")
     if isinstance(graph, (str, os.PathLike)):
         return _native.check(text, file=os.fspath(graph), max_operations=max_operations)
     if graph is None:
         return _native.check(text, max_operations=max_operations)
     given = as_graph(graph)
     known = None if parts is None else numbered(given, parts)
-    return _native.check(text, graph=given._native, parts=known, max_operations=max_operations)
+    groups = None if displacements is None else numbered(given, displacements, "displacements")
+    return _native.check(
+        text, graph=given._native, parts=known, displacements=groups, max_operations=max_operations
+    )

@@ -150,6 +150,7 @@ def check(
     *,
     graph: Graph | None = None,
     parts: list[list[int]] | None = None,
+    displacements: list[list[int]] | None = None,
     file: str | os.PathLike[str] | None = None,
     max_operations: int | None = None,
 ) -> Verified: ...

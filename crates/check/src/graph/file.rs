@@ -1,165 +1,181 @@
-//! Which kind of graph a file holds (section 2 of the specification). Whatever could be read in
-//! another way is refused.
+//! The two kinds of files that hold a graph, and files of known parts (section 2 of the
+//! specification): node numbers, and nothing else.
 
-use super::{Graph, Graph6, Labels, edge_list, hex};
+use super::{Graph, Graph6, hex};
 use crate::rejection::{Unreadable, ensure};
 
-/// Files that are not text, by their first bytes.
-const BINARY: [(&[u8], &str); 8] = [
-    (b"MATLAB 5.0 MAT-file", "a MATLAB file"),
-    (b"MATLAB 7.3 MAT-file", "a MATLAB 7.3 file"),
-    (b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
-    (b"\x1f\x8b", "a gzip file"),
-    (b"SQLite format 3\0", "an SQLite database"),
-    (b"PK\x03\x04", "a ZIP file"),
-    (b"\xff\xfe", "text in UTF-16"),
-    (b"\xfe\xff", "text in UTF-16"),
-];
-
-/// Texts that are something else, by their first byte that is no blank.
-const OTHER_TEXT: [(u8, &str); 3] = [(b'{', "JSON"), (b'[', "JSON"), (b'<', "XML")];
-
-/// Text formats in which no line is a pair, by the same byte; only for the reason.
-const OTHER_LINES: [(u8, &str); 4] = [
-    (b':', "sparse6"),
-    (b';', "incremental sparse6"),
-    (b'&', "digraph6"),
-    (b'>', "sparse6, digraph6 or planar code"),
-];
-
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
-
-const READABLE: &str = "a graph is read from graph6 or from an edge list";
-
 impl Graph {
-    /// Reads a file: graph6, or else an edge list. Of several graph6 graphs the one with the wanted
-    /// hash (as in a certificate, asked for only if it matters) is taken, or else the first.
+    /// Reads a file: graph6, or else pairs of node numbers. Of several graph6 graphs the one with
+    /// the wanted hash (as in a certificate, asked for only if it matters) is taken, or else the
+    /// first.
     ///
     /// # Errors
-    /// What is wrong with the file, with the line; also if the file can be read in two ways.
+    /// What is wrong with the file, with the line.
     pub fn read<'w>(
         file: &[u8],
         wanted: impl Fn() -> Option<&'w str>,
     ) -> Result<Graph, Unreadable> {
-        let text = text(file, READABLE)?;
-        if may_be_graph6(text) {
-            return of_graph6(text, wanted);
+        match file.first() {
+            Some(b'>' | b'?'..=b'~') => of_graph6(file, wanted),
+            _ => of_pairs(file),
         }
-        of_edge_list(text, edge_list::strict)
     }
 
-    /// The same, or with `edges_only` the first two fields of each line, whatever else is there;
-    /// with what the nodes are called.
+    /// The same graph with known parts, in the place of those it has. What comes again counts once;
+    /// parts of fewer than two nodes are left out.
     ///
     /// # Errors
-    /// As of [`read`](Self::read) and [`read_edges`](Self::read_edges).
-    pub fn read_labelled<'w>(
-        file: &[u8],
-        edges_only: bool,
-        wanted: impl Fn() -> Option<&'w str>,
-    ) -> Result<(Graph, Labels), Unreadable> {
-        let text = text(file, READABLE)?;
-        let (graph, labels) = match edges_only {
-            true => edge_list::lenient_with_labels(text)?,
-            false if may_be_graph6(text) => return Ok((of_graph6(text, wanted)?, Labels::Numbers)),
-            false => of_edge_list(text, edge_list::strict_with_labels)?,
-        };
-        Ok((graph, Labels::Names(labels)))
+    /// A node that the graph does not have.
+    pub fn with_parts(
+        mut self,
+        parts: impl IntoIterator<Item = Vec<u32>>,
+    ) -> Result<Graph, Unreadable> {
+        let nodes = self.nodes();
+        self.parts.clear();
+        for mut part in parts {
+            part.sort_unstable();
+            part.dedup();
+            let wrong = part.last().filter(|&&node| node as usize >= nodes);
+            ensure!(
+                wrong.is_none(),
+                "a known part has a node that is not below {nodes}"
+            );
+            self.parts.extend((part.len() > 1).then_some(part));
+        }
+        self.parts.sort_unstable();
+        self.parts.dedup();
+        Ok(self)
     }
 
-    /// Reads an edge list of which it is known that it is one: the first two fields of each line
-    /// are a pair, whatever else is there.
+    /// The same graph with the known parts of a file.
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
-    pub fn read_edges(file: &[u8]) -> Result<Graph, Unreadable> {
-        edge_list::lenient(text(file, READABLE)?)
-    }
-}
-
-fn may_be_graph6(text: &[u8]) -> bool {
-    text.starts_with(b">>graph6<<") || is_graph6(text)
-}
-
-/// Reads what is no graph6 as an edge list, unless it is known to be something else.
-fn of_edge_list<'t, T>(
-    text: &'t [u8],
-    read: impl Fn(&'t [u8]) -> Result<T, Unreadable>,
-) -> Result<T, Unreadable> {
-    let first = text.iter().find(|byte| !byte.is_ascii_whitespace());
-    let is = |&&(byte, _): &&(u8, &'static str)| Some(&byte) == first;
-    let other = OTHER_TEXT.iter().find(is).map_or("", |(_, format)| format);
-    ensure!(
-        other.is_empty(),
-        "the file seems to be {other}; {READABLE} (--format edges takes it for one)"
-    );
-    read(text).map_err(|error| match OTHER_LINES.iter().find(is) {
-        Some((_, format)) => format!("the file seems to be {format}; {READABLE}").into(),
-        None => error,
-    })
-}
-
-/// The text of a file, without a byte order mark and with line feeds and carriage returns only at
-/// the ends of lines; `readable` says what would be read.
-pub(super) fn text<'f>(file: &'f [u8], readable: &str) -> Result<&'f [u8], Unreadable> {
-    let magic = BINARY.iter().find(|(magic, _)| file.starts_with(magic));
-    let other = magic.map_or("", |(_, format)| format);
-    ensure!(other.is_empty(), "the file is {other}; {readable}");
-    // What is wrong at a position, if there is one.
-    let refuse = |at: Option<usize>, what: &str| match at {
-        None => Ok(()),
-        Some(at) => {
-            let line = 1 + file[..at].iter().filter(|byte| **byte == b'\n').count();
-            Err(Unreadable::from(format!("line {line}: {what}; {readable}")))
+    pub fn with_parts_of(self, file: &[u8]) -> Result<Graph, Unreadable> {
+        let mut parts = Vec::new();
+        for (number, line) in lines_of_numbers(file) {
+            let part: Option<Vec<u32>> = fields(line).collect();
+            let part = part.filter(|part| part.len() > 1);
+            let wrong = || Unreadable::from(format!("line {number}: {PARTS}"));
+            let mut part = part.ok_or_else(wrong)?;
+            part.sort_unstable();
+            let largest = part.last().copied().unwrap_or_default();
+            ensure!(
+                (largest as usize) < self.nodes(),
+                "line {number}: the graph has no node {largest}"
+            );
+            let twice = part.windows(2).any(|two| two[0] == two[1]);
+            ensure!(!twice, "line {number}: a node is named twice");
+            parts.push(part);
         }
+        ensure!(!parts.is_empty(), "the file holds no known part");
+        let listed = parts.len();
+        let graph = self.with_parts(parts)?;
+        ensure!(graph.parts.len() == listed, "a known part occurs twice");
+        Ok(graph)
+    }
+}
+
+const PAIRS: &str = "a line is a pair of node numbers, with a single blank or tab between them, or \
+                     one number (`verify convert` writes such a file)";
+
+const PARTS: &str = "a line is two node numbers or more, with a single blank or tab between them \
+                     (`verify convert --parts` writes such a file)";
+
+/// The lines without their ends, with their numbers.
+fn lines(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let lines = file.split_inclusive(|&byte| byte == b'\n');
+    (1..).zip(lines.map(|line| match line.strip_suffix(b"\n") {
+        Some(line) => line.strip_suffix(b"\r").unwrap_or(line),
+        None => line,
+    }))
+}
+
+/// The lines that are no comments.
+fn lines_of_numbers(file: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    lines(file).filter(|(_, line)| !line.starts_with(b"#"))
+}
+
+/// The numbers of a line, `None` for what is none.
+fn fields(line: &[u8]) -> impl Iterator<Item = Option<u32>> {
+    line.split(|byte| matches!(byte, b' ' | b'\t')).map(number)
+}
+
+/// A node: decimal digits without leading zeros, below 2^32 - 1.
+fn number(field: &[u8]) -> Option<u32> {
+    let is_short = matches!(field, [b'0'] | [b'1'..=b'9', ..]) && field.len() <= 10;
+    if !is_short || !field.iter().all(u8::is_ascii_digit) {
+        return None;
+    }
+    let digits = field.iter().map(|digit| u64::from(digit - b'0'));
+    let value = digits.fold(0, |value, digit| 10 * value + digit);
+    u32::try_from(value).ok().filter(|&value| value < u32::MAX)
+}
+
+fn of_pairs(file: &[u8]) -> Result<Graph, Unreadable> {
+    let (mut pairs, mut alone) = (Vec::new(), Vec::new());
+    for (number, line) in lines_of_numbers(file) {
+        let mut fields = fields(line);
+        match [fields.next(), fields.next(), fields.next()] {
+            [Some(Some(i)), Some(Some(j)), None] if i != j => pairs.push((i, j)),
+            [Some(Some(i)), None, None] => alone.push(i),
+            [Some(Some(i)), Some(Some(_)), None] => {
+                return Err(format!("line {number}: node {i} is paired with itself").into());
+            }
+            _ => return Err(format!("line {number}: {PAIRS}").into()),
+        }
+    }
+    let nodes = count_nodes(&pairs, &alone)?;
+    let listed = pairs.len();
+    let graph = Graph::new(nodes, pairs)?;
+    ensure!(
+        graph.pairs.len() == listed,
+        "a pair occurs twice, in the same order or the other"
+    );
+    Ok(graph)
+}
+
+/// How many nodes there are: every number up to the largest occurs, those that stand alone once.
+fn count_nodes(pairs: &[(u32, u32)], alone: &[u32]) -> Result<usize, Unreadable> {
+    let paired = || pairs.iter().flat_map(|&(i, j)| [i, j]);
+    let largest = paired().chain(alone.iter().copied()).max();
+    let largest = largest.ok_or_else(|| Unreadable::from("the file holds no node".to_string()))?;
+    let missing = |node: usize| {
+        format!(
+            "there is a node {largest}, but no node {node}: nodes are numbered from 0, without gaps"
+        )
     };
-    let utf8 = std::str::from_utf8(file).err();
-    refuse(utf8.map(|error| error.valid_up_to()), "not UTF-8")?;
-    let text = file.strip_prefix(BYTE_ORDER_MARK).unwrap_or(file);
-    let is_control = |byte: &u8| matches!(byte, 0..=8 | 11 | 12 | 14..=31 | 127);
-    // Without a branch for each byte, which is several times as fast: few files have any.
-    let controls = |part: &[u8]| part.iter().fold(false, |any, byte| any | is_control(byte));
-    if text.chunks(1 << 12).any(controls) {
-        refuse(file.iter().position(is_control), "a control character")?;
+    let nodes = largest as usize + 1;
+    // As many are named at least, so that what is reserved is paid for by the file.
+    let named = 2 * pairs.len() + alone.len();
+    let mut is_there = vec![false; nodes.min(named)];
+    for node in paired() {
+        if let Some(there) = is_there.get_mut(node as usize) {
+            *there = true;
+        }
     }
-    let returns = |part: &[u8]| part.iter().fold(false, |any, byte| any | (*byte == b'\r'));
-    if text.chunks(1 << 12).any(returns) {
-        let next = file.iter().skip(1).chain([&0]);
-        let mut pairs = file.iter().zip(next);
-        let inside = pairs.position(|(byte, next)| *byte == b'\r' && *next != b'\n');
-        refuse(inside, "a carriage return that is not at the end of a line")?;
+    for &node in alone {
+        let there = is_there.get_mut(node as usize);
+        let before = there.is_some_and(|there| std::mem::replace(there, true));
+        ensure!(
+            !before,
+            "node {node} stands alone, and in another line as well"
+        );
     }
-    if !text.is_ascii() {
-        let skipped = file.len() - text.len();
-        let marks = text.windows(3).position(|bytes| bytes == BYTE_ORDER_MARK);
-        refuse(
-            marks.map(|at| at + skipped),
-            "a byte order mark within the file",
-        )?;
-    }
-    Ok(text)
+    let gap = is_there.iter().position(|there| !there);
+    let gap = gap.or((named < nodes).then_some(named));
+    ensure!(gap.is_none(), "{}", missing(gap.unwrap_or_default()));
+    Ok(nodes)
 }
 
-/// The lines that are not blank, without the blanks around them, with their numbers.
-fn lines(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    let lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
-    (1..).zip(lines).filter(|(_, line)| !line.is_empty())
-}
-
-/// Whether there are lines, and each is a graph6 graph.
-fn is_graph6(text: &[u8]) -> bool {
-    let mut some = false;
-    lines(text).all(|(_, line)| {
-        some = true;
-        Graph6::parse(line).is_ok()
-    }) && some
-}
-
-fn of_graph6<'w>(text: &[u8], wanted: impl Fn() -> Option<&'w str>) -> Result<Graph, Unreadable> {
-    let body = text.strip_prefix(b">>graph6<<").unwrap_or(text);
+fn of_graph6<'w>(file: &[u8], wanted: impl Fn() -> Option<&'w str>) -> Result<Graph, Unreadable> {
+    let body = file.strip_prefix(b">>graph6<<").unwrap_or(file);
     // All lines are read, also behind the graph that is wanted: a file is a graph6 file or not.
     for (number, line) in lines(body) {
-        let in_line = |error: Unreadable| Unreadable::from(format!("line {number}: {error}"));
+        let in_line = |error: Unreadable| {
+            let other = "`verify convert` writes files that checkers read";
+            Unreadable::from(format!("line {number}: {error} ({other})"))
+        };
         Graph6::parse(line).map_err(in_line)?;
     }
     let mut first = None;

@@ -39,6 +39,7 @@ pub(super) fn check_points(points: &[Vec<Big<u64>>], system: &System) -> Checked
         excess == 0,
         "the core is not tight, but has an excess of {excess}"
     );
+    ensure!(!points.is_empty(), "there is no point");
     let mut different = HashSet::new();
     for (k, values) in points.iter().enumerate() {
         let checked = checked_values(values, system).and_then(|values| {

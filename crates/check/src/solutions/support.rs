@@ -58,6 +58,12 @@ impl<'t> Span<'t> {
             text.bounds.len(),
             text.unknowns.len()
         );
+        let constant = text.bounds.iter().position(|&bound| bound == 0);
+        ensure!(
+            constant.is_none(),
+            "bounds[{}] is not positive",
+            constant.unwrap_or_default()
+        );
         let exponents = Exponents {
             bounds: text.bounds,
         };
@@ -161,8 +167,9 @@ impl<'t> Span<'t> {
     }
 }
 
-/// (S12): unknowns that are not known, each once.
+/// (S12): unknowns that are not known, each once, and one at least.
 fn check_unknowns(unknowns: &[usize], known: &Known) -> Checked<()> {
+    ensure!(!unknowns.is_empty(), "no unknown is listed");
     let mut listed = HashSet::new();
     for &f in unknowns {
         let is_open = known.get(f).is_some_and(Option::is_none);

@@ -6,22 +6,24 @@ fn read(file: &[u8]) -> Result<Graph, String> {
 
 fn refused(file: &[u8], wanted: &str) {
     let reason = read(file).unwrap_err();
-    assert!(reason.contains(wanted), "{reason}");
+    assert!(reason.contains(wanted), "{file:?}: {reason}");
+}
+
+fn path() -> Graph {
+    Graph::new(4, [(0, 1), (1, 2), (2, 3)]).unwrap()
 }
 
 #[test]
 fn graph6_with_and_without_header() {
     // The example of the format's own description: n = 5, edges 0-2, 0-4, 1-3, 3-4.
     let example = Graph::new(5, [(0, 2), (0, 4), (1, 3), (3, 4)]).unwrap();
-    let files: [&[u8]; 6] = [
-        b"DQc\n",
-        b"\n \t DQc \r\n\r\n",
+    for file in [
+        &b"DQc\n"[..],
+        b"DQc",
+        b"DQc\r\n",
         b">>graph6<<DQc",
-        b">>graph6<<\nDQc",
-        b"\xef\xbb\xbf>>graph6<< DQc\nBw",
-        b"\xef\xbb\xbfDQc",
-    ];
-    for file in files {
+        b">>graph6<<DQc\nBw",
+    ] {
         assert_eq!(read(file), Ok(example.clone()));
     }
     let wanted = hex(&Graph::from_graph6(b"Bw").unwrap().sha256());
@@ -30,72 +32,140 @@ fn graph6_with_and_without_header() {
     assert_eq!(pick("no such hash"), example);
 }
 
-/// A line that happens to be graph6 makes no graph6 file, nor does a header.
+/// All lines are graph6, also those behind the graph that is wanted.
 #[test]
-fn all_lines_are_graph6_or_none() {
+fn what_is_no_graph6_file() {
     let wanted = hex(&Graph::from_graph6(b"Bw").unwrap().sha256());
-    let read_wanted = |file: &[u8]| Graph::read(file, || Some(&wanted)).unwrap_err().to_string();
-    let reason = read_wanted(b"Bw\na b\nb c\nc d\n");
-    assert!(
-        reason.starts_with("line 1: one field is no pair"),
-        "{reason}"
-    );
-    let reason = read_wanted(b">>graph6<<Bw\na b\n");
-    assert_eq!(reason, "line 2: graph6: a byte that is not from 63 to 126");
-    let reason = read_wanted(b">>graph6<<Bw\n>>graph6<<Bw\n");
-    assert_eq!(reason, "line 2: graph6: a byte that is not from 63 to 126");
-    refused(
-        b">>graph6<<DQ",
-        "line 1: graph6: 1 bytes of edges do not fit 5 nodes",
-    );
-    refused(b">>graph6<<", "the file holds no graph");
-}
-
-#[test]
-fn other_formats_are_named() {
-    let files: [(&[u8], &str); 14] = [
-        (b"MATLAB 5.0 MAT-file, by hand\0\x01IM", "a MATLAB file"),
-        (b"MATLAB 7.3 MAT-file, by hand\0", "a MATLAB 7.3 file"),
-        (b"\x89HDF\r\n\x1a\n", "an HDF5 file"),
-        (b"\x1f\x8b\x08\0", "a gzip file"),
-        (b"SQLite format 3\0", "an SQLite database"),
-        (b"PK\x03\x04", "a ZIP file"),
-        (b"\xff\xfea\0 \0b\0", "text in UTF-16"),
-        (b"\xfe\xff\0a\0 \0b", "text in UTF-16"),
-        (b"<a b>\n", "XML"),
-        (b"\n {a b}\n", "JSON"),
-        (b"[[0, 1]]", "JSON"),
-        (b">>sparse6<<:Fa@x^", "sparse6"),
-        (b":Fa@x^\n", "sparse6"),
-        (b"&DI?AO?\n", "digraph6"),
-    ];
-    for (file, name) in files {
-        refused(file, name);
-    }
-    // Whoever says that it is an edge list, is believed.
-    assert!(Graph::read_edges(b"<a b>\n").is_ok());
-    assert!(Graph::read_edges(b"SQLite format 3\0").is_err());
-}
-
-#[test]
-fn what_is_no_text() {
-    for (file, wanted) in [
-        (&b"a b\nc\0 d\n"[..], "line 2: a control character"),
-        (b"a b\nc\x7f d\n", "line 2: a control character"),
-        (b"a b\x0b\n", "line 1: a control character"),
-        (b"a b\x1f\n", "line 1: a control character"),
-        (b"a b\nc \xff\n", "line 2: not UTF-8"),
-        (b"a\rb c\n", "line 1: a carriage return"),
-        (b"a b\r", "line 1: a carriage return"),
-        (b"a b\nb c\r\r\n", "line 2: a carriage return"),
-        (b"a b\nc \xef\xbb\xbfd\n", "line 2: a byte order mark"),
+    for (file, reason) in [
+        (&b"Bw\n0 1\n"[..], "line 2: graph6: a byte that is not"),
+        (b"Bw\n>>graph6<<Bw\n", "line 2: graph6: a byte that is not"),
         (
-            b"\xef\xbb\xbf\xef\xbb\xbfa b\n",
-            "line 1: a byte order mark",
+            b">>graph6<<>>graph6<<Bw\n",
+            "line 1: graph6: a byte that is not",
+        ),
+        (b">>graph6<<\nBw\n", "line 1: graph6: the line ends"),
+        (b">>graph6<<", "the file holds no graph"),
+        (b"Bw\n\n", "line 2: graph6: the line ends"),
+        (b"Bw \n", "line 1: graph6: a byte that is not"),
+        (b"Bw\r", "line 1: graph6: a byte that is not"),
+        (b">>sparse6<<:Fa@x^", "line 1: graph6: a byte that is not"),
+        (b"a b\nb c\n", "line 1: graph6: a byte that is not"),
+        (
+            b">>graph6<<DQ",
+            "line 1: graph6: 1 bytes of edges do not fit 5 nodes",
         ),
     ] {
-        refused(file, wanted);
-        assert!(Graph::read_edges(file).is_err());
+        let found = Graph::read(file, || Some(&wanted)).unwrap_err().to_string();
+        assert!(found.contains(reason), "{file:?}: {found}");
     }
-    assert!(read("\u{feff}\u{e9}\tb\r\n".as_bytes()).is_ok());
+}
+
+#[test]
+fn pairs_of_node_numbers() {
+    let single = Graph::new(1, []).unwrap();
+    let with_two_alone = Graph::new(6, [(0, 1), (1, 2), (2, 3)]).unwrap();
+    for (file, graph) in [
+        (&b"0 1\n1 2\n2 3\n"[..], path()),
+        (b"2\t1\r\n3 2\r\n1 0", path()),
+        (b"# any \xff\0 bytes\r, \"\n#\n0 1\n#1 2\n1 2\n2 3", path()),
+        (b"0\n", single),
+        (b"5\n0 1\n4\n1 2\n2 3\n", with_two_alone),
+    ] {
+        assert_eq!(read(file), Ok(graph), "{file:?}");
+    }
+}
+
+#[test]
+fn what_are_no_pairs() {
+    let no_line = "a line is a pair of node numbers";
+    for (line, reason) in [
+        (&b""[..], no_line),
+        (b" 0 1", no_line),
+        (b"0 1 ", no_line),
+        (b"0  1", no_line),
+        (b"0,1", no_line),
+        (b"0 1 2", no_line),
+        (b"0 1 # pair", no_line),
+        (b"0 01", no_line),
+        (b"00", no_line),
+        (b"0 -1", no_line),
+        (b"0 +1", no_line),
+        (b"0 1.0", no_line),
+        (b"\"0\" \"1\"", no_line),
+        (b"% 0 1", no_line),
+        (b"0 a", no_line),
+        (b"0 \xd9\xa1", no_line),
+        (b"0 1\r\r", no_line),
+        (b"0 1\0", no_line),
+        (b"0\x0b1", no_line),
+        (b"0 4294967295", no_line),
+        (b"0 18446744073709551616", no_line),
+        (b"0 99999999999999999999999", no_line),
+        (b"1 1", "node 1 is paired with itself"),
+    ] {
+        let file = [b"0 1\n".as_slice(), line, b"\n"].concat();
+        refused(&file, &format!("line 2: {reason}"));
+    }
+    refused(b"\xef\xbb\xbf0 1\n", "line 1: a line is a pair");
+    refused(b"0 1\r", "line 1: a line is a pair");
+    refused(b"\x1f\x8b\x08", "line 1: a line is a pair");
+    refused(b"{\"nodes\": []}", "graph6: a byte that is not");
+    refused(b"", "the file holds no node");
+    refused(b"# nothing\n", "the file holds no node");
+    refused(b"0 1\n1 2\n0 1\n", "a pair occurs twice");
+    refused(b"0 1\n1 2\n1 0\n", "a pair occurs twice");
+    refused(b"0 1\n1\n", "node 1 stands alone, and in another line");
+    refused(b"1\n0 1\n", "node 1 stands alone, and in another line");
+    refused(b"0\n0\n", "node 0 stands alone, and in another line");
+    refused(b"1 2\n2 3\n", "but no node 0");
+    refused(b"0 1\n3 4\n5\n", "there is a node 5, but no node 2");
+    // Nothing is reserved by a number that the file states.
+    refused(b"0 4294967294\n", "but no node 1");
+    refused(b"4294967294", "but no node 0");
+}
+
+/// A line of 20 MB, and one field of it, are refused at once.
+#[test]
+fn long_lines() {
+    for line in [vec![b'1'; 20_000_000], b"\"a ".repeat(7_000_000)] {
+        refused(&line, "line 1: a line is a pair");
+    }
+}
+
+fn parts(file: &str) -> Result<Vec<Vec<u32>>, String> {
+    let graph = path().with_parts_of(file.as_bytes());
+    graph
+        .map(|graph| graph.parts)
+        .map_err(|error| error.to_string())
+}
+
+#[test]
+fn files_of_known_parts() {
+    assert_eq!(
+        parts("# parts\n3 1\r\n2\t0 1").unwrap(),
+        [vec![0, 1, 2], vec![1, 3]]
+    );
+    for (file, reason) in [
+        ("", "no known part"),
+        ("# none\n", "no known part"),
+        ("0 1\n2\n", "line 2: a line is two node numbers or more"),
+        ("0 1\n\n", "line 2: a line is two node numbers or more"),
+        ("0  1\n", "line 1: a line is two node numbers or more"),
+        ("0 a\n", "line 1: a line is two node numbers or more"),
+        ("0 1 # all\n", "line 1: a line is two node numbers or more"),
+        ("0 1 4\n", "line 1: the graph has no node 4"),
+        ("0 1 0\n", "line 1: a node is named twice"),
+        ("0 1 2\n0 1\n2 0 1\n", "a known part occurs twice"),
+    ] {
+        let found = parts(file).unwrap_err();
+        assert!(found.contains(reason), "{file}: {found}");
+    }
+}
+
+/// What is not read from a file need not be in order.
+#[test]
+fn parts_in_canonical_form() {
+    let given = path().with_parts([vec![3, 2, 1], vec![1, 0], vec![2], vec![0, 1, 1], vec![]]);
+    assert_eq!(given.unwrap().parts, [vec![0, 1], vec![1, 2, 3]]);
+    assert!(path().with_parts([vec![0, 4]]).is_err());
 }

@@ -1,0 +1,164 @@
+//! `verify convert GRAPH`: what was read, in node numbers, as both checkers read it
+//! (docs/certificate.md, section 2).
+
+use super::input::{InputArguments, TrackArguments};
+use super::parts::PartArguments;
+use super::{GOOD, TOO_LARGE, atomic};
+use anyhow::{Context, Result, ensure};
+use clap::{Args, ValueEnum};
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use viewcert::KnownParts;
+use viewcert::graph::graph6;
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+
+/// Longest graph6 line that is written, in bytes: what checkers read without being asked for more.
+const LONGEST: u64 = 1 << 31;
+
+/// What to convert.
+#[derive(Args)]
+pub(super) struct ConvertArguments {
+    /// The graph, in whatever `verify` reads (`-` is standard input).
+    graph: PathBuf,
+    /// The file to write [default: standard output].
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// What to write.
+    #[arg(long, value_enum, default_value = "pairs")]
+    to: To,
+    #[command(flatten)]
+    input: InputArguments,
+    #[command(flatten)]
+    tracks: TrackArguments,
+    #[command(flatten)]
+    parts: PartArguments,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum To {
+    /// A pair of node numbers on each line, a node without pairs on one of its own, and what the
+    /// nodes are called in comments.
+    Pairs,
+    /// A line for each graph, without names.
+    Graph6,
+}
+
+/// Reads the graph and writes it.
+pub(super) fn run(arguments: &ConvertArguments) -> Result<ExitCode> {
+    let (path, parts) = (&arguments.graph, arguments.parts.path());
+    ensure!(
+        parts.is_none() || arguments.to == To::Pairs,
+        "--parts: graph6 holds no known parts; leave out --to graph6"
+    );
+    arguments.parts.check(std::slice::from_ref(path))?;
+    let output = arguments.output.as_deref();
+    let inputs = [Some(&**path), parts];
+    atomic::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
+    let options = ReadOptions {
+        tracks: arguments.tracks.options(),
+        ..arguments.input.read_options()
+    };
+    let mut graphs = read_graphs(path, &options);
+    let name = path.display();
+    let first = graphs.next();
+    let first = first.with_context(|| format!("{name}: the file holds no graph"))??;
+    let known = arguments.parts.read(&first)?;
+    say_notes(known.as_ref().map_or(&first, |(noted, _)| noted))?;
+    let text = match arguments.to {
+        To::Pairs => {
+            ensure!(
+                graphs.next().is_none(),
+                "{name}: there are several graphs, and a file of pairs holds one; --to graph6 writes a \
+                 line for each"
+            );
+            match known {
+                Some((_, parts)) => lines_of_parts(&parts)?,
+                None => pairs(&first),
+            }
+        }
+        To::Graph6 => {
+            let mut text = String::new();
+            for graph in std::iter::once(Ok(first)).chain(graphs) {
+                let graph = graph?;
+                if !fits(&graph) {
+                    writeln!(
+                        std::io::stderr(),
+                        "verify: {}: graph6 takes more than {LONGEST} bytes for {} nodes; --to pairs \
+                         takes a line a pair",
+                        graph.name,
+                        graph.graph.nodes()
+                    )?;
+                    return Ok(ExitCode::from(TOO_LARGE));
+                }
+                text += &graph6::encode(&graph.graph);
+                text.push('\n');
+            }
+            text
+        }
+    };
+    let output = output.unwrap_or(Path::new("-"));
+    atomic::write(output, |out| out.write_all(text.as_bytes()))?;
+    Ok(ExitCode::from(GOOD))
+}
+
+/// What was guessed, merged or ignored in reading a graph.
+fn say_notes(input: &NamedGraph) -> Result<()> {
+    for note in &input.notes {
+        writeln!(std::io::stderr(), "verify: {}: {note}", input.name)?;
+    }
+    Ok(())
+}
+
+/// Whether a graph6 line is not too long.
+fn fits(input: &NamedGraph) -> bool {
+    let nodes = input.graph.nodes() as u64;
+    nodes * nodes.saturating_sub(1) / 12 < LONGEST
+}
+
+/// A graph as pairs: first what its nodes are called, if not by their numbers.
+fn pairs(input: &NamedGraph) -> String {
+    let (graph, mut text) = (&input.graph, String::new());
+    let mut is_alone = vec![true; graph.nodes()];
+    for (node, number) in (0..).zip(0..graph.nodes()) {
+        let (label, number) = (input.labels.label(node), number.to_string());
+        if label != number {
+            text += &format!("# {number} {}\n", on_one_line(&label));
+        }
+    }
+    for &(i, j) in graph.edges() {
+        is_alone[i as usize] = false;
+        is_alone[j as usize] = false;
+        let _ = writeln!(text, "{i} {j}");
+    }
+    for (node, _) in is_alone.iter().enumerate().filter(|(_, alone)| **alone) {
+        let _ = writeln!(text, "{node}");
+    }
+    text
+}
+
+/// A name of which control characters are spelt out.
+fn on_one_line(name: &str) -> String {
+    let mut safe = String::new();
+    for c in name.chars() {
+        match c.is_control() {
+            true => safe.extend(c.escape_unicode()),
+            false => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// A part on each line.
+fn lines_of_parts(parts: &KnownParts) -> Result<String> {
+    ensure!(
+        !parts.is_empty(),
+        "--parts: no set has two cameras, so that there is nothing to write"
+    );
+    let line = |part: &[u32]| {
+        let nodes: Vec<String> = part.iter().map(u32::to_string).collect();
+        nodes.join(" ") + "\n"
+    };
+    Ok(parts.iter().map(line).collect())
+}
