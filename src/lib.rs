@@ -36,7 +36,6 @@ use viewcert::decide::VerdictError;
 use viewcert::watch::{Reason, Stopped};
 use viewcert_formats::ReadError;
 use viewcert_studies::audit::AuditError;
-use viewcert_studies::formulation::compare::CompareError;
 
 /// Exact, certified solvability of viewing graphs.
 ///
@@ -149,7 +148,6 @@ fn exit_code(error: &anyhow::Error) -> u8 {
     }
     let too_large = error.chain().any(|cause| {
         matches!(cause.downcast_ref(), Some(VerdictError::TooLarge { .. }))
-            || matches!(cause.downcast_ref(), Some(CompareError::TooLarge { .. }))
             || matches!(cause.downcast_ref(), Some(AuditError::TooLarge { .. }))
             || matches!(cause.downcast_ref::<ReadError>(), Some(error) if error.problem.is_size())
     });

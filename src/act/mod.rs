@@ -306,17 +306,15 @@ impl<'a> Task<'a> {
             strength: strength.name(),
         };
         let items = match what {
-            Weak::Pairs => {
-                reconstruction::weak_pairs(graph, self.verdict, &self.parts, &self.options)
-                    .context("--weak")?
-                    .into_iter()
-                    .map(|weak| {
-                        let (a, b) = weak.pair;
-                        let names = vec![self.names.of(a), self.names.of(b)];
-                        item(names, weak.component, weak.why, weak.strength)
-                    })
-                    .collect()
-            }
+            Weak::Pairs => reconstruction::weak_pairs(graph, &self.parts, &self.options)
+                .context("--weak")?
+                .into_iter()
+                .map(|weak| {
+                    let (a, b) = weak.pair;
+                    let names = vec![self.names.of(a), self.names.of(b)];
+                    item(names, weak.component, weak.why, weak.strength)
+                })
+                .collect(),
             Weak::Images => reconstruction::weak_images(graph, &self.parts, &self.options)
                 .context("--weak=images")?
                 .into_iter()

@@ -60,8 +60,8 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         }
         Outcome::Disagree => "DISAGREE".to_owned(),
         Outcome::NotCompared => format!(
-            "nothing compared: {computed} of {all} computed, the others are too large; raise the limit \
-             with --limit"
+            "sizes only, nothing compared: {computed} of {all} computed, the others are too large; \
+             --limit raises the limit"
         ),
     };
     writeln!(out, "  result      {verdict}")

@@ -2,6 +2,7 @@
 
 use crate::joints::{Joints, Shapes, joints};
 use crate::parts::Parts;
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::Graph;
@@ -65,6 +66,33 @@ pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
             observations.extend((first..first + views).map(|c| (c % cameras, point)));
         }
         Graph::new(cameras + points, observations).unwrap()
+    })
+}
+
+/// Sequences of cameras, each paired with the next two to four, some pairs missing and some further
+/// ones, in any order of names.
+pub fn sequences(count: u64, nodes: u32) -> impl Iterator<Item = Graph> {
+    (0..count).map(move |seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(3000 + seed);
+        let mut names: Vec<u32> = (0..nodes).collect();
+        if seed % 2 == 1 {
+            names.shuffle(&mut random);
+        }
+        let next = random.random_range(2..5);
+        let missing = random.random_range(0..12);
+        let mut pairs: Vec<(u32, u32)> = (0..nodes)
+            .flat_map(|i| (i + 1..nodes.min(i + 1 + next)).map(move |j| (i, j)))
+            .filter(|_| random.random_range(0..100) >= missing)
+            .collect();
+        for _ in 0..random.random_range(0..4) {
+            pairs.push((
+                random.random_range(0..nodes / 2),
+                random.random_range(nodes / 2..nodes),
+            ));
+        }
+        let named = pairs.iter();
+        let named = named.map(|&(i, j)| (names[i as usize], names[j as usize]));
+        Graph::new(nodes, named).unwrap()
     })
 }
 

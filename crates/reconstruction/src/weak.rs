@@ -2,20 +2,24 @@
 //!
 //! A pair of a component is weak if the component is not finite solvable without it: then it falls
 //! apart. Most pairs are shown not to be weak by contraction (docs/theory.md, section 4): what no
-//! merge uses can go. Sets of pairs are tried together, and what is left is decided on a
-//! condensation, one decision for a set of pairs where that is enough.
+//! merge uses can go. The others are left out together, then in halves of halves, each on a
+//! condensation of the graph without all others of its half ([`halves`]). What that leaves open is
+//! decided, one decision for a set of pairs where that is enough.
 
+mod decisions;
+mod halves;
 mod left_out;
 
 use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
+use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use viewcert::contract::{Contraction, Merge, Part as Joined, Seed};
 use viewcert::decide::{Options, Value, VerdictError, decide};
-use viewcert::graph::Adjacency;
+use viewcert::graph::{Adjacency, Lists};
 use viewcert::watch::Step;
-use viewcert::{Graph, Model, Strength, Verdict};
+use viewcert::{Graph, Model, Strength};
 
 /// Why something is weak.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,22 +62,22 @@ pub struct WeakImage {
 /// The weak pairs, by component and then increasing. Pairs that are components by themselves are
 /// left out: without them there is nothing to fall apart.
 ///
-/// O(m) for the first contraction of each component. With w weak pairs, further contractions
-/// of graphs with at most 6 n pairs, and decisions of condensations, about w log(n / w) of both at
-/// worst, and far fewer where one count tells of many.
+/// Where bodies are all that is needed, as in sequences, O(m + k log k) up to the logarithm of
+/// sorting, for the k pairs that carry a merge: k is below 2 n. For cores two decisions for each pair
+/// at worst, of condensations that shrink with the number of pairs that they are about where
+/// separators are small, and far fewer where one count tells of many.
 ///
 /// # Errors
 /// Those of [`decide`].
 pub fn weak_pairs(
     graph: &Graph,
-    verdict: &Verdict,
     parts: &Parts,
     options: &Options,
 ) -> Result<Vec<WeakPair>, VerdictError> {
     let edges = parts.edges(graph);
     let of_part = parts.parts.par_iter().zip(&edges).map(|(part, edges)| {
         let alone = Alone::new(&part.nodes, edges);
-        let found = pairs_of(&alone.graph, verdict.model, options)?;
+        let found = pairs_of(&alone.graph, options)?;
         let global = |(a, b): (u32, u32)| (alone.nodes[a as usize], alone.nodes[b as usize]);
         let weak = found.into_iter().map(|(pair, why, strength)| WeakPair {
             pair: global(pair),
@@ -125,11 +129,7 @@ pub fn weak_images(
 type Pair = (u32, u32);
 
 /// The weak pairs of a component with three nodes or more, increasing.
-fn pairs_of(
-    graph: &Graph,
-    model: Model,
-    options: &Options,
-) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
     for &(i, j) in graph.edges() {
@@ -145,17 +145,16 @@ fn pairs_of(
     // What is in no body now is in none with fewer pairs.
     let (loose, in_bodies): (Vec<Pair>, Vec<Pair>) =
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
-    let mut candidates = left_out::not_cleared(graph, in_bodies, options)?;
-    if !candidates.is_empty() {
-        candidates = not_cleared(
-            &thinned(graph, options.question.model()),
-            candidates,
-            options,
-        )?;
-    }
-    candidates.extend(loose);
-    candidates.sort_unstable();
-    weak.extend(decided(graph, model, candidates, options)?);
+    let candidates = left_out::not_cleared(graph, in_bodies, options)?;
+    let Sorted { falls, mut open } = halves::sort(graph, candidates, options)?;
+    weak.extend(
+        falls
+            .iter()
+            .map(|&pair| (pair, Why::Decided, Strength::Proof)),
+    );
+    open.extend(loose);
+    open.sort_unstable();
+    weak.extend(decided(graph, open, options)?);
     weak.sort_unstable_by_key(|&(pair, ..)| pair);
     Ok(weak)
 }
@@ -205,36 +204,6 @@ fn thinned(graph: &Graph, model: Model) -> Graph {
     Graph::new(graph.nodes() as u32, kept).expect("edges of a graph")
 }
 
-/// Which of some pairs are not shown to be redundant by contractions of the graph without sets of
-/// them. What lies within a body of the graph without the set is.
-fn not_cleared(
-    graph: &Graph,
-    candidates: Vec<Pair>,
-    options: &Options,
-) -> Result<Vec<Pair>, VerdictError> {
-    let mut left = Vec::new();
-    let mut sets = vec![candidates];
-    while let Some(set) = sets.pop() {
-        if set.is_empty() {
-            continue;
-        }
-        check(graph, options)?;
-        let rest = outside_bodies(
-            &Contraction::new(&without(graph, &set), options.question.model()),
-            graph.nodes(),
-            &set,
-        );
-        if rest.len() == 1 && set.len() == 1 {
-            left.extend(rest);
-        } else {
-            let half = rest.len() / 2;
-            sets.extend([rest[..half].to_vec(), rest[half..].to_vec()]);
-        }
-    }
-    left.sort_unstable();
-    Ok(left)
-}
-
 fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
     Ok(options
         .watch
@@ -242,123 +211,50 @@ fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
         .check()?)
 }
 
-/// Those of some pairs that no final body holds.
-fn outside_bodies(contraction: &Contraction, nodes: usize, pairs: &[Pair]) -> Vec<Pair> {
+/// The nodes of every final body, increasing.
+fn final_nodes(contraction: &Contraction) -> impl Iterator<Item = &[u32]> + Clone {
     let finals = contraction.finals.iter();
-    let of_node = (0..).zip(finals).flat_map(|(k, &body): (u32, _)| {
-        let nodes = contraction.bodies[body as usize].nodes.iter();
-        nodes.map(move |&v| (v, k))
-    });
-    let bodies = viewcert::graph::Lists::group(nodes, of_node);
-    let together = |&(a, b): &Pair| {
-        let other = bodies.of(b as usize);
-        bodies
-            .of(a as usize)
-            .iter()
-            .any(|k| other.binary_search(k).is_ok())
-    };
-    pairs
-        .iter()
-        .filter(|pair| !together(pair))
-        .copied()
-        .collect()
+    finals.map(|&body| &contraction.bodies[body as usize].nodes[..])
+}
+
+/// For every node the final bodies that it lies in, by their place in the list.
+fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
+    let of_node = (0..).zip(final_nodes(contraction));
+    let of_node = of_node.flat_map(|(k, nodes): (u32, _)| nodes.iter().map(move |&v| (v, k)));
+    Lists::group(nodes, of_node)
+}
+
+/// Whether one body holds both ends.
+fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
+    let other = bodies.of(b as usize);
+    let mut one = bodies.of(a as usize).iter();
+    one.any(|k| other.binary_search(k).is_ok())
 }
 
 /// Which of the candidates are weak, decided on a condensation in which they are pairs.
 fn decided(
     graph: &Graph,
-    model: Model,
     mut candidates: Vec<Pair>,
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+    if candidates.is_empty() {
+        return Ok(Vec::new());
+    }
     let contraction = loop {
         let contraction = Contraction::new(&without(graph, &candidates), options.question.model());
-        let rest = outside_bodies(&contraction, graph.nodes(), &candidates);
+        let bodies = bodies_of_nodes(&contraction, graph.nodes());
+        let pairs = candidates.iter().copied();
+        let rest: Vec<Pair> = pairs.filter(|&pair| !is_in_one(&bodies, pair)).collect();
         if rest.len() == candidates.len() {
             break contraction;
         }
         candidates = rest;
     };
-    let bodies = contraction.finals.iter();
-    let bodies: Vec<&[u32]> = bodies
-        .map(|&body| &contraction.bodies[body as usize].nodes[..])
-        .collect();
+    let bodies: Vec<&[u32]> = final_nodes(&contraction).collect();
     let pairs = || contraction.loose.iter().chain(&candidates).copied();
     let ends = pairs().flat_map(|(a, b)| [a, b]);
     let small = Condensation::new(terminals(&bodies, ends), pairs(), std::iter::empty());
-    let mut search = Search {
-        small: &small,
-        model,
-        open: candidates.iter().map(|&pair| small.pair(pair)).collect(),
-        weak: Vec::new(),
-    };
-    search.run(options)?;
-    let global = |(a, b): Pair| (small.nodes[a as usize], small.nodes[b as usize]);
-    let weak = search.weak.into_iter().map(|(pair, why, strength)| {
-        let why = match why {
-            Why::Counted(other) => Why::Counted(global(other)),
-            why => why,
-        };
-        (global(pair), why, strength)
-    });
-    Ok(weak.collect())
-}
-
-/// Deciding the candidates of a condensation.
-struct Search<'a> {
-    small: &'a Condensation,
-    model: Model,
-    /// Candidates of which nothing is known yet.
-    open: BTreeSet<Pair>,
-    weak: Vec<(Pair, Why, Strength)>,
-}
-
-impl Search<'_> {
-    fn run(&mut self, options: &Options) -> Result<(), VerdictError> {
-        let mut sets: Vec<Vec<Pair>> = vec![self.open.iter().copied().collect()];
-        while let Some(mut set) = sets.pop() {
-            set.retain(|pair| self.open.contains(pair));
-            if set.is_empty() {
-                continue;
-            }
-            let graph = without(&self.small.graph, &set);
-            let verdict = decide(&graph, options)?;
-            let found = Parts::new(&graph, &verdict);
-            // A rigid part without the set, with both ends: the pair follows from it.
-            for &(a, b) in &set {
-                if found.common(a, b).is_some() {
-                    self.open.remove(&(a, b));
-                }
-            }
-            if let [pair] = set[..] {
-                if self.open.remove(&pair) {
-                    self.weak
-                        .push((pair, Why::Decided, verdict.value_claim().strength));
-                    self.exchange(pair, &verdict, &found);
-                }
-            } else {
-                set.retain(|pair| self.open.contains(pair));
-                let half = set.len() / 2;
-                sets.extend([set[half..].to_vec(), set[..half].to_vec()]);
-            }
-        }
-        Ok(())
-    }
-
-    /// The components without a weak pair may refute by their number alone. Then another
-    /// candidate that is a component by itself can take the place of the pair in that count.
-    fn exchange(&mut self, pair: Pair, verdict: &Verdict, found: &Parts) {
-        let sizes = verdict.components.iter().map(|part| part.node_count());
-        let bound: usize = sizes.map(|n| self.model.required(n)).sum();
-        if bound >= verdict.required {
-            return;
-        }
-        for &(other, _) in &found.links {
-            if self.open.remove(&other) {
-                self.weak.push((other, Why::Counted(pair), Strength::Proof));
-            }
-        }
-    }
+    decisions::weak(&small, &candidates, options)
 }
 
 /// The weak images of a component with three nodes or more, increasing.
@@ -382,17 +278,17 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
         &Contraction::new(graph, options.question.model()),
         graph.nodes(),
     ) {
-        open = falling_apart(&thinned(graph, options.question.model()), open, |rest| {
-            check(graph, options)?;
-            let whole = is_one_body(
-                &Contraction::new(rest, options.question.model()),
-                rest.nodes(),
-            );
-            Ok((!whole).then_some(Strength::Proof))
-        })?
-        .into_iter()
-        .map(|(v, _)| v)
-        .collect();
+        let thin = thinned(graph, options.question.model());
+        let mut sorted = sorted_images(&thin, open, options)?;
+        if thin.edges().len() < graph.edges().len() {
+            // What falls apart with fewer pairs need not with all.
+            sorted.open.append(&mut sorted.falls);
+            sorted.open.sort_unstable();
+            sorted = sorted_images(graph, sorted.open, options)?;
+        }
+        let of = |&v| (v, Why::Decided, Strength::Proof);
+        weak.extend(sorted.falls.iter().map(of));
+        open = sorted.open;
     }
     let decided = falling_apart(graph, open, |rest| {
         let verdict = decide(rest, options)?;
@@ -405,6 +301,20 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
     );
     weak.sort_unstable_by_key(|&(v, ..)| v);
     Ok(weak)
+}
+
+/// Some images, given increasing, as far as contraction and counting go.
+fn sorted_images(
+    graph: &Graph,
+    images: Vec<u32>,
+    options: &Options,
+) -> Result<Sorted<u32>, VerdictError> {
+    let mut sorted = Sorted::default();
+    for set in independent(graph, images) {
+        sorted.extend(halves::sort(graph, set, options)?);
+    }
+    sorted.open.sort_unstable();
+    Ok(sorted)
 }
 
 fn is_one_body(contraction: &Contraction, nodes: usize) -> bool {

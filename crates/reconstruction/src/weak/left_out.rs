@@ -6,11 +6,11 @@
 //! each other's bodies: in a camera-point graph half of all points. So two contractions clear
 //! the observations of points with three views and more where tracks abound.
 
-use super::{Pair, check};
+use super::{Pair, bodies_of_nodes, check};
 use viewcert::Graph;
 use viewcert::contract::Contraction;
 use viewcert::decide::{Options, VerdictError};
-use viewcert::graph::{Adjacency, Lists};
+use viewcert::graph::Adjacency;
 
 /// In how many shares nodes are left out: halves, and what that does not clear in eighths.
 const SHARES: [usize; 2] = [2, 8];
@@ -79,12 +79,7 @@ fn not_cleared_without(
     let edges = edges.filter(|&(a, b)| !is_out[a as usize] && !is_out[b as usize]);
     let rest = Graph::new(graph.nodes() as u32, edges).expect("edges of a graph");
     let contraction = Contraction::new(&rest, options.question.model());
-    let finals = (0..).zip(&contraction.finals);
-    let of_node = finals.flat_map(|(k, &body): (u32, _)| {
-        let nodes = contraction.bodies[body as usize].nodes.iter();
-        nodes.map(move |&v| (v, k))
-    });
-    let bodies = Lists::group(graph.nodes(), of_node);
+    let bodies = bodies_of_nodes(&contraction, graph.nodes());
     // For every node left out the body that it has most pairs with, if these are enough.
     let mut anchor = vec![NONE; graph.nodes()];
     let mut at = Vec::new();

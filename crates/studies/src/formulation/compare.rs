@@ -23,7 +23,8 @@ pub const MAX_RESIDUES: usize = 1 << 27;
 /// all together.
 pub const MAX_RATIONALS: usize = 1 << 18;
 
-/// Which matrices are eliminated, and of which it is said beforehand.
+/// Which matrices are eliminated, and of which it is said beforehand. Of the others only the sizes
+/// are found.
 #[derive(Clone, Copy)]
 pub struct Limits<'a> {
     /// Largest matrix, rows times columns.
@@ -177,19 +178,6 @@ pub enum CompareError {
     /// The edge-based matrices have no columns.
     #[error("the graph has no pairs, and so nothing to compare")]
     NoPairs,
-    /// Every matrix is above the limit.
-    #[error(
-        "the graph is too large: the smallest matrix has {rows} rows and {columns} columns, and {limit} entries is the limit; raise it with --limit, or decide the graph with `verify GRAPH`, which \
-         contracts first"
-    )]
-    TooLarge {
-        /// Rows of the smallest matrix.
-        rows: usize,
-        /// Its columns.
-        columns: usize,
-        /// Largest product of the two.
-        limit: usize,
-    },
 }
 
 /// Compares modulo a prime.
@@ -271,22 +259,6 @@ fn compare<F: RankField>(
     }
     let mut key = key(graph, seed);
     let formulations = all::<F>();
-    let sizes = formulations
-        .iter()
-        .map(|formulation| formulation.size(graph))
-        .chain([rigidity_size(graph)]);
-    let entries = |&(rows, columns): &(usize, usize)| rows.saturating_mul(columns);
-    if let Some(smallest) = sizes
-        .min_by_key(entries)
-        .filter(|size| entries(size) > limits.entries)
-    {
-        let (rows, columns) = smallest;
-        return Err(CompareError::TooLarge {
-            rows,
-            columns,
-            limit: limits.entries,
-        });
-    }
     for _ in 0..ATTEMPTS {
         let (cameras, draw) = draw(&key)?;
         key.draw = draw + 1;

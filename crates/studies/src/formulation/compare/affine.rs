@@ -58,14 +58,6 @@ fn compare<F: RankField>(
     if graph.edges().is_empty() {
         return Err(CompareError::NoPairs);
     }
-    let (rows, columns) = directions_size(graph);
-    if rows.saturating_mul(columns) > limits.entries {
-        return Err(CompareError::TooLarge {
-            rows,
-            columns,
-            limit: limits.entries,
-        });
-    }
     let mut key = key(graph, seed);
     for _ in 0..ATTEMPTS {
         let (cameras, draw) = draw(&key)?;
