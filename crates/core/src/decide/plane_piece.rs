@@ -17,7 +17,7 @@ use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::PlaneDirections;
 use crate::graph::{Graph, KnownParts, core_sha256};
-use crate::sparsity::Sparsity;
+use crate::sparsity::Plane;
 use crate::watch::{Step, Stopped, Task, Watch};
 use rayon::prelude::*;
 
@@ -69,7 +69,7 @@ pub fn plane_rank_with_parts(
     let pieces = split.pieces.par_iter().map(|members| {
         let core = assembly.core(members);
         let task = watch.task(Step::Counting, core.graph.nodes());
-        let rank = Sparsity::new(2, &core.graph, &task)?.rank();
+        let rank = Plane::new(&core.graph, &task)?.rank();
         Ok(full(core.total_nodes) + rank - full(core.graph.nodes()))
     });
     let pieces: Vec<usize> = pieces.collect::<Result<_, Stopped>>()?;
@@ -115,7 +115,7 @@ impl Piece<'_> {
     }
 
     fn decide(&self) -> Result<PieceVerdict, VerdictError> {
-        let found = Sparsity::new(2, &self.core.graph, &self.task(Step::Counting))?;
+        let found = Plane::new(&self.core.graph, &self.task(Step::Counting))?;
         let components = self.components(&found);
         let (rank, nodes) = (found.rank(), self.core.graph.nodes());
         let deficit = full(nodes) - rank;
@@ -138,7 +138,7 @@ impl Piece<'_> {
     }
 
     /// The members of every component. All edges of a chain are in one.
-    fn components(&self, found: &Sparsity) -> Vec<Members> {
+    fn components(&self, found: &Plane) -> Vec<Members> {
         let mut of_member = vec![0; self.members.len()];
         for (&owner, &component) in self.core.owner.iter().zip(found.component_of_edges()) {
             of_member[owner as usize] = component as usize;
@@ -198,7 +198,7 @@ impl Piece<'_> {
         } else {
             let core = self.assembly.core(members);
             let task = self.options.watch.task(Step::Counting, core.graph.nodes());
-            let found = Sparsity::new(2, &core.graph, &task)?;
+            let found = Plane::new(&core.graph, &task)?;
             ClassKind::Rigid(vec![pinching(found, &task)?])
         };
         Ok(Class {
@@ -209,7 +209,7 @@ impl Piece<'_> {
 }
 
 /// Why so many edges of a core are independent.
-fn pinching(found: Sparsity, task: &Task) -> Result<Evidence, Stopped> {
+fn pinching(found: Plane, task: &Task) -> Result<Evidence, Stopped> {
     Ok(Evidence::Pinching {
         rank: found.rank(),
         pinching: found.pinching(task)?,

@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn the_pipeline_and_one_game(graph in random_graph()) {
         let verdict = affine(&graph);
-        let found = unwatched(|task| Sparsity::new(2, &graph, task));
+        let found = unwatched(|task| Plane::new(&graph, task));
         prop_assert_eq!(verdict.rank, 4 * found.rank());
         prop_assert_eq!(plane_rank(&graph, &Watch::default()), Ok(found.rank()));
         let mut sets = vec![BTreeSet::new(); found.components()];
