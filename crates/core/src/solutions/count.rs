@@ -6,7 +6,7 @@ use super::members::{Members, Merge, Set, bits, shared};
 use super::minors::Minor;
 use super::points::{AtMost, NoBound, at_most};
 use super::simple::{self, Point};
-use super::support::Span;
+use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::contract::Contraction;
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -368,7 +368,7 @@ struct Charted {
     /// Why.
     ones: Vec<One>,
     /// The spans of a few of the other unknowns.
-    spans: Vec<Span>,
+    spans: Vec<MinorSpan>,
     /// Unknowns whose points are not all rational at these centres.
     irrational: Vec<Vec<usize>>,
 }
@@ -441,7 +441,8 @@ impl Charted {
         for size in FEW + 1..=most.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
                 let system = self.system(&self.centres, draws);
-                let span = system.and_then(|system| Span::new(&system, &self.values, unknowns));
+                let span =
+                    system.and_then(|system| MinorSpan::new(&system, &self.values, unknowns));
                 if let Some(span) = span {
                     self.points(&span, draws, best);
                 }
@@ -451,7 +452,7 @@ impl Charted {
     }
 
     /// Bounds by the points of a span at the first centres.
-    fn points(&mut self, span: &Span, draws: &Draws<'_>, best: &mut Solutions) {
+    fn points(&mut self, span: &MinorSpan, draws: &Draws<'_>, best: &mut Solutions) {
         let Some(system) = self.system(&self.centres, draws) else {
             return;
         };
@@ -476,7 +477,7 @@ impl Charted {
         let Some(system) = self.system(&centres, draws) else {
             return true;
         };
-        let Some(span) = Span::new(&system, &self.values, unknowns) else {
+        let Some(span) = MinorSpan::new(&system, &self.values, unknowns) else {
             return false;
         };
         match at_most(&system, &self.values, &span, &mut draws.residues(draw)) {
@@ -546,7 +547,7 @@ fn simple_points(system: &System<'_>, found: &AtMost) -> Vec<Point> {
 
 /// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the unknowns
 /// that are left, of a few each.
-fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
+fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<MinorSpan>) {
     let mut steps = Vec::new();
     loop {
         steps.extend(settle(system, values).into_iter().map(One::Linear));
@@ -555,7 +556,7 @@ fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
         let mut others = Vec::new();
         for size in 1..=FEW.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
-                if let Some(span) = Span::new(system, values, unknowns) {
+                if let Some(span) = MinorSpan::new(system, values, unknowns) {
                     match span.unique(system) {
                         Some(absent) => found = Some((span, absent)),
                         None => others.push(span),

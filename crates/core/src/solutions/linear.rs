@@ -4,8 +4,8 @@
 //! kernel of what is left has no more than its least dimension, it gives the scale of each freed
 //! row that takes part in it.
 
-use super::echelon::left_kernel;
 use super::system::{System, Values, subsets};
+use crate::linalg::span::left_kernel;
 
 /// One application of the theorem.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,7 +9,6 @@
 
 mod chart;
 mod count;
-mod echelon;
 mod exponents;
 mod linear;
 mod members;

@@ -6,7 +6,7 @@ use super::linear::{Linear, settle};
 use super::minors::Minor;
 use super::outside::{Outside, outside};
 use super::roots::{NoVectors, left_eigenvectors, transport};
-use super::support::Span;
+use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
 
@@ -48,7 +48,7 @@ const MOST_POINTS: usize = 12;
 pub(super) fn at_most(
     system: &System<'_>,
     values: &Values,
-    span: &Span,
+    span: &MinorSpan,
     draw: &mut impl FnMut() -> u64,
 ) -> Result<AtMost, NoBound> {
     // Degrees as they are may do; one more for each unknown is more work and has less kernel.
@@ -84,7 +84,7 @@ struct Form {
 
 impl Space {
     /// `None` if there are too many vectors, or none.
-    fn new(system: &System<'_>, span: &Span, more: usize) -> Option<Self> {
+    fn new(system: &System<'_>, span: &MinorSpan, more: usize) -> Option<Self> {
         let (exponents, absent, kernel) = span.annihilated(system, more, MOST_POINTS)?;
         (!kernel.is_empty()).then_some(Self {
             exponents,
@@ -135,7 +135,7 @@ impl Space {
         &self,
         system: &System<'_>,
         values: &Values,
-        span: &Span,
+        span: &MinorSpan,
         infinite: usize,
         draw: &mut impl FnMut() -> u64,
     ) -> Result<AtMost, NoBound> {

@@ -182,7 +182,7 @@ impl Inflow {
             }
             let mut larger = span.clone();
             for function in &self.functions[k] {
-                larger.insert(field, function);
+                larger.insert(field, function.clone());
             }
             if 3 * larger.dimension() < self.parts.len() {
                 self.extend(field, &larger, k + 1, budget, found, task)?;
