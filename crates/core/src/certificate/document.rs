@@ -7,7 +7,7 @@ use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
 use crate::decide::{
-    Added, Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
+    Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
 };
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
@@ -356,14 +356,14 @@ impl Serialize for View<'_, Evidence> {
                 seed_and_draw(&mut map, draw)?;
                 rows_and_cols(&mut map, pivots)?;
             }
-            Evidence::Counting(found) => counting(&mut map, found)?,
-            Evidence::Overlap(found) => overlap(&mut map, found)?,
-            Evidence::Added(Added { pairs, bound }) => {
-                match bound {
+            Evidence::Upper(upper) => {
+                match &upper.by {
                     Bound::Counting(found) => counting(&mut map, found)?,
                     Bound::Overlap(found) => overlap(&mut map, found)?,
                 }
-                map.serialize_entry("added", pairs)?;
+                if !upper.added.is_empty() {
+                    map.serialize_entry("added", &upper.added)?;
+                }
             }
             Evidence::Draws(Draws { seed, count, rank }) => {
                 map.serialize_entry("kind", "draws")?;

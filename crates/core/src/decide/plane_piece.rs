@@ -7,9 +7,10 @@
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::claim::Strength;
-use crate::decide::counting::Counting;
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{Class, ClassKind, Evidence, ModularDraw, PieceVerdict};
+use crate::decide::evidence::{
+    Bound, Class, ClassKind, Counting, Evidence, ModularDraw, PieceVerdict,
+};
 use crate::decide::motion_class;
 use crate::decide::options::Options;
 use crate::geometry::draw;
@@ -177,7 +178,7 @@ impl Piece<'_> {
             let classes = components.iter().map(|members| self.class(members));
             return Ok(vec![
                 Evidence::PlaneMinor { draw, pivots },
-                Evidence::Counting(counting),
+                Evidence::Upper(Bound::Counting(counting).into()),
                 Evidence::Classes(classes.collect::<Result<_, _>>()?),
                 Evidence::Kernel {
                     draw,

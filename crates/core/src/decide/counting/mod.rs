@@ -19,6 +19,7 @@
 mod hub;
 
 use crate::contract::piece::{Assembly, Members};
+use crate::decide::evidence::{Block, Counting};
 use crate::decide::motion_class;
 use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
@@ -26,28 +27,8 @@ use crate::geometry::plane_flow::PlaneFlows;
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Stopped, Task};
 
-pub use hub::Hub;
-
 /// Up to so many components each is left out in turn.
 const MAX_LEFT_OUT: usize = 64;
-
-/// A partition of a piece's members and the bound on its rank that counting gives.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counting {
-    /// The blocks, in the order of their first members.
-    pub blocks: Vec<Block>,
-    /// The bound: the sum of what the blocks contribute.
-    pub bound: usize,
-}
-
-/// A block of a partition.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// What is in the block.
-    pub members: Members,
-    /// A hub at which it loses rank.
-    pub hub: Option<Hub>,
-}
 
 impl Counting {
     /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8, with
