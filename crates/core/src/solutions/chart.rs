@@ -4,30 +4,11 @@
 //! scales u are one and which are unknowns, and the rows of N(u) (docs/theory.md, (10.1) and
 //! Lemma 10.4).
 
+use super::evidence::{Chart, Scale};
 use super::members::{Members, Set, bits, shared};
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
-
-/// The scale u of a member at a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scale {
-    /// The node, as a node of the graph.
-    pub node: u32,
-    /// The member, by its place in [`Chart::members`], and for a half-edge its second one.
-    pub member: usize,
-}
-
-/// Members, half-edges and the scales that are unknown; all others are one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Chart {
-    /// The shared nodes of every member, as nodes of the graph, in the order of its chain.
-    pub members: Vec<Vec<u32>>,
-    /// `[v, a, b]`: the node v lies in just the members {v, a} and {v, b}, and is eliminated.
-    pub half_edges: Vec<[u32; 3]>,
-    /// The unknowns.
-    pub unknowns: Vec<Scale>,
-}
 
 /// One side of a row of N(u): `scale * vector` in the columns of a node.
 #[derive(Clone, Debug)]

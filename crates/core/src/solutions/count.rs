@@ -1,10 +1,10 @@
 //! How many solutions: what is tried, in which order.
 
-use super::chart::{Chart, Core};
-use super::linear::{Linear, settle};
-use super::members::{Members, Merge, Set, bits, shared};
-use super::minors::Minor;
-use super::points::{AtMost, NoBound, at_most};
+use super::chart::Core;
+use super::evidence::{AtMost, Lower, One, Place, Solutions, Upper};
+use super::linear::settle;
+use super::members::{Members, Set, bits, shared};
+use super::points::{NoBound, at_most};
 use super::simple::{self, Point};
 use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
@@ -15,82 +15,6 @@ use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
 use std::collections::BTreeSet;
-
-/// What is known of the number of solutions of a finite solvable graph, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Solutions {
-    /// There are as many at least; one always is.
-    pub at_least: usize,
-    /// There are no more than that, if such a bound was found.
-    pub at_most: Option<usize>,
-    /// Merges of members; one member is left if they alone are the proof.
-    pub merges: Vec<Merge>,
-    /// What the upper bound rests on, if there is one and merges are not enough.
-    pub upper: Option<Upper>,
-    /// What the lower bound rests on, if it is above one.
-    pub lower: Option<Lower>,
-    /// What the core has more of equations than of unknowns, before parts of it are grown; `None`
-    /// if merges leave one member.
-    pub excess: Option<i64>,
-}
-
-impl Solutions {
-    /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<usize> {
-        self.at_most.filter(|&most| most == self.at_least)
-    }
-}
-
-/// Where the evidence holds: the scales that are unknown, the prime, and the centres.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Members, half-edges and unknowns.
-    pub chart: Chart,
-    /// The modulus.
-    pub prime: u64,
-    /// The shared nodes, as nodes of the graph, and their centres as least residues.
-    pub centres: Vec<(u32, [u64; 3])>,
-}
-
-/// Evidence that some unknowns are one at all solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum One {
-    /// By Theorem 10.6.
-    Linear(Linear),
-    /// By Theorem 10.5: the minors, with all their shifts within the degree bounds, have
-    /// coefficients of a rank one less than there are exponents.
-    Support {
-        /// The unknowns that are one.
-        unknowns: Vec<usize>,
-        /// The largest exponent of each.
-        bounds: Vec<usize>,
-        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
-        absent: Vec<Vec<usize>>,
-        /// Minors that vanish at all solutions.
-        minors: Vec<Minor>,
-    },
-}
-
-/// Evidence for an upper bound.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Upper {
-    /// Where the unknowns are shown to be one.
-    pub place: Place,
-    /// Unknowns that are one, in the order in which they are shown to be.
-    pub ones: Vec<One>,
-    /// The points for the unknowns that are left, and where; nothing if none are.
-    pub points: Option<(Place, AtMost)>,
-}
-
-/// Evidence for a lower bound: simple points of a tight core.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Lower {
-    /// Where.
-    pub place: Place,
-    /// The values of all unknowns at each point, as least residues; u = 1 counts even if it
-    /// is not among them.
-    pub points: Vec<Vec<u64>>,
-}
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

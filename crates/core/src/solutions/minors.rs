@@ -5,32 +5,11 @@
 //! vanish. Each is named by its rows and columns; its polynomial is computed at one
 //! assignment of centres, by interpolation on a grid.
 
+use super::evidence::{Minor, Part};
 use super::exponents::Exponents;
 use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
-
-/// A row of a minor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// A row of N(u).
-    Whole(usize),
-    /// Its first side alone, without scale: the row is freed.
-    Plus(usize),
-    /// Its second side alone, without scale and sign: the row is freed.
-    Minus(usize),
-}
-
-/// A minor of N(u), with rows freed, that vanishes at all solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Minor {
-    /// How many rows are freed.
-    pub freed: usize,
-    /// Its rows: 3 n' - 4 + `freed` + 1 of them.
-    pub rows: Vec<Part>,
-    /// Its columns, as many.
-    pub columns: Vec<usize>,
-}
 
 /// A minor and its polynomial at the centres.
 pub(super) struct Polynomial {

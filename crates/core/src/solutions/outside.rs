@@ -6,33 +6,11 @@
 //! are, so it is not the limit of a solution.
 
 use super::chart::{Row, Side};
+use super::evidence::{Limit, Outside};
 use super::exponents::Exponents;
 use super::system::{System, Values};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::{Span, left_kernel};
-
-/// The value of an unknown on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// A least residue; at 0 the side with the unknown is struck out.
-    Finite(u64),
-    /// The other side of each row is struck out.
-    Infinite,
-}
-
-/// A point on the boundary where N(u) has rank 3 n' - 4 or less, at all centres.
-///
-/// Sets of rows are disjoint. Those in none of them count one each.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outside {
-    /// The values of all unknowns.
-    pub values: Vec<Limit>,
-    /// Rows with both sides and with scales one: those of a set with k nodes have rank 3 k - 4.
-    pub blocks: Vec<Vec<usize>>,
-    /// Rows of rank one less than their number, for just these values of the unknowns that are
-    /// neither 0, 1 nor infinite.
-    pub dependent: Vec<Vec<usize>>,
-}
 
 /// What the others of a point may be, besides those that are read off.
 const LIMITS: [Limit; 3] = [Limit::Finite(1), Limit::Finite(0), Limit::Infinite];

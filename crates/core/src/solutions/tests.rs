@@ -1,8 +1,8 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
-use super::members::{Members, Rule, bits};
-use super::minors::Part;
-use super::outside::{Limit, is_outside};
+use super::evidence::{Limit, Part, Rule};
+use super::members::{Members, bits};
+use super::outside::is_outside;
 use super::simple;
 use super::support::MinorSpan;
 use super::system::{System, Values};

@@ -5,7 +5,7 @@
 //! nodes. The shared nodes get theirs from the kernel of N(u), by (10.1); the others follow their
 //! members. Everything is verified by (1.1) before it leaves.
 
-use super::count::{Lower, Solutions};
+use super::evidence::{Lower, Solutions};
 use crate::geometry::camera::{Camera, normal_form};
 use crate::geometry::draw::{DrawKey, centres_mod};
 use crate::geometry::jacobian::fundamental;
