@@ -1,7 +1,7 @@
 //! The hub bound (Theorem 5.2 of docs/theory.md): parts that meet at a node, and too few plane
 //! flows between them.
 
-use super::Search;
+use super::search::Search;
 use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::evidence::Hub;
 use crate::decide::motion_class;
