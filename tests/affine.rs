@@ -17,7 +17,7 @@ use viewcert::graph::{Graph, UnionFind, graph6, sha256};
 use viewcert::linalg::Ring;
 use viewcert::linalg::prime::PrimeField;
 use viewcert::linalg::sparse_lu::Factorisation;
-use viewcert::sparsity::Sparsity;
+use viewcert::sparsity::Space;
 use viewcert::watch::{Watch, unwatched};
 use viewcert_studies::formulation::affine;
 
@@ -105,7 +105,7 @@ fn in_a_plane(graph: &Graph) {
     assert_eq!(plane_rank(graph, &Watch::default()), Ok(in_plane));
     let generic: Vec<[u64; 3]> = (0..nodes).map(|_| [random(), random(), random()]).collect();
     let generic = rank(&field, rigidity_rows(&field, graph, &generic), 3 * nodes);
-    let counted = unwatched(|task| Sparsity::new(3, graph, task)).rank();
+    let counted = unwatched(|task| Space::new(graph, task)).rank();
     assert_eq!(counted, generic, "{graph:?}");
 }
 

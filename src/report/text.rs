@@ -4,7 +4,7 @@ use super::{Report, counted, database, size_with_parts, tracks};
 use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
-use viewcert::decide::{Value, Verdict};
+use viewcert::decide::{Bound, Value, Verdict};
 use viewcert::geometry::model::Model;
 
 /// How many components are shown with their sizes.
@@ -177,15 +177,17 @@ pub(super) fn reason(report: &Report) -> String {
         }
         Strength::Proof if !verdict.pieces.is_empty() && covered < verdict.required => {
             let mut evidence = verdict.pieces.iter().flat_map(|piece| &piece.evidence);
-            let is_more =
-                |one: &&Evidence| matches!(one, Evidence::Overlap(_) | Evidence::Added(_));
-            match evidence.find(is_more) {
-                Some(Evidence::Added(_)) => {
-                    format!("pairs that are implied allow rank {covered} at most")
+            let more = evidence.find_map(|one| match one {
+                Evidence::Upper(upper) if !upper.added.is_empty() => {
+                    Some("pairs that are implied allow")
                 }
-                Some(_) => format!("two parts that overlap allow rank {covered} at most"),
-                None => format!("counting allows rank {covered} at most"),
-            }
+                Evidence::Upper(upper) if matches!(upper.by, Bound::Overlap(_)) => {
+                    Some("two parts that overlap allow")
+                }
+                _ => None,
+            });
+            let more = more.unwrap_or("counting allows");
+            format!("{more} rank {covered} at most")
         }
         Strength::Proof => match report.input.cameras {
             None if !verdict.known_parts.is_empty() => {

@@ -1,5 +1,6 @@
 //! The members of the certificate, borrowed from a verdict.
 
+use super::objects::{Big, bigs, objects};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
 use crate::contract::{Body, Merge, Part, Seed};
@@ -7,7 +8,7 @@ use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
 use crate::decide::{
-    Added, Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
+    Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
 };
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
@@ -17,37 +18,6 @@ use crate::solutions::Solutions;
 use crate::sparsity::PinchingStep;
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Serialize, Serializer};
-use std::fmt::Display;
-
-/// Declares objects by their members, in the order in which these are written; those behind
-/// `optional` are left out if there are none.
-macro_rules! objects {
-    ($($name:ident $(<$($parameter:tt),+>)? {
-        $($member:ident: $type:ty),* $(,)? $(; optional $($more:ident: $more_type:ty),* $(,)?)?
-    })*) => {$(
-        pub(super) struct $name $(<$($parameter),+>)? {
-            $($member: $type,)*
-            $($($more: Option<$more_type>),*)?
-        }
-
-        impl $(<$($parameter),+>)? Serialize for $name $(<$($parameter),+>)?
-        where
-            $($type: Serialize,)*
-            $($($more_type: Serialize),*)?
-        {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                use serde::ser::SerializeMap as _;
-                let mut map = serializer.serialize_map(None)?;
-                $(map.serialize_entry(stringify!($member), &self.$member)?;)*
-                $($(if let Some(more) = &self.$more {
-                    map.serialize_entry(stringify!($more), more)?;
-                })*)?
-                map.end()
-            }
-        }
-    )*};
-}
-pub(super) use objects;
 
 objects! {
     Document<'a> {
@@ -186,15 +156,6 @@ impl<T> Valued<T> {
 /// Bytes in lower-case hexadecimal digits.
 pub fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-/// A number that other readers might round, as a string.
-pub(super) struct Big<T>(pub(super) T);
-
-impl<T: Display> Serialize for Big<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(&self.0)
-    }
 }
 
 /// An edge, or the number of a body.
@@ -356,14 +317,14 @@ impl Serialize for View<'_, Evidence> {
                 seed_and_draw(&mut map, draw)?;
                 rows_and_cols(&mut map, pivots)?;
             }
-            Evidence::Counting(found) => counting(&mut map, found)?,
-            Evidence::Overlap(found) => overlap(&mut map, found)?,
-            Evidence::Added(Added { pairs, bound }) => {
-                match bound {
+            Evidence::Upper(upper) => {
+                match &upper.by {
                     Bound::Counting(found) => counting(&mut map, found)?,
                     Bound::Overlap(found) => overlap(&mut map, found)?,
                 }
-                map.serialize_entry("added", pairs)?;
+                if !upper.added.is_empty() {
+                    map.serialize_entry("added", &upper.added)?;
+                }
             }
             Evidence::Draws(Draws { seed, count, rank }) => {
                 map.serialize_entry("kind", "draws")?;
@@ -412,10 +373,6 @@ fn flat(step: &PinchingStep) -> Vec<u32> {
     let pinched = step.pinched.into_iter().flat_map(|(a, b)| [a, b]);
     let ends = pinched.chain(step.ends.iter().copied());
     std::iter::once(step.node).chain(ends).collect()
-}
-
-pub(super) fn bigs<T: Display>(values: &[T]) -> Vec<Big<&T>> {
-    values.iter().map(Big).collect()
 }
 
 fn seed_and_draw<M: SerializeMap>(map: &mut M, draw: &ModularDraw) -> Result<(), M::Error> {

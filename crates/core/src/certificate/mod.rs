@@ -6,6 +6,7 @@
 
 mod document;
 mod lines;
+mod objects;
 mod solutions;
 
 pub use document::hex;

@@ -4,7 +4,7 @@
 //! The evidence names members by their shared nodes; the certificate numbers them: first those of
 //! the piece, then one for each merge. So the merges are done again here, on sets of nodes.
 
-use super::document::{Big, bigs, objects};
+use super::objects::{Big, bigs, objects};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{

@@ -6,48 +6,20 @@
 //! others make the rank larger. With them parts can meet in what is rigid only together.
 
 use crate::contract::piece::Members;
-use crate::decide::counting::Counting;
 use crate::decide::drawn::Centres;
 use crate::decide::error::VerdictError;
-use crate::decide::one_piece::Piece;
-use crate::decide::overlap::{self, Overlap};
+use crate::decide::evidence::{Bound, Upper};
+use crate::decide::overlap;
+use crate::decide::walk::Piece;
 use crate::geometry::model::Model;
 use crate::linalg::prime::PrimeField;
 use crate::watch::Step;
-
-/// Pairs, and a bound for the piece with these.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Added {
-    /// Pairs (i, j), i < j, of nodes of the piece, increasing; no member has both nodes of one.
-    pub pairs: Vec<(u32, u32)>,
-    /// The bound. These pairs are edges among its members.
-    pub bound: Bound,
-}
-
-/// An upper bound on a rank.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Bound {
-    /// By counting.
-    Counting(Counting),
-    /// By two parts that overlap.
-    Overlap(Overlap),
-}
-
-impl Bound {
-    /// The bound.
-    pub fn value(&self) -> usize {
-        match self {
-            Self::Counting(counting) => counting.bound,
-            Self::Overlap(overlap) => overlap.bound,
-        }
-    }
-}
 
 /// Looks for implied pairs with which a bound is `target`, a lower bound on the rank of the piece.
 ///
 /// # Errors
 /// If cameras cannot be drawn, or the search was stopped.
-pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Added>, VerdictError> {
+pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Upper>, VerdictError> {
     let is_small = piece.core.graph.nodes() <= overlap::MAX_NODES;
     if piece.model() != Model::Projective || !is_small {
         return Ok(None);
@@ -64,7 +36,7 @@ pub(super) fn search(piece: &Piece, target: usize) -> Result<Option<Added>, Verd
         Some(counting) => Some(Bound::Counting(counting)),
         None => overlap::search(&larger, target)?.map(Bound::Overlap),
     };
-    Ok(bound.map(|bound| Added { pairs, bound }))
+    Ok(bound.map(|by| Upper { by, added: pairs }))
 }
 
 /// The pairs of nodes of the core, of no member both, that leave the rank as it is.

@@ -10,14 +10,13 @@
 
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
-use crate::decide::drawn::{Centres, Ranks};
+use crate::decide::drawn::Centres;
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::Evidence;
 use crate::decide::options::Options;
 use crate::decide::question::{Arithmetic, CountSolutions, Method, Projective, Question};
-use crate::geometry::draw::DrawKey;
-use crate::geometry::model::Model;
-use crate::graph::{Adjacency, Graph, core_sha256};
+use crate::decide::walk::Piece;
+use crate::graph::{Adjacency, Graph};
 use rayon::prelude::*;
 use std::collections::VecDeque;
 
@@ -185,26 +184,19 @@ impl Search<'_> {
     fn rigid_parts(&self, members: &Members) -> Result<Vec<(Members, Evidence)>, VerdictError> {
         let mut found = Vec::new();
         let mut left = self.assembly.split(members).pieces;
-        while let Some(piece) = left.pop() {
-            let core = self.assembly.core(&piece);
-            let key = DrawKey {
-                graph_sha256: *self.sha256,
-                core_sha256: Some(core_sha256(&core.nodes, &core.graph)),
-                seed: self.options.seed,
-                draw: 0,
-            };
-            let nodes = core.graph.nodes();
-            let field = self.options.prime.for_core(nodes);
+        while let Some(members) = left.pop() {
+            let core = self.assembly.core(&members);
+            let piece = Piece::new(self.assembly, &members, &core, self.sha256, self.options);
+            let field = self.options.prime.for_core(piece.nodes());
             // A prime too small for so many centres proves nothing here.
-            let Ok(at) = Centres::draw(&field, nodes, key) else {
+            let Ok(at) = Centres::draw(&field, piece.nodes(), piece.key(0)) else {
                 continue;
             };
-            let ranks = Ranks::new(Model::Projective, &self.options.watch, &at, &core)?;
-            if ranks.rank == Model::Projective.required(nodes) {
-                found.push((piece, ranks.evidence()));
-            } else if let Some((classes, _)) = ranks.classes(&piece)
-                && classes.len() >= 2
-            {
+            let ranks = piece.ranks(&at)?;
+            if ranks.rank == piece.required() {
+                let evidence = ranks.evidence();
+                found.push((members, evidence));
+            } else if let Some((classes, _)) = ranks.separate(&members) {
                 for class in classes {
                     left.extend(self.assembly.split(&class).pieces);
                 }

@@ -112,8 +112,9 @@ impl<'a> Ranks<'a> {
     }
 
     /// The motion classes of the members that have this core (Theorem 6.4, calibrated 6.8), and
-    /// the kernel vector that shows them. `None` if the random flows do not span all of them.
-    pub(super) fn classes(&self, members: &Members) -> Option<(Vec<Members>, Evidence)> {
+    /// the kernel vector that shows them. `None` if there is one class, or the random flows do not
+    /// span all of them.
+    pub(super) fn separate(&self, members: &Members) -> Option<(Vec<Members>, Evidence)> {
         let field = &self.at.field;
         let mut random = self.at.key.residues(field);
         let (classes, entries) = match &self.lambda {
@@ -128,6 +129,9 @@ impl<'a> Ranks<'a> {
                 (found, y)
             }
         };
+        if classes.len() < 2 {
+            return None;
+        }
         let kernel = Evidence::Kernel {
             draw: self.at.draw,
             vector: entries.iter().map(|&x| field.to_u64(x)).collect(),

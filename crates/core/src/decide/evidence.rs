@@ -2,10 +2,7 @@
 //! section 7, as the pipeline finds them.
 
 use crate::contract::piece::Members;
-use crate::decide::added::Added;
 use crate::decide::claim::Strength;
-use crate::decide::counting::Counting;
-use crate::decide::overlap::Overlap;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::linalg::integer::Integer;
@@ -56,12 +53,8 @@ pub enum Evidence {
         /// Rows and columns.
         pivots: Pivots,
     },
-    /// An upper bound by counting.
-    Counting(Counting),
-    /// An upper bound from two parts that overlap.
-    Overlap(Overlap),
-    /// One of these for the piece with more pairs.
-    Added(Added),
+    /// An upper bound.
+    Upper(Upper),
     /// The rank at draws that nobody can choose.
     Draws(Draws),
     /// The motion classes, which the components refine.
@@ -73,6 +66,122 @@ pub enum Evidence {
         /// Entry `12 v + 3 c + r` (calibrated: `3 v + r`, affine: `2 v + r`), residues.
         vector: Vec<u64>,
     },
+}
+
+/// An upper bound on the rank of a piece.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Upper {
+    /// The bound, for the piece with the added pairs as edges among its members.
+    pub by: Bound,
+    /// Pairs (i, j), i < j, of nodes of the piece, increasing; no member has both nodes of one. More
+    /// pairs make no rank smaller (Corollary 5.13).
+    pub added: Vec<(u32, u32)>,
+}
+
+/// How a rank is bounded from above.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// By counting.
+    Counting(Counting),
+    /// By two parts that overlap.
+    Overlap(Overlap),
+}
+
+impl Upper {
+    /// The bound.
+    pub fn value(&self) -> usize {
+        match &self.by {
+            Bound::Counting(counting) => counting.bound,
+            Bound::Overlap(overlap) => overlap.bound,
+        }
+    }
+
+    /// What is counted for it.
+    pub fn countings(&self) -> impl Iterator<Item = &Counting> {
+        let (first, second) = match &self.by {
+            Bound::Counting(counting) => (counting, None),
+            Bound::Overlap(overlap) => (&overlap.first, Some(&overlap.second)),
+        };
+        [first].into_iter().chain(second)
+    }
+}
+
+impl From<Bound> for Upper {
+    fn from(by: Bound) -> Self {
+        Self {
+            by,
+            added: Vec::new(),
+        }
+    }
+}
+
+/// A partition of a piece's members and the bound on its rank that counting gives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counting {
+    /// The blocks, in the order of their first members.
+    pub blocks: Vec<Block>,
+    /// The bound: the sum of what the blocks contribute.
+    pub bound: usize,
+}
+
+/// A block of a partition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// What is in the block.
+    pub members: Members,
+    /// A hub at which it loses rank.
+    pub hub: Option<Hub>,
+}
+
+/// A node at which a block loses rank. With every part of `split` given its own copy of
+/// the node, kappa the number of connected components of what results, and s the sum
+/// over the groups of 3 n_g - 4 less 3 n_B - 4, it loses at least
+/// |split| - (kappa - 1) - 3 s.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hub {
+    /// The node.
+    pub node: u32,
+    /// A partition of the block's members.
+    pub parts: Vec<Members>,
+    /// The parts, increasing, that get their own copy of the node.
+    pub split: Vec<u32>,
+    /// A partition of the parts, for the bound on the rank of N of the split graph.
+    pub groups: Vec<Vec<u32>>,
+    /// kappa; the node counts as a component if no part outside `split` contains it.
+    pub components: usize,
+    /// What the block loses, at least 1.
+    pub less: usize,
+}
+
+/// Two sets of members that cover a piece, and the bound on its rank that they give.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Overlap {
+    /// Blocks of the first set, and what they contribute.
+    pub first: Counting,
+    /// Blocks of the second set, and what they contribute.
+    pub second: Counting,
+    /// What is in both.
+    pub shared: Shared,
+    /// What the blocks contribute less the lower bound of what is in both.
+    pub bound: usize,
+}
+
+/// The members that are in both sets, cut into pieces whose ranks add up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shared {
+    /// Those that are pieces by themselves.
+    pub rigid: Members,
+    /// The other pieces.
+    pub pieces: Vec<SharedPiece>,
+}
+
+/// A piece of what is in both sets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SharedPiece {
+    /// The piece.
+    pub members: Members,
+    /// Lower bounds for its core.
+    pub evidence: Vec<Evidence>,
 }
 
 /// A motion class of a piece: members that no motion of the piece tells apart.

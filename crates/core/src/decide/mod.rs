@@ -21,7 +21,7 @@
 //! ```
 //!
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
-//! pieces are in `one_piece`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
+//! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
 //! paper's own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What is asked is in `question`, with what it is decided in `options`, what is
@@ -44,14 +44,13 @@ mod question;
 mod solution_count;
 mod stresses;
 mod verdict;
+mod walk;
 mod whole_matrix;
 
-pub use added::{Added, Bound};
 pub use claim::{Claim, Strength, UnknownStrength};
-pub use counting::{Block, Counting, Hub};
 pub use error::VerdictError;
+pub use evidence::{Block, Bound, Counting, Hub, Overlap, Shared, SharedPiece, Upper};
 pub use options::{Options, Prime};
-pub use overlap::{Overlap, Shared, SharedPiece};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
 pub use question::{
     Arithmetic, Calibrated, CountSolutions, Known, Method, Projective, ProjectiveBodies, Question,

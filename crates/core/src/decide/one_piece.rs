@@ -5,28 +5,19 @@
 //! falls short is cut into motion classes (Theorem 6.4), whose own pieces are decided as this
 //! one is (Theorem 6.3).
 
-use crate::contract::piece::{Assembly, Core, Members, Split};
+use crate::contract::piece::{Assembly, Members};
 use crate::decide::added;
 use crate::decide::claim::Strength;
-use crate::decide::counting;
-use crate::decide::counting::Counting;
-use crate::decide::drawn::{Centres, Ranks};
+use crate::decide::drawn::Centres;
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict};
+use crate::decide::evidence::{Bound, Class, ClassKind, Draws, Evidence, PieceVerdict, Upper};
 use crate::decide::options::Options;
 use crate::decide::overlap;
 use crate::decide::question::{Arithmetic, Method, Question};
+use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
-use crate::geometry::draw::DrawKey;
-use crate::geometry::model::Model;
-use crate::graph::core_sha256;
-use crate::linalg::prime::PrimeField;
-use crate::watch::{Step, Stopped, Task};
+use crate::watch::Step;
 use rayon::prelude::*;
-
-/// How many draws are tried modulo the given prime before the question is left open.
-/// Modulo a prime near 2^61 the first one does.
-const ATTEMPTS: u64 = 64;
 
 /// Decides pieces of two members or more, in parallel.
 pub(super) fn decide_all(
@@ -42,16 +33,6 @@ pub(super) fn decide_all(
     decided.collect()
 }
 
-/// A piece, or a part of one that is a piece by itself.
-pub(super) struct Piece<'a> {
-    pub(super) assembly: &'a Assembly,
-    pub(super) members: &'a Members,
-    pub(super) core: &'a Core,
-    sha256: &'a [u8; 32],
-    core_sha256: [u8; 32],
-    pub(super) options: &'a Options,
-}
-
 /// Why the rank of a piece is no larger, and its motion classes no coarser.
 struct Settled {
     strength: Strength,
@@ -61,62 +42,7 @@ struct Settled {
     kernels: Vec<Evidence>,
 }
 
-impl<'a> Piece<'a> {
-    fn new(
-        assembly: &'a Assembly,
-        members: &'a Members,
-        core: &'a Core,
-        sha256: &'a [u8; 32],
-        options: &'a Options,
-    ) -> Self {
-        Self {
-            assembly,
-            members,
-            core,
-            sha256,
-            core_sha256: core_sha256(&core.nodes, &core.graph),
-            options,
-        }
-    }
-
-    /// A part of it that is a piece by itself, with its core.
-    pub(super) fn part<'b>(&'b self, members: &'b Members, core: &'b Core) -> Piece<'b> {
-        Piece::new(self.assembly, members, core, self.sha256, self.options)
-    }
-
-    pub(super) fn model(&self) -> Model {
-        self.options.question.model()
-    }
-
-    fn nodes(&self) -> usize {
-        self.core.graph.nodes()
-    }
-
-    pub(super) fn key(&self, draw: u64) -> DrawKey {
-        DrawKey {
-            graph_sha256: *self.sha256,
-            core_sha256: Some(self.core_sha256),
-            seed: self.options.seed,
-            draw,
-        }
-    }
-
-    pub(super) fn task(&self, step: Step) -> Task<'_> {
-        self.options.watch.task(step, self.nodes())
-    }
-
-    /// The rank of the core of a finite solvable piece.
-    fn required(&self) -> usize {
-        self.core.required(self.model())
-    }
-
-    /// The rank of the piece from that of its core (Theorem 4.4; calibrated: Theorems 4.11
-    /// and 13.18).
-    pub(super) fn rank_of_piece(&self, core_rank: usize) -> usize {
-        let scale = usize::from(!self.core.scales.is_empty());
-        self.model().required(self.core.total_nodes) + scale + core_rank - self.required()
-    }
-
+impl Piece<'_> {
     /// The verdict on a piece of full rank.
     fn full(&self, evidence: Vec<Evidence>) -> PieceVerdict {
         let rank = self.rank_of_piece(self.required());
@@ -129,10 +55,6 @@ impl<'a> Piece<'a> {
             rank_strength: Strength::Proof,
             components_strength: Strength::Proof,
         }
-    }
-
-    pub(super) fn ranks<'c>(&'c self, at: &'c Centres) -> Result<Ranks<'c>, Stopped> {
-        Ranks::new(self.model(), &self.options.watch, at, self.core)
     }
 
     /// Decides at one draw of centres after another, until one will do.
@@ -199,27 +121,10 @@ impl<'a> Piece<'a> {
         let classes = self.decide_classes(&found, at.draw.draw)?;
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let lower = self.rank_of_piece(ranks.rank);
-        let mut upper = self.rank_of_piece(self.required());
-        if let Some(counting) = self.count(at, &components, lower)?
-            && counting.bound < upper
-        {
-            upper = counting.bound;
-            evidence.push(Evidence::Counting(counting));
-        }
-        if lower < upper
-            && self.options.question.counting()
-            && let Some(overlap) = overlap::search(self, lower)?
-        {
-            upper = overlap.bound;
-            evidence.push(Evidence::Overlap(overlap));
-        }
-        if lower < upper
-            && self.options.question.counting()
-            && let Some(added) = added::search(self, lower)?
-        {
-            upper = added.bound.value();
-            evidence.push(Evidence::Added(added));
-        }
+        let bounds = self.bounds(at, &components, lower)?;
+        let full = self.rank_of_piece(self.required());
+        let upper = bounds.last().map_or(full, Upper::value);
+        evidence.extend(bounds.into_iter().map(Evidence::Upper));
         let settled = if lower == upper {
             Settled {
                 strength: Strength::Proof,
@@ -249,12 +154,31 @@ impl<'a> Piece<'a> {
         }))
     }
 
-    /// The motion classes, two or more, with the kernel vector that separates them; `None` if
-    /// these centres (or so small a prime) show no such thing.
-    fn separate(&self, ranks: &Ranks) -> Option<(Vec<Members>, Evidence)> {
-        let _work = self.task(Step::Components).begin(0);
-        let found = ranks.classes(self.members);
-        found.filter(|(classes, _)| classes.len() >= 2)
+    /// Upper bounds below full rank, each better than the one before, until one is the rank; none if
+    /// nobody wants to count.
+    fn bounds(
+        &self,
+        at: &Centres,
+        components: &[Members],
+        lower: usize,
+    ) -> Result<Vec<Upper>, VerdictError> {
+        let mut found: Vec<Upper> = Vec::new();
+        if !self.options.question.counting() {
+            return Ok(found);
+        }
+        let counting = self.count(at, components, lower)?;
+        if counting.bound < self.rank_of_piece(self.required()) {
+            found.push(Bound::Counting(counting).into());
+        }
+        let is_open = |found: &[Upper]| found.last().is_none_or(|bound| bound.value() > lower);
+        if is_open(&found) {
+            let overlap = overlap::search(self, lower)?;
+            found.extend(overlap.map(|overlap| Bound::Overlap(overlap).into()));
+        }
+        if is_open(&found) {
+            found.extend(added::search(self, lower)?);
+        }
+        Ok(found)
     }
 
     /// Looks for the components of every motion class.
@@ -277,118 +201,14 @@ impl<'a> Piece<'a> {
     }
 
     fn class_kind(&self, members: &Members, draw: u64) -> Result<ClassKind, VerdictError> {
-        if members.len() == 1 {
-            return Ok(ClassKind::Single);
-        }
-        let split = self.assembly.split(members);
-        if let Some(evidence) = self.full_rank(members, &split, draw)? {
-            return Ok(ClassKind::Rigid(vec![evidence]));
-        }
-        Ok(ClassKind::Loose {
-            pieces: decide_all(self.assembly, &split.pieces, self.sha256, self.options)?,
-            rigid: split.rigid,
+        Ok(match self.alone(members, draw)? {
+            Alone::Single => ClassKind::Single,
+            Alone::Rigid(evidence) => ClassKind::Rigid(vec![evidence]),
+            Alone::Loose(split) => ClassKind::Loose {
+                pieces: decide_all(self.assembly, &split.pieces, self.sha256, self.options)?,
+                rigid: split.rigid,
+            },
         })
-    }
-
-    /// A proof that a part, cut into these pieces, has full rank, from draw `from` on; `None` if it
-    /// seems not to.
-    fn full_rank(
-        &self,
-        part: &Members,
-        split: &Split,
-        from: u64,
-    ) -> Result<Option<Evidence>, VerdictError> {
-        if !split.rigid.is_empty() || split.pieces.len() != 1 {
-            return Ok(None);
-        }
-        let core = self.assembly.core(part);
-        let part = self.part(part, &core);
-        let (evidence, rank) = part.best_draw(from)?;
-        Ok((rank == part.required()).then_some(evidence))
-    }
-
-    /// The best lower bound for the core that draws from `from` on give, with the rank.
-    pub(super) fn best_draw(&self, from: u64) -> Result<(Evidence, usize), VerdictError> {
-        let field = self.options.prime.for_core(self.nodes());
-        // Where bad luck is rare one draw tells: what it misses is looked at in another way.
-        let attempts = if field.modulus() >> 10 > 22 * self.nodes() as u64 {
-            1
-        } else {
-            ATTEMPTS
-        };
-        let mut best = None;
-        let mut next = from;
-        for _ in 0..attempts {
-            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
-            next = at.draw.draw + 1;
-            let ranks = self.ranks(&at)?;
-            if best.as_ref().is_none_or(|&(_, rank)| ranks.rank > rank) {
-                best = Some((ranks.evidence(), ranks.rank));
-            }
-            if ranks.rank == self.required() {
-                break;
-            }
-        }
-        Ok(best.expect("one draw at least"))
-    }
-
-    /// The bound by counting, if it is the rank.
-    pub(super) fn counted(&self) -> Result<Option<Counting>, VerdictError> {
-        // Where to look is not a claim: a large prime looks best.
-        let field = PrimeField::mersenne61();
-        let at = Centres::draw(&field, self.nodes(), self.key(0))?;
-        let ranks = self.ranks(&at)?;
-        let whole = std::slice::from_ref(self.members);
-        let block = Counting::partition(self.model(), self.assembly, whole);
-        if ranks.rank == self.required() {
-            return Ok(Some(block));
-        }
-        let Some((classes, _)) = self.separate(&ranks) else {
-            return Ok(None);
-        };
-        let mut components = Vec::new();
-        for class in classes {
-            let split = self.assembly.split(&class);
-            if class.len() == 1 || self.full_rank(&class, &split, 0)?.is_some() {
-                components.push(class);
-            } else {
-                // Any partition will do to count by.
-                components.extend(class.singles());
-            }
-        }
-        let rank = self.rank_of_piece(ranks.rank);
-        let bound = self.count(&at, &components, rank)?;
-        Ok(bound.filter(|bound| bound.bound <= rank))
-    }
-
-    /// The upper bound by counting (Theorem 5.5), unless it is not wanted.
-    fn count(
-        &self,
-        at: &Centres,
-        components: &[Members],
-        lower: usize,
-    ) -> Result<Option<Counting>, Stopped> {
-        if !self.options.question.counting() {
-            return Ok(None);
-        }
-        // Where to look is not a claim: a large prime looks best.
-        let field = PrimeField::mersenne61();
-        let work = self.task(Step::Counting).begin(0);
-        work.done(0)?;
-        let mut search = counting::Search {
-            field: &field,
-            random: &mut at.key.residues(&field),
-            task: work.task(),
-        };
-        counting::count(
-            self.model(),
-            self.assembly,
-            self.members,
-            components,
-            lower,
-            &mut search,
-        )
-        .map(Some)
     }
 
     /// The draws that bound the error of `rank` and `classes` (Theorem 7.2 and Proposition 7.4);
@@ -416,7 +236,7 @@ impl<'a> Piece<'a> {
             next = at.draw.draw + 1;
             let ranks = self.ranks(&at)?;
             largest = largest.max(ranks.rank);
-            let Some((found, kernel)) = ranks.classes(self.members) else {
+            let Some((found, kernel)) = ranks.separate(self.members) else {
                 return Ok(None);
             };
             if ranks.rank > rank || found != classes {

@@ -7,9 +7,10 @@
 use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Core, Members};
 use crate::decide::claim::Strength;
-use crate::decide::counting::Counting;
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::{Class, ClassKind, Evidence, ModularDraw, PieceVerdict};
+use crate::decide::evidence::{
+    Bound, Class, ClassKind, Counting, Evidence, ModularDraw, PieceVerdict,
+};
 use crate::decide::motion_class;
 use crate::decide::options::Options;
 use crate::geometry::draw;
@@ -17,7 +18,7 @@ use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::PlaneDirections;
 use crate::graph::{Graph, KnownParts, core_sha256};
-use crate::sparsity::Sparsity;
+use crate::sparsity::Plane;
 use crate::watch::{Step, Stopped, Task, Watch};
 use rayon::prelude::*;
 
@@ -69,7 +70,7 @@ pub fn plane_rank_with_parts(
     let pieces = split.pieces.par_iter().map(|members| {
         let core = assembly.core(members);
         let task = watch.task(Step::Counting, core.graph.nodes());
-        let rank = Sparsity::new(2, &core.graph, &task)?.rank();
+        let rank = Plane::new(&core.graph, &task)?.rank();
         Ok(full(core.total_nodes) + rank - full(core.graph.nodes()))
     });
     let pieces: Vec<usize> = pieces.collect::<Result<_, Stopped>>()?;
@@ -115,7 +116,7 @@ impl Piece<'_> {
     }
 
     fn decide(&self) -> Result<PieceVerdict, VerdictError> {
-        let found = Sparsity::new(2, &self.core.graph, &self.task(Step::Counting))?;
+        let found = Plane::new(&self.core.graph, &self.task(Step::Counting))?;
         let components = self.components(&found);
         let (rank, nodes) = (found.rank(), self.core.graph.nodes());
         let deficit = full(nodes) - rank;
@@ -138,7 +139,7 @@ impl Piece<'_> {
     }
 
     /// The members of every component. All edges of a chain are in one.
-    fn components(&self, found: &Sparsity) -> Vec<Members> {
+    fn components(&self, found: &Plane) -> Vec<Members> {
         let mut of_member = vec![0; self.members.len()];
         for (&owner, &component) in self.core.owner.iter().zip(found.component_of_edges()) {
             of_member[owner as usize] = component as usize;
@@ -177,7 +178,7 @@ impl Piece<'_> {
             let classes = components.iter().map(|members| self.class(members));
             return Ok(vec![
                 Evidence::PlaneMinor { draw, pivots },
-                Evidence::Counting(counting),
+                Evidence::Upper(Bound::Counting(counting).into()),
                 Evidence::Classes(classes.collect::<Result<_, _>>()?),
                 Evidence::Kernel {
                     draw,
@@ -198,7 +199,7 @@ impl Piece<'_> {
         } else {
             let core = self.assembly.core(members);
             let task = self.options.watch.task(Step::Counting, core.graph.nodes());
-            let found = Sparsity::new(2, &core.graph, &task)?;
+            let found = Plane::new(&core.graph, &task)?;
             ClassKind::Rigid(vec![pinching(found, &task)?])
         };
         Ok(Class {
@@ -209,7 +210,7 @@ impl Piece<'_> {
 }
 
 /// Why so many edges of a core are independent.
-fn pinching(found: Sparsity, task: &Task) -> Result<Evidence, Stopped> {
+fn pinching(found: Plane, task: &Task) -> Result<Evidence, Stopped> {
     Ok(Evidence::Pinching {
         rank: found.rank(),
         pinching: found.pinching(task)?,

@@ -60,9 +60,10 @@ impl SolutionCount {
             CountSolutions::Quick => nodes <= QUICK[0] && unknowns <= QUICK[1],
             CountSolutions::Full => true,
         };
-        let found = match worth_it {
-            true => count_in(graph, contraction, Effort::default(), seed, task)?,
-            false => None,
+        let found = if worth_it {
+            count_in(graph, contraction, Effort::default(), seed, task)?
+        } else {
+            None
         };
         Ok(Self {
             at_least: found.as_ref().map_or(1, |found| found.at_least),

@@ -60,7 +60,7 @@ impl<'a> Stresses<'a> {
                         values.fold(0, |sum, value| field.add(&sum, &value))
                     })
                     .collect();
-                spans[owner as usize].insert(field, &seen);
+                spans[owner as usize].insert(field, seen);
             }
         }
         Ok(Self {
@@ -118,7 +118,7 @@ impl<'a> Stresses<'a> {
         for (position, vectors) in self.of_member.iter().enumerate() {
             if set >> position & 1 == 1 {
                 for vector in vectors {
-                    span.insert(self.field, vector);
+                    span.insert(self.field, vector.clone());
                 }
             }
         }

@@ -7,11 +7,10 @@ use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::decide::solution_count::SolutionCount;
 use crate::geometry::model::Model;
 use crate::graph::{Displacements, Graph, KnownParts};
-use std::fmt;
-use std::str::FromStr;
+use crate::named::named;
 use std::sync::Arc;
 
-/// The answer.
+/// The answer, the strongest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// The cameras are unique up to a projective map (calibrated: up to scale and
@@ -23,49 +22,13 @@ pub enum Value {
     NotFiniteSolvable,
 }
 
-impl Value {
-    /// All answers, the strongest first.
-    pub const ALL: [Self; 3] = [
-        Self::Solvable,
-        Self::FiniteSolvable,
-        Self::NotFiniteSolvable,
-    ];
-
-    /// The name in certificates and in JSON output.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Solvable => "solvable",
-            Self::FiniteSolvable => "finite-solvable",
-            Self::NotFiniteSolvable => "not-finite-solvable",
-        }
+named! {
+    Value {
+        Solvable = "solvable",
+        FiniteSolvable = "finite-solvable",
+        NotFiniteSolvable = "not-finite-solvable",
     }
-}
-
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-/// A word that is not the name of an answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnknownValue;
-
-impl fmt::Display for UnknownValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the answers are solvable, finite-solvable and not-finite-solvable")
-    }
-}
-
-impl std::error::Error for UnknownValue {}
-
-impl FromStr for Value {
-    type Err = UnknownValue;
-
-    fn from_str(name: &str) -> Result<Self, UnknownValue> {
-        let named = |value: &Self| value.name() == name;
-        Self::ALL.into_iter().find(named).ok_or(UnknownValue)
-    }
+    UnknownValue = "the answers are solvable, finite-solvable and not-finite-solvable"
 }
 
 /// A component of the whole graph: a maximal part that pairs and known parts determine by itself.

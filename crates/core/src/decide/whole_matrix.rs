@@ -208,13 +208,13 @@ fn independent_motions(
         .collect();
     let mut span = Span::default();
     for motion in trivial_motions(&field, graph.nodes(), &cameras) {
-        span.insert(&field, &motion);
+        span.insert(&field, motion);
     }
     kernel
         .into_iter()
         .filter(|vector| {
             let vector: Vec<u64> = vector.iter().map(residue).collect();
-            span.insert(&field, &vector)
+            span.insert(&field, vector)
         })
         .collect()
 }

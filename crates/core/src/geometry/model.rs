@@ -1,7 +1,6 @@
 //! Which question is asked of a viewing graph.
 
-use std::fmt;
-use std::str::FromStr;
+use crate::named::named;
 
 /// What is known of the cameras besides the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
@@ -18,9 +17,6 @@ pub enum Model {
 }
 
 impl Model {
-    /// All models.
-    pub const ALL: [Self; 3] = [Self::Projective, Self::Calibrated, Self::Affine];
-
     /// The rank of a finite solvable graph, or of a body, with n >= 2 nodes: 11 n - 15 of J_P
     /// (Theorem 1.3 of docs/theory.md; Theorem 1 of the paper), in the calibrated model
     /// 3 n - 4 of N (Lemma 4.8), in the affine model 8 n - 12, four times that of R (Theorem
@@ -32,42 +28,15 @@ impl Model {
             Self::Affine => (8 * n).saturating_sub(12),
         }
     }
-
-    /// The name in certificates and on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Projective => "projective",
-            Self::Calibrated => "calibrated",
-            Self::Affine => "affine",
-        }
-    }
 }
 
-impl fmt::Display for Model {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+named! {
+    Model {
+        Projective = "projective",
+        Calibrated = "calibrated",
+        Affine = "affine",
     }
-}
-
-/// A word that is not the name of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnknownModel;
-
-impl fmt::Display for UnknownModel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the models are projective, calibrated and affine")
-    }
-}
-
-impl std::error::Error for UnknownModel {}
-
-impl FromStr for Model {
-    type Err = UnknownModel;
-
-    fn from_str(name: &str) -> Result<Self, UnknownModel> {
-        let named = |model: &Self| model.name() == name;
-        Self::ALL.into_iter().find(named).ok_or(UnknownModel)
-    }
+    UnknownModel = "the models are projective, calibrated and affine"
 }
 
 #[cfg(test)]

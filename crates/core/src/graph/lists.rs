@@ -66,9 +66,10 @@ impl Lists {
         let (mut rest, mut from, mut parts) = (&mut items[..], 0, Vec::with_capacity(shares));
         for share in 1..=shares {
             let before = share * 2 * edges.len() / shares;
-            let to = match share == shares {
-                true => nodes,
-                false => start.partition_point(|&start| (start as usize) < before),
+            let to = if share == shares {
+                nodes
+            } else {
+                start.partition_point(|&start| (start as usize) < before)
             };
             let size: usize = len[from..to].iter().map(|&len| len as usize).sum();
             let (own, others) = rest.split_at_mut(size);

@@ -4,30 +4,11 @@
 //! scales u are one and which are unknowns, and the rows of N(u) (docs/theory.md, (10.1) and
 //! Lemma 10.4).
 
-use super::echelon::Echelon;
+use super::evidence::{Chart, Scale};
 use super::members::{Members, Set, bits, shared};
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
-
-/// The scale u of a member at a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scale {
-    /// The node, as a node of the graph.
-    pub node: u32,
-    /// The member, by its place in [`Chart::members`], and for a half-edge its second one.
-    pub member: usize,
-}
-
-/// Members, half-edges and the scales that are unknown; all others are one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Chart {
-    /// The shared nodes of every member, as nodes of the graph, in the order of its chain.
-    pub members: Vec<Vec<u32>>,
-    /// `[v, a, b]`: the node v lies in just the members {v, a} and {v, b}, and is eliminated.
-    pub half_edges: Vec<[u32; 3]>,
-    /// The unknowns.
-    pub unknowns: Vec<Scale>,
-}
+use crate::linalg::span::Span;
 
 /// One side of a row of N(u): `scale * vector` in the columns of a node.
 #[derive(Clone, Debug)]
@@ -329,7 +310,7 @@ impl Core {
         for (&[v, a, b], scale) in self.half_edges.iter().zip(&self.half_edge_scales) {
             let scale = scale.map_or(field.from_u64(1), |f| values[f]);
             let (at_a, at_b) = (cameras[a]?, cameras[b]?);
-            let mut rows = Echelon::default();
+            let mut rows = Span::default();
             for (other, camera, factor) in [(a, at_a, field.from_u64(1)), (b, at_b, scale)] {
                 for direction in directions(field, &centres[v], &centres[other])? {
                     // direction . y_v, and what it is in each of the four columns.
@@ -347,8 +328,8 @@ impl Core {
 }
 
 /// The 3 x 4 matrix Y with [ I | Y ] in the row space of three rows; `None` if there is none.
-fn solve(field: &PrimeField, rows: &Echelon) -> Option<[[u64; 4]; 3]> {
-    if rows.rank() != 3 || rows.pivots().iter().any(|&pivot| pivot > 2) {
+fn solve(field: &PrimeField, rows: &Span) -> Option<[[u64; 4]; 3]> {
+    if rows.dimension() != 3 || rows.pivots().iter().any(|&pivot| pivot > 2) {
         return None;
     }
     let one = field.from_u64(1);

@@ -1,12 +1,12 @@
 //! How many solutions: what is tried, in which order.
 
-use super::chart::{Chart, Core};
-use super::linear::{Linear, settle};
-use super::members::{Members, Merge, Set, bits, shared};
-use super::minors::Minor;
-use super::points::{AtMost, NoBound, at_most};
+use super::chart::Core;
+use super::evidence::{AtMost, Lower, One, Place, Solutions, Upper};
+use super::linear::settle;
+use super::members::{Members, Set, bits, shared};
+use super::points::{NoBound, at_most};
 use super::simple::{self, Point};
-use super::support::Span;
+use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::contract::Contraction;
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -15,82 +15,6 @@ use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
 use std::collections::BTreeSet;
-
-/// What is known of the number of solutions of a finite solvable graph, and why.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Solutions {
-    /// There are as many at least; one always is.
-    pub at_least: usize,
-    /// There are no more than that, if such a bound was found.
-    pub at_most: Option<usize>,
-    /// Merges of members; one member is left if they alone are the proof.
-    pub merges: Vec<Merge>,
-    /// What the upper bound rests on, if there is one and merges are not enough.
-    pub upper: Option<Upper>,
-    /// What the lower bound rests on, if it is above one.
-    pub lower: Option<Lower>,
-    /// What the core has more of equations than of unknowns, before parts of it are grown; `None`
-    /// if merges leave one member.
-    pub excess: Option<i64>,
-}
-
-impl Solutions {
-    /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<usize> {
-        self.at_most.filter(|&most| most == self.at_least)
-    }
-}
-
-/// Where the evidence holds: the scales that are unknown, the prime, and the centres.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Members, half-edges and unknowns.
-    pub chart: Chart,
-    /// The modulus.
-    pub prime: u64,
-    /// The shared nodes, as nodes of the graph, and their centres as least residues.
-    pub centres: Vec<(u32, [u64; 3])>,
-}
-
-/// Evidence that some unknowns are one at all solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum One {
-    /// By Theorem 10.6.
-    Linear(Linear),
-    /// By Theorem 10.5: the minors, with all their shifts within the degree bounds, have
-    /// coefficients of a rank one less than there are exponents.
-    Support {
-        /// The unknowns that are one.
-        unknowns: Vec<usize>,
-        /// The largest exponent of each.
-        bounds: Vec<usize>,
-        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
-        absent: Vec<Vec<usize>>,
-        /// Minors that vanish at all solutions.
-        minors: Vec<Minor>,
-    },
-}
-
-/// Evidence for an upper bound.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Upper {
-    /// Where the unknowns are shown to be one.
-    pub place: Place,
-    /// Unknowns that are one, in the order in which they are shown to be.
-    pub ones: Vec<One>,
-    /// The points for the unknowns that are left, and where; nothing if none are.
-    pub points: Option<(Place, AtMost)>,
-}
-
-/// Evidence for a lower bound: simple points of a tight core.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Lower {
-    /// Where.
-    pub place: Place,
-    /// The values of all unknowns at each point, as least residues; u = 1 counts even if it
-    /// is not among them.
-    pub points: Vec<Vec<u64>>,
-}
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -368,7 +292,7 @@ struct Charted {
     /// Why.
     ones: Vec<One>,
     /// The spans of a few of the other unknowns.
-    spans: Vec<Span>,
+    spans: Vec<MinorSpan>,
     /// Unknowns whose points are not all rational at these centres.
     irrational: Vec<Vec<usize>>,
 }
@@ -441,7 +365,8 @@ impl Charted {
         for size in FEW + 1..=most.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
                 let system = self.system(&self.centres, draws);
-                let span = system.and_then(|system| Span::new(&system, &self.values, unknowns));
+                let span =
+                    system.and_then(|system| MinorSpan::new(&system, &self.values, unknowns));
                 if let Some(span) = span {
                     self.points(&span, draws, best);
                 }
@@ -451,7 +376,7 @@ impl Charted {
     }
 
     /// Bounds by the points of a span at the first centres.
-    fn points(&mut self, span: &Span, draws: &Draws<'_>, best: &mut Solutions) {
+    fn points(&mut self, span: &MinorSpan, draws: &Draws<'_>, best: &mut Solutions) {
         let Some(system) = self.system(&self.centres, draws) else {
             return;
         };
@@ -476,7 +401,7 @@ impl Charted {
         let Some(system) = self.system(&centres, draws) else {
             return true;
         };
-        let Some(span) = Span::new(&system, &self.values, unknowns) else {
+        let Some(span) = MinorSpan::new(&system, &self.values, unknowns) else {
             return false;
         };
         match at_most(&system, &self.values, &span, &mut draws.residues(draw)) {
@@ -546,7 +471,7 @@ fn simple_points(system: &System<'_>, found: &AtMost) -> Vec<Point> {
 
 /// Shows that unknowns are one, as many as it can, and enters them. Also the spans of the unknowns
 /// that are left, of a few each.
-fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
+fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<MinorSpan>) {
     let mut steps = Vec::new();
     loop {
         steps.extend(settle(system, values).into_iter().map(One::Linear));
@@ -555,7 +480,7 @@ fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<Span>) {
         let mut others = Vec::new();
         for size in 1..=FEW.min(open.len()) {
             subsets(&open, size, &mut |unknowns| {
-                if let Some(span) = Span::new(system, values, unknowns) {
+                if let Some(span) = MinorSpan::new(system, values, unknowns) {
                     match span.unique(system) {
                         Some(absent) => found = Some((span, absent)),
                         None => others.push(span),

@@ -4,18 +4,9 @@
 //! kernel of what is left has no more than its least dimension, it gives the scale of each freed
 //! row that takes part in it.
 
-use super::echelon::left_kernel;
+use super::evidence::Linear;
 use super::system::{System, Values, subsets};
-
-/// One application of the theorem.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Linear {
-    /// The freed rows, by number; rows whose unknowns have no value and that are not freed
-    /// are dropped.
-    pub freed: Vec<usize>,
-    /// The unknowns that are settled.
-    pub settled: Vec<usize>,
-}
+use crate::linalg::span::left_kernel;
 
 /// Settles what it can, more and more unknowns; returns the steps. The values of unknowns that
 /// are settled are entered. At most C(r, 4) eliminations for each step, r rows with unknowns.

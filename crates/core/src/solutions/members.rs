@@ -4,7 +4,7 @@
 //! two of them, closed under rules 2 and 3 of Theorem 4.1 and under the rule of the bicliques
 //! K_{2,3} (Theorem 10.3), and every merge that led there.
 
-use super::count::Solutions;
+use super::evidence::{Merge, Rule, Solutions};
 use crate::contract::Contraction;
 use crate::geometry::model::Model;
 use crate::graph::Graph;
@@ -14,34 +14,6 @@ pub const MOST_NODES: usize = 128;
 
 /// A set of shared nodes, one bit for each.
 pub(super) type Set = u128;
-
-/// One merge of members into one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Merge {
-    /// Why the members are one.
-    pub rule: Rule,
-    /// The nodes that the rule speaks of, as nodes of the graph: the two that are shared; the
-    /// three corners; or the two of the one side of the biclique and then those of the other.
-    pub at: Vec<u32>,
-    /// The shared nodes of the members that were merged, as nodes of the graph.
-    pub members: Vec<Vec<u32>>,
-    /// Why the part between the nodes has one solution, if it was grown.
-    pub grown: Option<Box<Solutions>>,
-}
-
-/// Why members are one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// Two members share two nodes (Theorem 4.1, rule 2).
-    Shared,
-    /// Three members pairwise share a node (Theorem 4.1, rule 3).
-    Triangle,
-    /// Two nodes are joined to each of three others by members (Theorem 10.3).
-    Biclique,
-    /// The part of the core between them is finite solvable and proved to have one solution
-    /// (Proposition 10.11).
-    Grown,
-}
 
 /// Members of a graph, and how they came to be.
 #[derive(Clone, Debug)]

@@ -5,32 +5,11 @@
 //! vanish. Each is named by its rows and columns; its polynomial is computed at one
 //! assignment of centres, by interpolation on a grid.
 
-use super::echelon::Echelon;
+use super::evidence::{Minor, Part};
 use super::exponents::Exponents;
 use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
-
-/// A row of a minor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// A row of N(u).
-    Whole(usize),
-    /// Its first side alone, without scale: the row is freed.
-    Plus(usize),
-    /// Its second side alone, without scale and sign: the row is freed.
-    Minus(usize),
-}
-
-/// A minor of N(u), with rows freed, that vanishes at all solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Minor {
-    /// How many rows are freed.
-    pub freed: usize,
-    /// Its rows: 3 n' - 4 + `freed` + 1 of them.
-    pub rows: Vec<Part>,
-    /// Its columns, as many.
-    pub columns: Vec<usize>,
-}
+use crate::linalg::span::Span;
 
 /// A minor and its polynomial at the centres.
 pub(super) struct Polynomial {
@@ -54,7 +33,7 @@ pub(super) struct Minors<'a> {
     values: &'a Values,
     unknowns: &'a [usize],
     /// The rows without open unknowns, and which of them are independent.
-    constants: (Echelon, Vec<usize>),
+    constants: (Span, Vec<usize>),
     /// The rows all of whose open unknowns are among those of the minors.
     variable: Vec<usize>,
     /// 1/1, 1/2, 1/3.
@@ -113,19 +92,19 @@ impl<'a> Minors<'a> {
         if system.target + 1 > self.constants.1.len() + freed.len() + variable.len() {
             return None;
         }
-        let mut echelon = self.constants.0.clone();
+        let mut span = self.constants.0.clone();
         let mut parts: Vec<Part> = self.constants.1.iter().copied().map(Part::Whole).collect();
         for &row in freed {
             for (which, part) in [(0, Part::Plus(row)), (1, Part::Minus(row))] {
-                if echelon.insert(field, system.rows[row].side(which, system.columns)) {
+                if span.insert(field, system.rows[row].side(which, system.columns)) {
                     parts.push(part);
                 }
             }
         }
         let free: Vec<usize> = (0..system.columns)
-            .filter(|column| !echelon.pivots().contains(column))
+            .filter(|column| !span.pivots().contains(column))
             .collect();
-        let size = (system.target + freed.len() + 1).saturating_sub(echelon.rank());
+        let size = (system.target + freed.len() + 1).saturating_sub(span.dimension());
         if size == 0 || size > variable.len() || size > free.len() {
             return None;
         }
@@ -135,7 +114,7 @@ impl<'a> Minors<'a> {
             if let Some(value) = scale.and_then(|f| self.values[f]) {
                 side.iter_mut().for_each(|x| *x = field.times(*x, value));
             }
-            echelon.reduce(field, &mut side);
+            span.reduce(field, &mut side);
             free.iter().map(|&column| side[column]).collect()
         };
         Some(Reduced {
@@ -143,7 +122,7 @@ impl<'a> Minors<'a> {
                 .iter()
                 .map(|&row| [reduced_side(row, 0), reduced_side(row, 1)])
                 .collect(),
-            pivots: echelon.pivots().to_vec(),
+            pivots: span.pivots().to_vec(),
             parts,
             variable,
             free,

@@ -4,12 +4,12 @@
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
 //! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof. A second solution
-//! can be looked at (`witness`).
+//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof; what it rests on
+//! is in `evidence`. A second solution can be looked at (`witness`).
 
 mod chart;
 mod count;
-mod echelon;
+mod evidence;
 mod exponents;
 mod linear;
 mod members;
@@ -25,12 +25,11 @@ mod tests;
 mod witness;
 mod zeros;
 
-pub use chart::{Chart, Scale};
 pub(crate) use count::count_in;
-pub use count::{Effort, Lower, One, Place, Solutions, Upper, count};
-pub use linear::Linear;
-pub use members::{MOST_NODES, Merge, Rule};
-pub use minors::{Minor, Part};
-pub use outside::{Limit, Outside};
-pub use points::AtMost;
+pub use count::{Effort, count};
+pub use evidence::{
+    AtMost, Chart, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule, Scale,
+    Solutions, Upper,
+};
+pub use members::MOST_NODES;
 pub use witness::Witness;

@@ -6,33 +6,11 @@
 //! are, so it is not the limit of a solution.
 
 use super::chart::{Row, Side};
-use super::echelon::{Echelon, left_kernel};
+use super::evidence::{Limit, Outside};
 use super::exponents::Exponents;
 use super::system::{System, Values};
 use crate::linalg::prime::PrimeField;
-
-/// The value of an unknown on the boundary.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// A least residue; at 0 the side with the unknown is struck out.
-    Finite(u64),
-    /// The other side of each row is struck out.
-    Infinite,
-}
-
-/// A point on the boundary where N(u) has rank 3 n' - 4 or less, at all centres.
-///
-/// Sets of rows are disjoint. Those in none of them count one each.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Outside {
-    /// The values of all unknowns.
-    pub values: Vec<Limit>,
-    /// Rows with both sides and with scales one: those of a set with k nodes have rank 3 k - 4.
-    pub blocks: Vec<Vec<usize>>,
-    /// Rows of rank one less than their number, for just these values of the unknowns that are
-    /// neither 0, 1 nor infinite.
-    pub dependent: Vec<Vec<usize>>,
-}
+use crate::linalg::span::{Span, left_kernel};
 
 /// What the others of a point may be, besides those that are read off.
 const LIMITS: [Limit; 3] = [Limit::Finite(1), Limit::Finite(0), Limit::Infinite];
@@ -137,7 +115,7 @@ impl<'a> Limited<'a> {
             .iter()
             .map(|row| factors(field, row, values))
             .collect::<Option<_>>()?;
-        let mut echelon = Echelon::default();
+        let mut span = Span::default();
         let mut rows = Vec::with_capacity(factors.len());
         for (row, [plus, minus]) in system.rows.iter().zip(&factors) {
             let mut vector = vec![0; system.columns];
@@ -145,9 +123,9 @@ impl<'a> Limited<'a> {
                 field.axpy(&mut vector[3 * side.node..][..3], factor, &side.vector);
             }
             rows.push(vector.clone());
-            echelon.insert(field, vector);
+            span.insert(field, vector);
         }
-        if echelon.rank() > system.target {
+        if span.dimension() > system.target {
             return None;
         }
         let other = |f: &usize| !matches!(values[*f], Limit::Finite(0 | 1) | Limit::Infinite);
@@ -156,7 +134,7 @@ impl<'a> Limited<'a> {
             factors,
             rows,
             parameters: (0..values.len()).filter(other).collect(),
-            kernel: echelon.kernel(field, system.columns),
+            kernel: span.kernel(field, system.columns),
         })
     }
 
@@ -217,7 +195,7 @@ impl<'a> Limited<'a> {
         let rows: Vec<Vec<u64>> = left.iter().map(|&row| self.rows[row].clone()).collect();
         let mut sets: Vec<Vec<usize>> = Vec::new();
         let mut conditions = 0;
-        let mut jacobian = Echelon::default();
+        let mut jacobian = Span::default();
         for weights in left_kernel(field, &rows, columns) {
             let support = left.iter().zip(&weights).filter(|(_, w)| **w != 0);
             let nodes: Vec<usize> = (0..columns / 3)
@@ -238,7 +216,7 @@ impl<'a> Limited<'a> {
             sets.push(set);
         }
         let parameters = self.parameters.len();
-        (conditions == parameters && jacobian.rank() == parameters).then_some(sets)
+        (conditions == parameters && jacobian.dimension() == parameters).then_some(sets)
     }
 
     /// Whether a row has an entry in the columns of a node.
@@ -262,12 +240,12 @@ impl<'a> Limited<'a> {
         let rows: Vec<Vec<u64>> = set.iter().map(|&row| within(&self.rows[row])).collect();
         let left = left_kernel(field, &rows, 3 * nodes.len());
         let [w] = &left[..] else { return None };
-        let mut echelon = Echelon::default();
+        let mut span = Span::default();
         for row in rows {
-            echelon.insert(field, row);
+            span.insert(field, row);
         }
         let of_vector = |y: Vec<u64>| self.derivative(set, nodes, w, &y);
-        let right = echelon.kernel(field, 3 * nodes.len()).into_iter();
+        let right = span.kernel(field, 3 * nodes.len()).into_iter();
         Some(right.map(of_vector).collect())
     }
 
@@ -319,7 +297,7 @@ fn is_trivial(
     nodes: &[usize],
 ) -> bool {
     let one = field.from_u64(1);
-    let mut trivial = Echelon::default();
+    let mut trivial = Span::default();
     for k in 0..4 {
         let of_node = |&v: &usize| match k {
             3 => centres[v],

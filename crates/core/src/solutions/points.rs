@@ -1,36 +1,14 @@
 //! All points that solutions can come near, at one assignment of centres (docs/theory.md,
 //! Theorems 10.8, 10.13 and 10.14): an upper bound for the number of solutions.
 
+use super::evidence::AtMost;
 use super::exponents::Exponents;
-use super::linear::{Linear, settle};
-use super::minors::Minor;
-use super::outside::{Outside, outside};
+use super::linear::settle;
+use super::outside::outside;
 use super::roots::{NoVectors, left_eigenvectors, transport};
-use super::support::Span;
+use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
-
-/// The points of the theorem, with the other unknowns settled at each.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AtMost {
-    /// The unknowns that are not settled by linear algebra.
-    pub unknowns: Vec<usize>,
-    /// The largest exponent of each, shifts included.
-    pub bounds: Vec<usize>,
-    /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
-    pub absent: Vec<Vec<usize>>,
-    /// Minors that vanish at all solutions.
-    pub minors: Vec<Minor>,
-    /// The values of all unknowns at each point, as least residues.
-    pub points: Vec<Vec<u64>>,
-    /// How the other unknowns are settled at each point.
-    pub settled: Vec<Vec<Linear>>,
-    /// The form of Theorem 10.13: monomials, 1 and the unknowns first, and their weights as least
-    /// residues. It is 1 itself (Theorem 10.8) where no point is infinite.
-    pub form: Vec<(Vec<usize>, u64)>,
-    /// Points on the boundary that no solution comes near; they do not count.
-    pub outside: Vec<Outside>,
-}
 
 /// Why there is no upper bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +26,7 @@ const MOST_POINTS: usize = 12;
 pub(super) fn at_most(
     system: &System<'_>,
     values: &Values,
-    span: &Span,
+    span: &MinorSpan,
     draw: &mut impl FnMut() -> u64,
 ) -> Result<AtMost, NoBound> {
     // Degrees as they are may do; one more for each unknown is more work and has less kernel.
@@ -84,7 +62,7 @@ struct Form {
 
 impl Space {
     /// `None` if there are too many vectors, or none.
-    fn new(system: &System<'_>, span: &Span, more: usize) -> Option<Self> {
+    fn new(system: &System<'_>, span: &MinorSpan, more: usize) -> Option<Self> {
         let (exponents, absent, kernel) = span.annihilated(system, more, MOST_POINTS)?;
         (!kernel.is_empty()).then_some(Self {
             exponents,
@@ -135,7 +113,7 @@ impl Space {
         &self,
         system: &System<'_>,
         values: &Values,
-        span: &Span,
+        span: &MinorSpan,
         infinite: usize,
         draw: &mut impl FnMut() -> u64,
     ) -> Result<AtMost, NoBound> {

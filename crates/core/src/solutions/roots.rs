@@ -1,7 +1,7 @@
 //! Roots of polynomials modulo a prime, and eigenvectors of small matrices.
 
-use super::echelon::{Echelon, left_kernel};
 use crate::linalg::prime::PrimeField;
+use crate::linalg::span::{Span, left_kernel};
 
 /// A polynomial, coefficients from the constant term up, the last one not zero.
 type Polynomial = Vec<u64>;
@@ -169,20 +169,20 @@ pub(super) fn transport(
     images: &[Vec<u64>],
 ) -> Option<Vec<Vec<u64>>> {
     let (n, length) = (rows.len(), rows.first()?.len());
-    let mut echelon = Echelon::default();
+    let mut span = Span::default();
     for (k, row) in rows.iter().enumerate() {
         // Behind each row what it is a combination of.
         let unit = (0..n).map(|l| field.from_u64(u64::from(k == l)));
-        echelon.insert(field, row.iter().copied().chain(unit).collect());
+        span.insert(field, row.iter().copied().chain(unit).collect());
     }
-    if echelon.pivots().iter().any(|&pivot| pivot >= length) {
+    if span.pivots().iter().any(|&pivot| pivot >= length) {
         return None;
     }
     images
         .iter()
         .map(|image| {
             let mut rest: Vec<u64> = image.iter().copied().chain((0..n).map(|_| 0)).collect();
-            echelon.reduce(field, &mut rest);
+            span.reduce(field, &mut rest);
             let inside = rest[..length].iter().all(|&x| x == 0);
             inside.then(|| rest[length..].iter().map(|&x| field.negate(x)).collect())
         })

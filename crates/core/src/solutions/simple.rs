@@ -1,9 +1,9 @@
 //! Points of a tight core that are simple: a lower bound for the number of solutions
 //! (docs/theory.md, Lemma 10.9 and Theorem 10.10).
 
-use super::echelon::{Echelon, left_kernel};
 use super::system::System;
 use crate::geometry::camera::centre;
+use crate::linalg::span::{Span, left_kernel};
 
 /// A point at which N(u) has rank 3 n' - 4 and cameras with distinct centres.
 pub(super) struct Point {
@@ -24,11 +24,11 @@ pub(super) fn point(system: &System<'_>, values: &[u64]) -> Option<Point> {
         return None;
     }
     let given = values.iter().copied().map(Some).collect();
-    let (echelon, _) = system.constants(&given);
-    if echelon.rank() != system.target {
+    let (span, _) = system.constants(&given);
+    if span.dimension() != system.target {
         return None;
     }
-    let kernel = echelon.kernel(field, system.columns);
+    let kernel = span.kernel(field, system.columns);
     let cameras = system
         .core
         .cameras(field, system.centres, &kernel, values)?;
@@ -87,7 +87,7 @@ fn is_simple(system: &System<'_>, values: &[u64], kernel: &[Vec<u64>]) -> bool {
             })
         })
         .collect();
-    let mut derivatives = Echelon::default();
+    let mut derivatives = Span::default();
     (0..values.len()).all(|f| {
         let mut vector = Vec::with_capacity(4 * left.len());
         for w in &left {

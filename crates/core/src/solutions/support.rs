@@ -3,12 +3,12 @@
 //! In: a system and some of its unknowns. Out: minors with independent polynomials, the rank of
 //! all their multiples within degree bounds, and the exponents that never occur.
 
-use super::echelon::Echelon;
 use super::exponents::Exponents;
 use super::minors::{Minors, Polynomial};
 use super::system::{System, Values, subsets};
 use super::zeros::has_transversal;
 use crate::linalg::prime::PrimeField;
+use crate::linalg::span::Span;
 use std::borrow::Cow;
 use std::cell::RefCell;
 
@@ -53,17 +53,17 @@ const MOST_VALUES: usize = 1 << 10;
 const MOST_IDLE: usize = 120;
 
 /// The span of the minors in some unknowns, shifts within the bounds included.
-pub(super) struct Span {
+pub(super) struct MinorSpan {
     /// The unknowns.
     pub(super) unknowns: Vec<usize>,
     pub(super) exponents: Exponents,
     /// Minors none of which is a combination of shifts of those before it.
     pub(super) generators: Vec<Generator>,
     /// All their shifts within the bounds.
-    shifts: Echelon,
+    shifts: Span,
 }
 
-impl Span {
+impl MinorSpan {
     /// The minors in some unknowns without value; other rows with unknowns are freed, three at
     /// most, or dropped. Stops early when only one point is left.
     pub(super) fn new(system: &System<'_>, values: &Values, unknowns: &[usize]) -> Option<Self> {
@@ -92,7 +92,7 @@ impl Span {
         Some(Self {
             unknowns: unknowns.to_vec(),
             generators: generators.collect(),
-            shifts: collected.echelon,
+            shifts: collected.span,
             exponents,
         })
     }
@@ -101,7 +101,7 @@ impl Span {
     /// the number of the others, and their differences generate all of Z^unknowns.
     pub(super) fn unique(&self, system: &System<'_>) -> Option<Vec<bool>> {
         let seen = self.seen(&self.exponents);
-        let rank = self.shifts.rank();
+        let rank = self.shifts.dimension();
         // What is seen is present; what is not is asked for only if that can matter.
         if rank + 1 < seen.iter().filter(|seen| **seen).count() {
             return None;
@@ -164,7 +164,7 @@ impl Span {
         };
         let seen = self.seen(&exponents);
         // An exponent that is absent is not seen.
-        if seen.iter().filter(|seen| **seen).count() > shifts.rank() + most {
+        if seen.iter().filter(|seen| **seen).count() > shifts.dimension() + most {
             return None;
         }
         let absent = self.absent(system, &exponents, &seen);
@@ -180,20 +180,20 @@ impl Span {
     }
 
     /// All shifts of the generators within some bounds.
-    fn shifts_within(&self, field: &PrimeField, exponents: &Exponents) -> Echelon {
-        let mut echelon = Echelon::default();
+    fn shifts_within(&self, field: &PrimeField, exponents: &Exponents) -> Span {
+        let mut span = Span::default();
         for generator in &self.generators {
             generator.polynomial.each_shift(exponents, &mut |shifted| {
-                echelon.take(field, shifted);
+                span.take(field, shifted);
             });
         }
-        echelon
+        span
     }
 }
 
 /// Polynomials with independent shifts.
 struct Collected {
-    echelon: Echelon,
+    span: Span,
     polynomials: Vec<Polynomial>,
     /// Where some shift has a coefficient at these centres.
     seen: Vec<bool>,
@@ -203,7 +203,7 @@ struct Collected {
 impl Collected {
     fn new(exponents: &Exponents) -> Self {
         Self {
-            echelon: Echelon::default(),
+            span: Span::default(),
             polynomials: Vec::new(),
             seen: vec![false; exponents.len()],
             idle: 0,
@@ -217,7 +217,7 @@ impl Collected {
             for (seen, &coefficient) in self.seen.iter_mut().zip(shifted.iter()) {
                 *seen |= coefficient != 0;
             }
-            new |= self.echelon.take(field, shifted);
+            new |= self.span.take(field, shifted);
         });
         if new {
             self.polynomials.push(polynomial);
@@ -227,7 +227,7 @@ impl Collected {
         }
         // The vector of ones is always annihilated.
         let seen = self.seen.iter().filter(|&&seen| seen).count();
-        self.echelon.rank() + 1 < seen && self.idle < MOST_IDLE
+        self.span.dimension() + 1 < seen && self.idle < MOST_IDLE
     }
 }
 

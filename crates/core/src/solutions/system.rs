@@ -1,8 +1,8 @@
 //! N(u) at one assignment of centres modulo a prime, some of its unknowns known to be one.
 
 use super::chart::{Core, Row};
-use super::echelon::Echelon;
 use crate::linalg::prime::PrimeField;
+use crate::linalg::span::Span;
 use crate::watch::Work;
 
 /// The rows of N(u) at given centres.
@@ -65,15 +65,15 @@ impl<'a> System<'a> {
     }
 
     /// All rows without unknowns that have no value, and which of them are independent.
-    pub(super) fn constants(&self, values: &Values) -> (Echelon, Vec<usize>) {
-        let mut echelon = Echelon::default();
+    pub(super) fn constants(&self, values: &Values) -> (Span, Vec<usize>) {
+        let mut span = Span::default();
         let mut used = Vec::new();
         for row in (0..self.rows.len()).filter(|&row| self.is_constant(row, values)) {
-            if echelon.insert(&self.field, self.constant(row, values)) {
+            if span.insert(&self.field, self.constant(row, values)) {
                 used.push(row);
             }
         }
-        (echelon, used)
+        (span, used)
     }
 
     /// Whether the rows of every body are independent where u = 1; those of a body with two nodes
@@ -82,10 +82,10 @@ impl<'a> System<'a> {
         let ones = vec![Some(self.field.from_u64(1)); self.core.unknowns];
         let mut next = 0;
         self.core.row_counts().all(|count| {
-            let mut echelon = Echelon::default();
+            let mut span = Span::default();
             let mut rows = next..next + count;
             next += count;
-            rows.all(|row| echelon.insert(&self.field, self.constant(row, &ones)))
+            rows.all(|row| span.insert(&self.field, self.constant(row, &ones)))
         })
     }
 }

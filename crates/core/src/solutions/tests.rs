@@ -1,11 +1,10 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
-use super::echelon::Echelon;
-use super::members::{Members, Rule, bits};
-use super::minors::Part;
-use super::outside::{Limit, is_outside};
+use super::evidence::{Limit, Part, Rule};
+use super::members::{Members, bits};
+use super::outside::is_outside;
 use super::simple;
-use super::support::Span;
+use super::support::MinorSpan;
 use super::system::{System, Values};
 use super::{Effort, Solutions, count};
 use crate::contract::Contraction;
@@ -17,6 +16,7 @@ use crate::geometry::plane_flow::rigidity_rows;
 use crate::graph::{Graph, graph6};
 use crate::linalg::dense_lu::eliminate_mod;
 use crate::linalg::prime::PrimeField;
+use crate::linalg::span::Span;
 use crate::watch::{Step, Watch, unwatched};
 
 /// Two solutions each; every node has two neighbours or more and there is no triangle.
@@ -110,30 +110,34 @@ fn half_edges_keep_the_corank() {
         let at = centres(graph.nodes(), 1);
         let system = System::new(field, &core, &at).unwrap();
         let ones: Values = vec![Some(field.from_u64(1)); core.unknowns];
-        let small = system.constants(&ones).0.rank();
-        let mut whole = Echelon::default();
+        let small = system.constants(&ones).0.dimension();
+        let mut whole = Span::default();
         for row in rigidity_rows(&field, &graph, &at) {
             let mut full = vec![0; 3 * graph.nodes()];
             row.into_iter()
                 .for_each(|(column, entry)| full[column] = entry);
             whole.insert(&field, full);
         }
-        assert_eq!(whole.rank(), small + 3 * core.half_edges.len(), "{name}");
-        assert_eq!(whole.rank(), 3 * graph.nodes() - 4);
+        assert_eq!(
+            whole.dimension(),
+            small + 3 * core.half_edges.len(),
+            "{name}"
+        );
+        assert_eq!(whole.dimension(), 3 * graph.nodes() - 4);
     }
 }
 
 /// Whether a minor, made anew from its rows and columns, is not zero at a point: 1 or 0.
 fn minor_value(system: &System<'_>, minor: &super::Minor, point: &[u64]) -> u64 {
     let field = &system.field;
-    let mut echelon = Echelon::default();
+    let mut span = Span::default();
     let independent = minor.rows.iter().all(|part| {
         let row = match *part {
             Part::Whole(row) => system.rows[row].at(field, system.columns, |f| point[f]),
             Part::Plus(row) => system.rows[row].side(0, system.columns),
             Part::Minus(row) => system.rows[row].side(1, system.columns),
         };
-        echelon.insert(
+        span.insert(
             field,
             minor.columns.iter().map(|&column| row[column]).collect(),
         )
@@ -152,7 +156,7 @@ fn minors_vanish_at_solutions() {
         let at = residues(&field, &lower.place.centres);
         let system = System::new(field, &core, &at).unwrap();
         let unknowns: Vec<usize> = (0..core.unknowns).collect();
-        let span = Span::new(&system, &vec![None; core.unknowns], &unknowns).unwrap();
+        let span = MinorSpan::new(&system, &vec![None; core.unknowns], &unknowns).unwrap();
         assert!(span.generators.len() > 3);
         for generator in &span.generators {
             assert_eq!(
@@ -199,7 +203,7 @@ fn coefficients_without_transversal_are_zero_at_other_centres() {
         let values: Values = vec![None; core.unknowns];
         for f in 0..core.unknowns {
             for g in 0..f {
-                let span = Span::new(&systems[0], &values, &[g, f]).unwrap();
+                let span = MinorSpan::new(&systems[0], &values, &[g, f]).unwrap();
                 for generator in &span.generators {
                     let elsewhere = generator.polynomial.elsewhere(&systems[1], &[g, f]);
                     for (place, &coefficient) in elsewhere.iter().enumerate() {
@@ -332,7 +336,7 @@ fn linear_algebra_settles_scales() {
             let mut changed: Values = vec![Some(field.from_u64(1)); core.unknowns];
             changed[f] = Some(field.from_u64(2));
             assert!(
-                system.constants(&changed).0.rank() > system.target,
+                system.constants(&changed).0.dimension() > system.target,
                 "{name}"
             );
             settled += 1;

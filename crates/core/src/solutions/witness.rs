@@ -5,14 +5,14 @@
 //! nodes. The shared nodes get theirs from the kernel of N(u), by (10.1); the others follow their
 //! members. Everything is verified by (1.1) before it leaves.
 
-use super::count::{Lower, Solutions};
-use super::echelon::Echelon;
+use super::evidence::{Lower, Solutions};
 use crate::geometry::camera::{Camera, normal_form};
 use crate::geometry::draw::{DrawKey, centres_mod};
 use crate::geometry::jacobian::fundamental;
 use crate::geometry::plane_flow::directions;
 use crate::graph::{Adjacency, Graph, sha256};
 use crate::linalg::prime::PrimeField;
+use crate::linalg::span::Span;
 
 /// Two families of cameras with the same fundamental matrices on all edges, up to factors, of which
 /// none is the other one times one 4 x 4 matrix.
@@ -132,7 +132,7 @@ impl At<'_> {
     fn of_shared(&self, shared: &[u32]) -> Option<Vec<Camera<u64>>> {
         let field = &self.field;
         let columns = 3 * shared.len();
-        let mut rows = Echelon::default();
+        let mut rows = Span::default();
         for (k, member) in self.lower.place.chart.members.iter().enumerate() {
             for (j, &w) in member.iter().enumerate() {
                 for &v in &member[j.saturating_sub(2)..j] {
@@ -194,7 +194,7 @@ impl At<'_> {
         cameras: &[Option<Camera<u64>>],
     ) -> Option<[[u64; 4]; 4]> {
         let field = &self.field;
-        let mut rows = Echelon::default();
+        let mut rows = Span::default();
         for &v in &self.lower.place.chart.members[member] {
             let scale = self.scale(member, v);
             for (p, q) in given[v as usize].iter().zip(cameras[v as usize]?) {
@@ -202,7 +202,7 @@ impl At<'_> {
                 rows.insert(field, p.iter().copied().chain(right).collect());
             }
         }
-        if rows.rank() != 4 || rows.pivots().iter().any(|&pivot| pivot > 3) {
+        if rows.dimension() != 4 || rows.pivots().iter().any(|&pivot| pivot > 3) {
             return None;
         }
         let mut map = [[0; 4]; 4];

@@ -1,7 +1,7 @@
 //! Coefficients of minors that are zero at all centres, for want of a transversal (docs/theory.md,
 //! Theorem 10.7).
 
-use super::minors::{Minor, Part};
+use super::evidence::{Minor, Part};
 use super::system::System;
 
 /// Whether the rows and columns of a minor can be matched where the coefficient of `exponent` has

@@ -1,15 +1,12 @@
 //! The pebble game: which edges are independent, and which nodes are tight together.
 
-const MAX_PEBBLES: usize = 3;
-
-/// A directed multigraph in which every node pays for at most k edges, its out-edges, with its
-/// pebbles. It is (k, k+1)-sparse as long as an edge is accepted only when k + 2 pebbles can be
-/// brought to its ends (Lee and Streinu 2008, with l = k + 1).
+/// A directed multigraph in which every node pays for at most K edges, its out-edges, with its
+/// pebbles. It is (K, L)-sparse as long as an edge is accepted only when L + 1 pebbles can be
+/// brought to its ends (Lee and Streinu 2008, for K <= L < 2 K).
 #[derive(Clone, Debug)]
-pub(super) struct PebbleGame {
-    k: usize,
+pub(super) struct PebbleGame<const K: usize, const L: usize> {
     /// The heads of the edges that a node pays for...
-    paid: Vec<[u32; MAX_PEBBLES]>,
+    paid: Vec<[u32; K]>,
     /// ... and how many these are.
     spent: Vec<u8>,
     /// The other ends of all edges at a node, in either direction; some may be gone.
@@ -51,13 +48,12 @@ enum Side {
     Outside,
 }
 
-impl PebbleGame {
-    /// No edges, and k pebbles on every node.
-    pub(super) fn new(k: usize, nodes: usize) -> Self {
-        assert!((2..=MAX_PEBBLES).contains(&k), "k is 2 or 3");
+impl<const K: usize, const L: usize> PebbleGame<K, L> {
+    /// No edges, and K pebbles on every node.
+    pub(super) fn new(nodes: usize) -> Self {
+        const { assert!(K <= L && L < 2 * K && K <= u8::MAX as usize) };
         Self {
-            k,
-            paid: vec![[0; MAX_PEBBLES]; nodes],
+            paid: vec![[0; K]; nodes],
             spent: vec![0; nodes],
             adjacent: vec![Vec::new(); nodes],
             search: Search {
@@ -78,7 +74,7 @@ impl PebbleGame {
     }
 
     fn free(&self, v: u32) -> usize {
-        self.k - usize::from(self.spent[v as usize])
+        K - usize::from(self.spent[v as usize])
     }
 
     /// Whether there is an edge between two nodes.
@@ -94,7 +90,7 @@ impl PebbleGame {
 
     /// Adds an edge if it is independent of those there are; returns whether it is.
     pub(super) fn insert(&mut self, u: u32, v: u32) -> bool {
-        if !self.gather(u, v, self.k + 2) {
+        if !self.gather(u, v, L + 1) {
             return false;
         }
         let (tail, head) = if self.free(u) > 0 { (u, v) } else { (v, u) };
@@ -128,7 +124,7 @@ impl PebbleGame {
         self.paid[tail as usize].swap(at, usize::from(*spent));
     }
 
-    /// Brings `wanted` free pebbles, at most 2 k, to two nodes together; returns whether there
+    /// Brings `wanted` free pebbles, at most 2 K, to two nodes together; returns whether there
     /// are as many.
     fn gather(&mut self, u: u32, v: u32, wanted: usize) -> bool {
         while self.free(u) + self.free(v) < wanted {
@@ -142,7 +138,7 @@ impl PebbleGame {
     /// Brings one more free pebble to `to`, along edges and not from `spared`, whose pebbles
     /// stay; returns whether there is one.
     fn fetch(&mut self, to: u32, spared: u32) -> bool {
-        if self.free(to) == self.k {
+        if self.free(to) == K {
             return false;
         }
         self.search.begin();
@@ -179,13 +175,13 @@ impl PebbleGame {
     }
 
     /// The nodes of the largest tight set that holds two nodes, which have to be in a tight set
-    /// together (as the ends of an edge with k - 1 copies, or of one that was refused).
+    /// together (as the ends of an edge with all its copies, or of one that was refused).
     ///
-    /// With k + 1 pebbles on the two nodes no other node of a tight set has a free one, and no
+    /// With L pebbles on the two nodes no other node of a tight set has a free one, and no
     /// edge leaves the set. So the set is grown along edges: what leads to it belongs to it
     /// unless it also leads to a free pebble elsewhere.
     pub(super) fn component(&mut self, u: u32, v: u32) -> Vec<u32> {
-        assert!(self.gather(u, v, self.k + 1), "k + 1 pebbles come anywhere");
+        assert!(self.gather(u, v, L), "L pebbles come anywhere");
         let mut side = Sides::default();
         let mut inside = vec![u, v];
         side.set(u, Side::Inside);

@@ -1,9 +1,9 @@
-//! Counting alone: (k, k+1)-sparse edge sets (docs/theory.md, section 13).
+//! Counting alone: (K, L)-sparse edge sets (docs/theory.md, sections 5 and 13).
 //!
-//! In: the edges of a graph, each with k - 1 copies. Out: how many of these are independent, the
-//! components, and for k = 2 a sequence of pinchings that proves the first number (Lemma 13.5).
-//! With k = 2 this is the rank of the plane direction matrix R, with k = 3 that of N, at generic
-//! points (Corollary 13.8). No arithmetic: pebble games.
+//! In: the edges of a graph, each with 2 K - L copies. Out: how many of these are independent, the
+//! components, and for [`Plane`] a sequence of pinchings that proves the first number (Lemma 13.5).
+//! In the plane and in space this is the rank of R and of N at generic points (Corollary 13.8), in
+//! the projective model the smallest bound by a partition (Theorem 5.1). No arithmetic: pebble games.
 
 mod blocks;
 mod game;
@@ -18,11 +18,11 @@ use crate::watch::{Stopped, Task};
 use blocks::Blocks;
 use game::PebbleGame;
 
-/// The largest edge set of a graph, with k - 1 copies of each edge, that is (k, k+1)-sparse, and
-/// the components of the graph.
+/// The largest edge set of a graph, with 2 K - L copies of each edge, that is (K, L)-sparse: no set
+/// of n >= 2 nodes spans more than K n - L. With it the components of the graph.
 #[derive(Clone, Debug)]
-pub struct Sparsity {
-    game: PebbleGame,
+pub struct Sparsity<const K: usize, const L: usize> {
+    game: PebbleGame<K, L>,
     /// How many copies of each edge are in the set.
     copies: Vec<u8>,
     /// The number of its component for every edge.
@@ -30,20 +30,26 @@ pub struct Sparsity {
     components: usize,
 }
 
-impl Sparsity {
-    /// Plays the pebble game with k pebbles a node (Lee and Streinu 2008). Components are kept as
-    /// they are found, so that at most O(n) insertions fail, of O(n) each; O(n^2 + m) in all,
-    /// and near linear where searches stay local.
+/// In the plane: directions.
+pub type Plane = Sparsity<2, 3>;
+
+/// In space: bearings.
+pub type Space = Sparsity<3, 4>;
+
+/// Fundamental matrices.
+pub type Projective = Sparsity<11, 15>;
+
+impl<const K: usize, const L: usize> Sparsity<K, L> {
+    /// Plays the pebble game with K pebbles a node (Lee and Streinu 2008, K <= L < 2 K). Components
+    /// are kept as they are found, so that at most O(n) insertions fail, of O(n) each; O(n^2 + m)
+    /// in all, and near linear where searches stay local.
     ///
     /// # Errors
     /// If the task was stopped.
-    ///
-    /// # Panics
-    /// If k is neither 2 nor 3.
-    pub fn new(k: usize, graph: &Graph, task: &Task) -> Result<Self, Stopped> {
+    pub fn new(graph: &Graph, task: &Task) -> Result<Self, Stopped> {
         let edges = graph.edges();
         let work = task.begin(2 * edges.len() as u64);
-        let mut game = PebbleGame::new(k, graph.nodes());
+        let mut game = PebbleGame::new(graph.nodes());
         let mut blocks = Blocks::new(graph.nodes());
         let mut copies = vec![0u8; edges.len()];
         for (&(u, v), copies) in edges.iter().zip(&mut copies) {
@@ -51,7 +57,7 @@ impl Sparsity {
             if blocks.common(u, v).is_some() {
                 continue;
             }
-            while *copies < (k - 1) as u8 {
+            while *copies < (2 * K - L) as u8 {
                 if !game.insert(u, v) {
                     blocks.replace_inside(&game.component(u, v));
                     break;
@@ -78,7 +84,7 @@ impl Sparsity {
         })
     }
 
-    /// The size of the set: the generic rank of R (k = 2), or of N (k = 3).
+    /// The size of the set: in the plane the generic rank of R, in space of N.
     pub fn rank(&self) -> usize {
         self.copies.iter().map(|&copies| usize::from(copies)).sum()
     }
@@ -89,7 +95,7 @@ impl Sparsity {
     }
 
     /// The number of its component for every edge, below [`components`](Self::components).
-    /// Components are the maximal subgraphs with the full rank k n - (k + 1) for their n nodes.
+    /// Components are the maximal subgraphs with the full rank K n - L for their n nodes.
     pub fn component_of_edges(&self) -> &[u32] {
         &self.component
     }
@@ -99,13 +105,28 @@ impl Sparsity {
         self.components
     }
 
+    /// The nodes of each component, increasing. O(m log m).
+    pub fn component_nodes(&self, graph: &Graph) -> Vec<Vec<u32>> {
+        let mut nodes = vec![Vec::new(); self.components];
+        for (&component, &(i, j)) in self.component.iter().zip(graph.edges()) {
+            nodes[component as usize].extend([i, j]);
+        }
+        for nodes in &mut nodes {
+            nodes.sort_unstable();
+            nodes.dedup();
+        }
+        nodes
+    }
+}
+
+impl Plane {
     /// Why so many edges are independent.
     ///
     /// # Errors
     /// If the task was stopped.
     ///
     /// # Panics
-    /// If k is not 2, or there are fewer than two nodes.
+    /// If there are fewer than two nodes.
     pub fn pinching(self, task: &Task) -> Result<Pinching, Stopped> {
         Pinching::reduce(self.game, task)
     }

@@ -52,7 +52,7 @@ impl Pinching {
     /// otherwise these would lie in tight sets, and its edges would be too many for the union
     /// (docs/theory.md, Lemma 13.14). The game finds out between which. The edge at the start is
     /// an edge of none if the last two nodes are not joined. O(n^2) at worst.
-    pub(super) fn reduce(mut game: PebbleGame, task: &Task) -> Result<Self, Stopped> {
+    pub(super) fn reduce(mut game: PebbleGame<2, 3>, task: &Task) -> Result<Self, Stopped> {
         let nodes = game.nodes();
         assert!(nodes >= 2, "a sequence starts from two nodes");
         let work = task.begin(nodes as u64);

@@ -9,8 +9,16 @@ use crate::watch::unwatched;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-fn sparsity(k: usize, graph: &Graph) -> Sparsity {
-    unwatched(|task| Sparsity::new(k, graph, task))
+fn sparsity<const K: usize, const L: usize>(graph: &Graph) -> Sparsity<K, L> {
+    unwatched(|task| Sparsity::new(graph, task))
+}
+
+fn plane(graph: &Graph) -> Plane {
+    sparsity(graph)
+}
+
+fn space(graph: &Graph) -> Space {
+    sparsity(graph)
 }
 
 /// The rank of R (k = 2) or N (k = 3) at points modulo 2^61 - 1, by textbook elimination.
@@ -63,14 +71,14 @@ fn maximal_rigid(k: usize, graph: &Graph) -> BTreeSet<u32> {
     rigid.iter().filter(maximal).copied().collect()
 }
 
-fn component_sets(graph: &Graph, found: &Sparsity) -> BTreeSet<u32> {
-    let mut sets = vec![0u32; found.components()];
-    for (&(i, j), &component) in graph.edges().iter().zip(found.component_of_edges()) {
-        sets[component as usize] |= 1 << i | 1 << j;
-    }
-    let count = sets.len();
-    let sets: BTreeSet<u32> = sets.into_iter().collect();
-    assert_eq!(sets.len(), count, "components are different");
+fn component_sets<const K: usize, const L: usize>(
+    graph: &Graph,
+    found: &Sparsity<K, L>,
+) -> BTreeSet<u32> {
+    let nodes = found.component_nodes(graph);
+    let sets = nodes.iter().map(|nodes| nodes.iter().map(|v| 1 << v).sum());
+    let sets: BTreeSet<u32> = sets.collect();
+    assert_eq!(sets.len(), found.components(), "components are different");
     sets
 }
 
@@ -106,10 +114,9 @@ fn replayed(nodes: usize, pinching: &Pinching) -> BTreeSet<(u32, u32)> {
 
 /// Rank, copies and pinching sequence of a graph.
 fn check(graph: &Graph) {
-    for k in [2, 3] {
-        assert_eq!(sparsity(k, graph).rank(), rank(k, graph), "{k}: {graph:?}");
-    }
-    let found = sparsity(2, graph);
+    let found = plane(graph);
+    assert_eq!(found.rank(), rank(2, graph), "{graph:?}");
+    assert_eq!(space(graph).rank(), rank(3, graph), "{graph:?}");
     let kept = graph.edges().iter().zip(found.copies());
     let kept: BTreeSet<(u32, u32)> = kept
         .filter(|&(_, &copies)| copies > 0)
@@ -146,11 +153,10 @@ fn ranks_of_all_graphs_with_up_to_six_nodes() {
 fn components_of_all_graphs_with_up_to_five_nodes() {
     for nodes in 2..=5 {
         for graph in all_graphs(nodes) {
-            for k in [2, 3] {
-                let found = sparsity(k, &graph);
-                let sets = component_sets(&graph, &found);
-                assert_eq!(sets, maximal_rigid(k, &graph), "{k}: {graph:?}");
-            }
+            let sets = component_sets(&graph, &plane(&graph));
+            assert_eq!(sets, maximal_rigid(2, &graph), "{graph:?}");
+            let sets = component_sets(&graph, &space(&graph));
+            assert_eq!(sets, maximal_rigid(3, &graph), "{graph:?}");
         }
     }
 }
@@ -161,17 +167,17 @@ fn components_of_all_graphs_with_up_to_five_nodes() {
 fn the_complete_graph_on_four_nodes_with_a_pendant_edge() {
     let pairs = (0..4).flat_map(|j| (0..j).map(move |i| (i, j)));
     let graph = Graph::new(5, pairs.chain([(3, 4)])).unwrap();
-    let found = sparsity(2, &graph);
+    let found = plane(&graph);
     assert_eq!((found.rank(), found.components()), (6, 2));
     // In space: 3 * 4 - 4 = 8, and 2 more.
-    assert_eq!(sparsity(3, &graph).rank(), 10);
+    assert_eq!(space(&graph).rank(), 10);
 }
 
 /// K_{3,3} has 9 = 2 * 6 - 3 edges, and is a Laman graph.
 #[test]
 fn the_utility_graph_is_rigid_in_the_plane() {
     let graph = Graph::new(6, (0..3).flat_map(|a| (3..6).map(move |b| (a, b)))).unwrap();
-    let found = sparsity(2, &graph);
+    let found = plane(&graph);
     assert_eq!((found.rank(), found.components()), (9, 1));
 }
 
@@ -180,7 +186,7 @@ fn the_utility_graph_is_rigid_in_the_plane() {
 fn large_sparse_graphs_take_no_quadratic_time() {
     let n = 100_000;
     let ring = Graph::new(n, (0..n).map(|v| (v, (v + 1) % n))).unwrap();
-    let found = sparsity(2, &ring);
+    let found = plane(&ring);
     assert_eq!((found.rank(), found.components()), (n as usize, n as usize));
     let pinching = unwatched(|task| found.pinching(task));
     let edges = replayed(n as usize, &pinching);
@@ -195,30 +201,26 @@ fn random_graph() -> impl Strategy<Value = Graph> {
     })
 }
 
+/// The bound by the components is the rank (Corollary 13.8), and components share at most one node.
+fn check_components<const K: usize, const L: usize>(graph: &Graph, found: &Sparsity<K, L>) {
+    let sets: Vec<u32> = component_sets(graph, found).into_iter().collect();
+    let full = |set: &u32| K * set.count_ones() as usize - L;
+    assert_eq!(sets.iter().map(full).sum::<usize>(), found.rank());
+    for (at, a) in sets.iter().enumerate() {
+        assert!(sets[..at].iter().all(|b| (a & b).count_ones() <= 1));
+        assert_eq!(rank(K, &spanned(graph, *a)), full(a));
+    }
+}
+
 proptest! {
     #[test]
     fn ranks_of_random_graphs(graph in random_graph()) {
         check(&graph);
     }
 
-    /// The bound by the components is the rank (Corollary 13.8), components share at most one
-    /// node, and a larger graph has no fewer edges together.
     #[test]
     fn components_of_random_graphs(graph in random_graph()) {
-        for k in [2, 3] {
-            let found = sparsity(k, &graph);
-            let sets: Vec<u32> = component_sets(&graph, &found).into_iter().collect();
-            let bound: usize = sets
-                .iter()
-                .map(|set| k * set.count_ones() as usize - (k + 1))
-                .sum();
-            prop_assert_eq!(bound, found.rank());
-            for (at, a) in sets.iter().enumerate() {
-                for b in &sets[..at] {
-                    prop_assert!((a & b).count_ones() <= 1);
-                }
-                prop_assert_eq!(rank(k, &spanned(&graph, *a)), k * a.count_ones() as usize - (k + 1));
-            }
-        }
+        check_components(&graph, &plane(&graph));
+        check_components(&graph, &space(&graph));
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, PieceVerdict};
-use viewcert::decide::{Bound, Counting, Options, Overlap, Value, Verdict, VerdictError, decide};
+use viewcert::decide::{Counting, Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 
 /// What the catalog says about one graph.
@@ -112,14 +112,8 @@ fn partition_bound(verdict: &Verdict) -> usize {
 /// Whether the bound of a piece has a block with a hub.
 fn uses_hub(piece: &PieceVerdict) -> bool {
     let has_hub = |counting: &Counting| counting.blocks.iter().any(|block| block.hub.is_some());
-    let overlap_has = |overlap: &Overlap| has_hub(&overlap.first) || has_hub(&overlap.second);
     piece.evidence.iter().any(|evidence| match evidence {
-        Evidence::Counting(counting) => has_hub(counting),
-        Evidence::Overlap(overlap) => overlap_has(overlap),
-        Evidence::Added(added) => match &added.bound {
-            Bound::Counting(counting) => has_hub(counting),
-            Bound::Overlap(overlap) => overlap_has(overlap),
-        },
+        Evidence::Upper(upper) => upper.countings().any(has_hub),
         _ => false,
     })
 }

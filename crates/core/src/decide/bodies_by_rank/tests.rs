@@ -1,6 +1,7 @@
 use super::*;
 use crate::decide::verdict::{Value, Verdict};
 use crate::decide::{ProjectiveBodies, decide};
+use crate::geometry::model::Model;
 use crate::graph::KnownParts;
 use crate::watch::{Limits, Watch};
 

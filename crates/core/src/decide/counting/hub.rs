@@ -1,8 +1,9 @@
 //! The hub bound (Theorem 5.2 of docs/theory.md): parts that meet at a node, and too few plane
 //! flows between them.
 
-use super::Search;
+use super::search::Search;
 use crate::contract::piece::{Assembly, Core, Members};
+use crate::decide::evidence::Hub;
 use crate::decide::motion_class;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::Graph;
@@ -14,26 +15,6 @@ use crate::watch::{Stopped, Task};
 
 /// How many sets of parts the search looks at for one node.
 const FLATS: usize = 20_000;
-
-/// A node at which a block loses rank. With every part of `split` given its own copy of
-/// the node, kappa the number of connected components of what results, and s the sum
-/// over the groups of 3 n_g - 4 less 3 n_B - 4, it loses at least
-/// |split| - (kappa - 1) - 3 s.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Hub {
-    /// The node.
-    pub node: u32,
-    /// A partition of the block's members.
-    pub parts: Vec<Members>,
-    /// The parts, increasing, that get their own copy of the node.
-    pub split: Vec<u32>,
-    /// A partition of the parts, for the bound on the rank of N of the split graph.
-    pub groups: Vec<Vec<u32>>,
-    /// kappa; the node counts as a component if no part outside `split` contains it.
-    pub components: usize,
-    /// What the block loses, at least 1.
-    pub less: usize,
-}
 
 /// The hub that takes off most from the rank of a block whose edges the parts
 /// partition, or `None` if the search finds no hub.
@@ -182,7 +163,7 @@ impl Inflow {
             }
             let mut larger = span.clone();
             for function in &self.functions[k] {
-                larger.insert(field, function);
+                larger.insert(field, function.clone());
             }
             if 3 * larger.dimension() < self.parts.len() {
                 self.extend(field, &larger, k + 1, budget, found, task)?;

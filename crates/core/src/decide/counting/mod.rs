@@ -17,37 +17,20 @@
 //! out as a block of its own: what is rigid without it may be a smaller block that has a hub.
 
 mod hub;
+mod search;
+
+pub(crate) use search::Search;
 
 use crate::contract::piece::{Assembly, Members};
+use crate::decide::evidence::{Block, Counting};
 use crate::decide::motion_class;
 use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlows;
-use crate::linalg::prime::PrimeField;
-use crate::watch::{Stopped, Task};
-
-pub use hub::Hub;
+use crate::watch::Stopped;
 
 /// Up to so many components each is left out in turn.
 const MAX_LEFT_OUT: usize = 64;
-
-/// A partition of a piece's members and the bound on its rank that counting gives.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counting {
-    /// The blocks, in the order of their first members.
-    pub blocks: Vec<Block>,
-    /// The bound: the sum of what the blocks contribute.
-    pub bound: usize,
-}
-
-/// A block of a partition.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// What is in the block.
-    pub members: Members,
-    /// A hub at which it loses rank.
-    pub hub: Option<Hub>,
-}
 
 impl Counting {
     /// The partition bound of the given blocks (Theorem 5.1; calibrated: Corollary 5.8, with
@@ -74,26 +57,6 @@ impl Counting {
         let mut blocks: Vec<Block> = parts.into_iter().flat_map(|part| part.blocks).collect();
         blocks.sort_by(|a, b| a.members.cmp(&b.members));
         Self { blocks, bound }
-    }
-}
-
-/// How a search draws, computes and can be stopped.
-pub(crate) struct Search<'a> {
-    /// The field of its matrices. Where to look is not a claim, so that any field does.
-    pub field: &'a PrimeField,
-    /// Gives uniform residues; the choice steers the search but not the validity of what it
-    /// finds.
-    pub random: &'a mut dyn FnMut() -> u64,
-    /// What it counts as.
-    pub task: Task<'a>,
-}
-
-impl Search<'_> {
-    /// Random centres for so many nodes.
-    fn centres(&mut self, nodes: usize) -> Vec<[u64; 3]> {
-        (0..nodes)
-            .map(|_| std::array::from_fn(|_| (self.random)()))
-            .collect()
     }
 }
 

@@ -8,11 +8,10 @@
 mod separations;
 
 use crate::contract::piece::{Members, Split};
-use crate::decide::counting::Counting;
 use crate::decide::error::VerdictError;
-use crate::decide::evidence::Evidence;
-use crate::decide::one_piece::Piece;
+use crate::decide::evidence::{Counting, Overlap, Shared, SharedPiece};
 use crate::decide::stresses::Stresses;
+use crate::decide::walk::Piece;
 use crate::geometry::model::Model;
 use crate::linalg::prime::PrimeField;
 use crate::watch::Step;
@@ -30,37 +29,6 @@ const MAX_STRESSES: usize = 16;
 
 /// For so many parts at most a bound by counting is looked for.
 const MAX_PARTS: usize = 512;
-
-/// Two sets of members that cover a piece, and the bound on its rank that they give.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Overlap {
-    /// Blocks of the first set, and what they contribute.
-    pub first: Counting,
-    /// Blocks of the second set, and what they contribute.
-    pub second: Counting,
-    /// What is in both.
-    pub shared: Shared,
-    /// What the blocks contribute less the lower bound of what is in both.
-    pub bound: usize,
-}
-
-/// The members that are in both sets, cut into pieces whose ranks add up.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Shared {
-    /// Those that are pieces by themselves.
-    pub rigid: Members,
-    /// The other pieces.
-    pub pieces: Vec<SharedPiece>,
-}
-
-/// A piece of what is in both sets.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SharedPiece {
-    /// The piece.
-    pub members: Members,
-    /// Lower bounds for its core.
-    pub evidence: Vec<Evidence>,
-}
 
 /// Looks for an overlap whose bound is `target`, a lower bound on the rank of the piece.
 ///

@@ -166,9 +166,10 @@ mod tests {
 
     fn separations(nodes: u32, pairs: &[(u32, u32)], contract: bool) -> Vec<(u64, u64)> {
         let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
-        let contraction = match contract {
-            true => Contraction::new(&graph, Model::Projective),
-            false => Contraction::none(&graph),
+        let contraction = if contract {
+            Contraction::new(&graph, Model::Projective)
+        } else {
+            Contraction::none(&graph)
         };
         let assembly = Assembly::new(&graph, &contraction);
         let all = assembly.all();

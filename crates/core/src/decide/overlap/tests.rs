@@ -1,4 +1,6 @@
 use super::*;
+use crate::decide::evidence::Evidence;
+use crate::decide::{Bound, Upper};
 use crate::decide::{Method, Options, Projective, Strength, decide};
 use crate::graph::Graph;
 use crate::graph::graph6;
@@ -13,7 +15,10 @@ fn of(graph: &Graph, rank: usize, options: &Options) -> Overlap {
     };
     assert_eq!((piece.lower, piece.upper), (rank, rank));
     let overlaps = piece.evidence.iter().filter_map(|evidence| match evidence {
-        Evidence::Overlap(overlap) => Some(overlap.clone()),
+        Evidence::Upper(Upper {
+            by: Bound::Overlap(overlap),
+            added,
+        }) if added.is_empty() => Some(overlap.clone()),
         _ => None,
     });
     let [overlap] = &overlaps.collect::<Vec<_>>()[..] else {

@@ -70,7 +70,7 @@ fn check_evidence(assembly: &Assembly, piece: &PieceVerdict, sha256: [u8; 32]) {
         }
         [
             Evidence::PlaneMinor { draw, pivots },
-            Evidence::Counting(counting),
+            Evidence::Upper(upper),
             Evidence::Classes(classes),
             Evidence::Kernel {
                 draw: again,
@@ -79,7 +79,7 @@ fn check_evidence(assembly: &Assembly, piece: &PieceVerdict, sha256: [u8; 32]) {
         ] => {
             assert_eq!(draw, again);
             assert_eq!(4 * (above + pivots.rank()), piece.lower);
-            assert_eq!(counting.bound, piece.upper);
+            assert_eq!(upper.value(), piece.upper);
             assert_eq!(piece.lower, piece.upper);
             assert!(classes.len() > 1);
             let field = PrimeField::new(draw.prime).unwrap();
@@ -108,7 +108,7 @@ proptest! {
     #[test]
     fn the_pipeline_and_one_game(graph in random_graph()) {
         let verdict = affine(&graph);
-        let found = unwatched(|task| Sparsity::new(2, &graph, task));
+        let found = unwatched(|task| Plane::new(&graph, task));
         prop_assert_eq!(verdict.rank, 4 * found.rank());
         prop_assert_eq!(plane_rank(&graph, &Watch::default()), Ok(found.rank()));
         let mut sets = vec![BTreeSet::new(); found.components()];
