@@ -90,6 +90,69 @@ def generic_rank(nodes, edges, model, rng, vectors=()):
     return best
 
 
+def full_camera_rank(n, edges, rng):
+    """The rank of the derivative of all fundamental matrices, each up to its scale, by all 12 n entries of random
+    cameras: from the paper's formula (theory, (1.1)) alone, with an elimination of its own.
+
+    Entry (h, k) of F_ij is, up to sign, the determinant of P_i without row k above P_j without row h. Its derivative by an
+    entry of these four rows is the cofactor. With a column for each pair that holds F_ij the rank grows by one for each.
+    """
+    p = 2**31 - 1
+    cameras = [[[rng.randrange(p) for _ in range(4)] for _ in range(3)] for _ in range(n)]
+    rows = []
+    for e, (i, j) in enumerate(edges):
+        for h, k in itertools.product(range(3), repeat=2):
+            places = [(i, r) for r in range(3) if r != k] + [(j, r) for r in range(3) if r != h]
+            matrix = [cameras[v][r] for v, r in places]
+            row = {}
+            for t, (v, r) in enumerate(places):
+                others = matrix[:t] + matrix[t + 1 :]
+                for c in range(4):
+                    minor = det3(*([x for s, x in enumerate(line) if s != c] for line in others)) % p
+                    row[12 * v + 4 * r + c] = (-1) ** (h + k + t + c) * minor % p
+            # The first row of the matrix and its cofactors give the determinant itself.
+            v, r = places[0]
+            row[12 * n + e] = sum(x * row[12 * v + 4 * r + c] for c, x in enumerate(matrix[0])) % p
+            rows.append({c: x for c, x in row.items() if x})
+    return sparse_rank(rows, p) - len(edges)
+
+
+def det3(a, b, c):
+    x, y, z = (a[s] * b[t] - a[t] * b[s] for s, t in ((1, 2), (2, 0), (0, 1)))
+    return x * c[0] + y * c[1] + z * c[2]
+
+
+def sparse_rank(rows, p):
+    """The rank of sparse rows modulo p: the shortest row goes first, and its rarest column with it."""
+    rows, rank = dict(enumerate(rows)), 0
+    at = collections.defaultdict(set)
+    for number, row in rows.items():
+        for c in row:
+            at[c].add(number)
+    while rows:
+        number = min(rows, key=lambda k: len(rows[k]))
+        pivot_row = rows.pop(number)
+        for c in pivot_row:
+            at[c].discard(number)
+        if not pivot_row:
+            continue
+        rank += 1
+        column = min(pivot_row, key=lambda c: len(at[c]))
+        unit = pow(pivot_row[column], -1, p)
+        for other in list(at[column]):
+            row = rows[other]
+            factor = row[column] * unit % p
+            for c, x in pivot_row.items():
+                value = (row.get(c, 0) - factor * x) % p
+                if value:
+                    row[c] = value
+                    at[c].add(other)
+                elif c in row:
+                    del row[c]
+                    at[c].discard(other)
+    return rank
+
+
 def required(n, model, scaled=False):
     a, b = {"projective": (11, 15), "calibrated": (3, 4), "affine": (8, 12)}[model]
     return 0 if n == 1 else a * n - b + int(scaled)
@@ -101,6 +164,7 @@ class Truth:
     def __init__(self, n, edges, model, vectors):
         rng = random.Random(n)
         self.rank = generic_rank(range(n), edges, model, rng, vectors)
+        self.other_rank = full_camera_rank(n, edges, rng) if model == "projective" and n <= 12 else self.rank
         self.required = required(n, model, bool(vectors))
         self.solvable = n == 1 or self.contracts(n, edges)
         if model != "projective":
@@ -155,6 +219,8 @@ class Truth:
     def contradicts(self, claim):
         """What is wrong with a claim, or None."""
         verdict, rank, components = (claim[name]["value"] for name in ("verdict", "rank", "components"))
+        if self.rank != self.other_rank:
+            return f"one brute force finds the rank {self.rank}, the other {self.other_rank}"
         if rank != self.rank:
             return f"the rank is {self.rank}, claimed is {rank}"
         if (verdict == "not-finite-solvable") != (self.rank < self.required):
@@ -170,10 +236,10 @@ class Truth:
 TRUTHS = {}
 
 
-def contradiction(document, data):
+def contradiction(document):
     """What is wrong with an accepted certificate."""
-    done = check.Check(data)
-    n, edges, model = done.graph.n, set(map(tuple, done.graph.edges)), document["model"]
+    graph = check.read_graph6(document["graph"]["graph6"])
+    n, edges, model = graph.n, set(map(tuple, graph.edges)), document["model"]
     # A known part is as good as all its pairs (theory, Theorem 4.14).
     for part in document.get("parts", []):
         edges.update(itertools.combinations(part, 2))
@@ -227,6 +293,32 @@ def swap_entries(document, rng):
 def delete_entry(document, rng):
     entries = rng.choice(lists_of(document, 1))
     del entries[rng.randrange(len(entries))]
+
+
+def empty_list(document, rng):
+    rng.choice(lists_of(document, 1)).clear()
+
+
+def nest_part(document, rng):
+    """What is shown of the members becomes that of a part, which is all of them; or a merge becomes a part."""
+    evidence = document["solutions"]
+    for _ in range(rng.randrange(1, 4)):
+        inner = [merge for merge in evidence["merges"] if merge["rule"] == "part"]
+        if inner and rng.random() < 0.4:
+            evidence = rng.choice(inner)["solutions"]
+    if evidence["merges"] and rng.random() < 0.5:
+        merge = rng.choice(evidence["merges"])
+        own = {**merge, "with": list(range(len(merge["with"])))}
+        nodes = set(merge["at"]) if merge["rule"] == "part" else set(range(document["graph"]["nodes"]))
+        merge.update({"rule": "part", "at": sorted(nodes)})
+        merge["solutions"] = {"merges": [own], "upper": None, "lower": None}
+        return
+    whole = {"merges": evidence["merges"], "upper": evidence["upper"], "lower": evidence["lower"]}
+    count = len(document["pieces"][0]["edges"]) + len(document["pieces"][0]["bodies"])
+    part = {"rule": "part", "with": list(range(count)), "at": list(range(document["graph"]["nodes"])), "solutions": copy_of(whole)}
+    if rng.random() < 0.5:
+        part["solutions"]["lower"] = None
+    evidence.update({"merges": [part], "upper": None, "lower": None})
 
 
 def double_entry(document, rng):
@@ -536,12 +628,24 @@ MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
-    *(change_merge, bad_cycles, remake),
+    *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part),
 )
 
 
+# Lists that are increasing wherever they stand; `rows` and `cols` are pivots in other places.
+INCREASING = ("edges", "bodies", "split", "added", "freed", "plus", "minus", "absent", "displacements")
+
+
 def repair(document, rng):
-    """Makes what a checker computes agree with what is stated: counting, hubs, then the claim."""
+    """Makes what a checker computes agree with what is stated: order, counting, hubs, then the claim."""
+    for container, key in places(document):
+        if key in INCREASING and type(container[key]) is list:
+            sort_if_possible(container[key])
+    if "solutions" in document:
+        claim = {"at_least": 1, "at_most": None, **check.stated(None)}
+        document["claim"].setdefault("solutions", claim).pop("value", None)
+    else:
+        document["claim"].pop("solutions", None)
     for _ in range(12):
         try:
             document["claim"] = check.Check(copy_of(document)).evidence_claim
@@ -720,7 +824,7 @@ class Comparison:
         if second == 0:
             self.count["accepted"] += 1
             self.accepted_by["+".join(done)] += 1
-            wrong = contradiction(json.loads(data), data)
+            wrong = contradiction(json.loads(data))
             if wrong:
                 self.count["false"] += 1
                 self.report(data, done, f"accepted, but {wrong}")

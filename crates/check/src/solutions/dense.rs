@@ -1,127 +1,35 @@
-//! Small dense linear algebra modulo a prime: independent rows, and what is orthogonal to them.
+//! Small matrices modulo a prime: determinants, and left kernels of sparse ones.
 
 use crate::algebra::{Field, Ring};
+use crate::elimination::Echelon;
 use crate::limits::Meter;
 use crate::rejection::Checked;
+use std::collections::BTreeMap;
 
 /// What one entry of a row counts as.
 pub(super) const ENTRY: u64 = 4;
 
-/// Independent rows: each is one at its pivot, and zero at the pivots of those before it.
-#[derive(Clone)]
-pub(super) struct Space<'a> {
+/// A row by its entries, each with its column.
+pub(super) type Sparse = Vec<(usize, u64)>;
+
+/// The columns of a matrix, eliminated: what is orthogonal to them are the w with w M = 0, of which
+/// there are as many independent ones as places without pivot.
+pub(super) fn columns<'a>(
     field: &'a Field,
     meter: &'a Meter,
-    width: usize,
-    rows: Vec<(usize, Vec<u64>)>,
-}
-
-impl<'a> Space<'a> {
-    pub fn new(field: &'a Field, width: usize, meter: &'a Meter) -> Space<'a> {
-        Space {
-            field,
-            meter,
-            width,
-            rows: Vec::new(),
+    rows: &[Sparse],
+) -> Checked<Echelon<'a>> {
+    let mut columns: BTreeMap<usize, Sparse> = BTreeMap::new();
+    for (number, row) in rows.iter().enumerate() {
+        for &(column, entry) in row {
+            columns.entry(column).or_default().push((number, entry));
         }
     }
-
-    /// The space that rows span.
-    pub fn of(
-        field: &'a Field,
-        width: usize,
-        meter: &'a Meter,
-        rows: impl IntoIterator<Item = Vec<u64>>,
-    ) -> Checked<Space<'a>> {
-        let mut space = Space::new(field, width, meter);
-        for row in rows {
-            space.insert(row)?;
-        }
-        Ok(space)
-    }
-
-    pub fn rank(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Subtracts rows so that a vector vanishes at all pivots.
-    pub fn reduce(&self, vector: &mut [u64]) -> Checked<()> {
-        let mut used = 1;
-        for (pivot, row) in &self.rows {
-            let factor = vector[*pivot];
-            if factor != 0 {
-                used += 1;
-                for (entry, &other) in vector.iter_mut().zip(row) {
-                    *entry = self.field.sub(*entry, self.field.mul(factor, other));
-                }
-            }
-        }
-        self.meter
-            .charge((ENTRY * self.width as u64) * used + self.rows.len() as u64)
-    }
-
-    /// Adds a vector; returns whether it was independent of the others.
-    pub fn insert(&mut self, mut vector: Vec<u64>) -> Checked<bool> {
-        self.reduce(&mut vector)?;
-        let Some(pivot) = vector.iter().position(|&entry| entry != 0) else {
-            return Ok(false);
-        };
-        let inverse = self.field.inverse(vector[pivot]);
-        for entry in &mut vector {
-            *entry = self.field.mul(*entry, inverse);
-        }
-        self.rows.push((pivot, vector));
-        Ok(true)
-    }
-
-    /// Whether a vector is orthogonal to all rows.
-    pub fn annihilate(&self, vector: &[u64]) -> Checked<bool> {
-        let entries = self.width * self.rows.len();
-        self.meter.charge(ENTRY * entries as u64)?;
-        let mut rows = self.rows.iter();
-        Ok(rows.all(|(_, row)| dot(self.field, row, vector) == 0))
-    }
-
-    /// The places without pivot, in increasing order.
-    pub fn free(&self) -> Vec<usize> {
-        let mut is_pivot = vec![false; self.width];
-        self.rows
-            .iter()
-            .for_each(|&(pivot, _)| is_pivot[pivot] = true);
-        (0..self.width).filter(|&at| !is_pivot[at]).collect()
-    }
-
-    /// A basis of the vectors that are orthogonal to all rows.
-    pub fn kernel(&self) -> Checked<Vec<Vec<u64>>> {
-        let mut basis = Vec::new();
-        for free in self.free() {
-            self.meter
-                .charge(ENTRY * (self.width * (self.rows.len() + 1)) as u64)?;
-            let mut vector = vec![0; self.width];
-            vector[free] = self.field.one;
-            // Later rows vanish at the pivots of earlier ones, so their entries come first.
-            for (pivot, row) in self.rows.iter().rev() {
-                vector[*pivot] = self.field.neg(dot(self.field, row, &vector));
-            }
-            basis.push(vector);
-        }
-        Ok(basis)
-    }
-}
-
-/// The vectors w with w M = 0, for a matrix M given by its rows.
-pub(super) fn left_kernel(
-    field: &Field,
-    meter: &Meter,
-    rows: &[Vec<u64>],
-    width: usize,
-) -> Checked<Vec<Vec<u64>>> {
-    let columns = (0..width).map(|column| rows.iter().map(|row| row[column]).collect());
-    Space::of(field, rows.len(), meter, columns)?.kernel()
+    Echelon::of(field, rows.len(), meter, columns.into_values())
 }
 
 pub(super) fn dot(field: &Field, x: &[u64], y: &[u64]) -> u64 {
-    let terms = x.iter().zip(y).filter(|&(&x, &y)| x != 0 && y != 0);
+    let terms = x.iter().zip(y);
     terms.fold(0, |sum, (&x, &y)| field.add(sum, field.mul(x, y)))
 }
 
@@ -161,19 +69,27 @@ mod tests {
     #[test]
     fn by_hand() {
         let (field, meter) = (Field::new(7).unwrap(), Meter::new(&Limits::default()));
-        let vector = |values: &[u64]| -> Vec<u64> {
-            values.iter().map(|&value| field.element(value)).collect()
+        let sparse = |values: &[u64]| -> Sparse {
+            let values = values.iter().map(|&value| field.element(value));
+            values.enumerate().collect()
         };
-        let rows = [[0, 2, 1, 0], [1, 1, 1, 1], [2, 6, 4, 2]].map(|row| vector(&row));
-        let space = Space::of(&field, 4, &meter, rows.clone()).unwrap();
-        assert_eq!(space.rank(), 2);
-        assert_eq!(space.free(), [2, 3]);
+        let rows = [[0, 2, 1, 0], [1, 1, 1, 1], [2, 6, 4, 2]].map(|row| sparse(&row));
+        let mut space = Echelon::of(&field, 4, &meter, rows.clone()).unwrap();
+        assert_eq!((space.rank(), space.free()), (2, vec![2, 3]));
         // 2 y + z = 0 and x + y + z + t = 0: y = 3 z, x = 3 z - t.
-        let kernel = [[3, 3, 1, 0], [6, 0, 0, 1]].map(|row| vector(&row));
-        assert_eq!(space.kernel().unwrap(), kernel);
+        let elements = |values: [u64; 4]| values.map(|value| field.element(value)).to_vec();
+        let kernel = [elements([3, 3, 1, 0]), elements([6, 0, 0, 1])];
+        assert_eq!([2, 3].map(|free| space.orthogonal(free).unwrap()), kernel);
+        assert!(space.annihilates(&kernel[0]).unwrap());
+        assert!(!space.annihilates(&elements([3, 3, 2, 0])).unwrap());
+        // (1, 1, 1, 3) less the second row is (0, 0, 0, 2).
+        let rest = space.residue(sparse(&[1, 1, 1, 3])).unwrap();
+        assert_eq!(rest, [(3, field.element(2))]);
         // Twice the first and twice the second are the third.
-        let left = left_kernel(&field, &meter, &rows, 4).unwrap();
-        assert_eq!(left, [vector(&[5, 5, 1])]);
+        let left = columns(&field, &meter, &rows).unwrap();
+        assert_eq!(left.free(), [2]);
+        let relation = [5, 5, 1].map(|value| field.element(value));
+        assert_eq!(left.orthogonal(2).unwrap(), relation);
     }
 
     #[test]

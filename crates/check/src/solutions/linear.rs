@@ -1,9 +1,10 @@
 //! Steps by linear algebra: conditions (S9) to (S11) of section 12 (theory, Theorem 10.6).
 
-use super::dense::left_kernel;
+use super::dense::{Sparse, columns};
 use super::grammar::Linear;
 use super::system::{Known, System};
 use crate::algebra::Ring;
+use crate::elimination::Echelon;
 use crate::rejection::{Checked, Failure, ensure};
 
 /// A row of which both sides stand for themselves.
@@ -16,10 +17,10 @@ struct Freed {
 /// Verifies a step, and makes its unknowns known.
 pub(super) fn check(step: &Linear, system: &System, known: &mut Known) -> Checked<()> {
     let freed = freed_rows(step, system, known)?;
-    let kernel = kernel(step, system, known)?;
+    let relations = relations(step, system, known)?;
     ensure!(!step.settled.is_empty(), "no unknown is settled");
     for &f in &step.settled {
-        let value = value(f, &freed, &kernel, system)?;
+        let value = value(f, &freed, &relations, system)?;
         let place = known.get_mut(f).filter(|place| place.is_none());
         let wrong = || Failure::rejected(format!("unknown {f} is known already"));
         *place.ok_or_else(wrong)? = Some(value);
@@ -54,34 +55,39 @@ fn freed_rows(step: &Linear, system: &System, known: &Known) -> Checked<Vec<Free
     Ok(freed)
 }
 
-/// (S10): the left kernel of the constant rows and the sides of freed ones, which are the last
-/// entries of its vectors. It is not larger than at any solution.
-fn kernel(step: &Linear, system: &System, known: &Known) -> Checked<Vec<Vec<u64>>> {
-    let constant = system.constant(known).map(|row| system.row(row, known));
-    let mut rows: Vec<Vec<u64>> = constant.collect();
-    let least = rows.len() + step.freed.len();
-    for &row in &step.freed {
-        rows.extend([0, 1].map(|side| system.side(row, side, known)));
+/// (S10): the left kernel of the constant rows and the sides of freed ones, of which the entries at
+/// these sides are returned. It is not larger than at any solution.
+///
+/// What is left of the sides once constant rows are subtracted has just these relations; those
+/// among constant rows alone vanish at the sides.
+fn relations(step: &Linear, system: &System, known: &Known) -> Checked<Vec<Vec<u64>>> {
+    let (field, meter) = (&system.field, system.meter);
+    let (mut constant, mut rows) = (Echelon::new(field, system.columns, meter), 0);
+    for row in system.constant(known) {
+        constant.push(system.row(row, known), None)?;
+        rows += 1;
     }
-    let kernel = left_kernel(&system.field, system.meter, &rows, system.columns)?;
+    let sides = step.freed.iter().flat_map(|&row| [(row, 0), (row, 1)]);
+    let rests = sides.map(|(row, which)| constant.residue(system.side(row, which, known)));
+    let rests = columns(field, meter, &rests.collect::<Checked<Vec<Sparse>>>()?)?;
+    let free = rests.free();
+    let dimension = rows - constant.rank() + free.len();
+    let least = rows + step.freed.len();
     ensure!(
-        kernel.len() + system.target == least,
-        "the left kernel has dimension {}, where {least} less {} is asked for",
-        kernel.len(),
+        dimension + system.target == least,
+        "the left kernel has dimension {dimension}, where {least} less {} is asked for",
         system.target
     );
-    Ok(kernel)
+    free.into_iter().map(|at| rests.orthogonal(at)).collect()
 }
 
 /// (S11): the value of an unknown, which follows from the entries at both sides of its freed rows.
-fn value(f: usize, freed: &[Freed], kernel: &[Vec<u64>], system: &System) -> Checked<u64> {
+fn value(f: usize, freed: &[Freed], relations: &[Vec<u64>], system: &System) -> Checked<u64> {
     let field = &system.field;
     let mut entries = Vec::new();
     for (k, row) in freed.iter().enumerate().filter(|(_, row)| row.unknown == f) {
-        entries.extend(kernel.iter().map(|vector| {
-            let sides = &vector[vector.len() - 2 * (freed.len() - k)..];
-            (sides[row.side], sides[1 - row.side])
-        }));
+        let sides = relations.iter().map(|relation| &relation[2 * k..2 * k + 2]);
+        entries.extend(sides.map(|sides| (sides[row.side], sides[1 - row.side])));
     }
     let given = entries.iter().find(|&&(_, other)| other != 0);
     let missing = || Failure::rejected(format!("unknown {f} does not follow from the left kernel"));

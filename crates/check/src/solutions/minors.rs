@@ -1,10 +1,11 @@
 //! Minors of N(u) as polynomials in a few unknowns: condition (S13) of section 12 (theory, Lemma
 //! 10.2), and their coefficients, by interpolation.
 
-use super::dense::{ENTRY, Space, determinant};
+use super::dense::{ENTRY, Sparse, determinant};
 use super::grammar::Minor;
 use super::system::{Known, System};
 use crate::algebra::{Field, Ring};
+use crate::elimination::Echelon;
 use crate::rejection::{Checked, ensure};
 use std::collections::BTreeSet;
 
@@ -123,46 +124,51 @@ impl Place<'_> {
     /// factor. Empty if all are zero because its constant rows are dependent.
     pub fn coefficients(&self, minor: &Minor, degrees: &[usize]) -> Checked<Vec<u64>> {
         let (system, field) = (self.system, &self.system.field);
-        let within = |vector: Vec<u64>| -> Vec<u64> {
-            minor.cols.iter().map(|&column| vector[column]).collect()
+        let within = |row: Sparse| -> Sparse {
+            let entries = row.into_iter();
+            let place = |(column, entry)| Some((minor.cols.binary_search(&column).ok()?, entry));
+            entries.filter_map(place).collect()
         };
         let none = vec![None; self.known.len()];
         let is_constant = |row: &&usize| self.listed(**row) == [None, None];
         let constant = minor.rows.iter().filter(is_constant);
-        let mut rows: Vec<Vec<u64>> = constant.map(|&row| system.row(row, self.known)).collect();
+        let mut rows: Vec<Sparse> = constant.map(|&row| system.row(row, self.known)).collect();
         rows.extend(minor.plus.iter().map(|&row| system.side(row, 0, &none)));
         rows.extend(minor.minus.iter().map(|&row| system.side(row, 1, &none)));
         let height = rows.len();
         let rows = rows.into_iter().map(within);
-        let space = Space::of(field, minor.cols.len(), system.meter, rows)?;
+        let mut space = Echelon::of(field, minor.cols.len(), system.meter, rows)?;
         if space.rank() < height {
             return Ok(Vec::new());
         }
         // What is left are the rows with unknowns, less constant ones, in the other columns.
         let free = space.free();
-        let mut sides = Vec::new();
-        for &row in minor.rows.iter().filter(|row| !is_constant(row)) {
-            let mut both = [Vec::new(), Vec::new()];
-            for (which, side) in both.iter_mut().enumerate() {
-                let mut vector = within(system.side(row, which, self.known));
-                space.reduce(&mut vector)?;
-                *side = free.iter().map(|&at| vector[at]).collect();
-            }
-            sides.push((both, self.listed(row)));
-        }
         let grid = Exponents { bounds: degrees }.all();
         let size = free.len() as u64 + 1;
         system
             .meter
             .charge(ENTRY * grid.len() as u64 * size * size * size)?;
+        let mut sides = Vec::new();
+        for &row in minor.rows.iter().filter(|row| !is_constant(row)) {
+            let mut both = [Vec::new(), Vec::new()];
+            for (which, side) in both.iter_mut().enumerate() {
+                let rest = space.residue(within(system.side(row, which, self.known)))?;
+                let place = |(at, entry)| Some((free.binary_search(&at).ok()?, entry));
+                *side = rest.into_iter().filter_map(place).collect();
+            }
+            sides.push((both, self.listed(row)));
+        }
         let values = grid.iter().map(|point| {
-            let row = |(both, listed): &([Vec<u64>; 2], [Option<usize>; 2])| {
+            let row = |(both, listed): &([Sparse; 2], [Option<usize>; 2])| {
                 let [x, y] =
                     listed.map(|f| f.map_or(field.one, |f| field.element(point[f] as u64)));
-                let entries = both[0].iter().zip(&both[1]);
-                entries
-                    .map(|(&first, &second)| field.sub(field.mul(x, first), field.mul(y, second)))
-                    .collect()
+                let mut row = vec![0; free.len()];
+                for (side, scale) in both.iter().zip([x, field.neg(y)]) {
+                    for &(at, entry) in side {
+                        row[at] = field.add(row[at], field.mul(scale, entry));
+                    }
+                }
+                row
             };
             determinant(field, sides.iter().map(row).collect())
         });

@@ -1,10 +1,11 @@
 //! Points with values that are zero or infinite, which no solution comes near: condition (S18a) of
 //! section 12 (theory, Theorem 10.14).
 
-use super::dense::{Space, dot, left_kernel};
+use super::dense::{Sparse, columns, dot};
 use super::grammar::Outside;
 use super::system::{Known, System};
 use crate::algebra::Ring;
+use crate::elimination::Echelon;
 use crate::rejection::{Checked, ensure};
 use std::collections::BTreeSet;
 
@@ -169,13 +170,22 @@ impl<'a> Boundary<'a> {
         let free: Vec<usize> = (0..self.values.len())
             .filter(|&f| !special.contains(&self.values[f]))
             .collect();
-        let mut derivatives = Vec::new();
-        for (k, rows) in dependent.iter().enumerate() {
-            derivatives.extend(self.derivatives(k, rows, &free)?);
-        }
-        let conditions = derivatives.len();
         let (field, meter) = (&self.system.field, self.system.meter);
-        let rank = Space::of(field, free.len(), meter, derivatives)?.rank();
+        let (mut independent, mut conditions) = (Echelon::new(field, free.len(), meter), 0);
+        for (k, rows) in dependent.iter().enumerate() {
+            let set = Dependent::new(k, rows, self)?;
+            for free_column in set.space.free() {
+                conditions += 1;
+                ensure!(
+                    conditions <= free.len(),
+                    "more than {} conditions for as many values",
+                    free.len()
+                );
+                let derivative = set.derivative(free_column, &free, self)?;
+                independent.push(derivative.into_iter().enumerate(), None)?;
+            }
+        }
+        let rank = independent.rank();
         ensure!(
             conditions == free.len() && rank == free.len(),
             "{conditions} conditions of rank {rank} for {} values",
@@ -184,55 +194,70 @@ impl<'a> Boundary<'a> {
         Ok(())
     }
 
-    /// The derivatives of w R y by the free unknowns, a list for each y.
-    fn derivatives(&self, k: usize, rows: &[usize], free: &[usize]) -> Checked<Vec<Vec<u64>>> {
-        let (field, meter) = (&self.system.field, self.system.meter);
-        let columns: Vec<usize> = self.columns(rows).into_iter().collect();
-        let width = 3 * columns.len();
-        let place = |column: usize| columns.binary_search(&column).ok().map(|node| 3 * node);
-        let matrix: Vec<Vec<u64>> = rows
-            .iter()
-            .map(|&row| self.row(row, width, place))
-            .collect();
-        let relations = left_kernel(field, meter, &matrix, width)?;
-        ensure!(
-            relations.len() == 1,
-            "dependent[{k}] has {} relations, and not one",
-            relations.len()
-        );
-        let kernel = Space::of(field, width, meter, matrix)?.kernel()?;
-        let mut derivatives = vec![vec![0; free.len()]; kernel.len()];
-        for (&row, &weight) in rows.iter().zip(&relations[0]) {
-            for (which, side) in self.system.rows[row].iter().enumerate() {
-                // A side beside an infinite one is struck out, whatever its scale.
-                let unknown = side.unknown.filter(|_| self.factors[row][which] != 0);
-                let f = unknown.and_then(|f| free.binary_search(&f).ok());
-                let (Some(f), Some(at)) = (f, place(side.column)) else {
-                    continue;
-                };
-                let sign = [weight, field.neg(weight)][which];
-                for (y, derivative) in kernel.iter().zip(&mut derivatives) {
-                    let value = field.mul(sign, dot(field, &side.vector, &y[at..at + 3]));
-                    derivative[f] = field.add(derivative[f], value);
-                }
-            }
-        }
-        Ok(derivatives)
-    }
-
     /// A row in the columns of some nodes.
-    fn row(&self, row: usize, width: usize, place: impl Fn(usize) -> Option<usize>) -> Vec<u64> {
+    fn row(&self, row: usize, place: impl Fn(usize) -> Option<usize>) -> Sparse {
         let field = &self.system.field;
-        let mut vector = vec![0; width];
+        let mut entries = Sparse::new();
         for (which, side) in self.system.rows[row].iter().enumerate() {
             let factor = self.factors[row][which];
             let factor = [factor, field.neg(factor)][which];
-            if let Some(at) = place(side.column) {
-                for (entry, &value) in vector[at..at + 3].iter_mut().zip(&side.vector) {
-                    *entry = field.add(*entry, field.mul(factor, value));
-                }
+            if let Some(at) = place(side.column).filter(|_| factor != 0) {
+                let vector = side.vector.iter().enumerate();
+                entries.extend(vector.map(|(k, &value)| (at + k, field.mul(factor, value))));
             }
         }
-        vector
+        entries
+    }
+}
+
+/// A set of rows with one relation, in the columns of its nodes.
+struct Dependent<'a> {
+    rows: &'a [usize],
+    nodes: Vec<usize>,
+    relation: Vec<u64>,
+    space: Echelon<'a>,
+}
+
+impl<'a> Dependent<'a> {
+    fn new(k: usize, rows: &'a [usize], point: &Boundary<'a>) -> Checked<Dependent<'a>> {
+        let (field, meter) = (&point.system.field, point.system.meter);
+        let nodes: Vec<usize> = point.columns(rows).into_iter().collect();
+        let place = |column: usize| nodes.binary_search(&column).ok().map(|node| 3 * node);
+        let matrix: Vec<Sparse> = rows.iter().map(|&row| point.row(row, place)).collect();
+        let relations = columns(field, meter, &matrix)?;
+        let free = relations.free();
+        ensure!(
+            free.len() == 1,
+            "dependent[{k}] has {} relations, and not one",
+            free.len()
+        );
+        Ok(Dependent {
+            rows,
+            relation: relations.orthogonal(free[0])?,
+            space: Echelon::of(field, 3 * nodes.len(), meter, matrix)?,
+            nodes,
+        })
+    }
+
+    /// The derivatives of w R y by the free unknowns, for the y that a free column stands for.
+    fn derivative(&self, column: usize, free: &[usize], point: &Boundary) -> Checked<Vec<u64>> {
+        let (system, field) = (point.system, &point.system.field);
+        let y = self.space.orthogonal(column)?;
+        let mut derivative = vec![0; free.len()];
+        for (&row, &weight) in self.rows.iter().zip(&self.relation) {
+            for (which, side) in system.rows[row].iter().enumerate() {
+                // A side beside an infinite one is struck out, whatever its scale.
+                let unknown = side.unknown.filter(|_| point.factors[row][which] != 0);
+                let f = unknown.and_then(|f| free.binary_search(&f).ok());
+                let node = self.nodes.binary_search(&side.column).ok();
+                let (Some(f), Some(node)) = (f, node) else {
+                    continue;
+                };
+                let sign = [weight, field.neg(weight)][which];
+                let product = dot(field, &side.vector, &y[3 * node..3 * node + 3]);
+                derivative[f] = field.add(derivative[f], field.mul(sign, product));
+            }
+        }
+        Ok(derivative)
     }
 }

@@ -2,13 +2,13 @@
 //! of section 12 (theory, Theorems 10.8 and 10.13).
 
 use super::chart::Chart;
-use super::dense::Space;
 use super::grammar::{Point, Points, Step, Term};
 use super::linear;
 use super::outside;
 use super::support::{Span, Text, sum};
 use super::system::{Known, System, ensure_all_known};
 use crate::algebra::{Field, Ring};
+use crate::elimination::Echelon;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::collections::HashSet;
@@ -31,7 +31,8 @@ pub(super) fn check(text: &Points, chart: &Chart, known: &Known, meter: &Meter) 
     )?;
     let mut found = Found {
         form: Form::new(text.form.0.as_deref(), &system, &span)?,
-        values: Vec::new(),
+        values: Echelon::new(&system.field, span.is_present.len(), meter),
+        points: 0,
         ratios: HashSet::new(),
         system: &system,
         span: &span,
@@ -106,8 +107,9 @@ fn check_form(text: &[Term], least: &[Vec<usize>]) -> Checked<()> {
 /// Points, of which each has a vector that all minors annihilate.
 struct Found<'a> {
     form: Form,
-    /// What the form gives at each.
-    values: Vec<Vec<u64>>,
+    /// What the form gives at each, at the inner exponents.
+    values: Echelon<'a>,
+    points: usize,
     /// What the monomials of the form are, divided by it, at each.
     ratios: HashSet<Vec<u64>>,
     system: &'a System<'a>,
@@ -136,13 +138,19 @@ impl Found<'_> {
     /// (S17) for a point, of which values may be infinite.
     fn add(&mut self, limits: &[Option<u64>]) -> Checked<()> {
         let (field, span) = (&self.system.field, self.span);
+        // Points are independent, so that no more than these can be right.
+        ensure!(
+            self.points < span.present(),
+            "there are more points than exponents"
+        );
+        self.points += 1;
         let mut vector = vec![0; span.is_present.len()];
         for exponent in span.all_present() {
             let bounds = span.exponents.bounds;
             vector[span.exponents.place(&exponent)] = monomial(field, &exponent, limits, bounds);
         }
         ensure!(
-            span.shifts.annihilate(&vector)?,
+            span.shifts.annihilates(&vector)?,
             "a minor does not vanish at the point"
         );
         let at = |a: &[usize], d: &[usize]| vector[span.exponents.place(&sum(a, d))];
@@ -164,17 +172,15 @@ impl Found<'_> {
             self.ratios.insert(ratios),
             "the form does not tell the point from another one"
         );
-        self.values.push(values);
+        self.values.push(values.into_iter().enumerate(), None)?;
         Ok(())
     }
 
     /// (S17) for all points together.
     fn conclude(self) -> Checked<()> {
-        let (system, span, points) = (self.system, self.span, self.values.len());
-        let width = self.form.inner.len();
-        let space = Space::of(&system.field, width, system.meter, self.values)?;
+        let (span, points) = (self.span, self.points);
         ensure!(
-            space.rank() == points,
+            self.values.rank() == points,
             "the points are not independent on the inner exponents"
         );
         ensure!(

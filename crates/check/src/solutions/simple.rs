@@ -1,11 +1,12 @@
 //! Simple points of a tight core: conditions (S19) to (S23) of section 12 (theory, Lemma 10.9 and
 //! Theorem 10.10).
 
-use super::dense::{Space, dot, left_kernel};
+use super::dense::{Sparse, columns, dot};
 use super::system::{Known, System, cross};
 use crate::algebra::Ring;
 use crate::cameras::{Camera, centre};
 use crate::document::Model;
+use crate::elimination::Echelon;
 use crate::json::Big;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::collections::HashSet;
@@ -15,12 +16,10 @@ pub(super) fn check_chains(system: &System) -> Checked<()> {
     let ones: Known = vec![Some(system.field.one); system.chart.unknowns];
     let mut first = 0;
     for (k, &end) in system.ends.iter().enumerate() {
-        let rows = (first..end).map(|row| system.row(row, &ones));
-        let space = Space::of(&system.field, system.columns, system.meter, rows)?;
-        ensure!(
-            space.rank() == end - first,
-            "the rows of chain {k} are dependent"
-        );
+        // In the columns of the chain's nodes alone.
+        let rows: Vec<Sparse> = (first..end).map(|row| system.row(row, &ones)).collect();
+        let rank = columns(&system.field, system.meter, &rows)?.rank();
+        ensure!(rank == end - first, "the rows of chain {k} are dependent");
         first = end;
     }
     Ok(())
@@ -87,7 +86,9 @@ fn check_point(values: &[u64], system: &System) -> Checked<()> {
         space.rank(),
         system.target
     );
-    let kernel = space.kernel()?;
+    let kernel = space.free().into_iter();
+    let kernel = kernel.map(|free| space.orthogonal(free));
+    let kernel = kernel.collect::<Checked<Vec<_>>>()?;
     check_cameras(&kernel, &known, system)?;
     check_simple(&kernel, &known, system)
 }
@@ -169,40 +170,35 @@ fn eliminated(k: usize, cameras: &[Camera<u64>], known: &Known, system: &System)
 }
 
 /// (S22): the derivatives by the unknowns of w N(u) y, for w in the left and y in the right kernel,
-/// are independent.
+/// are independent: those of N(u) y are, modulo the columns of N(u).
 fn check_simple(kernel: &[Vec<u64>], known: &Known, system: &System) -> Checked<()> {
-    let field = &system.field;
-    let rows: Vec<Vec<u64>> = (0..system.rows.len())
-        .map(|row| system.row(row, known))
-        .collect();
-    let left = left_kernel(field, system.meter, &rows, system.columns)?;
-    let mut derivatives = vec![vec![0; left.len() * kernel.len()]; known.len()];
+    let (field, height) = (&system.field, system.rows.len());
+    let rows: Vec<Sparse> = (0..height).map(|row| system.row(row, known)).collect();
+    let mut image = columns(field, system.meter, &rows)?;
+    // For each unknown what its sides are at each y.
+    let mut derivatives = vec![vec![Sparse::new(); kernel.len()]; known.len()];
     for (number, row) in system.rows.iter().enumerate() {
-        for (which, side) in row.iter().enumerate() {
+        for (side, scale) in row.iter().zip([field.one, field.neg(field.one)]) {
             let Some(f) = side.unknown else { continue };
-            let at_kernel: Vec<u64> = kernel
-                .iter()
-                .map(|y| dot(field, &side.vector, &y[side.column..side.column + 3]))
-                .collect();
-            let places = derivatives[f].chunks_mut(kernel.len());
-            for (w, place) in left.iter().zip(places) {
-                let weight = if which == 0 {
-                    w[number]
-                } else {
-                    field.neg(w[number])
-                };
-                for (entry, &value) in place.iter_mut().zip(&at_kernel) {
-                    *entry = field.add(*entry, field.mul(weight, value));
-                }
+            for (y, derivative) in kernel.iter().zip(&mut derivatives[f]) {
+                let product = dot(field, &side.vector, &y[side.column..side.column + 3]);
+                derivative.push((number, field.mul(scale, product)));
             }
         }
     }
-    let width = left.len() * kernel.len();
-    let space = Space::of(field, width, system.meter, derivatives)?;
+    let mut independent = Echelon::new(field, height * kernel.len(), system.meter);
+    for derivatives in derivatives {
+        let mut row = Sparse::new();
+        for (k, derivative) in derivatives.into_iter().enumerate() {
+            let rest = image.residue(derivative)?;
+            row.extend(rest.into_iter().map(|(at, entry)| (k * height + at, entry)));
+        }
+        independent.push(row, None)?;
+    }
     ensure!(
-        space.rank() == known.len(),
+        independent.rank() == known.len(),
         "the point is not simple: {} of {} directions",
-        space.rank(),
+        independent.rank(),
         known.len()
     );
     Ok(())

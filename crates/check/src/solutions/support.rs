@@ -1,10 +1,11 @@
 //! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
 
-use super::dense::{ENTRY, Space};
+use super::dense::{ENTRY, Sparse};
 use super::grammar::{Minor, Support};
 use super::minors::{Exponents, Place};
 use super::system::{Known, System};
 use super::zeros::Pattern;
+use crate::elimination::Echelon;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::collections::HashSet;
 
@@ -46,7 +47,7 @@ pub(super) struct Span<'t> {
     pub exponents: Exponents<'t>,
     /// Which exponents are in A, in their order.
     pub is_present: Vec<bool>,
-    pub shifts: Space<'t>,
+    pub shifts: Echelon<'t>,
 }
 
 impl<'t> Span<'t> {
@@ -71,7 +72,7 @@ impl<'t> Span<'t> {
         let count = exponents.count().ok_or_else(many)?;
         let mut span = Span {
             is_present: is_present(&exponents, count, text.absent)?,
-            shifts: Space::new(&system.field, count, system.meter),
+            shifts: Echelon::new(&system.field, count, system.meter),
             exponents,
         };
         let place = Place {
@@ -116,11 +117,11 @@ impl<'t> Span<'t> {
         self.check_absent(minor, place, (&shifts, &own))?;
         let coefficients = place.coefficients(minor, &degrees)?;
         for shift in &shifts {
-            let mut row = vec![0; self.is_present.len()];
-            for (exponent, &coefficient) in own.iter().zip(&coefficients) {
-                row[self.exponents.place(&sum(exponent, shift))] = coefficient;
-            }
-            self.shifts.insert(row)?;
+            let terms = own.iter().zip(&coefficients);
+            let terms = terms.filter(|(_, coefficient)| **coefficient != 0);
+            let place = |exponent| self.exponents.place(&sum(exponent, shift));
+            let row: Sparse = terms.map(|(e, &entry)| (place(e), entry)).collect();
+            self.shifts.push(row, None)?;
         }
         Ok(())
     }

@@ -1,9 +1,10 @@
 //! The rows of N(u) at centres modulo a prime: conditions (S7) and (S8) of section 12.
 
 use super::chart::Chart;
-use super::dense::Space;
+use super::dense::Sparse;
 use super::grammar::Centres;
 use crate::algebra::{Field, Ring};
+use crate::elimination::Echelon;
 use crate::json::Big;
 use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
@@ -147,21 +148,23 @@ impl<'a> System<'a> {
 
     /// A side as a vector, with the value of its scale if that is known, and without scale
     /// otherwise.
-    pub fn side(&self, row: usize, which: usize, known: &Known) -> Vec<u64> {
+    pub fn side(&self, row: usize, which: usize, known: &Known) -> Sparse {
         let side = &self.rows[row][which];
         let scale = side.unknown.and_then(|f| known[f]);
-        let mut vector = vec![0; self.columns];
-        for (k, &entry) in side.vector.iter().enumerate() {
-            vector[side.column + k] = scale.map_or(entry, |scale| self.field.mul(scale, entry));
-        }
-        vector
+        let entries = side.vector.iter().enumerate();
+        let entries = entries.map(|(k, &entry)| {
+            let entry = scale.map_or(entry, |scale| self.field.mul(scale, entry));
+            (side.column + k, entry)
+        });
+        entries.collect()
     }
 
-    /// A row whose unknowns are known.
-    pub fn row(&self, row: usize, known: &Known) -> Vec<u64> {
-        let [first, second] = [0, 1].map(|which| self.side(row, which, known));
-        let entries = first.iter().zip(&second);
-        entries.map(|(&x, &y)| self.field.sub(x, y)).collect()
+    /// A row whose unknowns are known. Its sides are at different nodes.
+    pub fn row(&self, row: usize, known: &Known) -> Sparse {
+        let [mut first, second] = [0, 1].map(|which| self.side(row, which, known));
+        let negative = second.into_iter();
+        first.extend(negative.map(|(column, entry)| (column, self.field.neg(entry))));
+        first
     }
 
     /// The constant rows.
@@ -170,9 +173,9 @@ impl<'a> System<'a> {
     }
 
     /// The space of all rows, where all unknowns are known.
-    pub fn space(&self, known: &Known) -> Checked<Space<'_>> {
+    pub fn space(&self, known: &Known) -> Checked<Echelon<'_>> {
         let rows = (0..self.rows.len()).map(|row| self.row(row, known));
-        Space::of(&self.field, self.columns, self.meter, rows)
+        Echelon::of(&self.field, self.columns, self.meter, rows)
     }
 
     /// Residues, which are below the prime.

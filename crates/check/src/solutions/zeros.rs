@@ -87,12 +87,25 @@ fn place_row(
     row_at: &mut [Option<usize>],
     seen: &mut [bool],
 ) -> bool {
-    rows[row].iter().any(|&column| {
-        let new = !std::mem::replace(&mut seen[column], true);
-        let found = new && row_at[column].is_none_or(|other| place_row(other, rows, row_at, seen));
-        if found {
-            row_at[column] = Some(row);
+    // Rows, each of which wants a column of the one before it, with how many of its own were tried.
+    // A list and no recursion: it may be as long as there are rows.
+    let mut path = vec![(row, 0)];
+    while let Some((row, tried)) = path.last_mut() {
+        let Some(&column) = rows[*row].get(*tried) else {
+            path.pop();
+            continue;
+        };
+        *tried += 1;
+        if std::mem::replace(&mut seen[column], true) {
+            continue;
         }
-        found
-    })
+        let Some(other) = row_at[column] else {
+            for (row, tried) in path {
+                row_at[rows[row][tried - 1]] = Some(row);
+            }
+            return true;
+        };
+        path.push((other, 0));
+    }
+    false
 }
