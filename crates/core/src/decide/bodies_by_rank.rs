@@ -191,7 +191,7 @@ impl Search<'_> {
             let nodes = core.graph.nodes();
             let field = self.options.prime.for_core(nodes);
             // A prime too small for so many centres proves nothing here.
-            let Ok(at) = Centres::draw(&field, nodes, key) else {
+            let Ok(at) = Centres::draw(&field, &core, key) else {
                 continue;
             };
             let ranks = Ranks::new(self.options.model, &self.options.watch, &at, &core)?;

@@ -42,6 +42,7 @@ mod overlap;
 mod plane_piece;
 mod solution_count;
 mod stresses;
+mod vectors;
 mod verdict;
 mod whole_matrix;
 
@@ -59,6 +60,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
 use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::geometry::model::Model;
+use crate::geometry::placed::Placed;
 use crate::graph::{Graph, sha256};
 use crate::watch::{Step, Stopped};
 use std::sync::Arc;
@@ -88,7 +90,8 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
-    let assembly = Assembly::new(graph, &contraction);
+    let placed = Placed::new(graph.nodes(), &options.displacements);
+    let assembly = Assembly::new(graph, &contraction).with_vectors(&contraction, placed);
     let all = assembly.all();
     let Split { rigid, pieces } = if options.contraction {
         assembly.split(&all)

@@ -15,6 +15,7 @@ use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Class, ClassKind, Draws, Evidence, PieceVerdict};
 use crate::decide::options::{Arithmetic, Options};
 use crate::decide::overlap;
+use crate::decide::vectors;
 use crate::decide::whole_matrix;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::model::Model;
@@ -142,7 +143,7 @@ impl<'a> Piece<'a> {
         let field = self.options.prime.for_core(self.nodes());
         let mut next = 0;
         for _ in 0..ATTEMPTS {
-            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
+            let at = Centres::draw(&field, self.core, self.key(next))?;
             next = at.draw.draw + 1;
             if let Some(verdict) = self.decide_at(&at, &before)? {
                 return Ok(verdict);
@@ -192,7 +193,15 @@ impl<'a> Piece<'a> {
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let lower = self.rank_of_piece(ranks.rank);
         let mut upper = self.rank_of_piece(self.required());
-        if let Some(counting) = self.count(at, &components, lower)?
+        let counted = match self.assembly.placed() {
+            Some(placed) if self.options.counting => {
+                let part = (self.members, self.core);
+                let scales = ranks.edge_scales();
+                Some(vectors::count(self.assembly, placed, part, &scales))
+            }
+            _ => self.count(at, &components, lower)?,
+        };
+        if let Some(counting) = counted
             && counting.bound < upper
         {
             upper = counting.bound;
@@ -311,7 +320,7 @@ impl<'a> Piece<'a> {
         let mut best = None;
         let mut next = from;
         for _ in 0..attempts {
-            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
+            let at = Centres::draw(&field, self.core, self.key(next))?;
             next = at.draw.draw + 1;
             let ranks = self.ranks(&at)?;
             if best.as_ref().is_none_or(|&(_, rank)| ranks.rank > rank) {
@@ -328,7 +337,7 @@ impl<'a> Piece<'a> {
     pub(super) fn counted(&self) -> Result<Option<Counting>, VerdictError> {
         // Where to look is not a claim: a large prime looks best.
         let field = PrimeField::mersenne61();
-        let at = Centres::draw(&field, self.nodes(), self.key(0))?;
+        let at = Centres::draw(&field, self.core, self.key(0))?;
         let ranks = self.ranks(&at)?;
         let whole = std::slice::from_ref(self.members);
         let block = Counting::partition(self.options.model, self.assembly, whole);
