@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pathlib
+from decimal import Decimal
+from fractions import Fraction
 
 import networkx as nx
 import pytest
@@ -32,6 +34,31 @@ def test_sets_that_meet_are_one() -> None:
     verdict = viewcert.verify(PAIRS, model="calibrated", displacements=[("a", "b", "d"), ("b", "c")])
     assert verdict.displacements == [frozenset("abcd")]
     assert verdict.value == "solvable"
+
+
+def test_given_vectors() -> None:
+    """Two equal rigs, joined left to left and right to right, lose a rank; parallel ones do not."""
+    pairs = [("a", "c"), ("b", "d")]
+    for second, value, rank in [
+        ((0.1, 0, 0), "not-finite-solvable", 8),
+        ((Fraction(1, 5), 0, 0), "solvable", 9),
+        ((0, "1/3", Decimal("-2.5")), "solvable", 9),
+    ]:
+        rigs = {("a", "b"): ("0.1", 0, 0), ("c", "d"): second}
+        verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs)
+        assert (verdict.value, verdict.rank, verdict.required) == (value, rank, 9)
+        assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
+        assert any("that are given" in condition for condition in verdict.conditions)
+        assert viewcert.check(verdict).rank == rank
+    for rigs, words in [
+        ({("a", "b"): (1, 0)}, "no vector of three numbers"),
+        ({("a", "b"): (1, 0, "x")}, "x: no decimal number"),
+        ({("a", "b", "c"): (1, 0, 0)}, "vectors go with pairs"),
+        ({("a", "b"): (0, 0, 0)}, "at one place"),
+        ({("a", "b"): (1, 0, 0), ("b", "a"): (1, 0, 0)}, "not the sum of vectors before it"),
+    ]:
+        with pytest.raises(viewcert.InputError, match=words):
+            viewcert.verify(pairs, model="calibrated", displacements=rigs)
 
 
 def test_what_does_not_go_together() -> None:

@@ -110,6 +110,7 @@ def decide(
     counting: bool = True,
     parts: list[list[int]] | None = None,
     displacements: list[list[int]] | None = None,
+    vectors: list[tuple[str, str, str]] | None = None,
     time_limit: float | None = None,
     memory_limit: int | None = None,
     progress: Callable[[str, int, int], object] | None = None,
