@@ -21,7 +21,8 @@ pub(super) struct DisplacementArguments {
     /// one camera on a line: its position is known (GPS).
     ///
     /// For --model calibrated and focal. Cameras are called what the graph calls them. The vectors
-    /// are known in the frame of the directions.
+    /// are known in the frame of the directions. Three numbers behind each pair (the vector from the
+    /// first to the second) and each camera (its position): the answer is about these vectors.
     #[arg(long, value_name = "FILE")]
     displacements: Option<PathBuf>,
 }

@@ -1,5 +1,5 @@
 //! What an answer holds for: what a graph determines if all centres lie in one plane
-//! (docs/theory.md, Theorem 13.3 and Corollary 13.4), what unknown focal lengths ask for, and which
+//! (docs/theory.md, Corollary 13.4 and Theorem 13.23), what unknown focal lengths ask for, and which
 //! parts were taken for known.
 
 use serde::Serialize;
@@ -13,8 +13,12 @@ use viewcert_formats::NamedGraph;
 
 /// What `--displacements` rests on.
 const DISPLACEMENTS: &str = "displacements are vectors in the frame of the directions: positions \
-                             (GPS) need the rotation between the two frames; no two of them are \
-                             parallel";
+                             (GPS) need the rotation between the two frames; they are in general \
+                             position, and so in no relation";
+
+/// The same if the vectors are given.
+const VECTORS: &str = "the displacements are those that are given, vectors in the frame of the \
+                       directions; otherwise centres are in general position";
 
 /// What `--model focal` rests on.
 const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pair fixes both focal \
@@ -27,8 +31,6 @@ pub(crate) struct Planar {
     verdict: &'static str,
     rank: usize,
     rank_required: usize,
-    #[serde(skip)]
-    model: Model,
 }
 
 impl Planar {
@@ -56,14 +58,12 @@ impl Planar {
         let rank_required = model.required(graph.nodes());
         let verdict = match model {
             _ if rank < rank_required => "not-finite-solvable",
-            Model::Projective => "isolated",
-            Model::Calibrated | Model::Affine => "solvable",
+            _ => "solvable",
         };
         Ok(Self {
             verdict,
             rank,
             rank_required,
-            model,
         })
     }
 
@@ -74,12 +74,10 @@ impl Planar {
 
     /// The answer in words.
     pub(crate) fn words(&self) -> String {
-        let answer = match (self.is_determined(), self.model) {
-            (false, _) => "not solvable: infinitely many sets of cameras",
-            (true, Model::Projective) => {
-                "isolated: the cameras cannot move (that there are finitely many sets is not proved)"
-            }
-            (true, _) => "solvable: the cameras are unique",
+        let answer = if self.is_determined() {
+            "solvable: the cameras are unique"
+        } else {
+            "not solvable: infinitely many sets of cameras"
         };
         let Self {
             rank,
@@ -155,7 +153,9 @@ impl Scope {
             ));
         }
         if !verdict.displacements.is_empty() {
-            conditions.push(DISPLACEMENTS.to_owned());
+            let is_given = verdict.displacements.vectors().is_some();
+            let condition = if is_given { VECTORS } else { DISPLACEMENTS };
+            conditions.push(condition.to_owned());
         }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";

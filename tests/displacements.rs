@@ -6,7 +6,7 @@ use common::{Run, cycle, first_checker, second_checker, verify, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 use viewcert::graph::Displacements;
 use viewcert::{Graph, Model, Options, decide};
@@ -87,6 +87,124 @@ fn answers_by_hand() {
             assert_eq!(line[strength], "proof", "{told}");
         }
         assert_eq!(line["joints_complete"], components < 2, "{told}");
+    }
+}
+
+/// With the vectors the answer is about these: three rigs around a triangle are solvable, and not if
+/// one base line is the sum of the others; two rigs with parallel base lines are, with equal ones not.
+#[test]
+fn answers_for_given_vectors() {
+    let around = "0 2\n3 4\n5 1\n";
+    let two = "0 2\n1 3\n";
+    for (pairs, known, code, ranks, components) in [
+        (around, "0 1 1 0 0\n2 3 0 1 0\n4 5 0 0 1\n", 0, [15, 15], 1),
+        (around, "0 1 0 1 1\n2 3 0 1 0\n4 5 0 0 1\n", 1, [14, 15], 6),
+        (
+            around,
+            "0 1 0 0.5 0.25\n3 2 0 -1/2 0\n4 5 0 0 25e-2\n",
+            1,
+            [14, 15],
+            6,
+        ),
+        (two, "0 1 .1 0 0\n2 3 .1 0 0\n", 1, [8, 9], 4),
+        (two, "0 1 .1 0 0\n2 3 .2 0 0\n", 0, [9, 9], 1),
+        // Three positions on a line, and a fourth camera that sees two of them.
+        (
+            "0 1\n1 2\n0 3\n2 3\n",
+            "0 0 0 0\n1 1 0 0\n2 2 0 0\n",
+            0,
+            [9, 9],
+            1,
+        ),
+    ] {
+        let (found, line) = line(pairs, known);
+        let told = format!("{pairs:?} {known:?} {line}");
+        assert_eq!(found, code, "{told}");
+        assert_eq!(
+            [line["rank"].as_u64(), line["rank_required"].as_u64()],
+            ranks.map(Some),
+            "{told}"
+        );
+        assert_eq!(
+            line["components"].as_array().unwrap().len(),
+            components,
+            "{told}"
+        );
+        for strength in ["strength", "rank_strength", "components_strength"] {
+            assert_eq!(line[strength], "proof", "{told}");
+        }
+        assert_eq!(line["displacements"]["vectors"], true, "{told}");
+        let condition = line["conditions"][0].as_str().unwrap();
+        assert!(
+            condition.starts_with("the displacements are those that are given"),
+            "{told}"
+        );
+    }
+    let run = decided(two, "0 1 .1 0 0\n2 3 .1 0 0\n", &[]);
+    let wanted = "known       displacements between 4 cameras in 2 groups, as given vectors";
+    assert!(run.out.contains(wanted), "{}", run.out);
+    let (_, line) = line(two, "0 1\n2 3\n");
+    assert_eq!(line["displacements"]["vectors"], false);
+    let condition = line["conditions"][0].as_str().unwrap();
+    assert!(condition.contains("general position"), "{condition}");
+}
+
+#[test]
+fn wrong_vectors_are_named() {
+    for (known, wanted) in [
+        (
+            "0 1 1 0 0\n2 3\n",
+            "known.txt:2: the line has 2 fields, and an earlier one has 5; ",
+        ),
+        (
+            "0 1 1 0 0\n1 2 1 0 0\n\n2 0 -2 0 1e-6\n",
+            "known.txt:4: this contradicts ",
+        ),
+        (
+            "0 1 1 0 zero\n",
+            "known.txt:1: `zero` is no decimal number and no fraction; ",
+        ),
+        ("0 1 0 0 0\n", "known.txt: `0` and `1` are at one place; "),
+    ] {
+        let run = decided("0 1\n1 2\n2 3\n", known, &[]);
+        assert_eq!(run.code, 2);
+        assert!(run.err.contains(wanted), "{}", run.err);
+    }
+}
+
+/// Both checkers verify certificates with vectors, and `verify check` wants the same vectors.
+#[test]
+fn certificates_bind_the_vectors() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("pairs.txt", "0 2\n1 3\n");
+    write("equal.txt", "0 1 2 0 0\n2 3 2 0 0\n");
+    write("metres.txt", "3 2 -0.002 0 0\n1 0 -2e-3 0 0\n");
+    write("longer.txt", "0 1 2 0 0\n2 3 3 0 0\n");
+    write("none.txt", "0 1\n2 3\n");
+    let run = |arguments: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_verify"));
+        let output = { run }
+            .current_dir(folder.path())
+            .args(arguments)
+            .output()
+            .unwrap();
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stdout).into_owned(),
+        )
+    };
+    let decide = ["pairs.txt", "--model", "calibrated", "--displacements"];
+    let (code, _) = run(&[&decide[..], &["equal.txt", "--certificate", "equal.json"]].concat());
+    assert_eq!(code, Some(1));
+    for (file, expected) in [
+        ("equal.txt", 0),
+        ("metres.txt", 0),
+        ("longer.txt", 1),
+        ("none.txt", 1),
+    ] {
+        let (code, out) = run(&["check", "equal.json", "pairs.txt", "--displacements", file]);
+        assert_eq!(code, Some(expected), "{file}: {out}");
     }
 }
 

@@ -92,8 +92,16 @@ enum Problem {
 
 /// Verifies a certificate.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)] // One a keyword.
 #[pyo3(signature = (
-    certificate, *, graph=None, parts=None, displacements=None, file=None, max_operations=None
+    certificate,
+    *,
+    graph=None,
+    parts=None,
+    displacements=None,
+    vectors=None,
+    file=None,
+    max_operations=None
 ))]
 pub(crate) fn check(
     py: Python<'_>,
@@ -101,13 +109,15 @@ pub(crate) fn check(
     graph: Option<&Graph>,
     parts: Option<Vec<Vec<u32>>>,
     displacements: Option<Vec<Vec<u32>>>,
+    vectors: Option<Vec<[String; 3]>>,
     file: Option<PathBuf>,
     max_operations: Option<u64>,
 ) -> PyResult<Verified> {
     let given = match (graph, file) {
         (Some(graph), _) => {
             let nodes = graph.0.graph.nodes() as u32;
-            let known = known_displacements(nodes, &displacements.unwrap_or_default())?;
+            let groups = displacements.unwrap_or_default();
+            let known = known_displacements(nodes, &groups, vectors.as_deref())?;
             Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default(), known)
         }
         (None, Some(file)) => Given::File(file),

@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use viewcert::graph::Displacements;
+use viewcert::graph::{Coordinate, Displacements};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{
@@ -33,20 +33,54 @@ pub(crate) struct Decided {
     time: Duration,
 }
 
-/// The displacements that sets of nodes know, of a graph with so many.
-pub(crate) fn known_displacements(nodes: u32, groups: &[Vec<u32>]) -> PyResult<Displacements> {
-    // Each set as a star: displacements add up.
+/// The displacements that sets of nodes know, of a graph with so many, with the vectors if they are
+/// given.
+pub(crate) fn known_displacements(
+    nodes: u32,
+    groups: &[Vec<u32>],
+    vectors: Option<&[[String; 3]]>,
+) -> PyResult<Displacements> {
+    match vectors {
+        Some(vectors) => with_vectors(nodes, groups, vectors),
+        None => without_vectors(nodes, groups),
+    }
+}
+
+/// Each set as a star: displacements add up.
+fn without_vectors(nodes: u32, groups: &[Vec<u32>]) -> PyResult<Displacements> {
     let stars = groups.iter().filter_map(|group| group.split_first());
     let stars = stars.flat_map(|(&first, others)| others.iter().map(move |&other| (first, other)));
     let known = Displacements::new(nodes, stars.filter(|(a, b)| a != b));
     known.map_err(|error| InputError::new_err(format!("displacements: {error}")))
 }
 
+/// Pairs of nodes with the vectors from the first to the second.
+fn with_vectors(
+    nodes: u32,
+    pairs: &[Vec<u32>],
+    vectors: &[[String; 3]],
+) -> PyResult<Displacements> {
+    let wrong = |why: String| InputError::new_err(format!("displacements: {why}"));
+    let mut items = Vec::with_capacity(pairs.len());
+    for (pair, vector) in pairs.iter().zip(vectors) {
+        let &[u, v] = &pair[..] else {
+            return Err(wrong("vectors go with pairs of nodes".into()));
+        };
+        let mut coordinates = [Coordinate::default(); 3];
+        for (coordinate, text) in coordinates.iter_mut().zip(vector) {
+            let read = text.parse();
+            *coordinate = read.map_err(|error| wrong(format!("{text}: {error}")))?;
+        }
+        items.push((u, v, coordinates));
+    }
+    Displacements::with_vectors(nodes, items).map_err(|error| wrong(error.to_string()))
+}
+
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
     graph, *, model, seed, solutions, planar=false, bounds=None, prime=None,
-    contraction=true, counting=true, parts=None, displacements=None, time_limit=None,
+    contraction=true, counting=true, parts=None, displacements=None, vectors=None, time_limit=None,
     memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -63,6 +97,7 @@ pub(crate) fn decide(
     counting: bool,
     parts: Option<Vec<Vec<u32>>>,
     displacements: Option<Vec<Vec<u32>>>,
+    vectors: Option<Vec<[String; 3]>>,
     time_limit: Option<f64>,
     memory_limit: Option<u64>,
     progress: Option<Py<PyAny>>,
@@ -103,7 +138,8 @@ pub(crate) fn decide(
         let notes = known.notes.iter().map(|note| format!("parts: {note}"));
         Arc::make_mut(&mut input).notes.extend(notes);
     }
-    let displacements = known_displacements(nodes, &displacements.unwrap_or_default())?;
+    let groups = displacements.unwrap_or_default();
+    let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
     if !contraction && !known.parts.is_empty() {
         let why = "known parts are bodies, and without contraction there are none";
         return Err(wrong(&format!("{why}; leave contraction on")));
@@ -228,6 +264,12 @@ impl Decided {
     /// The sets of nodes whose displacements it takes for given.
     fn displacements(&self) -> Vec<Vec<u32>> {
         self.verdict.displacements.groups().to_vec()
+    }
+
+    /// For each of these the vectors from its first node to the others, in one unit, if they are
+    /// given.
+    fn vectors(&self) -> Option<Vec<Vec<[i128; 3]>>> {
+        self.verdict.displacements.vectors().map(<[_]>::to_vec)
     }
 
     /// The known parts that it rests on.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import pathlib
+from decimal import Decimal
+from fractions import Fraction
 
 import networkx as nx
 import pytest
@@ -38,6 +40,31 @@ def test_sets_that_meet_are_one() -> None:
     assert verdict.value == "solvable"
 
 
+def test_given_vectors() -> None:
+    """Two equal rigs, joined left to left and right to right, lose a rank; parallel ones do not."""
+    pairs = [("a", "c"), ("b", "d")]
+    for second, value, rank in [
+        ((0.1, 0, 0), "not-finite-solvable", 8),
+        ((Fraction(1, 5), 0, 0), "solvable", 9),
+        ((0, "1/3", Decimal("-2.5")), "solvable", 9),
+    ]:
+        rigs = {("a", "b"): ("0.1", 0, 0), ("c", "d"): second}
+        verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs)
+        assert (verdict.value, verdict.rank, verdict.required) == (value, rank, 9)
+        assert verdict.displacements == [frozenset("ab"), frozenset("cd")]
+        assert any("that are given" in condition for condition in verdict.conditions)
+        assert viewcert.check(verdict).rank == rank
+    for rigs, words in [
+        ({("a", "b"): (1, 0)}, "no vector of three numbers"),
+        ({("a", "b"): (1, 0, "x")}, "x: no decimal number"),
+        ({("a", "b", "c"): (1, 0, 0)}, "vectors go with pairs"),
+        ({("a", "b"): (0, 0, 0)}, "at one place"),
+        ({("a", "b"): (1, 0, 0), ("b", "a"): (1, 0, 0)}, "not the sum of vectors before it"),
+    ]:
+        with pytest.raises(viewcert.InputError, match=words):
+            viewcert.verify(pairs, model="calibrated", displacements=rigs)
+
+
 def test_what_does_not_go_together() -> None:
     for options, words in [
         ({}, "the projective model"),
@@ -62,3 +89,17 @@ def test_the_program_says_the_same(program: Program, tmp_path: pathlib.Path) -> 
     verdict = viewcert.verify(graph, model="calibrated", displacements=rigs, name="pairs.txt")
     assert untimed(verdict.to_dict()) == untimed(expected)
     assert json.loads(verdict.certificate()) == json.loads((tmp_path / "one.json").read_text())
+
+
+def test_a_checker_that_is_given_the_vectors() -> None:
+    pairs = [(0, 2), (3, 4), (5, 1)]
+    rigs = {(0, 1): (1, 0, 0), (2, 3): (0, 1, 0), (4, 5): (1, 1, 1)}
+    verdict = viewcert.verify(pairs, model="calibrated", displacements=rigs)
+    assert verdict.vectors == rigs
+    assert viewcert.check(verdict).value == verdict.value
+    certificate = verdict.certificate()
+    assert viewcert.check(certificate, pairs, displacements=rigs).value == verdict.value
+    for others in [{**rigs, (4, 5): (1, 1, 2)}, list(rigs), None]:
+        with pytest.raises(viewcert.Rejected, match="displacements"):
+            viewcert.check(certificate, pairs, displacements=others)
+    assert viewcert.verify(pairs, model="calibrated", displacements=list(rigs)).vectors is None

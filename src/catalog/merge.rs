@@ -73,6 +73,7 @@ fn merged(folder: &Path) -> Result<table::Row> {
     Ok(table::Row {
         name: first.run.source.clone(),
         summary,
+        solutions: BTreeMap::new(),
         seconds: None,
     })
 }

@@ -16,6 +16,7 @@ use clap::{Args, Subcommand};
 use parts::{Run, Shard, Writer};
 use rayon::prelude::*;
 use source::Source;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -72,8 +73,9 @@ pub(super) struct Arguments {
     /// With --out: keep the lines of finite-solvable graphs and of unproved verdicts only.
     #[arg(long, requires = "out")]
     solvable_only: bool,
-    /// Count the solutions of the finite-solvable graphs: the last column of --list and --out has
-    /// their number, or the least and the largest one that it can be.
+    /// Count the solutions of the finite-solvable graphs: how many have each number stands under the
+    /// table, and the last column of --list and --out has it for each graph: the number, or the least
+    /// and the largest one that it can be.
     #[arg(long)]
     solutions: bool,
     /// Compute modulo this prime, 5 <= P < 2^62.
@@ -286,11 +288,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         let start = Instant::now();
         let source = Source::new(arguments, nodes)?;
         let progress = Progress::new(own_share(arguments.shard, &source)?);
-        let (summary, bad) = mine_all(arguments, &source, &options, list.as_mut(), progress)?;
+        let (found, bad) = mine_all(arguments, &source, &options, list.as_mut(), progress)?;
         bad_lines += bad;
         rows.push(table::Row {
             name: source.name(),
-            summary,
+            summary: found.summary,
+            solutions: found.solutions,
             seconds: Some(start.elapsed().as_secs_f64()),
         });
     }
@@ -303,6 +306,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     Ok(ExitCode::from(code))
 }
 
+/// What was counted.
+#[derive(Default)]
+struct Found {
+    summary: Summary,
+    /// How many graphs have each number of solutions, if they are asked for and not written to files.
+    solutions: BTreeMap<String, u64>,
+}
+
 /// Decides what a source gives; returns the counts, and the number of malformed graphs.
 fn mine_all(
     arguments: &Arguments,
@@ -310,7 +321,7 @@ fn mine_all(
     options: &Options,
     list: Option<&mut Values<impl Write>>,
     progress: Progress,
-) -> Result<(Summary, u64)> {
+) -> Result<(Found, u64)> {
     let parts = match &arguments.out {
         Some(folder) => {
             let run = Run::new(arguments, source);
@@ -325,7 +336,7 @@ fn mine_all(
         parts,
         progress,
         batch: Vec::with_capacity(BATCH),
-        summary: Summary::default(),
+        found: Found::default(),
     };
     let mut failure = None;
     let (mut index, mut bad) = (0, 0);
@@ -378,7 +389,7 @@ struct Miner<'a, W: Write> {
     parts: Option<Writer>,
     progress: Progress,
     batch: Vec<Graph>,
-    summary: Summary,
+    found: Found,
 }
 
 impl<W: Write> Miner<'_, W> {
@@ -398,7 +409,11 @@ impl<W: Write> Miner<'_, W> {
             Some(parts) => parts.push(graphs, decide)?,
             None => {
                 for entry in decide(&graphs)? {
-                    self.summary.count(&entry);
+                    self.found.summary.count(&entry);
+                    let solutions = entry.solutions_in_words();
+                    if let Some(solutions) = solutions.filter(|_| self.arguments.solutions) {
+                        *self.found.solutions.entry(solutions).or_default() += 1;
+                    }
                     if let Some(list) = &mut self.list {
                         list.row(entry.cells()).context("standard output")?;
                     }
@@ -409,14 +424,14 @@ impl<W: Write> Miner<'_, W> {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Summary> {
+    fn finish(mut self) -> Result<Found> {
         self.flush()?;
         if let Some(parts) = self.parts {
             let decide = |graphs: &[Graph]| decide(self.arguments, graphs, self.options);
-            self.summary = parts.finish(decide)?;
+            self.found.summary = parts.finish(decide)?;
         }
         self.progress.finish();
-        Ok(self.summary)
+        Ok(self.found)
     }
 }
 

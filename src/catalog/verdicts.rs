@@ -239,7 +239,7 @@ fn write(out: &mut impl Write, rows: &[Row]) -> io::Result<()> {
     let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
     writeln!(
         out,
-        "{:width$}  candidates  fin_solv    unique  proved negative  one block  several  \
+        "{:width$}  candidates  fin_solv  contract  proved negative  one block  several  \
          otherwise  unproved  seconds",
         ""
     )?;

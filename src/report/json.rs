@@ -70,6 +70,8 @@ pub(super) fn parts(verdict: &Verdict) -> Option<usize> {
 struct DisplacementLine {
     groups: usize,
     cameras: usize,
+    /// Whether their vectors are given, so that the answer is about these.
+    vectors: bool,
     sha256: String,
 }
 
@@ -79,6 +81,7 @@ impl DisplacementLine {
         (!known.is_empty()).then(|| Self {
             groups: known.groups().len(),
             cameras: known.nodes(),
+            vectors: known.vectors().is_some(),
             sha256: hex(&known.sha256()),
         })
     }

@@ -32,9 +32,10 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         let known = &verdict.displacements;
         writeln!(
             out,
-            "  known       displacements between {} in {}",
+            "  known       displacements between {} in {}{}",
             counted(known.nodes(), "camera"),
-            counted(known.groups().len(), "group")
+            counted(known.groups().len(), "group"),
+            known.vectors().map_or("", |_| ", as given vectors")
         )?;
     }
     writeln!(out, "  verdict     {}", answer(report))?;

@@ -219,11 +219,16 @@ DRAW, FLOW = b"viewcert draw 2\n", b"viewcert flow 2\n"
 
 
 @functools.lru_cache(maxsize=256)
-def draw_centres(graph_hash, core_hash, n, p, seed, draw, coordinates=3):
+def draw_centres(graph_hash, core_hash, n, p, seed, draw, coordinates=3, places=None):
     """Section 4: centres modulo p (with two coordinates plane points), or None if the draw is void."""
     stream = Stream(DRAW, graph_hash, core_hash, seed, draw)
-    points = tuple(tuple(stream.below(p) for _ in range(coordinates)) for _ in range(n))
-    return points if distinct(points) else None
+    points = []
+    for place in places or [None] * n:
+        if place is None:
+            points.append(tuple(stream.below(p) for _ in range(coordinates)))
+        else:
+            points.append(tuple((c + v) % p for c, v in zip(points[place[0]], place[1])))
+    return tuple(points) if distinct(points) else None
 
 
 @functools.lru_cache(maxsize=64)
@@ -292,11 +297,20 @@ class Core:
         for member in sorted(group, key=lambda member: (type(member) is not int, member)):
             shared = sorted(number[node] for node in check.nodes(member) if node in number)
             need(len(shared) >= 2, f"{where}: body {member} has less than two nodes of the core")
-            if check.is_scaled([member]):
-                self.scales.append((shared[0], shared[1]))
-            for edge in list(zip(shared, shared[1:])) + list(zip(shared, shared[2:])):
+            chain = list(zip(shared, shared[1:]))
+            if not check.is_scaled([member]):
+                for triangle in zip(shared, shared[1:], shared[2:]):
+                    check.need_independent([self.nodes[k] for k in triangle], f"{where}: body {member}")
+            elif check.vectors is None:
+                self.scales.append(chain[0])
+            else:
+                self.scales += chain
+            if check.vectors is None or not check.is_scaled([member]):
+                chain += zip(shared, shared[2:])
+            for edge in chain:
                 need(edge not in self.owner, f"{where}: a core edge arises twice")
                 self.owner[edge] = member
+        self.places = check.places(self.nodes)
         self.edges = tuple(sorted(self.owner))
         self.m = len(self.edges)
         form = b"viewcert core 2\n" + struct.pack("<QQ", self.n, self.m)
@@ -597,7 +611,7 @@ class Check:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        names_of_more = ("displacements", "parts", "solutions")
+        names_of_more = ("displacements", "vectors", "parts", "solutions")
         more = [name for name in names_of_more if type(document) is dict and name in document]
         form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
             document, " ".join([names, *more]), "section 3: the document"
@@ -620,9 +634,12 @@ class Check:
         # Section 5: what is known is there from the start.
         self.bodies = [frozenset(part) for part in self.parts]
         self.final, self.scaled, self.rigid_only = set(range(len(self.bodies))), set(), set()
-        self.groups = []
+        self.groups, self.vectors = [], None
+        need("displacements" in stated or "vectors" not in stated, "section 3: vectors without displacements")
         if "displacements" in stated:
             self.check_displacements(stated["displacements"])
+        if "vectors" in stated:
+            self.check_vectors(stated["vectors"])
         if expects:
             given = None if displacements == "none" else displacements
             need(self.displacements_hash() == given, "section 3: the known displacements that are given are others")
@@ -680,6 +697,72 @@ class Check:
             self.scaled.add(k)
         increasing([group[0] for group in self.groups], f"{where}: first nodes")
 
+    def check_vectors(self, value):
+        """Section 3, vectors: of each node its vertex, and the vector from there."""
+        where, unit = "section 3: vectors", 0
+        self.vectors = {}
+        need(len(a_list(value, where)) == len(self.groups), f"{where}: not one list for each group")
+        for k, (group, vectors) in enumerate(zip(self.groups, value)):
+            at = f"{where}: group {k}"
+            need(len(a_list(vectors, at)) == len(group) - 1, f"{at}: not one for each node but the first")
+            places = [(0, 0, 0)]
+            for vector in vectors:
+                need(len(a_list(vector, at)) == 3, f"{at}: no vector of three")
+                places.append(tuple(a_big(n, at, least=1 - 10**30, below=10**30) for n in vector))
+                unit = math.gcd(unit, *places[-1])
+            need(distinct(places), f"{at}: two nodes are at one place")
+            self.vectors.update((node, (group[0], place)) for node, place in zip(group, places))
+        need(unit == 1, f"{where}: the common divisor of all coordinates is {unit}")
+
+    def vertex(self, node):
+        """Section 3: the first node of the group of a node, and the vector from there."""
+        return (self.vectors or {}).get(node, (node, (0, 0, 0)))
+
+    def places(self, nodes):
+        """Section 4: for each node the place of the first one of its group among these, and the vector from there, or
+        None if it is that one itself."""
+        first, places = {}, []
+        for k, node in enumerate(nodes):
+            vertex, vector = self.vertex(node)
+            at, start = first.setdefault(vertex, (k, vector))
+            places.append(None if at == k else (at, tuple(x - y for x, y in zip(vector, start))))
+        return tuple(places)
+
+    def need_independent(self, nodes, where):
+        """Section 3: nodes, four at most, are independent."""
+        if self.vectors is not None:
+            p = 2**61 - 1
+            vectors = [place[1] for place in self.places(nodes) if place]
+            rows = [{k: entry % p for k, entry in enumerate(vector) if entry % p} for vector in vectors]
+            independent = len(rows) < 2 or len(find_pivots(rows, p)) == len(rows)
+            need(independent, f"{where}: the nodes {nodes} are not independent")
+
+    def agrees(self, group):
+        """Section 7: whether there are eta for the vertices of a block."""
+        edges = {}
+        for member in group:
+            one, *others = sorted(self.nodes(member))
+            for other in others:
+                (x, v), (y, w) = self.vertex(one), self.vertex(other)
+                step = [a - b for a, b in zip(w, v)]
+                edges.setdefault(x, []).append((y, step))
+                edges.setdefault(y, []).append((x, [-entry for entry in step]))
+        eta = {}
+        for start in edges:
+            if start in eta:
+                continue
+            eta[start], todo = [0, 0, 0], [start]
+            while todo:
+                x = todo.pop()
+                for y, step in edges[x]:
+                    found = [a + b for a, b in zip(eta[x], step)]
+                    if y not in eta:
+                        eta[y] = found
+                        todo.append(y)
+                    elif eta[y] != found:
+                        return False
+        return True
+
     def check_claim_form(self, optional):
         """Section 3: the claim, as far as it can be judged without the evidence."""
         parts = ["verdict", "rank", "components", *optional]
@@ -734,6 +817,7 @@ class Check:
                 need(a != b and a in body and b in body, f"{where}: {a}, {b} are not two nodes of the body")
                 for end in (a, b):
                     need((min(v, end), max(v, end)) in self.graph.edge_set, f"{where}: {v}-{end} is not an edge")
+                self.need_independent([v, a, b], f"{where}: add")
                 body.add(v)
             for step in a_list(merge, f"{where}: merge"):
                 others, at = members(step, "with at", f"{where}: merge")
@@ -748,6 +832,8 @@ class Check:
                 need(not single or both, f"{where}: only scaled bodies are merged at one node")
                 scaled = scaled or self.is_scaled(others)
                 need(distinct(at), f"{where}: the nodes of at are not different")
+                if len(at) in (3, 4):
+                    self.need_independent(at, f"{where}: merge")
                 need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
                 unique = unique and all(map(self.is_unique, others))
                 others = [self.body_or_edge(other, where) for other in others]
@@ -898,7 +984,7 @@ class Check:
         lower = [(self.core_rank_to_rank(rank, core, piece.required), value) for rank, value in lower]
         piece.lower = max(rank for rank, _ in lower)
         need(piece.lower <= piece.upper, f"{where}a lower bound is above an upper bound or required")
-        counted = None if core.scales else counted_rank(core.n, core.edges, self.model)
+        counted = None if core.scales or self.vectors is not None else counted_rank(core.n, core.edges, self.model)
         if counted is not None:
             # Not a condition of the page: what elimination found must be what counting alone finds.
             rank = self.core_rank_to_rank(counted, core, piece.required)
@@ -1008,7 +1094,7 @@ class Check:
         rows, cols = self.pivots(rows, cols, 2 * core.m + len(core.scales), 3 * core.n, where)
         flows = an_int(flows, f"{where}: flows", least=0, below=2 * core.m + len(core.scales) - len(rows) + 1)
         lambda_rows, lambda_cols = self.pivots(lambda_rows, lambda_cols, 4 * flows, core.m, f"{where}: lambda")
-        centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
+        centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw, 3, core.places)
         need(centres, f"{where}: the draw is void, two centres agree")
         n_rows, directions = bearing_rows(core, centres, p)
         factors = Elimination([n_rows[row] for row in rows], cols, p, f"{where}: N")
@@ -1077,7 +1163,9 @@ class Check:
         """Section 7, counting."""
         value, group = self.with_added(value, group, where)
         _, blocks, bound = members(value, "kind blocks bound", where)
-        groups, total = [], 0
+        nodes = self.union(group)
+        # What is known within groups is there first; without vectors no two nodes have one vertex.
+        groups, total = [], 3 * (len(nodes) - len({self.vertex(node)[0] for node in nodes}))
         for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
             at = f"{where}: block {k}"
             inside, takes = self.check_block(block, group, at)
@@ -1111,6 +1199,9 @@ class Check:
         inside = self.read_group(bodies, edges, where)
         need(all(member in group for member in inside), f"{where}: a member is not one of the piece")
         total = self.required(len(self.union(inside)), self.is_scaled(inside))
+        if self.vectors is not None:
+            vertices = {self.vertex(node)[0] for node in self.union(inside)}
+            total = 3 * len(vertices) - 4 + int(self.is_scaled(inside) or not self.agrees(inside))
         need(len(a_list(hubs, f"{where}: hubs")) <= 1, f"{where}: more than one hub")
         for hub in hubs:
             total -= self.check_hub(hub, inside, f"{where}: hub")
@@ -1228,7 +1319,8 @@ class Check:
                 else:
                     need(not evidence, f"{at}: a single member needs no evidence")
             else:
-                need(self.projective or self.is_scaled(inside), f"{at}: split is for the projective model only")
+                loose = self.projective or self.is_scaled(inside) or self.vectors is not None
+                need(loose, f"{at}: split is for the projective model only")
                 need(len(inside) > 1, f"{at}: a single member is not split")
                 need(not evidence, f"{at}: evidence and split")
                 rigid, values = members(split, "rigid pieces", f"{at}: split")
@@ -1256,7 +1348,7 @@ class Check:
         if self.model == "affine":
             centres = self.plane_points(core, p, seed, draw, where)
         elif drawn is None:
-            centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw)
+            centres = draw_centres(self.graph.hash, core.hash, core.n, p, seed, draw, 3, core.places)
             need(centres, f"{where}: the draw is void, two centres agree")
         else:
             centres = draws[drawn][2]
@@ -1332,9 +1424,12 @@ class Check:
         """Section 3: the hash of the displacements, or None if there are none."""
         if not self.groups:
             return None
-        form = b"viewcert displacements 1\n" + struct.pack("<Q", len(self.groups))
+        form = b"viewcert displacements %d\n" % (1 + (self.vectors is not None))
+        form += struct.pack("<Q", len(self.groups))
         for group in self.groups:
             form += struct.pack(f"<Q{len(group)}I", len(group), *group)
+        for group in self.groups if self.vectors is not None else []:
+            form += b"".join(b"%d\n" % entry for node in group[1:] for entry in self.vectors[node][1])
         return hashlib.sha256(form).hexdigest()
 
     def supposed(self):
@@ -1342,7 +1437,9 @@ class Check:
         if not self.groups:
             return []
         count, digits = sum(map(len, self.groups)), self.displacements_hash()
-        return [f"displacements: supposed to be known, {count} nodes in groups: {len(self.groups)}, SHA-256 {digits}"]
+        given = "" if self.vectors is None else " with given vectors"
+        known = f"{count} nodes in groups: {len(self.groups)}{given}, SHA-256 {digits}"
+        return [f"displacements: supposed to be known, {known}"]
 
     def statements(self):
         """What was verified, for people."""

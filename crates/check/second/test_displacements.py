@@ -15,8 +15,12 @@ from test_check import Case, by_hand, evidence  # noqa: E402
 CERTIFICATES = os.path.join(HERE, "..", "tests", "certificates")
 
 
+ROBUST = ("parallel", "row", "apart", "line", "square")
+
+
 def named(name):
-    with open(os.path.join(CERTIFICATES, f"displaced-{name}.json"), encoding="utf-8") as file:
+    path = f"../displacements/{name}.json" if name in ROBUST else f"displaced-{name}.json"
+    with open(os.path.join(CERTIFICATES, path), encoding="utf-8") as file:
         return json.load(file)
 
 
@@ -32,9 +36,17 @@ class Displacements(Case):
             "flex": ("not-finite-solvable", 3 + 4 * 2, 12, 5),
             "split": ("not-finite-solvable", 3 + 6 + 4 * 2, 18, 5),
             "class": ("not-finite-solvable", 12 + 4 * 2, 21, 5),
+            "parallel": ("solvable", 9, 9, 1),
+            "equal": ("not-finite-solvable", 9 - 1, 9, 4),
+            "sum": ("not-finite-solvable", 15 - 1, 15, 6),
+            "level": ("not-finite-solvable", 12 - 1, 12, 5),
+            "row": ("solvable", 21, 21, 1),
+            "apart": ("solvable", 12, 12, 1),
+            "line": ("solvable", 6, 6, 1),
+            "square": ("solvable", 9, 9, 1),
         }
         names = glob.glob(os.path.join(CERTIFICATES, "displaced-*.json"))
-        self.assertEqual(len(names), len(expected))
+        self.assertEqual(len(names) + len(ROBUST), len(expected))
         for name, (verdict, rank, required, components) in expected.items():
             document = named(name)
             claim = self.verifies(document).claim
@@ -86,6 +98,80 @@ class Displacements(Case):
         self.broken(named("path"), lambda document: document.update(parts=[[0, 1]]), both)
         for model in ("projective", "affine"):
             self.broken(named("path"), lambda document: document.update(model=model), "calibrated model only")
+
+    def vectors(self, name, vectors, *words):
+        self.broken(named(name), lambda document: document.update(vectors=vectors), *words)
+
+    def test_section_3_vectors(self):
+        x, zero = ["1", "0", "0"], ["0", "0", "0"]
+        self.vectors("parallel", {}, "section 3: vectors")
+        self.vectors("parallel", [[x]], "not one list for each group")
+        self.vectors("parallel", [[x], [x, x]], "group 1: not one for each node")
+        self.vectors("parallel", [[x], []], "group 1: not one for each node")
+        self.vectors("parallel", [[x], [["1", "0"]]], "group 1: no vector of three")
+        self.vectors("parallel", [[x], [["1", "0", "0", "0"]]], "group 1: no vector of three")
+        self.vectors("parallel", [[x], [["1", "-0", "0"]]], "is not a big")
+        self.vectors("parallel", [[x], [[1, 0, 0]]], "is not a big")
+        self.vectors("parallel", [[x], [["1" + 30 * "0", "0", "0"]]], "is out of range")
+        self.vectors("parallel", [[x], [["-1" + 30 * "0", "0", "0"]]], "is out of range")
+        self.vectors("parallel", [[x], [zero]], "group 1: two nodes are at one place")
+        self.vectors("line", [[x, x]], "group 0: two nodes are at one place")
+        self.vectors("parallel", [[["0", "-2", "4"]], [["2", "2", "0"]]], "the common divisor of all coordinates is 2")
+        self.broken(named("parallel"), lambda document: document.pop("displacements"), "vectors without displacements")
+        (line,) = self.verifies(named("parallel")).supposed()
+        self.assertIn("4 nodes in groups: 2 with given vectors, SHA-256 ", line)
+
+    def test_vectors_are_bound(self):
+        x, y = ["1", "0", "0"], ["0", "1", "0"]
+        others = {"parallel": [[x], [x]], "equal": [[x], [y]], "sum": [[x], [x], [y]], "level": [[x], [y]]}
+        for name, vectors in others.items():
+            self.vectors(name, vectors, "")
+            if name != "parallel":
+                self.broken(named(name), lambda document: document.pop("vectors"), "")
+
+    def test_section_5_nodes_are_independent(self):
+        def bodies(*bodies):
+            return lambda document: document.update(bodies=list(bodies))
+
+        add = {"seed": [0, 1], "add": [[2, 0, 1]], "merge": []}
+        self.broken(named("line"), bodies(add), "add: the nodes [2, 0, 1] are not independent")
+        three = {"with": [[0, 2], [1, 2]], "at": [0, 1, 2]}
+        merge = {"seed": [0, 1], "add": [], "merge": [three]}
+        self.broken(named("line"), bodies(merge), "merge: the nodes [0, 1, 2] are not independent")
+        four = {"with": [[1, 2], [1, 3], [0, 3]], "at": [2, 1, 3, 0]}
+        merge = {"seed": [0, 2], "add": [], "merge": [four]}
+        self.broken(named("square"), bodies(merge), "merge: the nodes [2, 1, 3, 0] are not independent")
+
+    def test_section_6_chains(self):
+        def apart(document):
+            document["bodies"][0]["merge"] = []
+            document["rigid"]["bodies"] = []
+            document["pieces"] = [{"bodies": [0, 1], "edges": [], "evidence": []}]
+
+        self.broken(named("apart"), apart, "body 1: the nodes [0, 1, 2] are not independent")
+        shorter = lambda other: [evidence(other, "plane-flow")[name].pop() for name in ("rows", "cols")]
+        self.broken(named("row"), shorter, "neither rigid nor divided into classes")
+
+    def test_section_7_blocks_that_agree(self):
+        for bound in (7, 9):
+            change = lambda other: evidence(other, "counting").update(bound=bound)
+            self.broken(named("equal"), change, "the bound is 8")
+
+        def with_one_rig(other):
+            blocks = evidence(other, "counting")["blocks"]
+            first = blocks.pop(0)
+            blocks[1]["bodies"] = first["bodies"]
+
+        self.broken(named("equal"), with_one_rig, "the bound is 9, not 8")
+
+        def apart(other):
+            blocks = evidence(other, "counting")["blocks"]
+            blocks += [{"bodies": [], "edges": [edge], "hubs": []} for edge in blocks.pop()["edges"]]
+
+        self.broken(named("sum"), apart, "the bound is 15")
+        other = [[["1", "1", "1"]], [["0", "1", "0"]], [["0", "0", "1"]]]
+        self.vectors("sum", other, "the bound is 15, not 14")
+        self.broken(named("level"), lambda document: document.pop("vectors"), "")
 
     def test_section_5_bodies(self):
         document = named("merge")

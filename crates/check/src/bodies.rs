@@ -122,7 +122,7 @@ impl Builder<'_> {
             Some(body) => format!("body {body}"),
             None => format!("the edge {:?}", lists[position]),
         };
-        let core = Core::new(&joined, name, meter)?;
+        let core = Core::new(&joined, name, self.setting)?;
         check_rigid(&members.evidence, self.setting, &core)?;
         Ok(Built {
             nodes: lists.concat().into_iter().collect(),
@@ -156,7 +156,7 @@ impl Builder<'_> {
             ensure!(joined, "{v} and {node} are not joined by an edge");
         }
         ensure!(nodes.insert(v), "node {v} is in the body already");
-        Ok(())
+        self.setting.check_independent(&[v, a, b])
     }
 
     /// Bodies on a cycle, of which neighbours share a node, become one (theory, rules 2 and 3 of
@@ -175,6 +175,9 @@ impl Builder<'_> {
             step.at.iter().collect::<HashSet<_>>().len() == step.at.len(),
             "the nodes of `at` are not different"
         );
+        if step.at.len() > 2 {
+            self.setting.check_independent(&step.at)?;
+        }
         let members: Vec<&Nodes> = std::iter::once(&*body)
             .chain(&parts)
             .map(|member| &member.nodes)

@@ -3,6 +3,7 @@
 
 use crate::algebra::{Field, Integers, Ring, is_prime};
 use crate::rejection::{Checked, ensure};
+use crate::vectors::Vector;
 use sha2::{Digest, Sha256};
 
 /// The key stream, as little-endian words of 64 bits.
@@ -107,11 +108,21 @@ pub(crate) fn prime(stream: &mut Stream) -> Checked<Field> {
     Field::new(numbers.find(|&p| is_prime(p)).unwrap_or(0))
 }
 
-/// Centres modulo p.
-pub(crate) fn centres(stream: &mut Stream, field: &Field, nodes: usize) -> Checked<Vec<[u64; 3]>> {
-    let centres: Vec<_> = (0..nodes)
-        .map(|_| [(); 3].map(|()| field.element(stream.below(field.p))))
-        .collect();
+/// Centres modulo p; a node with a place lies at this vector from an earlier one.
+pub(crate) fn centres(
+    stream: &mut Stream,
+    field: &Field,
+    places: &[Option<(usize, Vector)>],
+) -> Checked<Vec<[u64; 3]>> {
+    let mut centres: Vec<[u64; 3]> = Vec::with_capacity(places.len());
+    for place in places {
+        centres.push(match *place {
+            None => [(); 3].map(|()| field.element(stream.below(field.p))),
+            Some((first, vector)) => {
+                [0, 1, 2].map(|k| field.add(centres[first][k], field.signed(vector[k])))
+            }
+        });
+    }
     check_different(centres.iter().copied().map(Some))?;
     Ok(centres)
 }

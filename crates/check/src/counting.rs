@@ -6,7 +6,7 @@ use crate::rejection::{Checked, Within, ensure};
 use crate::structure::{Part, Structure, root, unite};
 
 /// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1, 5.5
-/// and, with displacements, 13.6).
+/// and, with displacements, 13.6 and 13.22).
 pub(crate) fn check_counting(
     evidence: &Counting,
     structure: &Structure,
@@ -17,7 +17,7 @@ pub(crate) fn check_counting(
     let (parts, _) = structure
         .partition(piece, list)
         .within(|| "blocks".into())?;
-    let mut sum = 0;
+    let mut sum = structure.group_rank(piece);
     for (k, (part, block)) in parts.iter().zip(blocks).enumerate() {
         let bound = check_block(block, part, structure);
         sum += bound.within(|| format!("blocks[{k}]"))?;
@@ -33,7 +33,7 @@ pub(crate) fn check_counting(
 /// Verifies a block of these members; returns what it contributes.
 pub(crate) fn check_block(block: &Block, part: &Part, structure: &Structure) -> Checked<i64> {
     let model = structure.setting.model;
-    let mut bound = structure.required(part);
+    let mut bound = structure.block_rank(part);
     ensure!(block.hubs.len() <= 1, "more than one hub");
     ensure!(
         block.hubs.is_empty() || model == Model::Projective,

@@ -3,6 +3,7 @@
 
 use crate::document::Model;
 use crate::graph::Graph;
+use crate::json::Big;
 use crate::rejection::{Checked, ensure};
 use sha2::{Digest, Sha256};
 use std::fmt;
@@ -15,6 +16,8 @@ pub struct Displacements {
     pub groups: usize,
     /// How many cameras are in groups.
     pub nodes: usize,
+    /// Whether their vectors are given: then the claim is about these.
+    pub given: bool,
     /// The SHA-256 of their canonical form, in lower-case hexadecimal digits.
     pub sha256: String,
 }
@@ -24,12 +27,14 @@ impl fmt::Display for Displacements {
         let Displacements {
             groups,
             nodes,
+            given,
             sha256,
         } = self;
+        let given = if *given { " with given vectors" } else { "" };
         let plural = if *groups == 1 { "" } else { "s" };
         write!(
             f,
-            "{nodes} nodes in {groups} group{plural}, SHA-256 {sha256}"
+            "{nodes} nodes in {groups} group{plural}{given}, SHA-256 {sha256}"
         )
     }
 }
@@ -40,6 +45,7 @@ pub(crate) fn check_groups(
     model: Model,
     nodes: usize,
     parts: &[Vec<u32>],
+    vectors: Option<&[Vec<[Big<i128>; 3]>]>,
 ) -> Checked<Displacements> {
     ensure!(
         model == Model::Calibrated,
@@ -68,7 +74,8 @@ pub(crate) fn check_groups(
     Ok(Displacements {
         groups: groups.len(),
         nodes: groups.iter().map(Vec::len).sum(),
-        sha256: hash(groups),
+        given: vectors.is_some(),
+        sha256: hash(groups, vectors),
     })
 }
 
@@ -87,15 +94,20 @@ pub(crate) fn check_given(stated: Option<&Displacements>, given: &Graph) -> Chec
     Ok(())
 }
 
-fn hash(groups: &[Vec<u32>]) -> String {
+/// The hash of groups, and of their vectors if these are given.
+pub(crate) fn hash(groups: &[Vec<u32>], vectors: Option<&[Vec<[Big<i128>; 3]>]>) -> String {
     let mut hash = Sha256::new();
-    hash.update(b"viewcert displacements 1\n");
+    let version = 1 + usize::from(vectors.is_some());
+    hash.update(format!("viewcert displacements {version}\n"));
     hash.update((groups.len() as u64).to_le_bytes());
     for group in groups {
         hash.update((group.len() as u64).to_le_bytes());
         group
             .iter()
             .for_each(|node| hash.update(node.to_le_bytes()));
+    }
+    for Big(coordinate) in vectors.into_iter().flatten().flatten().flatten() {
+        hash.update(format!("{coordinate}\n"));
     }
     let digits = hash.finalize();
     digits.iter().map(|byte| format!("{byte:02x}")).collect()

@@ -20,7 +20,8 @@ pub(crate) type Pair = [u32; 2];
 objects! {
     Document {
         format: Format, version: Version, program: String, graph: GraphName, model: Model,
-        displacements: Optional<Vec<Vec<u32>>>, claim: Claims, bodies: Vec<Body>,
+        displacements: Optional<Vec<Vec<u32>>>, vectors: Optional<Vec<Vec<[Big<i128>; 3]>>>,
+        claim: Claims, bodies: Vec<Body>,
         rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
         parts: Optional<Vec<Vec<u32>>>,
     }

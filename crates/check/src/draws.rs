@@ -69,7 +69,7 @@ pub(crate) fn own_centres(
 ) -> Checked<(Field, Vec<[u64; 3]>)> {
     let mut stream = Stream::new("draw", setting.hashes(core), seed, number);
     let field = cameras::prime(&mut stream)?;
-    let centres = cameras::centres(&mut stream, &field, core.nodes)?;
+    let centres = cameras::centres(&mut stream, &field, &core.places)?;
     Ok((field, centres))
 }
 

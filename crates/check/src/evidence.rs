@@ -419,7 +419,7 @@ fn check_class(
 
 /// Verifies the pieces of a class that is not rigid by itself (theory, Theorem 6.3); only the
 /// projective model has such classes (Theorems 6.8 and 13.13), and displacements, whose components
-/// may hang together in scaled ones (Theorem 13.17).
+/// may hang together in scaled ones (Theorem 13.17), or by vectors that are given (Theorem 13.21).
 fn check_split(
     class: &document::Class,
     split: &document::Split,
@@ -427,7 +427,9 @@ fn check_split(
     part: &Part,
 ) -> Checked<Vec<Piece>> {
     ensure!(
-        structure.setting.model == Model::Projective || structure.is_scaled(part),
+        structure.setting.model == Model::Projective
+            || structure.is_scaled(part)
+            || structure.setting.vectors.is_some(),
         "a split class in the {} model",
         structure.setting.model
     );

@@ -119,39 +119,39 @@ impl<T: Value> Value for Vec<T> {
     }
 }
 
-/// Exactly so many nodes.
-struct Nodes<const N: usize>;
+/// Exactly so many values.
+struct Array<T, const N: usize>(PhantomData<T>);
 
-impl<'de, const N: usize> Visitor<'de> for Nodes<N> {
-    type Value = [u32; N];
+impl<'de, T: Value + Default, const N: usize> Visitor<'de> for Array<T, N> {
+    type Value = [T; N];
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a list of {N} nodes")
+        write!(f, "a list of {N} entries")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<[u32; N], A::Error> {
-        let mut list = [0; N];
+    fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<[T; N], A::Error> {
+        let mut list = std::array::from_fn(|_| T::default());
         for (k, place) in list.iter_mut().enumerate() {
-            let Strict(node) = entries
+            let Strict(entry) = entries
                 .next_element()?
                 .ok_or_else(|| Error::invalid_length(k, &self))?;
-            *place = node;
+            *place = entry;
         }
-        match entries.next_element::<Strict<u32>>()? {
+        match entries.next_element::<Strict<T>>()? {
             None => Ok(list),
             Some(_) => Err(Error::invalid_length(N + 1, &self)),
         }
     }
 }
 
-impl<const N: usize> Value for [u32; N] {
+impl<T: Value + Default, const N: usize> Value for [T; N] {
     fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_seq(Nodes::<N>)
+        from.deserialize_seq(Array::<T, N>(PhantomData))
     }
 }
 
 /// Section 1, *big*: a decimal integer in its only spelling, as a number or as its digits.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Big<T>(pub T);
 
 struct Decimal<T>(PhantomData<T>);

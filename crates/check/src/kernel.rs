@@ -128,7 +128,7 @@ fn centres(
         }
     }
     let mut stream = Stream::new("draw", setting.hashes(core), seed, draw);
-    let centres = cameras::centres(&mut stream, &field, core.nodes)?;
+    let centres = cameras::centres(&mut stream, &field, &core.places)?;
     let place = Place::Named((prime, seed, draw));
     Ok(Centres {
         field,

@@ -14,13 +14,14 @@
 //! | the graph has the hash | 2, 3 | | `graph`, with the files that hold one |
 //! | known parts are those that are given | 3 | 4.14 | `parts` |
 //! | displacements are well formed, and those that are given | 3 | 13.16 | `displacements` |
+//! | given vectors are, and nodes independent | 3, 5, 6 | 13.21 | `vectors` |
 //! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
 //! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `evidence` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
 //! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
-//! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5 | `counting` |
+//! | upper bounds: blocks and hubs | 7 | 5.1, 5.2, 5.5, 13.22 | `counting` |
 //! | upper bounds: parts that overlap | 7 | 5.9, 5.11 | `overlap` |
 //! | upper bounds with more edges | 7 | 5.13 | `added` |
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
@@ -62,6 +63,7 @@ mod rejection;
 mod setting;
 mod solutions;
 mod structure;
+mod vectors;
 
 pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
@@ -150,10 +152,16 @@ impl Certificate {
         let meter = &limits::Meter::new(limits);
         let groups = document.displacements.0.as_deref();
         let known = groups.map(|groups| {
-            let known = displacements::check_groups(groups, model, graph.nodes(), parts);
+            let vectors = document.vectors.0.as_deref();
+            let known = displacements::check_groups(groups, model, graph.nodes(), parts, vectors);
             known.within(|| "displacements".into())
         });
         let known = known.transpose()?;
+        let vectors = document.vectors.0.as_deref().map(|vectors| {
+            let known = vectors::check_vectors(vectors, groups, graph.nodes());
+            known.within(|| "vectors".into())
+        });
+        let vectors = vectors.transpose()?;
         if let Some(given) = given {
             let agree = displacements::check_given(known.as_ref(), given);
             agree.within(|| "displacements".into())?;
@@ -165,6 +173,7 @@ impl Certificate {
         let setting = &setting::Setting {
             model,
             sha256,
+            vectors: vectors.as_ref(),
             meter,
         };
         let bodies = (from_start, &document.bodies[..]);

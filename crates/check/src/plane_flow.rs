@@ -33,7 +33,7 @@ pub(crate) fn check_plane_flow(
     } = evidence;
     let field = &Field::new(*prime)?;
     let mut stream = Stream::new("draw", setting.hashes(core), *seed, *draw);
-    let centres = &cameras::centres(&mut stream, field, core.nodes)?;
+    let centres = &cameras::centres(&mut stream, field, &core.places)?;
     let flows = Flows::new(evidence, setting, core, field, centres)?;
     let stream = Stream::new("flow", setting.hashes(core), *seed, *draw);
     let lambda = flows.lambda(evidence, stream)?;

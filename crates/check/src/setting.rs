@@ -3,8 +3,9 @@
 use crate::document::Model;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
-use crate::rejection::Checked;
+use crate::rejection::{Checked, ensure};
 use crate::structure::Core;
+use crate::vectors::Vectors;
 
 impl Model {
     /// The rank at which nodes are solvable up to finitely many solutions (sections 3 and 6).
@@ -23,6 +24,8 @@ pub(crate) struct Setting<'a> {
     pub model: Model,
     /// The hash of the graph.
     pub sha256: [u8; 32],
+    /// Where given displacements put nodes.
+    pub vectors: Option<&'a Vectors>,
     pub meter: &'a Meter,
 }
 
@@ -36,6 +39,16 @@ impl Setting<'_> {
     /// known displacement (section 6; theory, Theorem 13.18).
     pub fn required_of_core(&self, core: &Core) -> i64 {
         self.model.required(core.nodes) + i64::from(!core.scales.is_empty())
+    }
+
+    /// Whether nodes that merge are independent (section 3), as all are in general position.
+    pub fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
+        ensure!(
+            self.vectors
+                .is_none_or(|known| known.are_independent(nodes)),
+            "the given vectors do not show that the nodes {nodes:?} are independent"
+        );
+        Ok(())
     }
 
     /// Counts what evidence costs in any case: cameras are drawn for all nodes of a core, and

@@ -5,9 +5,9 @@ use crate::bodies::{Built, Known, build_all};
 use crate::document::{Body, Pair};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
-use crate::limits::Meter;
-use crate::rejection::{Checked, Failure, ensure};
+use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Setting;
+use crate::vectors::{Vector, Vectors};
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 
@@ -49,8 +49,12 @@ pub(crate) struct Core {
     pub nodes: usize,
     pub edges: Vec<(usize, usize)>,
     pub member: Vec<usize>,
-    /// For each scaled body among the members the first edge of its chain.
+    /// For each scaled body among the members the first edge of its chain; with vectors all edges
+    /// of its chain, a path.
     pub scales: Vec<(usize, usize)>,
+    /// For each node the first one of its group in the core and the vector from there, if vectors
+    /// are given and this is another one.
+    pub places: Vec<Option<(usize, Vector)>>,
     /// For each core edge whether it belongs to a scaled body.
     pub is_scaled: Vec<bool>,
     /// The hash of its canonical form, to which draws are bound.
@@ -311,6 +315,36 @@ impl<'a> Structure<'a> {
         self.setting.model.required(nodes) + i64::from(self.is_scaled(part))
     }
 
+    /// What a block contributes to an upper bound (section 7): as many as it requires; with given
+    /// vectors by its vertices, and as if it were not scaled if they agree (theory, Theorem 13.22).
+    pub fn block_rank(&self, part: &[usize]) -> i64 {
+        let Some(vectors) = self.setting.vectors else {
+            return self.required(part);
+        };
+        let vertices = self.vertices(vectors, part);
+        let nodes = part.iter().map(|&member| self.nodes_of(member));
+        let is_scaled = self.is_scaled(part) || !vectors.agree(nodes);
+        3 * vertices - 4 + i64::from(is_scaled)
+    }
+
+    /// With given vectors: the rank of what is known within groups between the nodes of a piece,
+    /// which is paid for before that of the blocks; nothing without.
+    pub fn group_rank(&self, piece: &[usize]) -> i64 {
+        let beyond = |vectors| {
+            let nodes = self.nodes(piece).len() as i64;
+            3 * (nodes - self.vertices(vectors, piece))
+        };
+        self.setting.vectors.map_or(0, beyond)
+    }
+
+    /// The number of vertices of several members.
+    fn vertices(&self, vectors: &Vectors, part: &[usize]) -> i64 {
+        let nodes = part.iter().flat_map(|&member| self.nodes_of(member));
+        let mut vertices = sorted(nodes.map(|&node| vectors.vertex(node)));
+        vertices.dedup();
+        vertices.len() as i64
+    }
+
     /// The core of a part.
     pub fn core(&self, part: &Part) -> Checked<Core> {
         let members = part.iter().map(|&member| Joined {
@@ -319,7 +353,7 @@ impl<'a> Structure<'a> {
             is_scaled: self.is_scaled(&[member]),
         });
         let name = |position: usize| self.name(part[position]);
-        Core::new(&members.collect::<Vec<_>>(), name, self.setting.meter)
+        Core::new(&members.collect::<Vec<_>>(), name, self.setting)
     }
 }
 
@@ -335,9 +369,13 @@ pub(crate) struct Joined<'a> {
 impl Core {
     /// The core of members (section 6; theory, Theorems 4.4, 4.11, 13.11 and 13.18). The name of a
     /// member is for people.
-    pub fn new(members: &[Joined], name: impl Fn(usize) -> String, meter: &Meter) -> Checked<Core> {
+    pub fn new(
+        members: &[Joined],
+        name: impl Fn(usize) -> String,
+        setting: &Setting,
+    ) -> Checked<Core> {
         let nodes = core_nodes(members);
-        meter.allow_core(nodes.len())?;
+        setting.meter.allow_core(nodes.len())?;
         let (mut edges, mut scales) = (Vec::new(), Vec::new());
         for (position, member) in members.iter().enumerate() {
             let inside = member.nodes.iter();
@@ -347,10 +385,16 @@ impl Core {
                 "{} has fewer than two nodes in the core",
                 name(position)
             );
-            if member.is_scaled {
+            let mut distances = &[1, 2][..];
+            if !member.is_scaled {
+                check_chain(&chain, &nodes, setting).within(|| name(position))?;
+            } else if setting.vectors.is_some() {
+                scales.extend(chain.windows(2).map(|pair| (pair[0], pair[1])));
+                distances = &[1];
+            } else {
                 scales.push((chain[0], chain[1]));
             }
-            for distance in [1, 2] {
+            for &distance in distances {
                 let pairs = chain.iter().zip(&chain[distance..]);
                 edges.extend(pairs.map(|(&i, &j)| ((i, j), position)));
             }
@@ -363,6 +407,10 @@ impl Core {
         let (edges, member): (Vec<_>, Vec<usize>) = edges.into_iter().unzip();
         Ok(Core {
             sha256: core_sha256(&nodes, &edges),
+            places: match setting.vectors {
+                Some(vectors) => vectors.places(&nodes),
+                None => vec![None; nodes.len()],
+            },
             nodes: nodes.len(),
             edges,
             is_scaled: member
@@ -373,6 +421,12 @@ impl Core {
             scales,
         })
     }
+}
+
+/// Sees that the triangles of a chain are rigid (theory, Theorem 13.21).
+fn check_chain(chain: &[usize], nodes: &[u32], setting: &Setting) -> Checked<()> {
+    let mut triangles = chain.windows(3);
+    triangles.try_for_each(|at| setting.check_independent(&[at[0], at[1], at[2]].map(|k| nodes[k])))
 }
 
 /// The ends of the edges among members, and the nodes that lie in two or more of the bodies.

@@ -25,6 +25,14 @@ fn what_is_verified() {
         ("displaced-flex", NotFiniteSolvable, (11, 12, 5)),
         ("displaced-split", NotFiniteSolvable, (17, 18, 5)),
         ("displaced-class", NotFiniteSolvable, (20, 21, 5)),
+        ("../displacements/parallel", Solvable, (9, 9, 1)),
+        ("displaced-equal", NotFiniteSolvable, (8, 9, 4)),
+        ("displaced-sum", NotFiniteSolvable, (14, 15, 6)),
+        ("displaced-level", NotFiniteSolvable, (11, 12, 5)),
+        ("../displacements/row", Solvable, (21, 21, 1)),
+        ("../displacements/apart", Solvable, (12, 12, 1)),
+        ("../displacements/line", Solvable, (6, 6, 1)),
+        ("../displacements/square", Solvable, (9, 9, 1)),
     ] {
         let verified = verified(&named(name));
         assert_eq!(verified.verdict.0, verdict, "{name}");
@@ -92,6 +100,160 @@ fn without_them_it_is_another_claim() {
         value.as_object_mut().unwrap().remove("displacements");
         rejection(&value, None);
     }
+}
+
+#[test]
+fn section_3_vectors() {
+    let refused = |vectors: Value, wanted: &str| {
+        let wanted = format!("vectors{wanted}");
+        refused(
+            "../displacements/parallel",
+            &[("/vectors", vectors)],
+            &wanted,
+        );
+    };
+    let (x, zero) = (json!(["1", "0", "0"]), json!(["0", "0", "0"]));
+    refused(json!([[x]]), ": there is not one list for each group");
+    let count = ".group 1: there is not one vector for each node behind the first";
+    refused(json!([[x], [x, x]]), count);
+    refused(json!([[x], []]), count);
+    refused(json!([[x], [zero]]), ".group 1: two nodes are at one place");
+    let long = json!([format!("1{}", "0".repeat(30)), "0", "0"]);
+    let wanted = ".group 1: a coordinate has more than 30 digits";
+    refused(json!([[x], [long]]), wanted);
+    let twice = json!(["0", "-2", "4"]);
+    let wanted = ": all coordinates have the common divisor 2, not 1";
+    refused(json!([[twice], [twice]]), wanted);
+    // Two nodes of one group at one place.
+    let wanted = "vectors.group 0: two nodes are at one place";
+    changes::refused(
+        "../displacements/line",
+        &[("/vectors", json!([[x, x]]))],
+        wanted,
+    );
+    for wrong in [
+        json!([[["1", "0"]], [x]]),
+        json!([[["1", "0", "0", "0"]], [x]]),
+        json!([[["1", "-0", "0"]], [x]]),
+        json!([[[1, 0, 0]], [x]]),
+    ] {
+        rejection(
+            &changed("../displacements/parallel", &[("/vectors", wrong)]),
+            None,
+        );
+    }
+    let mut without = named("../displacements/parallel");
+    without.as_object_mut().unwrap().remove("displacements");
+    assert_eq!(
+        rejection(&without, None),
+        "vectors: there are no displacements"
+    );
+}
+
+#[test]
+fn vectors_are_said() {
+    let verified = verified(&named("../displacements/parallel"));
+    let known = verified.displacements.as_ref().expect("two rigs");
+    assert!(known.given);
+    let wanted =
+        "displacements: supposed to be known, 4 nodes in 2 groups with given vectors, SHA-256 ";
+    assert!(verified.to_string().contains(wanted), "{verified}");
+}
+
+/// With other vectors another thing is true: no certificate fits.
+#[test]
+fn vectors_are_bound() {
+    let (x, y) = (json!(["1", "0", "0"]), json!(["0", "1", "0"]));
+    for (name, vectors) in [
+        ("../displacements/parallel", json!([[x], [x]])),
+        ("displaced-equal", json!([[x], [y]])),
+        ("displaced-sum", json!([[x], [x], [y]])),
+        ("displaced-level", json!([[x], [y]])),
+    ] {
+        rejection(&changed(name, &[("/vectors", vectors)]), None);
+        let mut without = named(name);
+        without.as_object_mut().unwrap().remove("vectors");
+        // In general position it is as good as with these.
+        if name != "../displacements/parallel" {
+            rejection(&without, None);
+        }
+    }
+}
+
+#[test]
+fn section_5_nodes_are_independent() {
+    let show = "the given vectors do not show that the nodes";
+    let add = json!([{"seed": [0, 1], "add": [[2, 0, 1]], "merge": []}]);
+    let wanted = format!("bodies[0].add[0]: {show} [2, 0, 1] are independent");
+    refused("../displacements/line", &[("/bodies", add)], &wanted);
+    let merge = json!([{"with": [[0, 2], [1, 2]], "at": [0, 1, 2]}]);
+    let three = json!([{"seed": [0, 1], "add": [], "merge": merge}]);
+    let wanted = format!("bodies[0].merge[0]: {show} [0, 1, 2] are independent");
+    refused("../displacements/line", &[("/bodies", three)], &wanted);
+    let merge = json!([{"with": [[1, 2], [1, 3], [0, 3]], "at": [2, 1, 3, 0]}]);
+    let four = json!([{"seed": [0, 2], "add": [], "merge": merge}]);
+    let wanted = format!("bodies[0].merge[0]: {show} [2, 1, 3, 0] are independent");
+    refused("../displacements/square", &[("/bodies", four)], &wanted);
+}
+
+#[test]
+fn section_6_chains() {
+    let piece = json!([{"bodies": [0, 1], "edges": [], "evidence": []}]);
+    refused(
+        "../displacements/apart",
+        &[
+            ("/bodies/0/merge", json!([])),
+            ("/rigid/bodies", json!([])),
+            ("/pieces", piece),
+        ],
+        "pieces[0].body 1: the given vectors do not show that the nodes [0, 1, 2] are independent",
+    );
+    // Six nodes, nine core edges and four of them known: rows 0 to 21.
+    refused(
+        "../displacements/row",
+        &[
+            ("E/0/rows/17", json!("remove")),
+            ("E/0/cols/17", json!("remove")),
+        ],
+        "pieces[0]: rank 20 is proved, but one component needs 21",
+    );
+}
+
+#[test]
+fn section_7_blocks_that_agree() {
+    for bound in [7, 9] {
+        refused(
+            "displaced-equal",
+            &[("E/1/bound", json!(bound))],
+            &format!("E/[1] (counting): the bound is {bound}, but the blocks sum up to 8"),
+        );
+    }
+    // With one rig 3 * 2 - 3, and nothing for the other.
+    refused(
+        "displaced-equal",
+        &[
+            ("E/1/blocks/0", json!("remove")),
+            ("E/1/blocks/1/bodies", json!([0])),
+        ],
+        "E/[1] (counting): the bound is 8, but the blocks sum up to 9",
+    );
+    // Three pairs by themselves.
+    let edge = |edge: [u32; 2]| json!({"bodies": [], "edges": [edge], "hubs": []});
+    let ones = json!({"bodies": [0, 1, 2], "edges": [], "hubs": []});
+    refused(
+        "displaced-sum",
+        &[(
+            "E/1/blocks",
+            json!([ones, edge([0, 2]), edge([1, 5]), edge([3, 4])]),
+        )],
+        "E/[1] (counting): the bound is 14, but the blocks sum up to 21",
+    );
+    let vectors = json!([[["1", "1", "1"]], [["0", "1", "0"]], [["0", "0", "1"]]]);
+    refused(
+        "displaced-sum",
+        &[("/vectors", vectors)],
+        "E/[1] (counting): the bound is 14, but the blocks sum up to 15",
+    );
 }
 
 #[test]

@@ -86,9 +86,15 @@ def own_prime(stream):
             return p
 
 
-def centres(stream, p, nodes):
-    drawn = [[stream.below(p) for _ in range(3)] for _ in range(nodes)]
-    assert len(set(map(tuple, drawn))) == nodes, "a void draw: take another"
+def centres(stream, p, places):
+    """One for each place: anywhere (None), or at a vector from an earlier one."""
+    drawn = []
+    for place in places:
+        if place is None:
+            drawn.append([stream.below(p) for _ in range(3)])
+        else:
+            drawn.append([(c + v) % p for c, v in zip(drawn[place[0]], place[1])])
+    assert len(set(map(tuple, drawn))) == len(drawn), "a void draw: take another"
     return drawn
 
 
@@ -130,9 +136,10 @@ def final_bodies(known, bodies):
 
 class Core:
     """Members are pairs of nodes or sets of nodes; an edge knows the position of its member. A set that holds one of
-    the groups of displacements has a known scale."""
+    the groups of displacements has a known scale. If vectors are given, `vectors` has for each node of a group the
+    number of the group and where the node is in it."""
 
-    def __init__(self, members, groups=()):
+    def __init__(self, members, groups=(), vectors=None):
         times = {}
         for is_edge, nodes in members:
             for node in nodes:
@@ -143,12 +150,21 @@ class Core:
         for k, (_, nodes) in enumerate(members):
             chain = sorted(place[node] for node in nodes if node in place)
             assert len(chain) >= 2
-            if any(nodes >= set(group) for group in groups):
-                scales.append((chain[0], chain[1]))
-            found += [((i, j), k) for step in (1, 2) for i, j in zip(chain, chain[step:])]
+            pairs = list(zip(chain, chain[1:]))
+            is_scaled = any(nodes >= set(group) for group in groups)
+            if is_scaled:
+                scales += pairs[:1] if vectors is None else pairs
+            if not is_scaled or vectors is None:
+                pairs += zip(chain, chain[2:])
+            found += [(pair, k) for pair in pairs]
         found.sort()
         self.nodes, self.edges = len(labels), [edge for edge, _ in found]
         self.member, self.scales = [k for _, k in found], scales
+        self.places, first = [], {}
+        for k, node in enumerate(labels):
+            group, end = (vectors or {}).get(node, (("no group", node), None))
+            start = first.setdefault(group, (k, end))
+            self.places.append(None if start[0] == k else (start[0], [x - y for x, y in zip(end, start[1])]))
         assert len(set(self.edges)) == len(self.edges)
         text = b"viewcert core 2\n" + struct.pack("<QQ", self.nodes, len(self.edges))
         text += b"".join(struct.pack("<I", label) for label in labels)
@@ -350,13 +366,18 @@ class Filler:
         self.hash = graph_hash(self.nodes, self.edges)
         document["version"] = 2
         document["graph"]["sha256"] = self.hash.hex()
-        self.groups = document.get("displacements", [])
+        self.groups, self.vectors = document.get("displacements", []), None
+        if "vectors" in document:
+            self.vectors = {}
+            for k, (group, vectors) in enumerate(zip(self.groups, document["vectors"])):
+                ends = [[0, 0, 0]] + [list(map(int, vector)) for vector in vectors]
+                self.vectors.update((node, (k, end)) for node, end in zip(group, ends))
         self.bodies = final_bodies(document.get("parts", []) + self.groups, document["bodies"])
         self.pieces(document["pieces"])
 
     def core(self, part):
         return Core([(False, self.bodies[k]) for k in part["bodies"]]
-                    + [(True, set(edge)) for edge in part["edges"]], self.groups)
+                    + [(True, set(edge)) for edge in part["edges"]], self.groups, self.vectors)
 
     def stream(self, label, core, evidence):
         return Stream(label, self.hash, core.hash, int(evidence["seed"]), evidence["draw"])
@@ -454,7 +475,7 @@ class Filler:
 
     def plane_flow(self, core, evidence):
         p = int(evidence["prime"])
-        drawn = centres(self.stream(b"draw", core, evidence), p, core.nodes)
+        drawn = centres(self.stream(b"draw", core, evidence), p, core.places)
         matrix, directions = bearings(core, drawn, p)
         rows, cols = evidence["rows"], evidence["cols"] = pivots(matrix, p)
         stream, free = self.stream(b"flow", core, evidence), [k for k in range(len(matrix)) if k not in rows]
@@ -488,7 +509,7 @@ class Filler:
     def own(self, core, seed, draw):
         stream = Stream(b"draw", self.hash, core.hash, seed, draw)
         p = own_prime(stream)
-        return p, centres(stream, p, core.nodes)
+        return p, centres(stream, p, core.places)
 
     def draws(self, core, evidence, draws):
         bits = (11 * core.nodes - 15).bit_length()
@@ -506,8 +527,9 @@ class Filler:
             p, drawn = at
             evidence["prime"] = str(p)
         else:
-            p, draw = int(evidence["prime"]), plane_points if self.model == "affine" else centres
-            drawn = draw(self.stream(b"draw", core, evidence), p, core.nodes)
+            p, stream = int(evidence["prime"]), self.stream(b"draw", core, evidence)
+            affine = self.model == "affine"
+            drawn = plane_points(stream, p, core.nodes) if affine else centres(stream, p, core.places)
         # With [ I | -p ] for plane points the motion of an edge is y = [ I | -p ] X, X = (t, -s), too.
         dimensions = len(drawn[0])
         cameras = [[[int(r == k) for k in range(dimensions)] + [-c[r] % p] for r in range(dimensions)] for c in drawn]

@@ -1,24 +1,26 @@
 //! Known displacements against what needs none of the program: the rank of the explicit matrix at
 //! random centres modulo a prime, counting over all sets of nodes, and components by trying all of
-//! them (docs/theory.md, Theorems 13.6 and 13.16 to 13.20).
+//! them (docs/theory.md, Theorems 13.6 and 13.16 to 13.22).
 
 use proptest::prelude::*;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
-use viewcert::graph::Displacements;
+use viewcert::graph::{Coordinate, Displacements};
 use viewcert::{Graph, Model, Options, Value, Verdict, decide};
 
 const P: u64 = (1 << 31) - 1;
 
 type Set = u32;
 
-/// A problem as it is stated: nodes, edges, and for every node its group.
-#[derive(Debug)]
+/// A problem as it is stated: nodes, edges, and for every node its group; where it stands in its
+/// group, if vectors are given.
+#[derive(Debug, Default)]
 struct Problem {
     nodes: usize,
     edges: Vec<(u32, u32)>,
     group: Vec<usize>,
+    places: Vec<[i64; 3]>,
 }
 
 impl Problem {
@@ -33,9 +35,32 @@ impl Problem {
     fn decide(&self) -> Verdict {
         let n = self.nodes as u32;
         let graph = Graph::new(n, self.edges.iter().copied()).unwrap();
-        let known = Displacements::new(n, self.known()).unwrap();
+        let known = if self.places.is_empty() {
+            Displacements::new(n, self.known()).unwrap()
+        } else {
+            let vector = |(i, j): (u32, u32)| {
+                let [from, to] = [i, j].map(|v| self.places[v as usize]);
+                (i, j, [0, 1, 2].map(|k| number(to[k] - from[k])))
+            };
+            Displacements::with_vectors(n, self.known().into_iter().map(vector)).unwrap()
+        };
         let options = Options::default().model(Model::Calibrated);
         decide(&graph, &options.displacements(known)).unwrap()
+    }
+
+    /// Random centres modulo P, at the vectors that are given.
+    fn centres(&self) -> Vec<[u64; 3]> {
+        let mut at = centres(self.nodes);
+        for (v, place) in self.places.iter().enumerate() {
+            let first = self.group.iter().position(|&g| g == self.group[v]);
+            let from = first.filter(|&first| first < v);
+            if let Some(first) = from {
+                let moved = |k: usize| place[k] - self.places[first][k];
+                let moved = |k: usize| moved(k).rem_euclid(P as i64) as u64;
+                at[v] = std::array::from_fn(|k| (at[first][k] + moved(k)) % P);
+            }
+        }
+        at
     }
 
     /// The rows of the matrix M with both ends in a set: the three rows of the vector product for
@@ -122,11 +147,13 @@ impl Problem {
 
     fn check(&self, with_components: bool) {
         let verdict = self.decide();
-        let centres = centres(self.nodes);
+        let centres = self.centres();
         let rank = self.rank(&centres, (1 << self.nodes) - 1);
-        let told = format!("{:?} {:?}", self.edges, self.group);
+        let told = format!("{:?} {:?} {:?}", self.edges, self.group, self.places);
         assert_eq!(verdict.rank, rank, "{told}");
-        assert_eq!(self.counted(), rank, "{told}");
+        if self.places.is_empty() {
+            assert_eq!(self.counted(), rank, "{told}");
+        }
         let scale = usize::from(!self.known().is_empty());
         let required = if self.nodes < 2 {
             0
@@ -144,6 +171,10 @@ impl Problem {
             assert_eq!(found, self.components(&centres), "{told}");
         }
     }
+}
+
+fn number(n: i64) -> Coordinate {
+    n.to_string().parse().unwrap()
 }
 
 fn centres(nodes: usize) -> Vec<[u64; 3]> {
@@ -216,6 +247,7 @@ fn all_graphs_with_up_to_five_nodes() {
                     nodes,
                     edges: edges.clone(),
                     group,
+                    places: Vec::new(),
                 };
                 problem.check(nodes < 5 || decided % 16 == 0);
             }
@@ -236,8 +268,33 @@ fn problem(nodes: std::ops::Range<usize>, most: usize) -> impl Strategy<Value = 
             nodes,
             edges: edges.into_iter().collect(),
             group: group[..nodes].iter().map(|g| g % groups).collect(),
+            places: Vec::new(),
         }
     })
+}
+
+/// The same with places in groups that are different there, and special: on a line, in a plane, or
+/// in a small cube, in groups of two above all.
+fn special(nodes: std::ops::Range<usize>, most: usize) -> impl Strategy<Value = Problem> {
+    let places = prop::collection::vec([0i64..3, 0i64..3, 0i64..3], 16);
+    let pairs_of = prop::bool::ANY;
+    (problem(nodes, most), places, 1usize..4, pairs_of).prop_map(
+        |(mut problem, places, dimension, pairs_of)| {
+            if pairs_of {
+                problem.group = (0..problem.nodes).map(|v| v / 2).collect();
+            }
+            let mut taken = BTreeSet::new();
+            for v in 0..problem.nodes {
+                let mut place = [0; 3];
+                place[..dimension].copy_from_slice(&places[v][..dimension]);
+                while !taken.insert((problem.group[v], place)) {
+                    place[0] += 1;
+                }
+                problem.places.push(place);
+            }
+            problem
+        },
+    )
 }
 
 proptest! {
@@ -254,6 +311,72 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn given_vectors_with_up_to_seven_nodes(problem in special(2..8, 60)) {
+        problem.check(true);
+    }
+
+    #[test]
+    fn given_vectors_with_up_to_twelve_nodes(problem in special(8..13, 90)) {
+        problem.check(false);
+    }
+}
+
+/// A triangle of rigs: in general position nothing is missing, and with one base line the sum of the
+/// two others a rank is. Base lines that are parallel but different lose nothing.
+#[test]
+fn general_position_is_not_that_none_are_parallel() {
+    let rigs = |ends: [[i64; 3]; 3]| Problem {
+        nodes: 6,
+        edges: vec![(0, 2), (1, 5), (3, 4)],
+        group: vec![0, 0, 1, 1, 2, 2],
+        places: vec![[0; 3], ends[0], [0; 3], ends[1], [0; 3], ends[2]],
+    };
+    let (x, y, z, sum) = ([1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]);
+    for (ends, expected) in [
+        ([x, y, z], 15),
+        ([sum, y, z], 14),
+        ([[5, 0, 0], x, [2, 0, 0]], 15),
+    ] {
+        let problem = rigs(ends);
+        problem.check(true);
+        assert_eq!(problem.decide().rank, expected);
+    }
+    let two = |ends: [[i64; 3]; 2]| Problem {
+        nodes: 4,
+        edges: vec![(0, 2), (1, 3)],
+        group: vec![0, 0, 1, 1],
+        places: vec![[0; 3], ends[0], [0; 3], ends[1]],
+    };
+    for (ends, expected) in [([x, x], 8), ([x, [2, 0, 0]], 9), ([x, y], 9)] {
+        let problem = two(ends);
+        problem.check(true);
+        assert_eq!(problem.decide().rank, expected);
+    }
+}
+
+/// Four rigs in a row of three cameras each, turned alike: what is a chain of triangles elsewhere is
+/// a path here.
+#[test]
+fn sensors_on_a_line() {
+    let group = |v: u32| v as usize / 3;
+    let problem = Problem {
+        nodes: 12,
+        edges: (0..12)
+            .flat_map(|i| (i + 1..12).map(move |j| (i, j)))
+            .filter(|&(i, j)| group(i) != group(j) && (i * 7 + j * 5) % 4 < 2)
+            .collect(),
+        group: (0..12).map(group).collect(),
+        places: (0..12)
+            .map(|v| [v as i64 % 3 * (1 + v as i64 / 6), 0, 0])
+            .collect(),
+    };
+    problem.check(false);
+}
+
 /// Two stereo rigs with the same base line, joined left to left and right to right, lose a rank
 /// (Theorem 13.6 is about generic displacements): the second pair says what the first one did.
 #[test]
@@ -262,6 +385,7 @@ fn equal_base_lines_lose_a_rank() {
         nodes: 4,
         edges: vec![(0, 2), (1, 3)],
         group: vec![0, 0, 1, 1],
+        places: Vec::new(),
     };
     assert_eq!(problem.decide().rank, 9);
     assert_eq!(problem.decide().value, Value::Solvable);

@@ -139,6 +139,36 @@ pub enum Problem {
         /// How many fields.
         found: usize,
     },
+    /// A line of such a file with a vector where others have none, or the other way round.
+    #[error("the line has {found} fields, and an earlier one has {before}")]
+    SomeVectors {
+        /// How many fields.
+        found: usize,
+        /// How many the first line has.
+        before: usize,
+    },
+    /// A coordinate that is no number, and why.
+    #[error("`{}` is {why}", shown(.field))]
+    NoCoordinate {
+        /// What stands there.
+        field: String,
+        /// What that is.
+        why: viewcert::graph::CoordinateError,
+    },
+    /// A vector that is not what others say.
+    #[error("this contradicts the lines before it: their vectors add up to another one")]
+    Contradiction,
+    /// Two cameras of which the vectors say that they have the same centre.
+    #[error("`{}` and `{}` are at one place", shown(.first), shown(.second))]
+    SamePlace {
+        /// One camera.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// Vectors that have too many digits as multiples of one unit.
+    #[error("as multiples of one unit, the vectors have more than 30 digits")]
+    LongVectors,
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -374,8 +404,21 @@ impl Problem {
                 "write pairs of cameras, one a line, or cameras with known positions, two at least"
             }
             Self::NoPairOrCamera { .. } => {
-                "a line names a pair of cameras, or one camera with a known position, and nothing else"
+                "a line names a pair of cameras, or one camera with a known position; with the vector from the first to the second, or the position, behind it, as three numbers: on all lines or on none"
             }
+            Self::SomeVectors { .. } => {
+                "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about vectors in general position"
+            }
+            Self::NoCoordinate { .. } => {
+                "give three numbers, decimal (-1.25, 3e-2) or fractions (1/3)"
+            }
+            Self::Contradiction => {
+                "vectors add up exactly here: leave out what follows from others, or what was rounded"
+            }
+            Self::SamePlace { .. } => {
+                "two centres that are known to be one are one camera: leave one out"
+            }
+            Self::LongVectors => "round them, so that all have the same few decimals",
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",
             Self::SelfLoop(_) => "remove the pair (or the line, if it holds counts)",

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Iterable, Optional, Union
+from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _native
 from ._errors import InputError
 from ._graph import Node, Path, as_graph, numbered
 from ._native import Verified
-from ._verdict import Verdict
+from ._verdict import Number, Verdict, coordinates
 
 
 def check(
@@ -17,7 +17,9 @@ def check(
     graph: Any = None,
     *,
     parts: Optional[Iterable[Iterable[Node]]] = None,
-    displacements: Optional[Iterable[Iterable[Node]]] = None,
+    displacements: Union[
+        Mapping[Tuple[Node, Node], Sequence[Number]], Iterable[Iterable[Node]], None
+    ] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
     """Verifies a certificate with the independent checker, which shares no code with the prover.
@@ -33,7 +35,8 @@ def check(
         The known parts that the certificate takes for given, if a graph is given (of a verdict its
         own); without them, none.
     displacements : iterable of iterables of nodes, optional
-        The sets of nodes whose displacements it takes for given, in the same way.
+        The sets of nodes whose displacements it takes for given, in the same way; or their vectors,
+        as for `verify`.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
@@ -73,7 +76,8 @@ def check(
         if graph is None:
             graph = certificate.graph
             parts = certificate.parts if parts is None else parts
-            displacements = certificate.displacements if displacements is None else displacements
+            if displacements is None:
+                displacements = certificate.vectors or certificate.displacements
     elif isinstance(certificate, (bytes, bytearray, memoryview)):
         text = bytes(certificate)
     else:
@@ -91,5 +95,10 @@ def check(
     known = None if parts is None else numbered(given, parts)
     groups = None if displacements is None else numbered(given, displacements, "displacements")
     return _native.check(
-        text, graph=given._native, parts=known, displacements=groups, max_operations=max_operations
+        text,
+        graph=given._native,
+        parts=known,
+        displacements=groups,
+        vectors=coordinates(displacements),
+        max_operations=max_operations,
     )

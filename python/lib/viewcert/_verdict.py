@@ -7,7 +7,21 @@ import json
 import logging
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, FrozenSet, Iterable, List, NoReturn, Optional, Tuple
+from decimal import Decimal
+from fractions import Fraction
+from typing import (
+    Any,
+    Dict,
+    FrozenSet,
+    Iterable,
+    List,
+    Mapping,
+    NoReturn,
+    Optional,
+    Sequence,
+    Tuple,
+    Union,
+)
 
 from . import _native
 from ._native import Decided
@@ -86,8 +100,7 @@ class Planar:
     Attributes
     ----------
     value : str
-        ``'solvable'``, ``'isolated'`` (projective: no motion is left; that there are finitely many
-        sets of cameras is not proved) or ``'not-finite-solvable'``.
+        ``'solvable'`` (the cameras are unique, in all models) or ``'not-finite-solvable'``.
     rank : int
         The rank for centres that are generic in a plane.
     required : int
@@ -169,6 +182,20 @@ class Verdict:
         nodes = self._graph.nodes
         groups = self._native.displacements()
         return [frozenset(nodes[number] for number in group) for group in groups]
+
+    @property
+    def vectors(self) -> Optional[Dict[Tuple[Node, Node], Tuple[int, int, int]]]:
+        """The vectors that were given for `displacements`, as integers in one unit: from one node of
+        each set to the others. None if only the sets were given."""
+        given = self._native.vectors()
+        if given is None:
+            return None
+        nodes, groups = self._graph.nodes, self._native.displacements()
+        return {
+            (nodes[first], nodes[other]): (x, y, z)
+            for (first, *others), vectors in zip(groups, given)
+            for other, (x, y, z) in zip(others, vectors)
+        }
 
     @property
     def model(self) -> str:
@@ -366,6 +393,26 @@ class Verdict:
         return f"<pre>{html.escape(self.report())}</pre>{self.picture()}"
 
 
+#: A coordinate of a displacement.
+Number = Union[int, float, Fraction, Decimal, str]
+
+
+def _coordinates(vector: Sequence[Number]) -> Tuple[str, str, str]:
+    """Three numbers as they are printed: exact, floats as the shortest decimal that is theirs."""
+    numbers = tuple(str(number) for number in vector)
+    if len(numbers) != 3:
+        raise InputError(f"displacements: {vector!r} is no vector of three numbers")
+    x, y, z = numbers
+    return x, y, z
+
+
+def coordinates(displacements: Any) -> Optional[List[Tuple[str, str, str]]]:
+    """The vectors of displacements, if they are given."""
+    if isinstance(displacements, Mapping):
+        return [_coordinates(vector) for vector in displacements.values()]
+    return None
+
+
 def verify(
     graph: Any,
     *,
@@ -380,7 +427,9 @@ def verify(
     contraction: bool = True,
     counting: bool = True,
     parts: Optional[Iterable[Iterable[Node]]] = None,
-    displacements: Optional[Iterable[Iterable[Node]]] = None,
+    displacements: Union[
+        Mapping[Tuple[Node, Node], Sequence[Number]], Iterable[Iterable[Node]], None
+    ] = None,
     name: Optional[str] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
@@ -422,7 +471,11 @@ def verify(
         Sets of nodes between whose cameras not only the direction but the vector is known: the two
         of a stereo rig, all that have GPS. Calibrated cameras (and ``'focal'``) only, and not
         together with `parts`. Sets with a node in common are one. The scale is determined as well.
-        The certificate states them; see `Verdict.conditions`.
+        The certificate states them; see `Verdict.conditions`. The answer holds for vectors in
+        general position. A mapping from pairs ``(a, b)`` to three numbers each gives the vectors
+        from a to b themselves, in the frame of the directions, and the answer is about these:
+        integers, fractions, decimals or text, taken exactly, floats as they are printed. Vectors
+        that contradict each other are an error.
     name : str, optional
         What reports and certificates call the graph.
     time_limit : float, optional
@@ -512,6 +565,7 @@ def verify(
             counting=counting,
             parts=known,
             displacements=groups,
+            vectors=coordinates(displacements),
             time_limit=time_limit,
             memory_limit=memory_limit,
             progress=callback,

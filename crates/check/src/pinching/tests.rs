@@ -5,6 +5,7 @@ type Edges = HashSet<(usize, usize)>;
 /// A core with five nodes, of which nothing but their number matters here.
 fn five() -> Core {
     Core {
+        places: vec![None; 5],
         nodes: 5,
         edges: Vec::new(),
         member: Vec::new(),

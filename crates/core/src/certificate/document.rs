@@ -30,7 +30,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
-        ; optional displacements: &'a [Vec<u32>], solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
+        ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
     }
 
     GraphView<'a> {
@@ -137,6 +137,10 @@ impl<'a> Document<'a> {
             rigid: (&verdict.rigid).into(),
             pieces: verdict.pieces.iter().map(PieceView::new).collect(),
             displacements: Some(verdict.displacements.groups()).filter(|groups| !groups.is_empty()),
+            vectors: verdict.displacements.vectors().map(|groups| {
+                let vectors = |group: &Vec<[i128; 3]>| group.iter().map(|v| v.map(Big)).collect();
+                groups.iter().map(vectors).collect()
+            }),
             solutions: evidence,
             parts: (!verdict.known_parts.is_empty()).then(|| verdict.known_parts.iter().collect()),
         })

@@ -9,7 +9,7 @@
 mod from_body;
 mod from_node;
 
-use super::{Body, Part};
+use super::{Body, General, Part};
 use crate::graph::{Lists, prune_leaves};
 use from_body::FromBody;
 use from_node::FromNode;
@@ -17,8 +17,8 @@ use from_node::FromNode;
 const NONE: u32 = u32::MAX;
 
 /// Merges bodies, with the help of loose edges, until no cycle of two, three or four members is
-/// left; the edges alone must form none. New bodies are appended; the consumed ones lose their
-/// nodes. Returns the edges that are still loose.
+/// left, but such of three and four as are not in general position. New bodies are appended; the
+/// consumed ones lose their nodes. Returns the edges that are still loose.
 ///
 /// Searches begin at bodies and nodes by falling rank, round after round until nothing changes. A
 /// search without a find looks at every member and node at most once. In the last round nothing
@@ -27,8 +27,9 @@ pub(super) fn close(
     bodies: &mut Vec<Body>,
     edges: Vec<(u32, u32)>,
     nodes: usize,
+    general: &General,
 ) -> Vec<(u32, u32)> {
-    let mut structure = Structure::new(bodies, &edges, nodes);
+    let mut structure = Structure::new(bodies, &edges, nodes, general.clone());
     let first_edge = structure.members() - edges.len();
     let mut changed = true;
     while changed {
@@ -83,6 +84,7 @@ struct Reach {
 /// The members and the nodes that they share. Members are numbered, bodies first; nodes have
 /// numbers of their own here.
 struct Structure {
+    general: General,
     /// What the member is in a record.
     part: Vec<Part>,
     /// The member that each has become part of.
@@ -108,7 +110,7 @@ struct Structure {
 }
 
 impl Structure {
-    fn new(bodies: &[Body], edges: &[(u32, u32)], nodes: usize) -> Self {
+    fn new(bodies: &[Body], edges: &[(u32, u32)], nodes: usize, general: General) -> Self {
         let finals = || (0..).zip(bodies).filter(|(_, body)| !body.nodes.is_empty());
         let part: Vec<Part> = finals()
             .map(|(k, _)| Part::Body(k))
@@ -176,6 +178,7 @@ impl Structure {
             member: NONE,
         };
         Self {
+            general,
             part,
             parent: (0..members as u32).collect(),
             own,
@@ -205,6 +208,11 @@ impl Structure {
             Part::Body(k) => bodies[k as usize].scaled,
             Part::Edge(..) => false,
         }
+    }
+
+    /// Whether shared nodes, three or four, are in general position.
+    fn is_general<const K: usize>(&self, at: [u32; K]) -> bool {
+        self.general.holds(&at.map(|v| self.names[v as usize]))
     }
 
     fn size(&self, member: u32) -> usize {

@@ -25,9 +25,11 @@ mod tests;
 pub use piece::Members;
 
 use crate::geometry::model::Model;
+use crate::geometry::placed::Placed;
 use crate::graph::{Adjacency, Displacements, Graph, KnownParts, Lists};
 use given::Given;
 use rest::Rest;
+use std::sync::Arc;
 use sweep::Swept;
 
 /// What a body starts from.
@@ -142,6 +144,18 @@ impl Body {
     }
 }
 
+/// Which nodes are in general position: all, unless vectors between some of them are given.
+#[derive(Clone)]
+struct General(Option<Arc<Placed>>);
+
+impl General {
+    /// Whether three or four nodes are.
+    fn holds(&self, nodes: &[u32]) -> bool {
+        let placed = self.0.as_ref();
+        placed.is_none_or(|placed| placed.are_independent(nodes))
+    }
+}
+
 /// A viewing graph contracted to bodies and loose edges.
 #[derive(Clone, Debug)]
 pub struct Contraction {
@@ -175,16 +189,18 @@ impl Contraction {
         match model {
             // Four bodies around a cycle move against each other in the plane.
             Model::Projective | Model::Affine => Self::by_triangles(given, model),
-            Model::Calibrated => Self::by_cycles(given),
+            Model::Calibrated => Self::by_cycles(given, &General(None)),
         }
     }
 
     /// Contracts a graph of the calibrated model with known displacements, whose groups are bodies
     /// from the start (Theorem 13.16). The cost is that of [`new`](Self::new), once more for each
-    /// round in which scaled bodies that share a node make further merges possible.
+    /// round in which scaled bodies that share a node make further merges possible. If vectors are
+    /// given, what merges at three nodes or four is in general position all the same (Theorem 13.21).
     pub fn with_displacements(graph: &Graph, known: &Displacements) -> Self {
         let groups = known.groups().iter().map(Vec::as_slice);
-        Self::by_cycles(Given::new(graph, groups, true))
+        let general = General(Placed::new(graph.nodes(), known).map(Arc::new));
+        Self::by_cycles(Given::new(graph, groups, true), &general)
     }
 
     /// Closed under cycles of two and three (Theorem 4.1; affine: 13.9), in the projective model also
@@ -298,22 +314,23 @@ impl Contraction {
 
     /// Closed under cycles of two, three and four (Theorem 4.9). The bodies to begin with cover none
     /// of the edges, and if they are scaled, the rule of such bodies applies too.
-    fn by_cycles(given: Given) -> Self {
+    fn by_cycles(given: Given, general: &General) -> Self {
         let Given { bodies, rest } = given;
         let graph = &*rest;
-        let Swept { mut bodies, left } = sweep::grow(graph, bodies);
+        let Swept { mut bodies, left } = sweep::grow(graph, bodies, general);
         let rest = Rest::new(graph.nodes(), left, &bodies);
         let mut remaining = rest.adjacency();
         // A pendant edge at a node that no body holds lies on no cycle.
         let pendant = remaining.prune_leaves(|v| rest.is_held(v));
         let before = bodies.len() as u32;
-        let grown = seeds::grow(&mut remaining).into_iter();
+        let may_close = |cycle: [u32; 4]| general.holds(&cycle.map(|v| rest.node(v)));
+        let grown = seeds::grow(&mut remaining, may_close).into_iter();
         bodies.extend(grown.map(|body| rest.body(body, before)));
         let edges = remaining.edges().map(|edge| rest.edge(edge)).collect();
-        let mut loose = cycles::close(&mut bodies, edges, graph.nodes());
+        let mut loose = cycles::close(&mut bodies, edges, graph.nodes(), general);
         while scaled::join(&mut bodies, graph.nodes()) {
             bodies.iter_mut().for_each(Body::sort);
-            loose = cycles::close(&mut bodies, loose, graph.nodes());
+            loose = cycles::close(&mut bodies, loose, graph.nodes(), general);
         }
         loose.extend(pendant.into_iter().map(|edge| rest.edge(edge)));
         Self::of_closed(bodies, loose)

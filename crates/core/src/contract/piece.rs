@@ -6,6 +6,7 @@
 
 use crate::contract::Contraction;
 use crate::geometry::model::Model;
+use crate::geometry::placed::Placed;
 use crate::graph::{Graph, Lists, UnionFind, biconnected_components};
 use std::collections::BTreeMap;
 
@@ -102,6 +103,16 @@ pub struct Assembly {
     size: Vec<usize>,
     /// Whether the scale of every body is known.
     scaled: Vec<bool>,
+    /// Where given vectors put the nodes, and what counting has to know besides.
+    given: Option<GivenVectors>,
+}
+
+/// Given vectors between nodes, and the groups in bodies.
+#[derive(Clone, Debug)]
+struct GivenVectors {
+    placed: Placed,
+    /// The nodes of every body; empty for consumed ones.
+    nodes: Vec<Vec<u32>>,
 }
 
 /// Some members, cut at their articulation nodes.
@@ -146,7 +157,31 @@ impl Assembly {
                 .collect(),
             size: bodies.iter().map(|body| body.nodes.len()).collect(),
             scaled: bodies.iter().map(|body| body.scaled).collect(),
+            given: None,
         }
+    }
+
+    /// The same where the vectors between some nodes are given.
+    pub(crate) fn with_vectors(self, contraction: &Contraction, placed: Option<Placed>) -> Self {
+        let bodies = contraction.bodies.iter();
+        let given = placed.map(|placed| GivenVectors {
+            placed,
+            nodes: bodies.map(|body| body.nodes.clone()).collect(),
+        });
+        Self { given, ..self }
+    }
+
+    /// Where given vectors put the nodes, if there are any.
+    pub(crate) fn placed(&self) -> Option<&Placed> {
+        self.given.as_ref().map(|given| &given.placed)
+    }
+
+    /// The nodes of a final body.
+    ///
+    /// # Panics
+    /// If no vectors are given.
+    pub(crate) fn nodes_of_body(&self, body: u32) -> &[u32] {
+        &self.given.as_ref().expect("given vectors").nodes[body as usize]
     }
 
     /// All members.
@@ -217,12 +252,19 @@ impl Assembly {
                 .filter_map(number)
                 .collect();
             outside += self.size[body as usize] - at.len();
-            if self.scaled[body as usize]
-                && let [first, second, ..] = at[..]
-            {
-                scales.push((first, second));
-            }
-            for step in [1, 2] {
+            let steps: &[usize] = match (self.scaled[body as usize], &self.given) {
+                // Its nodes may lie on a line: what is known between neighbours is all.
+                (true, Some(_)) => {
+                    scales.extend(at.windows(2).map(|pair| (pair[0], pair[1])));
+                    &[1]
+                }
+                (true, None) => {
+                    scales.extend(at.first_chunk().map(|&[first, second]| (first, second)));
+                    &[1, 2]
+                }
+                (false, _) => &[1, 2],
+            };
+            for &step in steps {
                 edges.extend(
                     at.iter()
                         .zip(at.iter().skip(step))
@@ -242,6 +284,9 @@ impl Assembly {
         assert_eq!(merged, 0, "two members share two nodes");
         Core {
             total_nodes: nodes.len() + outside,
+            known: self
+                .placed()
+                .map_or_else(Vec::new, |placed| known(placed, &nodes)),
             nodes,
             graph,
             owner,
@@ -319,10 +364,26 @@ pub struct Core {
     /// For every core edge the member it stands for: first the bodies, then the
     /// edges, counted in the order of the part.
     pub owner: Vec<u32>,
-    /// For every scaled body the first edge of its chain, in the order of the part.
+    /// For every scaled body the first edge of its chain, in the order of the part; if vectors are
+    /// given, all edges of its chain, a path.
     pub scales: Vec<(u32, u32)>,
+    /// If vectors are given: for every node of the core the first one of its group that comes
+    /// before it, if there is one, and the vector from there.
+    pub(crate) known: Vec<Option<(usize, [i128; 3])>>,
     /// Number of nodes of the piece itself.
     pub total_nodes: usize,
+}
+
+/// For each of some nodes the first one of its group among those before it, and the vector from
+/// there.
+fn known(placed: &Placed, nodes: &[u32]) -> Vec<Option<(usize, [i128; 3])>> {
+    let mut first = BTreeMap::new();
+    let mut known = Vec::with_capacity(nodes.len());
+    for (k, &v) in nodes.iter().enumerate() {
+        let at = *first.entry(placed.first(v)).or_insert(k);
+        known.push((at < k).then(|| (at, placed.between(nodes[at], v))));
+    }
+    known
 }
 
 /// The number of its piece for every member of a part, bodies first, then edges; `shared` lists

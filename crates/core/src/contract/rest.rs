@@ -56,6 +56,11 @@ impl Rest {
         self.held[node as usize]
     }
 
+    /// A node of the graph.
+    pub(super) fn node(&self, v: u32) -> u32 {
+        self.names[v as usize]
+    }
+
     /// An edge of the graph, the smaller end first.
     pub(super) fn edge(&self, (a, b): (u32, u32)) -> (u32, u32) {
         let (a, b) = (self.names[a as usize], self.names[b as usize]);

@@ -32,7 +32,13 @@ impl Paths {
     }
 
     /// Walks from `u` through its neighbour `p`, to nodes of lower rank, until a cycle closes.
-    fn walk(&mut self, u: u32, p: u32, remaining: &Adjacency) -> Option<Closing> {
+    fn walk(
+        &mut self,
+        u: u32,
+        p: u32,
+        remaining: &Adjacency,
+        may_close: &impl Fn([u32; 4]) -> bool,
+    ) -> Option<Closing> {
         for &w in remaining.neighbours(p) {
             let at = w as usize;
             // The node of highest rank finds a cycle; u is not lower than itself either.
@@ -43,7 +49,8 @@ impl Paths {
                 return Some(Closing::Triangle);
             }
             let other = self.via[at];
-            if self.seen[at] == u && self.near[other as usize] == u {
+            let closes = self.seen[at] == u && self.near[other as usize] == u;
+            if closes && may_close([u, p, w, other]) {
                 return Some(Closing::Quadrilateral { opposite: w, other });
             }
             self.seen[at] = u;
@@ -54,14 +61,15 @@ impl Paths {
 }
 
 /// Grows bodies until the remaining edges contain no cycle of three or four, and removes the
-/// edges of every body from `remaining`.
+/// edges of every body from `remaining`. A cycle of four that may not close stays, and so may others
+/// that run through two of its nodes.
 ///
 /// Each node, by falling degree, walks the paths of two edges that go through and to nodes of
 /// lower rank, which are O(m * arboricity) in all (Chiba and Nishizeki 1985); the second path to
 /// the same end closes a cycle. Growth looks at each edge a constant number of times for each body
 /// at its ends, but never through the neighbours of the node that walks, which may have many
 /// bodies and many more neighbours.
-pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
+pub(super) fn grow(remaining: &mut Adjacency, may_close: impl Fn([u32; 4]) -> bool) -> Vec<Body> {
     let n = remaining.nodes();
     let (order, rank) = by_falling_degree(remaining);
     let mut paths = Paths {
@@ -84,7 +92,7 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
             let remains = paths.near[p as usize] == u;
             if remains
                 && paths.is_lower(p, u)
-                && let Some(closing) = paths.walk(u, p, remaining)
+                && let Some(closing) = paths.walk(u, p, remaining, &may_close)
             {
                 let marked = Marked {
                     node: u,

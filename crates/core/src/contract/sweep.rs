@@ -8,7 +8,7 @@
 //! bodies may stay smaller than they could be. That is no loss: `seeds` and `cycles` complete
 //! them, and the closure does not depend on the order (Proposition 4.13).
 
-use super::{Body, Merge, Part, Seed};
+use super::{Body, General, Merge, Part, Seed};
 use crate::graph::Graph;
 
 /// The body has no edge to the node so far.
@@ -37,13 +37,13 @@ pub(super) struct Swept {
 ///
 /// # Panics
 /// With 2^32 edges and more.
-pub(super) fn grow(graph: &Graph, bodies: Vec<Body>) -> Swept {
+pub(super) fn grow(graph: &Graph, bodies: Vec<Body>, general: &General) -> Swept {
     let mut swept = Swept {
         bodies,
         left: Vec::new(),
     };
     let large = graph.edges().len().div_ceil(SHARE);
-    let mut sweep = Sweep::new(graph);
+    let mut sweep = Sweep::new(graph, general);
     while sweep.waiting_edges() >= large {
         match sweep.body(&mut swept) {
             Some(covered) if covered >= large => (),
@@ -66,6 +66,7 @@ struct Growing {
 
 struct Sweep<'a> {
     graph: &'a Graph,
+    general: &'a General,
     /// Where the edges from each node to larger ones, its *row*, begin; and the end of the last.
     /// Nodes without such edges have no row.
     starts: Vec<u32>,
@@ -80,7 +81,7 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    fn new(graph: &'a Graph) -> Self {
+    fn new(graph: &'a Graph, general: &'a General) -> Self {
         let edges = graph.edges();
         let mut starts = vec![0];
         let mut at = 0;
@@ -90,6 +91,7 @@ impl<'a> Sweep<'a> {
         }
         Self {
             graph,
+            general,
             waiting: (0..starts.len() as u32 - 1).collect(),
             starts,
             fruitless: Vec::new(),
@@ -199,6 +201,9 @@ impl<'a> Sweep<'a> {
             return Some((Seed::Edge(edge.0, edge.1), None));
         }
         let &(_, q) = q?;
+        if !self.general.holds(&[a, p, b, q]) {
+            return None;
+        }
         for v in [b, p, q] {
             self.seen[v as usize] = INSIDE;
         }

@@ -48,7 +48,7 @@ fn implied(piece: &Piece) -> Result<Vec<(u32, u32)>, VerdictError> {
     let rank = |members: &Members| {
         let core = piece.assembly.core(members);
         let part = piece.part(members, &core);
-        let at = Centres::draw(&field, core.graph.nodes(), part.key(0))?;
+        let at = Centres::draw(&field, &core, part.key(0))?;
         Ok::<_, VerdictError>(part.ranks(&at)?.rank)
     };
     let own = rank(piece.members)?;

@@ -189,7 +189,7 @@ impl Search<'_> {
             let piece = Piece::new(self.assembly, &members, &core, self.sha256, self.options);
             let field = self.options.prime.for_core(piece.nodes());
             // A prime too small for so many centres proves nothing here.
-            let Ok(at) = Centres::draw(&field, piece.nodes(), piece.key(0)) else {
+            let Ok(at) = Centres::draw(&field, &core, piece.key(0)) else {
                 continue;
             };
             let ranks = piece.ranks(&at)?;

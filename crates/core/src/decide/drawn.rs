@@ -25,13 +25,16 @@ pub(super) struct Centres {
 }
 
 impl Centres {
-    /// Centres modulo a given prime.
+    /// Centres of a core modulo a given prime, with the vectors that are given.
     pub(super) fn draw(
         field: &PrimeField,
-        nodes: usize,
+        core: &Core,
         key: DrawKey,
     ) -> Result<Self, VerdictError> {
-        let drawn = draw::centres_mod(field, nodes, &key)?;
+        let drawn = match &core.known[..] {
+            [] => draw::centres_mod(field, core.graph.nodes(), &key)?,
+            known => draw::placed_centres_mod(field, known, &key)?,
+        };
         Ok(Self::new(*field, drawn.values, key, drawn.draw))
     }
 
@@ -109,6 +112,15 @@ impl<'a> Ranks<'a> {
             draw: self.at.draw,
             rank,
         }
+    }
+
+    /// In the calibrated model: the scale of every core edge in the motion of
+    /// [`classes`](Self::classes).
+    pub(super) fn edge_scales(&self) -> Vec<u64> {
+        let (_, transforms) = self
+            .flows
+            .calibrated_motion(self.at.key.residues(&self.at.field));
+        transforms.iter().map(|&[scale, ..]| scale).collect()
     }
 
     /// The motion classes of the members that have this core (Theorem 6.4, calibrated 6.8), and

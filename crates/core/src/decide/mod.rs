@@ -43,6 +43,7 @@ mod plane_piece;
 mod question;
 mod solution_count;
 mod stresses;
+mod vectors;
 mod verdict;
 mod walk;
 mod whole_matrix;
@@ -62,6 +63,7 @@ use crate::contract::Contraction;
 use crate::contract::piece::{Assembly, Members, Split};
 use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::geometry::model::Model;
+use crate::geometry::placed::Placed;
 use crate::graph::{Displacements, Graph, KnownParts, sha256};
 use crate::watch::{Step, Stopped};
 use std::sync::Arc;
@@ -92,7 +94,11 @@ pub fn decide(graph: &Graph, options: &Options) -> Result<Verdict, VerdictError>
     let (contraction, sha256) = rayon::join(contract, || sha256(graph));
     work.done(0)?;
     let (contraction, by_rank) = bodies_by_rank::extend(graph, contraction, &sha256, options)?;
-    let assembly = Assembly::new(graph, &contraction);
+    let placed = match &known {
+        Method::Bodies(Known::Displacements(known)) => Placed::new(graph.nodes(), known),
+        _ => None,
+    };
+    let assembly = Assembly::new(graph, &contraction).with_vectors(&contraction, placed);
     let all = assembly.all();
     let (Split { rigid, pieces }, known) = match known {
         Method::Bodies(known) => (assembly.split(&all), known),

@@ -8,12 +8,13 @@
 use crate::contract::piece::{Assembly, Members};
 use crate::decide::added;
 use crate::decide::claim::Strength;
-use crate::decide::drawn::Centres;
+use crate::decide::drawn::{Centres, Ranks};
 use crate::decide::error::VerdictError;
 use crate::decide::evidence::{Bound, Class, ClassKind, Draws, Evidence, PieceVerdict, Upper};
 use crate::decide::options::Options;
 use crate::decide::overlap;
 use crate::decide::question::{Arithmetic, Method, Question};
+use crate::decide::vectors;
 use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
 use crate::watch::Step;
@@ -69,7 +70,7 @@ impl Piece<'_> {
         let field = self.options.prime.for_core(self.nodes());
         let mut next = 0;
         for _ in 0..ATTEMPTS {
-            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
+            let at = Centres::draw(&field, self.core, self.key(next))?;
             next = at.draw.draw + 1;
             if let Some(verdict) = self.decide_at(&at, &before)? {
                 return Ok(verdict);
@@ -121,7 +122,7 @@ impl Piece<'_> {
         let classes = self.decide_classes(&found, at.draw.draw)?;
         let components: Vec<Members> = classes.iter().flat_map(Class::components).collect();
         let lower = self.rank_of_piece(ranks.rank);
-        let bounds = self.bounds(at, &components, lower)?;
+        let bounds = self.bounds(&ranks, at, &components, lower)?;
         let full = self.rank_of_piece(self.required());
         let upper = bounds.last().map_or(full, Upper::value);
         evidence.extend(bounds.into_iter().map(Evidence::Upper));
@@ -158,6 +159,7 @@ impl Piece<'_> {
     /// nobody wants to count.
     fn bounds(
         &self,
+        ranks: &Ranks,
         at: &Centres,
         components: &[Members],
         lower: usize,
@@ -166,7 +168,13 @@ impl Piece<'_> {
         if !self.options.question.counting() {
             return Ok(found);
         }
-        let counting = self.count(at, components, lower)?;
+        let counting = match self.assembly.placed() {
+            Some(placed) => {
+                let part = (self.members, self.core);
+                vectors::count(self.assembly, placed, part, &ranks.edge_scales())
+            }
+            None => self.count(at, components, lower)?,
+        };
         if counting.bound < self.rank_of_piece(self.required()) {
             found.push(Bound::Counting(counting).into());
         }

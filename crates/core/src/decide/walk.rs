@@ -136,7 +136,7 @@ impl<'a> Piece<'a> {
         let mut best = None;
         let mut next = from;
         for _ in 0..attempts {
-            let at = Centres::draw(&field, self.nodes(), self.key(next))?;
+            let at = Centres::draw(&field, self.core, self.key(next))?;
             next = at.draw.draw + 1;
             let ranks = self.ranks(&at)?;
             if best.as_ref().is_none_or(|&(_, rank)| ranks.rank > rank) {
@@ -153,7 +153,7 @@ impl<'a> Piece<'a> {
     pub(super) fn counted(&self) -> Result<Option<Counting>, VerdictError> {
         // Where to look is not a claim: a large prime looks best.
         let field = PrimeField::mersenne61();
-        let at = Centres::draw(&field, self.nodes(), self.key(0))?;
+        let at = Centres::draw(&field, self.core, self.key(0))?;
         let ranks = self.ranks(&at)?;
         if ranks.rank == self.required() {
             let whole = std::slice::from_ref(self.members);

@@ -35,6 +35,7 @@
 //! result, so that a redraw is on record.
 
 use super::camera::{Camera, centre};
+use crate::geometry::placed::residue;
 use crate::linalg::integer::{Integer, Integers};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::{Field, Ring};
@@ -141,11 +142,12 @@ impl DrawKey {
         ChaCha20Rng::from_seed(key.into())
     }
 
-    /// Draws until `centres` finds distinct centres of full-rank cameras.
+    /// Draws one node after another, knowing those before, until `centres` finds distinct centres of
+    /// full-rank cameras.
     fn draw<T, C: Ord>(
         &self,
         nodes: usize,
-        mut draw: impl FnMut(&mut ChaCha20Rng) -> T,
+        mut draw: impl FnMut(&mut ChaCha20Rng, &[T]) -> T,
         centre: impl Fn(&T) -> Option<C>,
     ) -> Result<Drawn<Vec<T>>, DrawError> {
         for attempt in 0..ATTEMPTS {
@@ -154,7 +156,10 @@ impl DrawKey {
                 ..*self
             };
             let mut generator = key.generator();
-            let values: Vec<T> = (0..nodes).map(|_| draw(&mut generator)).collect();
+            let mut values: Vec<T> = Vec::with_capacity(nodes);
+            for _ in 0..nodes {
+                values.push(draw(&mut generator, &values));
+            }
             let centres: Option<Vec<C>> = values.iter().map(&centre).collect();
             if let Some(mut centres) = centres {
                 centres.sort_unstable();
@@ -197,10 +202,31 @@ pub fn centres_mod(
     nodes: usize,
     key: &DrawKey,
 ) -> Result<Drawn<Vec<[u64; 3]>>, DrawError> {
-    let draw = |generator: &mut ChaCha20Rng| {
-        std::array::from_fn(|_| field.from_u64(uniform(generator, field.modulus())))
-    };
+    let draw = |generator: &mut ChaCha20Rng, _: &[[u64; 3]]| centre_mod(field, generator);
     key.draw(nodes, draw, |&centre: &[u64; 3]| Some(centre))
+}
+
+fn centre_mod(field: &PrimeField, generator: &mut ChaCha20Rng) -> [u64; 3] {
+    std::array::from_fn(|_| field.from_u64(uniform(generator, field.modulus())))
+}
+
+/// As [`centres_mod`], where some nodes are known to lie at a vector from an earlier one: nothing is
+/// drawn for these. One entry a node.
+///
+/// # Errors
+/// As [`centres_mod`].
+pub(crate) fn placed_centres_mod(
+    field: &PrimeField,
+    known: &[Option<(usize, [i128; 3])>],
+    key: &DrawKey,
+) -> Result<Drawn<Vec<[u64; 3]>>, DrawError> {
+    let draw = |generator: &mut ChaCha20Rng, before: &[[u64; 3]]| match known[before.len()] {
+        None => centre_mod(field, generator),
+        Some((from, vector)) => {
+            std::array::from_fn(|k| field.add(&before[from][k], &residue(field, vector[k])))
+        }
+    };
+    key.draw(known.len(), draw, |&centre: &[u64; 3]| Some(centre))
 }
 
 /// Distinct points in the plane modulo p, as elements of `field`, one a node.
@@ -212,7 +238,7 @@ pub fn points_mod(
     nodes: usize,
     key: &DrawKey,
 ) -> Result<Drawn<Vec<[u64; 2]>>, DrawError> {
-    let draw = |generator: &mut ChaCha20Rng| {
+    let draw = |generator: &mut ChaCha20Rng, _: &[[u64; 2]]| {
         std::array::from_fn(|_| field.from_u64(uniform(generator, field.modulus())))
     };
     key.draw(nodes, draw, |&point: &[u64; 2]| Some(point))
@@ -263,7 +289,7 @@ pub fn cameras_mod(
     nodes: usize,
     key: &DrawKey,
 ) -> Result<Drawn<Vec<Camera<u64>>>, DrawError> {
-    let draw = |generator: &mut ChaCha20Rng| {
+    let draw = |generator: &mut ChaCha20Rng, _: &[Camera<u64>]| {
         let mut entry = || field.from_u64(uniform(generator, field.modulus()));
         std::array::from_fn(|_| std::array::from_fn(|_| entry()))
     };
@@ -291,7 +317,7 @@ pub fn cameras_rational(
     if !(1..=MAX_NUMERATOR).contains(&numerator) || !(1..=MAX_DENOMINATOR).contains(&denominator) {
         return Err(DrawError::RationalBounds);
     }
-    let draw = |generator: &mut ChaCha20Rng| {
+    let draw = |generator: &mut ChaCha20Rng, _: &[Camera<Integer>]| {
         let mut above = [0; 12];
         let mut below = [0; 12];
         for (above, below) in above.iter_mut().zip(&mut below) {

@@ -11,3 +11,5 @@ pub mod jacobian;
 pub mod model;
 pub mod plane_direction;
 pub mod plane_flow;
+
+pub(crate) mod placed;

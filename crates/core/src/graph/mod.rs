@@ -23,10 +23,11 @@ mod lists;
 mod petgraph;
 mod sort;
 mod union_find;
+mod vectors;
 
 pub use adjacency::Adjacency;
 pub use biconnected::biconnected_components;
-pub use displacements::Displacements;
+pub use displacements::{Displacements, VectorError};
 pub use identity::{core_sha256, sha256};
 pub use known_parts::KnownParts;
 pub use labelled::{LabelledGraph, PairedWithItself};
@@ -34,6 +35,8 @@ pub use labels::Labels;
 pub use leaves::prune_leaves;
 pub use lists::Lists;
 pub use union_find::UnionFind;
+pub(crate) use vectors::Hanging;
+pub use vectors::{Coordinate, CoordinateError};
 
 /// How many pairs a core takes at least: fewer are not worth waking another one.
 const SHARE: usize = 1 << 14;

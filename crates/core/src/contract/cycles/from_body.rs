@@ -116,15 +116,17 @@ impl<'a> FromBody<'a> {
                 self.merge_scaled(member, a);
                 continue;
             }
-            let before = self.way(member);
-            if let Some(way) = before
-                && way.from != a
-            {
-                match way.through {
-                    None => self.merge_shared(member, [way.from, a]),
-                    Some((first, x)) => self.merge_triangle([first, member], [way.from, a, x]),
+            let before = self.way(member).filter(|way| way.from != a);
+            match before.map(|way| (way.from, way.through)) {
+                Some((from, None)) => {
+                    self.merge_shared(member, [from, a]);
+                    continue;
                 }
-                continue;
+                Some((from, Some((first, x)))) if self.structure.is_general([from, a, x]) => {
+                    self.merge_triangle([first, member], [from, a, x]);
+                    continue;
+                }
+                _ => (),
             }
             self.set_way(member, a, None);
             self.search_member(member, a);
@@ -156,7 +158,7 @@ impl<'a> FromBody<'a> {
                     member,
                 };
                 self.search_node(x, member, a);
-            } else if reach.from != a {
+            } else if reach.from != a && self.structure.is_general([reach.from, a, x]) {
                 self.merge_triangle([reach.member, member], [reach.from, a, x]);
             }
             // Two members with the nodes a and x in common are found from one of the four.
@@ -179,10 +181,13 @@ impl<'a> FromBody<'a> {
                 continue;
             }
             match way.through {
-                None => self.merge_triangle([member, other], [a, way.from, x]),
-                Some((last, y)) => {
+                None if self.structure.is_general([a, way.from, x]) => {
+                    self.merge_triangle([member, other], [a, way.from, x]);
+                }
+                Some((last, y)) if self.structure.is_general([a, x, y, way.from]) => {
                     self.merge_cycle([member, other, last], [a, x, y, way.from]);
                 }
+                _ => continue,
             }
             // The member has joined.
             break;

@@ -115,8 +115,10 @@ impl<'a> FromNode<'a> {
                 continue;
             }
             if self.branch(y).is_some() {
-                self.close(branch, x, member, y);
-                return;
+                if self.close(branch, x, member, y) {
+                    return;
+                }
+                continue;
             }
             if self.structure.held_by(y) > self.rank {
                 continue;
@@ -132,22 +134,28 @@ impl<'a> FromNode<'a> {
             }
             let other = self.branch(reach.from).expect("a node of a branch");
             // A cycle without this node is found from what has the highest rank on it.
-            if other != branch {
-                let members = [branch, member, reach.member, other];
-                self.unite(members, [self.hub, x, y, reach.from]);
+            let at = [self.hub, x, y, reach.from];
+            if other != branch && self.structure.is_general(at) {
+                self.unite([branch, member, reach.member, other], at);
                 return;
             }
         }
     }
 
-    /// A member touches a branch at `x` and the same or another one at `y`.
-    fn close(&mut self, branch: u32, x: u32, member: u32, y: u32) {
+    /// A member touches a branch at `x` and the same or another one at `y`. Returns whether they
+    /// merge, which they do in general position.
+    fn close(&mut self, branch: u32, x: u32, member: u32, y: u32) -> bool {
         let other = self.branch(y).expect("a node of a branch");
         if other == branch {
             self.unite([branch, member], [y, x]);
-        } else {
-            self.unite([branch, member, other], [self.hub, x, y]);
+            return true;
         }
+        let at = [self.hub, x, y];
+        let merges = self.structure.is_general(at);
+        if merges {
+            self.unite([branch, member, other], at);
+        }
+        merges
     }
 
     /// Merges members around a cycle, some of which are branches, and then the branches that share
@@ -168,7 +176,7 @@ impl<'a> FromNode<'a> {
 
     fn merge<const K: usize>(&mut self, mut members: [u32; K], mut at: [u32; K]) {
         self.changed = true;
-        // The largest absorbs the others. No cycle is one of edges alone.
+        // The largest absorbs the others.
         let rank = |k: &usize| {
             let member = members[*k];
             let is_body = matches!(self.structure.part[member as usize], Part::Body(_));
@@ -187,9 +195,6 @@ impl<'a> FromNode<'a> {
             .iter()
             .map(|&member| self.structure.part[member as usize])
             .collect();
-        let Part::Body(k) = parts[0] else {
-            unreachable!("edges absorb nothing");
-        };
         let at: Vec<u32> = at
             .iter()
             .map(|&v| self.structure.names[v as usize])
@@ -211,7 +216,7 @@ impl<'a> FromNode<'a> {
         let mut edges = 0;
         let mut nodes = Vec::new();
         let mut scaled = false;
-        for part in parts {
+        for &part in &parts {
             match part {
                 Part::Edge(i, j) => {
                     nodes.extend([i, j]);
@@ -225,14 +230,19 @@ impl<'a> FromNode<'a> {
                 }
             }
         }
-        let Some(merge) = merge else {
-            let body = &mut self.bodies[k as usize];
-            (body.nodes, body.edges) = (nodes, edges);
-            return;
+        let (seed, merge) = match (parts[0], merge) {
+            (Part::Body(k), Some(merge)) => (Seed::Body(k), merge),
+            (Part::Edge(i, j), Some(merge)) => (Seed::Edge(i, j), merge),
+            (Part::Body(k), None) => {
+                let body = &mut self.bodies[k as usize];
+                (body.nodes, body.edges) = (nodes, edges);
+                return;
+            }
+            (Part::Edge(..), None) => unreachable!("two edges share one node"),
         };
         self.structure.part[members[0] as usize] = Part::Body(self.bodies.len() as u32);
         self.bodies.push(Body {
-            seed: Seed::Body(k),
+            seed,
             add: Vec::new(),
             merge: vec![merge],
             nodes,
