@@ -8,7 +8,7 @@ use viewcert::graph::sha256;
 use viewcert_check::{Certificate, Failure, Graph, Labels, Rejection, Verdict, Verified};
 use viewcert_formats::read::graphs;
 use viewcert_formats::{
-    NamedGraph, ReadError, ReadOptions, read_displacements, read_graphs, read_parts,
+    ListOptions, NamedGraph, ReadError, ReadOptions, read_displacements, read_graphs, read_parts,
 };
 
 /// What a certificate proves.
@@ -178,8 +178,9 @@ pub(crate) fn graph_at(
             format: None,
             variable: None,
             tracks: None,
+            ref list,
             ..
-        } => {
+        } if *list == ListOptions::default() => {
             let wanted = || Some(certificate.graph_sha256());
             match parts {
                 None => Graph::read(&bytes, wanted).map(|graph| (graph, Labels::Numbers)),
