@@ -1,6 +1,6 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{GOOD, ends_run, exit_code, running};
+use super::{BAD_INPUT, GOOD, TOO_LARGE, ends_run, exit_code, running};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -8,7 +8,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::documents::Document;
-use viewcert_formats::{Format, NamedGraph, ReadError, ReadOptions, TrackOptions, read_graphs};
+use viewcert_formats::{
+    Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
+    read_graphs,
+};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -17,22 +20,39 @@ pub(super) struct InputArguments {
     ///
     /// An edge list has 2, 3, 9 or 14 fields on every line, separated by blanks, tabs or a
     /// comma: two labels and numbers, which are ignored (weights, relative poses). Names with
-    /// blanks stand in quotes; # and % begin comments; a head like source,target is recognised.
-    /// What could be something else (a line of counts, a matrix, an adjacency list, files of other
-    /// programs) is refused, by name where it has one. `--format edges` reads the first two fields
-    /// of every line all the same. What is ignored, merged or guessed is printed as a note.
-    #[arg(long, value_enum)]
+    /// blanks stand in quotes; # and % begin comments; heads like source,target are recognised, and
+    /// say which columns of a larger table hold the pairs. What could be something else (a line of
+    /// counts, names with numbers, an adjacency list, files of other programs) is refused, by name
+    /// where it has one. `--format edges` reads the first two fields of every line all the same.
+    /// The first line of every report says how the file was read.
+    #[arg(long, value_enum, help_heading = READING)]
     format: Option<FormatName>,
+    /// The columns of a table that hold the pairs, by name or by number, and perhaps that of the
+    /// weights: img1,img2 or 2,3 or img1,img2,score.
+    #[arg(long, value_name = "A,B[,W]", help_heading = READING)]
+    columns: Option<Columns>,
+    /// The least weight of a pair of a list: what weighs less is left out. Compared exactly.
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = READING)]
+    min_weight: Option<Decimal>,
+    /// Leave out pairs of a camera with itself, which are refused otherwise.
+    #[arg(long, help_heading = READING)]
+    skip_loops: bool,
     /// Variable of a MATLAB file [default: A, or the only square matrix].
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help_heading = READING)]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, help_heading = READING)]
     pipeline: Option<PipelineName>,
     /// The least number of inliers of a pair of a COLMAP database [default: 15, as both mappers].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", help_heading = READING)]
     min_inliers: Option<u32>,
 }
+
+/// The title of these options in the help.
+const READING: &str = "How files are read";
+
+/// How many errors of one file are printed.
+const MOST_ERRORS: usize = 10;
 
 #[derive(Clone, Copy, ValueEnum)]
 enum PipelineName {
@@ -68,6 +88,10 @@ enum FormatName {
     /// lists.
     #[value(alias = "adjacency-list")]
     OpenmvgPairs,
+    /// Matches of features as COLMAP imports them: two names, and below them two numbers a line.
+    RawMatches,
+    /// A matrix as text: match counts, zeros and ones.
+    TextMatrix,
     /// Pose graph of g2o.
     G2o,
     /// Node-link graph in JSON, of networkx or d3.
@@ -140,6 +164,8 @@ impl InputArguments {
                 FormatName::Glomap => Format::Glomap,
                 FormatName::OneDsfm => Format::OneDsfm,
                 FormatName::OpenmvgPairs => Format::Document(Document::Stars),
+                FormatName::RawMatches => Format::Document(Document::RawMatches),
+                FormatName::TextMatrix => Format::Document(Document::TextMatrix),
                 FormatName::G2o => Format::Document(Document::G2o),
                 FormatName::NodeLink => Format::Document(Document::NodeLink),
                 FormatName::GraphMl => Format::Document(Document::GraphMl),
@@ -152,6 +178,11 @@ impl InputArguments {
             }),
             min_inliers: self.min_inliers,
             tracks: None,
+            list: ListOptions {
+                columns: self.columns.clone(),
+                min_weight: self.min_weight.clone(),
+                skip_loops: self.skip_loops,
+            },
         }
     }
 }
@@ -191,7 +222,19 @@ pub(super) fn for_each_read<W: Write>(
         let mut start = Instant::now();
         running::reading(path);
         let mut graphs = read_graphs(path, options).peekable();
+        let mut refused = 0;
         while let Some(input) = graphs.next() {
+            refused += usize::from(input.is_err());
+            if refused > MOST_ERRORS
+                && let Err(error) = &input
+            {
+                code = code.max(if error.problem.is_size() {
+                    TOO_LARGE
+                } else {
+                    BAD_INPUT
+                });
+                continue;
+            }
             if let Some(reason) = too_many(&format!("several in {}", path.display()))
                 && graphs.peek().is_some()
             {
@@ -212,6 +255,10 @@ pub(super) fn for_each_read<W: Write>(
             out.flush().context("standard output")?;
             running::reading(path);
             start = Instant::now();
+        }
+        if refused > MOST_ERRORS {
+            let (path, more) = (path.display(), refused - MOST_ERRORS);
+            writeln!(std::io::stderr(), "verify: {path}: ... and {more} more")?;
         }
     }
     Ok(code)

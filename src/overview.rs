@@ -313,5 +313,15 @@ fn options_of(read: &ReadOptions) -> String {
     if let Some(count) = read.min_inliers {
         text += &format!(" --min-inliers {count}");
     }
+    let list = &read.list;
+    if let Some(columns) = &list.columns {
+        text += &format!(" --columns {}", shell(&columns.to_string()));
+    }
+    if let Some(least) = &list.min_weight {
+        text += &format!(" --min-weight {least}");
+    }
+    if list.skip_loops {
+        text += " --skip-loops";
+    }
     text
 }

@@ -114,12 +114,84 @@ fn nothing_is_misread() {
     }
 }
 
+/// Lists of pairs and what lies beside them, most of it written by `lists/make.py`: read as what went
+/// in, or refused with a phrase.
+#[test]
+fn no_list_is_misread() {
+    let folder = folder().join("lists");
+    let table = std::fs::read_to_string(folder.join("table.tsv")).unwrap();
+    let mut lines = table.lines();
+    let head = "file\toptions\tcode\tgives\tread\twritten by";
+    assert_eq!(lines.next(), Some(head));
+    let mut files = BTreeSet::new();
+    for line in lines {
+        let [file, options, code, gives, phrase, _] = line.split('\t').collect::<Vec<_>>()[..]
+        else {
+            panic!("{line}");
+        };
+        files.insert(file.to_owned());
+        let path = folder.join(file);
+        let mut arguments = vec!["--json"];
+        arguments.extend(options.split_whitespace());
+        arguments.push(path.to_str().unwrap());
+        let run = verify(&arguments);
+        let context = format!("{line}: {}{}", run.out, run.err);
+        if code == "2" {
+            assert_eq!((run.code, &*run.out), (2, ""), "{context}");
+            assert_eq!(run.err.lines().count(), 1, "{context}");
+            assert!(
+                run.err.contains(gives) && run.err.contains("; "),
+                "{context}"
+            );
+            // A refusal of what is no list of pairs advises nothing that reads it all the same.
+            let advises = run.err.contains("--format edges") || run.err.contains("--columns 1,2");
+            let holds_pairs = table
+                .lines()
+                .any(|other| other.starts_with(&format!("{file}\t")) && other.contains("\tread\t"));
+            let may = holds_pairs || run.err.contains("if ");
+            assert!(!advises || may, "{context}");
+            continue;
+        }
+        assert!(run.code < 2 && code == "read", "{context}");
+        let [line] = &run.json()[..] else {
+            panic!("{context}");
+        };
+        let graph = &line["graph"];
+        let size = format!("{} nodes, {} edges", graph["nodes"], graph["edges"]);
+        assert_eq!(size, gives, "{context}");
+        let said = format!("{} {}", read_as(line), line["notes"]);
+        assert!(said.contains(phrase), "{context}");
+    }
+    assert!(files.len() >= 200);
+    let there: BTreeSet<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| !["table.tsv", "make.py"].contains(&&**name))
+        .collect();
+    assert_eq!(files, there);
+}
+
+/// Of a file with many bad lines the first ones are named, and the others counted.
+#[test]
+fn a_wrong_file_is_a_short_message() {
+    let text = format!(">>graph6<<\nBw\n{}", "x y\n".repeat(500));
+    let run = verify_with(text.as_bytes(), &["-"]);
+    assert_eq!(run.code, 2);
+    assert_eq!(run.err.lines().count(), 11, "{}", run.err);
+    assert!(
+        run.err.ends_with("verify: -: ... and 490 more\n"),
+        "{}",
+        run.err
+    );
+    assert!(run.out.contains("3 cameras, 3 pairs"), "{}", run.out);
+}
+
 #[test]
 fn every_file_is_in_the_table() {
     let files: BTreeSet<String> = std::fs::read_dir(folder())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| name != "table.tsv")
+        .filter(|name| !["table.tsv", "lists"].contains(&&**name))
         .collect();
     let rows: BTreeSet<String> = table().into_iter().map(|row| row.file).collect();
     assert_eq!(files, rows);
@@ -134,7 +206,10 @@ fn notes_are_printed() {
     for command in [&[][..], &["compare"], &["conditions"], &["audit"]] {
         let run = verify(&[command, &[path]].concat());
         assert!(
-            run.out.contains(&format!("  note        {note}\n")),
+            run.out.contains(&format!("  note        {note}\n"))
+                && run.out.contains(&format!(
+                    "  read as     edge list, names in columns 1 and 2; guessed: {note}\n"
+                )),
             "{}",
             run.out
         );

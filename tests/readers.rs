@@ -89,45 +89,10 @@ fn synthetic_graphs_and_their_true_components() {
     }
 }
 
-/// Section 2 of docs/certificate.md, written down once more without any thought of speed.
+/// Lists of pairs as docs/input.md cuts them, written down once more without any thought of speed, and
+/// without any rule about what is no list.
 mod the_page {
     use std::collections::BTreeSet;
-
-    pub struct Field {
-        text: String,
-        quoted: bool,
-    }
-
-    impl Field {
-        fn is_number(&self) -> bool {
-            !self.quoted && is_number(&self.text)
-        }
-
-        fn integer(&self) -> Option<u64> {
-            if self.quoted {
-                None
-            } else {
-                integer(&self.text)
-            }
-        }
-    }
-
-    fn is_number(text: &str) -> bool {
-        let text = text.strip_prefix(['+', '-']).unwrap_or(text);
-        let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-            Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-            None => (text, None),
-        };
-        let digits = |text: &str| text.chars().all(|c| c.is_ascii_digit());
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        digits(whole)
-            && digits(fraction)
-            && !(whole.is_empty() && fraction.is_empty())
-            && exponent.is_none_or(|exponent| {
-                let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
-                !exponent.is_empty() && digits(exponent)
-            })
-    }
 
     fn integer(text: &str) -> Option<u64> {
         let value: u64 = text.parse().ok()?;
@@ -146,7 +111,7 @@ mod the_page {
         (!lines.iter().any(|line| line.contains(bad))).then_some(lines)
     }
 
-    fn fields(line: &str) -> Option<Vec<Field>> {
+    fn fields(line: &str) -> Option<Vec<String>> {
         let mut rest: &str = line;
         let mut fields = Vec::new();
         loop {
@@ -169,7 +134,7 @@ mod the_page {
                 if text.is_empty() || !(rest.is_empty() || rest.starts_with([' ', '\t', ','])) {
                     return None;
                 }
-                fields.push(Field { text, quoted: true });
+                fields.push(text);
             } else {
                 let end = rest.find([' ', '\t', ',']).unwrap_or(rest.len());
                 let text = rest[..end].to_owned();
@@ -177,30 +142,9 @@ mod the_page {
                 if text.contains('"') {
                     return None;
                 }
-                let quoted = false;
-                fields.push(Field { text, quoted });
+                fields.push(text);
             }
         }
-    }
-
-    fn brackets_close(text: &str) -> bool {
-        let mut left: String = text.chars().filter(|c| "()[]{}".contains(*c)).collect();
-        loop {
-            let shorter = left.replace("()", "").replace("[]", "").replace("{}", "");
-            if shorter == left {
-                return left.is_empty();
-            }
-            left = shorter;
-        }
-    }
-
-    const PAIRS: &str = "source target from to src dst node1 node2 node_1 node_2 image1 image2 \
-         image_1 image_2 image_id1 image_id2 name1 name2 name_1 name_2 id1 id2";
-
-    fn is_head(a: &str, b: &str) -> bool {
-        let words: Vec<&str> = PAIRS.split_whitespace().collect();
-        let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
-        words.chunks(2).any(|pair| pair[0] == a && pair[1] == b)
     }
 
     /// Labels in the order of the nodes, and the edges.
@@ -229,154 +173,26 @@ mod the_page {
         Some((labels, edges))
     }
 
-    pub fn lenient(bytes: &[u8]) -> Option<Listed> {
+    /// The pairs of all lines, without the first one if it is a head.
+    pub fn read(bytes: &[u8], head: bool) -> Option<Listed> {
         let (mut pairs, mut singles) = (Vec::new(), Vec::new());
+        let mut left = usize::from(head);
         for line in lines(bytes)? {
-            match &fields(&line)?[..] {
+            let fields = fields(&line)?;
+            if left > 0 && !fields.is_empty() {
+                left -= 1;
+                continue;
+            }
+            match &fields[..] {
                 [] => {}
-                [one] => singles.push(one.text.clone()),
-                [a, b, ..] => pairs.push((a.text.clone(), b.text.clone())),
+                [one] => singles.push(one.clone()),
+                [a, b, ..] => pairs.push((a.clone(), b.clone())),
             }
         }
         if pairs.is_empty() && singles.is_empty() {
             return None;
         }
         numbered(&pairs, &singles)
-    }
-
-    pub fn strict(bytes: &[u8]) -> Option<Listed> {
-        let lines = lines(bytes)?;
-        let mut rows: Vec<Vec<Field>> = Vec::new();
-        let mut hashes = Vec::new();
-        for line in &lines {
-            let found = fields(line)?;
-            if line.trim_matches([' ', '\t']) == "#" {
-                hashes.push(rows.len());
-            }
-            if !found.is_empty() {
-                rows.push(found);
-            }
-        }
-        let columns = rows.first()?.len();
-        if ![2, 3, 9, 14].contains(&columns) || rows.iter().any(|row| row.len() != columns) {
-            return None;
-        }
-        for field in rows.iter().flatten().filter(|field| !field.quoted) {
-            let word = |c: char| c.is_ascii_alphanumeric() || !c.is_ascii();
-            if !field.text.contains(word) || field.text.starts_with("//") {
-                return None;
-            }
-        }
-        // The head.
-        let first = &rows[0];
-        let occurs = |label: &str| {
-            let labels = rows[1..].iter().flat_map(|row| &row[..2]);
-            labels.into_iter().any(|field| field.text == label)
-        };
-        let either_occurs = first[..2].iter().any(|field| occurs(&field.text));
-        let numbers = first[2..].iter().all(Field::is_number);
-        let head = if !numbers && !first[..2].iter().any(Field::is_number) {
-            let mut behind = first[1..].windows(2);
-            if behind.any(|two| is_head(&two[0].text, &two[1].text)) || either_occurs {
-                return None;
-            }
-            true
-        } else {
-            numbers && is_head(&first[0].text, &first[1].text) && !either_occurs
-        };
-        let rows = &rows[usize::from(head)..];
-        if rows.is_empty()
-            || rows
-                .iter()
-                .any(|row| !row[2..].iter().all(Field::is_number))
-        {
-            return None;
-        }
-        for field in rows
-            .iter()
-            .flat_map(|row| &row[..2])
-            .filter(|field| !field.quoted)
-        {
-            if field.text.ends_with([';', ':']) || !brackets_close(&field.text) {
-                return None;
-            }
-        }
-        let pairs: Vec<(String, String)> = rows
-            .iter()
-            .map(|row| (row[0].text.clone(), row[1].text.clone()))
-            .collect();
-        let listed = numbered(&pairs, &[])?;
-        // What it could be else.
-        let quoted = rows.iter().any(|row| row[0].quoted || row[1].quoted);
-        let integers: Option<Vec<Vec<u64>>> = rows
-            .iter()
-            .map(|row| row.iter().map(Field::integer).collect())
-            .collect();
-        if !head
-            && !quoted
-            && let Some(rows) = &integers
-        {
-            let others: BTreeSet<u64> = rows[1..].iter().flatten().copied().collect();
-            let counts = columns == 2
-                && rows[0][1] == rows.len() as u64 - 1
-                && rows[0][0] >= others.len() as u64;
-            let matrix = rows.len() == columns && rows.iter().flatten().all(|&value| value < 2);
-            if counts || matrix {
-                return None;
-            }
-            if columns == 3 {
-                let largest = rows.iter().map(|row| row[0].max(row[1])).max()?;
-                let stars = rows.iter().all(|row| {
-                    row[0] < row[1] && row[1] < row[2] && row[2] <= largest.saturating_add(1)
-                });
-                let behind = |node: u64, other: u64| {
-                    let mut lines = rows.iter();
-                    lines.any(|row| row[0] == node && row[1..].contains(&other))
-                };
-                let neighbours = rows.windows(2).all(|two| two[0][0] < two[1][0])
-                    && rows.iter().all(|row| {
-                        row[0] != row[1]
-                            && row[0] != row[2]
-                            && row[1] != row[2]
-                            && behind(row[1], row[0])
-                            && behind(row[2], row[0])
-                    });
-                if stars || neighbours {
-                    return None;
-                }
-            }
-        }
-        if let [at] = hashes[..] {
-            let at = at.saturating_sub(usize::from(head));
-            let (nodes, edges) = pairs.split_at(at);
-            let firsts: BTreeSet<&String> = nodes.iter().map(|pair| &pair.0).collect();
-            let listed = |label| firsts.contains(label);
-            if !nodes.is_empty()
-                && !edges.is_empty()
-                && firsts.len() == nodes.len()
-                && edges.iter().all(|(a, b)| listed(a) && listed(b))
-            {
-                return None;
-            }
-        }
-        let (own, other): (Vec<&String>, Vec<&String>) = listed
-            .0
-            .iter()
-            .partition(|label| **label == pairs[0].0 || **label == pairs[0].1);
-        if !head
-            && pairs.len() > 1
-            && !either_occurs
-            && own.iter().all(|label| !is_number(label))
-            && other.iter().all(|label| integer(label).is_some())
-        {
-            return None;
-        }
-        let decimal = |label: &String| label.contains(['.', 'e', 'E']);
-        if !quoted && listed.0.iter().all(|label| is_number(label)) && listed.0.iter().any(decimal)
-        {
-            return None;
-        }
-        Some(listed)
     }
 }
 
@@ -387,7 +203,7 @@ mod edge_lists {
     use proptest::test_runner::{Config, TestRunner};
     use std::cell::Cell;
     use viewcert_formats::read::graphs;
-    use viewcert_formats::{Format, ReadError};
+    use viewcert_formats::{Format, NamedGraph};
 
     fn choice(words: &'static str) -> impl Strategy<Value = String> + Clone {
         let words: Vec<&str> = words.split(' ').collect();
@@ -466,53 +282,62 @@ mod edge_lists {
             })
     }
 
-    fn read(text: &str, format: Option<Format>) -> Result<the_page::Listed, ReadError> {
+    fn read(text: &str, format: Option<Format>) -> Option<NamedGraph> {
         let options = ReadOptions {
             format,
             ..ReadOptions::default()
         };
         let input = std::io::Cursor::new(text.as_bytes().to_vec());
-        let mut graphs = graphs("in".to_owned(), input, options);
-        let named = graphs.next().unwrap()?;
+        graphs("in".to_owned(), input, options).next()?.ok()
+    }
+
+    fn listed(named: &NamedGraph) -> the_page::Listed {
         let nodes = 0..named.graph.nodes() as u32;
         let labels = nodes.map(|node| named.labels.label(node).into_owned());
         let edges = named.graph.edges().iter();
         let edges = edges.map(|&(i, j)| (i as usize, j as usize));
-        Ok((labels.collect(), edges.collect()))
-    }
-
-    fn is_stars(text: &str) -> bool {
-        let input = std::io::Cursor::new(text.as_bytes().to_vec());
-        let named = graphs("in".to_owned(), input, ReadOptions::default()).next();
-        let note = "each line joins its first field with all others";
-        matches!(named, Some(Ok(named)) if named.notes.iter().any(|one| one == note))
+        (labels.collect(), edges.collect())
     }
 
     #[test]
     fn agree_with_the_page() {
-        let (strict, lenient) = (Cell::new(0), Cell::new(0));
-        let cases = 20_000;
-        let mut runner = TestRunner::new(Config::with_cases(cases));
+        let (strict, heads, lenient) = (Cell::new(0), Cell::new(0), Cell::new(0));
+        let mut runner = TestRunner::new(Config::with_cases(20_000));
         runner
             .run(&text(), |text| {
-                let expected = the_page::strict(text.as_bytes());
-                strict.set(strict.get() + usize::from(expected.is_some()));
-                let found = read(&text, None).ok();
-                // Lists of neighbours are no edge lists, and read all the same.
-                if expected.is_some() || found.is_none() || !is_stars(&text) {
-                    prop_assert_eq!(found, expected, "strictly");
+                for (format, count) in [(None, &strict), (Some(Format::Edges), &lenient)] {
+                    let Some(named) = read(&text, format) else {
+                        continue;
+                    };
+                    let taken = named.read.taken.as_deref().unwrap_or_default();
+                    // Tables whose pairs stand elsewhere, and other formats, have tests of their own.
+                    if named.read.format != "edge list" || !taken.ends_with("columns 1 and 2") {
+                        continue;
+                    }
+                    let head = named
+                        .notes
+                        .iter()
+                        .any(|note| note.starts_with("the first line is a head"));
+                    let expected = the_page::read(text.as_bytes(), head);
+                    prop_assert_eq!(
+                        Some(listed(&named)),
+                        expected,
+                        "{:?} {:?}",
+                        format,
+                        &named.read
+                    );
+                    count.set(count.get() + 1);
+                    heads.set(heads.get() + usize::from(head));
                 }
-                let expected = the_page::lenient(text.as_bytes());
-                lenient.set(lenient.get() + usize::from(expected.is_some()));
-                let found = read(&text, Some(Format::Edges));
-                prop_assert_eq!(found.ok(), expected, "leniently");
                 Ok(())
             })
             .unwrap();
-        // Enough of both kinds to mean something.
-        for accepted in [strict.get(), lenient.get()] {
-            assert!((1000..19_000).contains(&accepted), "{accepted} of {cases}");
-        }
+        // Enough of each kind to mean something.
+        let counts = [strict.get(), lenient.get(), heads.get()];
+        assert!(
+            counts[0] > 1000 && counts[1] > 1000 && counts[2] > 100,
+            "{counts:?}"
+        );
     }
 }
 

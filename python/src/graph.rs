@@ -12,7 +12,9 @@ use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert::watch::Watch;
 use viewcert_formats::colmap::Pipeline;
-use viewcert_formats::{NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs};
+use viewcert_formats::{
+    ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
+};
 
 /// A graph with its labels and notes.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -210,8 +212,10 @@ fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
 /// The graphs of a file.
 #[pyfunction]
 #[pyo3(signature = (
-    path, *, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None
+    path, *, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
+    columns=None, min_weight=None, skip_loops=false
 ))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn read(
     py: Python<'_>,
     path: PathBuf,
@@ -220,8 +224,14 @@ pub(crate) fn read(
     pipeline: Option<&str>,
     min_inliers: Option<u32>,
     min_views: Option<u32>,
+    columns: Option<&str>,
+    min_weight: Option<&str>,
+    skip_loops: bool,
 ) -> PyResult<Vec<Graph>> {
-    let options = read_options(format, variable, pipeline, min_inliers, min_views)?;
+    let options = ReadOptions {
+        list: list_options(columns, min_weight, skip_loops)?,
+        ..read_options(format, variable, pipeline, min_inliers, min_views)?
+    };
     let read = work::run(py, &Watch::default(), None, move || {
         read_graphs(path, &options).collect::<Result<Vec<_>, _>>()
     })?;
@@ -259,5 +269,22 @@ fn read_options(
         pipeline,
         min_inliers,
         tracks: min_views.map(|min_views| TrackOptions { min_views }),
+        list: ListOptions::default(),
+    })
+}
+
+/// The options of lists.
+fn list_options(
+    columns: Option<&str>,
+    min_weight: Option<&str>,
+    skip_loops: bool,
+) -> PyResult<ListOptions> {
+    let columns = columns.map(str::parse).transpose();
+    let min_weight = min_weight.map(str::parse).transpose();
+    Ok(ListOptions {
+        columns: columns.map_err(|error| InputError::new_err(format!("columns: {error}")))?,
+        min_weight: min_weight
+            .map_err(|error| InputError::new_err(format!("min_weight: {error}")))?,
+        skip_loops,
     })
 }

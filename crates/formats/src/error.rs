@@ -259,9 +259,46 @@ pub enum Problem {
         /// Its place in the line, from 1.
         column: usize,
     },
-    /// A head that names other columns than the first two.
-    #[error("the head says that the pairs are not in the first two columns")]
-    HeadBehind,
+    /// A head that names something else than cameras.
+    #[error("the head calls a column `{}`: this is no list of pairs", shown(.name))]
+    NoCameras {
+        /// The name.
+        name: String,
+    },
+    /// A column that is asked for and not there.
+    #[error("there is no column `{}`; there are {columns}", shown(.column))]
+    NoColumn {
+        /// The column, as it was named.
+        column: String,
+        /// Those that are there.
+        columns: String,
+    },
+    /// A field of a pair without a name.
+    #[error("field {column}, where the name of a camera belongs, is empty")]
+    NoName {
+        /// Its place in the line, from 1.
+        column: usize,
+    },
+    /// No column that holds weights.
+    #[error("--min-weight: there is no column of weights")]
+    NoWeights,
+    /// A weight that is no number.
+    #[error("--min-weight: field {column}, `{}`, is no number", shown(.field))]
+    NoWeight {
+        /// The field.
+        field: String,
+        /// Its place in the line, from 1.
+        column: usize,
+    },
+    /// Nine or fourteen fields that are no relative pose.
+    #[error("not an edge list: lines of {columns} fields are pairs with relative poses, and there is no {}", if *.columns == 9 {"unit quaternion in fields 3 to 6"} else {"rotation in fields 3 to 11"})]
+    NoPose {
+        /// How many fields.
+        columns: usize,
+    },
+    /// A text whose first two fields are pairs all the same.
+    #[error(transparent)]
+    PairsFirst(Box<Problem>),
     /// A first line with names of columns that are cameras as well.
     #[error("the line could be a head, but its names occur as cameras")]
     HeadOrPair,
@@ -375,13 +412,20 @@ pub enum Problem {
         /// Its column, from 1.
         column: u32,
     },
+    /// Two different entries where a pair has one weight.
+    #[error("the matrix is not symmetric: entries ({row}, {column}) and ({column}, {row}) differ")]
+    Uneven {
+        /// Row of one of them, from 1.
+        row: u32,
+        /// Its column, from 1.
+        column: u32,
+    },
     /// A camera paired with itself, in a matrix.
     #[error("diagonal entry ({0}, {0}) is non-zero: a camera paired with itself")]
     Diagonal(u32),
 }
 
-const LENIENTLY: &str = "write one pair a line, separated by a blank, or read the first two fields of every line with \
-     --format edges (the first one with each of the others: --format openmvg-pairs)";
+const PAIRS: &str = "write one pair a line, separated by a blank: the names of two cameras";
 
 /// What to do with tracks where pairs are read.
 pub(super) const TRACKS: &str =
@@ -421,7 +465,9 @@ impl Problem {
             Self::LongVectors => "round them, so that all have the same few decimals",
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",
-            Self::SelfLoop(_) => "remove the pair (or the line, if it holds counts)",
+            Self::SelfLoop(_) => {
+                "remove the pair (or the line, if it holds counts); --skip-loops leaves such lines of lists out"
+            }
             Self::NotUtf8 | Self::CarriageReturn => "save it as UTF-8 with line feeds",
             Self::Nul | Self::Control(_) => {
                 "give an edge list, graph6, sparse6, MatrixMarket or a MATLAB file (save -v7)"
@@ -439,14 +485,26 @@ impl Problem {
             }
             Self::EmptyField => "put a field on either side of every comma",
             Self::Quote(_) => "quote whole fields only, and double the quotes within them",
-            Self::NoLabel(_) | Self::Columns { .. } | Self::ColumnsDiffer { .. } => LENIENTLY,
+            Self::NoLabel(_)
+            | Self::Columns { .. }
+            | Self::ColumnsDiffer { .. }
+            | Self::NoPose { .. } => PAIRS,
             Self::Punctuated(_) => {
-                "remove the punctuation; if it belongs to the name, quote the name or say --format edges"
+                "remove the punctuation; if it belongs to the name, quote the name"
             }
             Self::NoNumber { .. } => {
-                "further columns hold numbers (quote names with blanks); --format edges ignores them"
+                "further columns hold numbers (quote names with blanks), or a head says which columns are the pair"
             }
-            Self::HeadBehind => "put the two columns of the pairs first",
+            Self::NoCameras { .. } => "if other columns hold the pairs, name them with --columns",
+            Self::NoColumn { .. } => {
+                "name the two columns of the pairs by their names or their numbers from 1 (--columns img1,img2)"
+            }
+            Self::NoName { .. } => "give the camera a name, or remove the line",
+            Self::NoWeights => "name it third: --columns img1,img2,score",
+            Self::NoWeight { .. } => {
+                "mend the field, or name the column of the weights third: --columns img1,img2,score"
+            }
+            Self::PairsFirst(_) => "if the first two fields are the pair, say --columns 1,2",
             Self::HeadOrPair => "delete the head; if it is a pair, say --format edges",
             Self::Unlike { .. } => "name the format with --format, or mend the line",
             Self::LineTooLong { .. } => "put one pair on a line, or name the format with --format",
@@ -475,8 +533,13 @@ impl Problem {
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",
+            Self::Uneven { .. } => {
+                "write A + A' if only one triangle is filled; if this is no matrix of counts, write one pair a line"
+            }
             Self::Asymmetric { .. } => "save A | A' if the direction of pairs does not matter",
-            Self::Diagonal(_) => "set the diagonal to zero",
+            Self::Diagonal(_) => {
+                "set the diagonal to zero (of matrices as text, --skip-loops leaves it out)"
+            }
         }
     }
 
@@ -496,8 +559,20 @@ impl Problem {
                 | Self::Columns { .. }
                 | Self::ColumnsDiffer { .. }
                 | Self::NoNumber { .. }
+                | Self::NoPose { .. }
                 | Self::SelfLoop(_)
                 | Self::LineTooLong { .. }
+        )
+    }
+
+    /// Whether it is about the number of fields, or about what stands behind the second.
+    pub(super) fn is_of_columns(&self) -> bool {
+        matches!(
+            self,
+            Self::Columns { .. }
+                | Self::ColumnsDiffer { .. }
+                | Self::NoNumber { .. }
+                | Self::NoPose { .. }
         )
     }
 

@@ -2,7 +2,7 @@
 //!
 //! In: a path or a stream of bytes. Out: graphs with their labels and with notes about what was
 //! merged, ignored or guessed ([`NamedGraph`]), or an error that says where and what to do
-//! ([`ReadError`]). The rules are those of docs/certificate.md, section 2.
+//! ([`ReadError`]). The rules are those of docs/input.md.
 
 mod cameras;
 pub mod colmap;
@@ -12,6 +12,7 @@ pub mod edge_list;
 pub mod error;
 mod inflate;
 mod lines;
+mod lookalikes;
 pub mod matching;
 pub mod matlab;
 pub mod matrix_market;
@@ -24,6 +25,8 @@ pub mod sparse6;
 pub mod tracks;
 
 pub use displacements::{NamedDisplacements, read_displacements};
+pub use edge_list::decimal::{Decimal, NoDecimal};
+pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
 pub use matching::{Matching, OtherPair};
 pub use parts::{NamedParts, read_parts};

@@ -340,11 +340,23 @@ fn certain(head: &[u8]) -> Option<Problem> {
             return Some(foreign(what, advice));
         }
     }
-    let first = text
-        .lines()
-        .map(str::trim)
-        .find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    if let Some(problem) = kapture(text).or_else(|| large_layout(text)) {
+        return Some(problem);
+    }
+    let lines = text.lines().map(str::trim);
+    let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = lines.clone().next()?;
+    if is_dimacs(&mut lines) {
+        return Some(foreign(DIMACS, DIMACS_ADVICE));
+    }
     let words: Vec<&str> = first.split_whitespace().collect();
+    if let [image, model, width, height, ..] = words[..]
+        && CAMERA_MODELS.contains(&model)
+        && !is_integer(image)
+        && [width, height].iter().all(|word| is_integer(word))
+    {
+        return Some(foreign("a list of images with intrinsics", PAIRS));
+    }
     if let [camera, model, width, height, _, ..] = words[..]
         && CAMERA_MODELS.contains(&model)
         && [camera, width, height].iter().all(|word| is_integer(word))
@@ -352,6 +364,59 @@ fn certain(head: &[u8]) -> Option<Problem> {
         return Some(foreign("COLMAP's cameras.txt", COLMAP));
     }
     None
+}
+
+/// Files of kapture but for its lists of pairs, whose columns are named in a comment.
+fn kapture(text: &str) -> Option<Problem> {
+    let mut comments = text.lines().take_while(|line| line.starts_with('#'));
+    let is_kapture = comments.next()?.starts_with("# kapture format");
+    let pairs = |line: &str| line.contains("query_image") && line.contains("map_image");
+    (is_kapture && !comments.any(pairs))
+        .then(|| foreign("a file of kapture that holds no pairs", PAIRS))
+}
+
+const DIMACS: &str = "a DIMACS graph";
+const DIMACS_ADVICE: &str =
+    "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE";
+
+/// Edges of DIMACS, with or without the line that counts them.
+fn is_dimacs<'a>(lines: &mut dyn Iterator<Item = &'a str>) -> bool {
+    // The last line may be cut.
+    let mut edges = 0;
+    let mut others = 0;
+    for line in lines {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["e" | "a", a, b, ..] if words.len() < 5 && is_integer(a) && is_integer(b) => {
+                edges += 1
+            }
+            ["c", ..] | ["p" | "n" | "d" | "v" | "x", _, _, ..] => {}
+            _ => others += 1,
+        }
+    }
+    edges > 0 && others == 0
+}
+
+/// Lists of igraph's LGL format: a node in a comment, and below it a neighbour and a weight a line.
+fn large_layout(text: &str) -> Option<Problem> {
+    let (mut nodes, mut neighbours) = (Vec::new(), Vec::new());
+    for line in text.lines().filter(|line| !line.trim().is_empty()) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["#", node] => nodes.push(node),
+            [neighbour, weight] if !nodes.is_empty() && is_number(weight.as_bytes()) => {
+                neighbours.push(neighbour);
+            }
+            _ => return None,
+        }
+    }
+    let is_graph = nodes.len() > 1 && nodes.iter().any(|node| neighbours.contains(node));
+    is_graph.then(|| {
+        foreign(
+            "a graph in LGL (igraph)",
+            "write it as pairs, in Python: graph.write_ncol(FILE, weights=None), or graph.write_graphml(FILE)",
+        )
+    })
 }
 
 fn is_integer(word: &str) -> bool {
@@ -470,8 +535,8 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         .any(dimacs)
     {
         return Some(foreign(
-            "a DIMACS graph",
-            "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE",
+            DIMACS,
+            "write the two nodes of every edge and nothing else: awk '/^[cp] / { next } /^[ea] / { print $2, $3; next } { print $1, $2 }' FILE",
         ));
     }
     if let [image, quaternion @ .., camera, _] = &first[..]
@@ -502,6 +567,9 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     {
         return Some(foreign("a bundle adjustment problem (BAL)", TRACKS));
     }
+    if let Some(what) = table(&lines) {
+        return Some(foreign(what, PAIRS));
+    }
     let all_integers = lines.iter().flatten().all(integer);
     if all_integers && let Some(problem) = integers(&lines, whole) {
         return Some(problem);
@@ -529,6 +597,39 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
         ));
     }
     None
+}
+
+/// Tables that people have beside their lists of pairs.
+fn table(lines: &[Vec<&str>]) -> Option<&'static str> {
+    let columns = lines.first()?.len();
+    // The first line may be a head.
+    let (first, others) = lines.split_first()?;
+    let rest = if others.is_empty() {
+        std::slice::from_ref(first)
+    } else {
+        others
+    };
+    let even = rest.iter().all(|line| line.len() == columns);
+    let number = |word: &&str| is_number(word.as_bytes());
+    let numbers = |line: &Vec<&str>| line.iter().all(number);
+    let fractions = rest.iter().flatten().any(|word| word.contains('.'));
+    match columns {
+        1 if even && !others.is_empty() => Some("a list of single fields"),
+        8 if even && fractions && rest.iter().all(numbers) => {
+            Some("a trajectory (time, position, quaternion)")
+        }
+        12 if even && fractions && rest.iter().all(numbers) => {
+            Some("a list of poses (3 x 4 matrices)")
+        }
+        4.. if even
+            && lines.len() != columns
+            && rest.iter().all(|line| line[1..].iter().all(number))
+            && (fractions || rest.iter().all(|line| !number(&line[0]))) =>
+        {
+            Some("a table of numbers")
+        }
+        _ => None,
+    }
 }
 
 /// Formats that are nothing but integers.

@@ -6,6 +6,7 @@ import logging
 import os
 import sys
 import tempfile
+from decimal import Decimal
 from itertools import chain
 from typing import Any, Hashable, Iterable, List, Optional, Sequence, Tuple, Union
 
@@ -297,6 +298,9 @@ def read(
     min_inliers: Optional[int] = None,
     tracks: bool = False,
     min_views: int = 3,
+    columns: Optional[Sequence[Union[str, int]]] = None,
+    min_weight: Union[str, int, Decimal, None] = None,
+    skip_loops: bool = False,
 ) -> Any:
     """Reads a file as the program does.
 
@@ -317,6 +321,13 @@ def read(
         Whether the graph is that of cameras and points.
     min_views : int
         In how many images a track has to be seen to count.
+    columns : sequence of str or int, optional
+        The two columns of a table that hold the pairs, and perhaps that of the weights: names, or
+        numbers from 1.
+    min_weight : int, Decimal or str, optional
+        The least weight of a pair of a list. (Not a float: weights are compared exactly.)
+    skip_loops : bool
+        Whether pairs of a camera with itself are left out instead of refused.
 
     Returns
     -------
@@ -338,6 +349,8 @@ def read(
     >>> viewcert.read(path).nodes
     ['a.jpg', 'b.jpg', 'c.jpg']
     """
+    if isinstance(min_weight, float):
+        raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
     found = _native.read(
         os.fspath(path),
         format=format,
@@ -345,6 +358,9 @@ def read(
         pipeline=pipeline,
         min_inliers=min_inliers,
         min_views=min_views if tracks else None,
+        columns=None if columns is None else ",".join(map(str, columns)),
+        min_weight=None if min_weight is None else str(min_weight),
+        skip_loops=skip_loops,
     )
     graphs = [Graph._of(native) for native in found]
     return graphs[0] if len(graphs) == 1 else graphs

@@ -1,14 +1,16 @@
-//! Graphs in texts that are read as a whole: DOT, g2o, GraphML, node-link JSON and stars.
+//! Graphs in texts that are read as a whole: DOT, g2o, GraphML, node-link JSON, stars, raw matches,
+//! matrices as text.
 //!
 //! In: a text and which of these it is. Out: the graph with its labels, and notes about what was
 //! ignored, merged or guessed. Nodes are numbered by their sorted labels, as those of an edge list
-//! (docs/certificate.md, section 2), so the same pairs are the same graph in every format.
+//! (docs/input.md), so the same pairs are the same graph in every format.
 //!
 //! A text that a reader of edge lists may take for one is refused unless its format was asked for:
 //! nobody then reads one file as two graphs.
 
 use std::io::Read;
 
+use crate::edge_list::layout::ListOptions;
 use crate::edge_list::{self, BYTE_ORDER_MARK};
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
@@ -18,7 +20,9 @@ mod dot;
 mod g2o;
 mod graphml;
 mod node_link;
+mod raw_matches;
 mod stars;
+mod text_matrix;
 
 /// The formats of this folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +37,10 @@ pub enum Document {
     NodeLink,
     /// A node and its neighbours a line: pairs of OpenMVG, adjacency lists of networkx.
     Stars,
+    /// Matches of features of COLMAP's importer: a pair of names, and lines of two features.
+    RawMatches,
+    /// A matrix as text: counts of matches, zeros and ones.
+    TextMatrix,
 }
 
 impl Document {
@@ -45,10 +53,21 @@ impl Document {
             (Self::NodeLink, node_link::is_object(text)),
             (Self::Dot, dot::is_dot(text)),
             (Self::G2o, g2o::is_g2o(text)),
+            (Self::RawMatches, raw_matches::is_raw(text, whole)),
+            (Self::TextMatrix, text_matrix::is_matrix(text, whole)),
             (Self::Stars, stars::is_stars(text, whole)),
         ]
         .into_iter()
         .find_map(|(document, is)| is.then_some(document))
+    }
+
+    /// Whether its pairs have weights, and whether pairs of a camera with itself may be left out.
+    pub(super) fn takes(self) -> [bool; 2] {
+        match self {
+            Self::RawMatches | Self::TextMatrix => [true, true],
+            Self::Stars => [false, true],
+            _ => [false, false],
+        }
     }
 
     /// What it is called in reports.
@@ -59,6 +78,8 @@ impl Document {
             Self::GraphMl => "GraphML",
             Self::NodeLink => "node-link JSON",
             Self::Stars => "adjacency list",
+            Self::RawMatches => "raw matches of COLMAP",
+            Self::TextMatrix => "matrix as text",
         }
     }
 
@@ -74,7 +95,8 @@ impl Document {
                 "say --format g2o or --format edges",
             ),
             // Texts that begin with a bracket are no edge lists, and stars are of uneven lines.
-            Self::GraphMl | Self::NodeLink | Self::Stars => return None,
+            // The others say themselves what could be one.
+            _ => return None,
         };
         Some(Problem::Doubtful { what, advice })
     }
@@ -86,7 +108,17 @@ impl Document {
 /// # Errors
 /// With the number of the line where there is one: what is no text, or not of the format; a pair
 /// of a node with itself; no nodes. Without `asked`: a text that could be something else.
-pub fn read(document: Document, mut input: impl Read, asked: bool) -> Result<Parsed, Fault> {
+pub fn read(document: Document, input: impl Read, asked: bool) -> Result<Parsed, Fault> {
+    read_with(document, input, asked, &ListOptions::default())
+}
+
+/// The same with the options of whoever asks, for the documents that have weights or loops.
+pub(super) fn read_with(
+    document: Document,
+    mut input: impl Read,
+    asked: bool,
+    options: &ListOptions,
+) -> Result<Parsed, Fault> {
     let mut bytes = Vec::new();
     input
         .read_to_end(&mut bytes)
@@ -102,7 +134,9 @@ pub fn read(document: Document, mut input: impl Read, asked: bool) -> Result<Par
         Document::G2o => g2o::read(text),
         Document::GraphMl => graphml::read(text),
         Document::NodeLink => node_link::read(text),
-        Document::Stars => stars::read(text, asked),
+        Document::Stars => stars::read(text, asked, options),
+        Document::RawMatches => raw_matches::read(text, asked, options),
+        Document::TextMatrix => text_matrix::read(text, options),
     }?;
     parsed.read.format = document.name();
     Ok(parsed)

@@ -1,55 +1,108 @@
 //! Stars: lines `i j k ...` that join i with each of j, k, ...: lists of pairs as OpenMVG reads
-//! them ("openMVG_main_ListMatchingPairs", `loadPairs`), and adjacency lists of networkx.
+//! them ("openMVG_main_ListMatchingPairs", `loadPairs`), and adjacency lists of networkx, also those
+//! of several lines a node.
 //!
-//! A line with one field is a node without neighbours behind it. Lines of integers are much that
-//! is no graph, so what is not asked for is read only if it looks like one line a node: lines of
-//! different lengths, one of them too long for a pair with a weight, different integers on each,
-//! and first ones that increase from line to line.
+//! A line with one field is a node without neighbours behind it. Lines of names and integers are
+//! much that is no graph, so what is not asked for is read only if it is sure: it has the comment of
+//! networkx's writer; or every node begins one line, and lines have different lengths; or lines
+//! of different integers have different lengths, one of them too long for a pair with a weight, and
+//! first ones that increase from line to line.
+
+use std::collections::HashSet;
 
 use crate::documents::collected::Collected;
-use crate::edge_list::fields::{self, integer};
+use crate::edge_list::fields::{self, Field, integer};
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
 const DOUBT: &str = "these could be lists of neighbours, and are no edge list";
 const DOUBT_ADVICE: &str = "write one pair a line; if every line joins its first field with each of the others, say --format openmvg-pairs";
 
+/// What networkx writes above adjacency lists, in the second of three comments.
+const NETWORKX: &str = "# GMT ";
+
 /// What is known of the lines so far.
 #[derive(Default)]
-struct Shape {
+struct Shape<'a> {
     lines: u64,
     /// The fields of the first line.
-    first: Vec<u64>,
+    first: Vec<&'a str>,
     last_start: Option<u64>,
     uneven: bool,
     /// Some line has more fields than a pair with a weight.
     long: bool,
+    /// Some line is none of different integers, the first one larger than that of the line before.
+    no_integers: bool,
+    /// The nodes that begin a line.
+    starts: HashSet<&'a str>,
+    /// Some node begins two lines.
+    twice: bool,
+    /// The other nodes.
+    others: HashSet<&'a str>,
 }
 
-impl Shape {
-    /// Takes in a line; whether it still is one line a node.
-    fn line(&mut self, numbers: &[u64]) -> bool {
+impl<'a> Shape<'a> {
+    /// Takes in a line.
+    fn line(&mut self, words: &[&'a str]) {
         self.lines += 1;
-        let mut sorted = numbers.to_vec();
-        sorted.sort_unstable();
-        let different = sorted.is_sorted_by(|a, b| a < b);
-        let behind = self.last_start.is_none_or(|last| last < numbers[0]);
-        // Matches of OpenMVG and Bundler have a count below their first pair of images.
-        let count = self.lines == 2 && numbers.len() == 1 && self.first.len() == 2;
         if self.lines == 1 {
-            self.first = numbers.to_vec();
+            self.first = words.to_vec();
         }
-        self.uneven |= numbers.len() != self.first.len();
-        self.long |= numbers.len() > 3;
-        self.last_start = Some(numbers[0]);
-        different && behind && !count
+        self.uneven |= words.len() != self.first.len();
+        self.long |= words.len() > 3;
+        self.twice |= !self.starts.insert(words[0]);
+        self.others.extend(&words[1..]);
+        let numbers: Option<Vec<u64>> = words.iter().map(|word| integer(word)).collect();
+        let Some(mut numbers) = numbers else {
+            self.no_integers = true;
+            return;
+        };
+        let start = numbers[0];
+        let behind = self.last_start.is_none_or(|last| last < start);
+        self.last_start = Some(start);
+        numbers.sort_unstable();
+        let different = numbers.is_sorted_by(|a, b| a < b);
+        // Matches of OpenMVG and Bundler have a count below their first pair of images.
+        let count = self.lines == 2 && words.len() == 1 && self.first.len() == 2;
+        self.no_integers |= !different || !behind || count;
     }
 
-    /// Whether the lines, if these are all, are stars and not a count of lines with what follows.
-    fn is_whole(&self) -> bool {
-        let counts = (2..=4).contains(&self.first.len()) && self.first[0] == self.lines - 1;
-        self.uneven && self.long && !counts
+    /// Whether lines of integers, if these are all, are stars and not a count of lines with what
+    /// follows.
+    fn are_stars(&self, whole: bool) -> bool {
+        let count = self.first.first().and_then(|first| integer(first));
+        let counts = (2..=4).contains(&self.first.len()) && count == Some(self.lines - 1);
+        !self.no_integers && self.uneven && self.long && !(whole && counts)
     }
+
+    /// Whether every node begins one line.
+    fn is_closed(&self) -> bool {
+        self.uneven && !self.twice && self.others.is_subset(&self.starts)
+    }
+}
+
+fn words<'a>(line: &'a str, fields: &mut Vec<Field>) -> Option<Vec<&'a str>> {
+    fields::split(line, fields).ok()?;
+    Some(fields.iter().map(|field| field.raw(line)).collect())
+}
+
+/// The shape of complete lines.
+fn shape(text: &str) -> Option<Shape<'_>> {
+    let mut shape = Shape::default();
+    let mut fields = Vec::new();
+    for line in text.lines() {
+        let words = words(line, &mut fields)?;
+        if !words.is_empty() {
+            shape.line(&words);
+        }
+    }
+    (shape.lines > 0).then_some(shape)
+}
+
+fn is_of_networkx(text: &str) -> bool {
+    let comments = text.lines().take_while(|line| line.starts_with('#'));
+    comments.take(3).any(|line| line.starts_with(NETWORKX))
 }
 
 /// Whether a text that begins like this may be read as stars unasked.
@@ -59,57 +112,85 @@ pub(super) fn is_stars(head: &str, whole: bool) -> bool {
     } else {
         head.rfind('\n')
     };
-    let mut shape = Shape::default();
-    let mut fields = Vec::new();
-    for line in head[..end.unwrap_or(0)].lines() {
-        if fields::split(line, &mut fields).is_err() {
-            return false;
-        }
-        let numbers: Option<Vec<u64>> = fields.iter().map(|field| field.integer(line)).collect();
-        match numbers {
-            Some(numbers) if numbers.is_empty() => {}
-            Some(numbers) if shape.line(&numbers) => {}
-            _ => return false,
-        }
-    }
-    shape.uneven && shape.long && (!whole || shape.is_whole())
+    let text = &head[..end.unwrap_or(0)];
+    is_of_networkx(text)
+        || shape(text).is_some_and(|shape| shape.are_stars(whole) || whole && shape.is_closed())
 }
 
 /// Reads stars.
-pub(super) fn read(text: &str, asked: bool) -> Result<Parsed, Fault> {
+pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Parsed, Fault> {
+    let of_networkx = is_of_networkx(text);
+    if of_networkx && text.lines().any(|line| line.contains('{')) {
+        return of_several_lines(text, options);
+    }
+    let sure = shape(text).is_some_and(|shape| shape.are_stars(true) || shape.is_closed());
+    if !asked && !of_networkx && !sure {
+        return Err(Place::Input.fault(Problem::Doubtful {
+            what: DOUBT,
+            advice: DOUBT_ADVICE,
+        }));
+    }
     let mut collected = Collected::default();
-    let mut shape = Shape::default();
     let mut fields = Vec::new();
-    let doubtful = || Problem::Doubtful {
-        what: DOUBT,
-        advice: DOUBT_ADVICE,
-    };
     for (line, number) in text.lines().zip(1..) {
         let fault = |problem| Place::Line(number).fault(problem);
         fields::split(line, &mut fields).map_err(fault)?;
         let [first, others @ ..] = &fields[..] else {
             continue;
         };
-        if !asked {
-            let numbers: Option<Vec<u64>> = fields
-                .iter()
-                .map(|field| integer(field.raw(line)))
-                .collect();
-            if !numbers.is_some_and(|numbers| shape.line(&numbers)) {
-                return Err(fault(doubtful()));
-            }
-        }
         let centre = collected.node(&first.text(line)).map_err(fault)?;
         for other in others {
             let other = collected.node(&other.text(line)).map_err(fault)?;
-            collected.pair(centre, other).map_err(fault)?;
+            if other != centre || !options.skip_loops {
+                collected.pair(centre, other).map_err(fault)?;
+            }
         }
     }
-    if !asked && !shape.is_whole() {
-        return Err(Place::Input.fault(doubtful()));
+    let mut parsed = collected.finish()?;
+    parsed.read.taken = Some("each line joins its first field with all others".to_owned());
+    Ok(parsed)
+}
+
+/// Reads what networkx calls a multi-line adjacency list: a node and how many neighbours follow,
+/// these on a line each, with attributes behind them.
+fn of_several_lines(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
+    let mut collected = Collected::default();
+    let mut left: Option<(u32, u64)> = None;
+    let lines = text.lines().zip(1..).filter(|(line, _)| {
+        let line = line.trim();
+        !line.is_empty() && !line.starts_with('#')
+    });
+    for (line, number) in lines {
+        let fault = |problem| Place::Line(number).fault(problem);
+        let wrong = |what| fault(super::malformed("multi-line adjacency list", what));
+        let mut words = line.split_whitespace();
+        let name = words.next().unwrap_or_default();
+        match &mut left {
+            Some((centre, count)) if *count > 0 => {
+                let node = collected.node(name).map_err(fault)?;
+                if node != *centre || !options.skip_loops {
+                    collected.pair(*centre, node).map_err(fault)?;
+                }
+                *count -= 1;
+            }
+            _ => {
+                let count = words
+                    .next()
+                    .and_then(integer)
+                    .filter(|_| words.next().is_none());
+                let count = count.ok_or_else(|| wrong("a node and how many follow is expected"))?;
+                left = Some((collected.node(name).map_err(fault)?, count));
+            }
+        }
     }
-    collected
-        .notes
-        .push("each line joins its first field with all others".to_owned());
-    collected.finish()
+    if left.is_some_and(|(_, count)| count > 0) {
+        return Err(Place::Input.fault(super::malformed(
+            "multi-line adjacency list",
+            "the text ends within the neighbours of a node",
+        )));
+    }
+    let mut parsed = collected.finish()?;
+    parsed.read.taken = Some("each node and the lines of its neighbours".to_owned());
+    parsed.read.ignored.push("attributes".to_owned());
+    Ok(parsed)
 }

@@ -201,7 +201,7 @@ fn stars_are_pairs_with_the_first() {
     // What the first lines promise must hold to the end, if nobody asked.
     let unlike = |text: &str| read(Document::Stars, text.as_bytes(), false).unwrap_err();
     let fault = unlike("0 1 2\n1 2\n2 x\n");
-    assert_eq!(fault.place, Place::Line(3));
+    assert_eq!(fault.place, Place::Input);
     assert!(matches!(
         unlike("0 1 2\n1 2 3\n").problem,
         Problem::Doubtful { .. }
@@ -416,6 +416,18 @@ fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> S
                 .unwrap();
             }
         }
+        Document::RawMatches => {
+            for &(a, b) in pairs {
+                writeln!(text, "v{} v{}\n0 1\n7 8\n", labels[a], labels[b]).unwrap();
+            }
+        }
+        Document::TextMatrix => {
+            let pair = |a, b| pairs.contains(&(a, b)) || pairs.contains(&(b, a));
+            for a in 0..labels.len() {
+                let row = (0..labels.len()).map(|b| u8::from(pair(a, b)).to_string());
+                writeln!(text, "{}", row.collect::<Vec<_>>().join(" ")).unwrap();
+            }
+        }
         Document::Stars => {
             for (label, node) in labels.iter().zip(0..) {
                 write!(text, "{label}").unwrap();
@@ -508,7 +520,7 @@ proptest! {
             b"=", b"\n", b" ", b"\0", b"\xff", b"\xc3", b"subgraph ", b"<graph>", b"</graph>",
             b"<node ", b"/*", b"&#0;", b"\"id\": ", b"EDGE_SE2 ", b"-1", b"1e400",
         ];
-        for document in ALL {
+        for document in ALL.into_iter().chain([Document::RawMatches, Document::TextMatrix]) {
             let mut bytes = written(document, &labels, &pairs).into_bytes();
             for (at, piece, kind) in &changes {
                 let at = at.index(bytes.len() + 1);

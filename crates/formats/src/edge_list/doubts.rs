@@ -20,8 +20,6 @@ const TRIVIAL_GRAPH: &str =
     "it could be in the Trivial Graph Format: nodes, a line `#`, and pairs of these nodes";
 const TRIVIAL_GRAPH_ADVICE: &str =
     "keep the lines behind the `#`; if all lines are pairs, say `--format edges`";
-const HEAD: &str = "the first line has names and all others integers: it could be a head";
-const HEAD_ADVICE: &str = "delete the head; if the line is a pair, say `--format edges`";
 const POINTS: &str =
     "all labels are numbers, and not all of them integers: these could be coordinates";
 const POINTS_ADVICE: &str =
@@ -47,14 +45,13 @@ pub(super) struct Doubts {
 }
 
 impl Doubts {
-    /// The first line is a head, or named like one.
+    /// The first line is a head.
     pub(super) fn head(&mut self) {
         self.has_head = true;
     }
 
-    /// What is named like a head is the first pair all the same.
-    pub(super) fn no_head(&mut self) {
-        self.has_head = false;
+    /// What could have been a head is the first pair.
+    pub(super) fn one_more(&mut self) {
         if let Some(Some(pairs)) = &mut self.hash {
             *pairs += 1;
         }
@@ -135,9 +132,6 @@ impl Doubts {
             return doubt(TRIVIAL_GRAPH, TRIVIAL_GRAPH_ADVICE);
         }
         let names = names?;
-        if !self.has_head && perhaps_head(pairs, names, first) {
-            return doubt(HEAD, HEAD_ADVICE);
-        }
         if !self.has_quotes && coordinates(names) {
             return doubt(POINTS, POINTS_ADVICE);
         }
@@ -187,24 +181,6 @@ fn trivial_graph(pairs: &[(u32, u32)], before: usize) -> bool {
         && given > 0
         && nodes.len() == given
         && pairs.iter().all(|&(a, b)| listed(a) && listed(b))
-}
-
-/// Whether the first line has labels of its own, and all other labels are integers.
-fn perhaps_head(pairs: &[(u32, u32)], names: &Index, first: &First) -> bool {
-    let own = |label: &str| first.labels.iter().any(|own| **own == *label);
-    let (a, b) = pairs[0];
-    pairs.len() > 1
-        && first
-            .labels
-            .iter()
-            .all(|label| !is_number(label.as_bytes()))
-        && names
-            .nodes
-            .keys()
-            .all(|label| own(label) || integer(label).is_some())
-        && pairs[1..]
-            .iter()
-            .all(|pair| ![a, b].contains(&pair.0) && ![a, b].contains(&pair.1))
 }
 
 /// Whether all labels are numbers, some of them with a fraction or an exponent.

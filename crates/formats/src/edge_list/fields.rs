@@ -70,7 +70,7 @@ pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> 
             return Ok(());
         }
         let field = if bytes[at] == b'"' {
-            quoted(bytes, at)?
+            quoted(bytes, at, None)?
         } else {
             let length = bytes[at..].iter().position(|b| b" \t,\"".contains(b));
             let end = length.map_or(bytes.len(), |length| at + length);
@@ -89,21 +89,67 @@ pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> 
     }
 }
 
-/// The quoted field that begins at a quote.
-fn quoted(bytes: &[u8], at: usize) -> Result<Field, Problem> {
+/// Splits a line of a table into its fields, which one separator each stands between: they may hold
+/// blanks, and be empty.
+///
+/// # Errors
+/// A quote where none belongs.
+pub(crate) fn split_by(line: &str, separator: u8, fields: &mut Vec<Field>) -> Result<(), Problem> {
+    let bytes = line.as_bytes();
+    fields.clear();
+    let blanks = |from: usize| {
+        let blank = |b: &&u8| **b == b' ' || **b == b'\t' && separator != b'\t';
+        from + bytes[from..].iter().take_while(blank).count()
+    };
+    let mut at = blanks(0);
+    if matches!(bytes.get(at), None | Some(b'#' | b'%')) {
+        return Ok(());
+    }
+    loop {
+        at = blanks(at);
+        let field = if bytes.get(at) == Some(&b'"') {
+            quoted(bytes, at, Some(separator))?
+        } else {
+            let length = bytes[at..].iter().position(|&b| b == separator);
+            let end = length.map_or(bytes.len(), |length| at + length);
+            let text = line[at..end].trim_end_matches([' ', '\t']);
+            if text.contains('"') {
+                return Err(Problem::Quote("stands within a field"));
+            }
+            Field {
+                start: at,
+                end: at + text.len(),
+                quoted: false,
+                doubled: false,
+            }
+        };
+        fields.push(field);
+        let behind = blanks(field.end + usize::from(field.quoted));
+        match bytes.get(behind) {
+            None => return Ok(()),
+            Some(&b) if b == separator => at = behind + 1,
+            Some(_) => return Err(Problem::Quote("is not followed by a separator")),
+        }
+    }
+}
+
+/// The quoted field that begins at a quote; in tables of one `separator` it may be empty.
+fn quoted(bytes: &[u8], at: usize, separator: Option<u8>) -> Result<Field, Problem> {
     let mut end = at + 1;
     let mut doubled = false;
     loop {
-        match (bytes.get(end), bytes.get(end + 1)) {
+        let behind = bytes.get(end + 1).copied();
+        let closes = matches!(behind, None | Some(b' ' | b'\t' | b',')) || behind == separator;
+        match (bytes.get(end), behind) {
             (None, _) => return Err(Problem::Quote("is not closed on its line")),
             (Some(b'"'), Some(b'"')) => {
                 doubled = true;
                 end += 2;
             }
-            (Some(b'"'), None | Some(b' ' | b'\t' | b',')) if end == at + 1 => {
+            (Some(b'"'), _) if closes && end == at + 1 && separator.is_none() => {
                 return Err(Problem::Quote("encloses nothing"));
             }
-            (Some(b'"'), None | Some(b' ' | b'\t' | b',')) => {
+            (Some(b'"'), _) if closes => {
                 return Ok(Field {
                     start: at + 1,
                     end,

@@ -1,8 +1,9 @@
 //! Edge lists: text with one pair a line.
 //!
-//! The grammar is section 2 of docs/certificate.md: fields separated by blanks, tabs or a comma,
+//! The grammar is that of docs/input.md: fields separated by blanks, tabs or a comma,
 //! as many on each line, 2, 3, 9 or 14 of them, of which the first two are labels and the others
-//! numbers that are of no concern here; quotes, comments, a head. A text that could be something
+//! numbers that are of no concern here; quotes, comments, a head. Tables whose pairs stand elsewhere
+//! are cut as their first lines show (`layout`). A text that could be something
 //! else is refused. Whoever knows better asks for [`Reading::Lenient`].
 //!
 //! Nodes are numbered by their sorted labels, so that the numbering does not
@@ -21,13 +22,20 @@ use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
+pub(super) mod decimal;
 mod doubts;
 pub(super) mod fields;
+mod heads;
+pub(super) mod layout;
 pub(super) mod nodes;
 mod plain;
+mod plausible;
+mod poses;
 
+use decimal::Decimal;
 use doubts::Doubts;
 use fields::{Field, integer};
+use layout::{Layout, ListOptions};
 use nodes::{Index, number_integers};
 use plain::{Plain, further_numbers, ignored, line_end};
 
@@ -43,21 +51,6 @@ pub(super) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 const COLUMNS: [usize; 4] = [2, 3, 9, 14];
 /// The first lines take the general way, so that only that one watches for what is short.
 const FIRST_LINES: usize = 16;
-
-/// Names that columns of labels have in the heads of tables.
-pub(super) const HEADS: [[&str; 2]; 11] = [
-    ["source", "target"],
-    ["from", "to"],
-    ["src", "dst"],
-    ["node1", "node2"],
-    ["node_1", "node_2"],
-    ["image1", "image2"],
-    ["image_1", "image_2"],
-    ["image_id1", "image_id2"],
-    ["name1", "name2"],
-    ["name_1", "name_2"],
-    ["id1", "id2"],
-];
 
 /// How a text is understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,8 +74,21 @@ pub enum Reading {
 /// line longer than a mebibyte. Without: an input that cannot be read, or could be something
 /// else; no pairs (read leniently: no nodes); more pairs than can be numbered.
 pub fn read(input: impl Read, reading: Reading) -> Result<Parsed, Fault> {
+    read_with(input, reading, None, &ListOptions::default())
+}
+
+/// The same, cut by a layout if it is a table, with the options of whoever asks.
+pub(super) fn read_with(
+    input: impl Read,
+    reading: Reading,
+    layout: Option<Layout>,
+    options: &ListOptions,
+) -> Result<Parsed, Fault> {
     let mut collector = Collector {
         reading,
+        layout,
+        min_weight: options.min_weight.clone(),
+        skip_loops: options.skip_loops,
         ..Collector::default()
     };
     collector.read(input)?;
@@ -94,6 +100,9 @@ struct First {
     line: u64,
     columns: usize,
     labels: [Box<str>; 2],
+    names: Vec<Box<str>>,
+    /// It weighs less than is asked for, if it is a pair.
+    light: bool,
     head: Head,
 }
 
@@ -102,15 +111,27 @@ struct First {
 enum Head {
     /// A pair.
     No,
-    /// A head if none of its labels occurs in another line, else a pair.
-    ByName,
+    /// A head if it looks like one besides all other lines, and a pair if not.
+    Perhaps,
     /// A head, as a further field is no number.
     ByColumn,
+    /// A head, as the user or its names say.
+    Sure,
 }
 
 /// The pairs read so far.
 struct Collector {
     reading: Reading,
+    /// How lines are cut, if the text is a table.
+    layout: Option<Layout>,
+    min_weight: Option<Decimal>,
+    skip_loops: bool,
+    /// Lines whose pair weighs less.
+    light: u64,
+    /// Pairs of a label with itself that were left out.
+    loops: u64,
+    /// Lines that are nothing but a comment.
+    comments: u64,
     /// Ends are integers as written, or node numbers of `names` once that exists.
     pairs: Vec<(u32, u32)>,
     singles: Vec<u32>,
@@ -131,6 +152,12 @@ impl Default for Collector {
     fn default() -> Self {
         Self {
             reading: Reading::Strict,
+            layout: None,
+            min_weight: None,
+            skip_loops: false,
+            light: 0,
+            loops: 0,
+            comments: 0,
             pairs: Vec::new(),
             singles: Vec::new(),
             names: None,
@@ -208,7 +235,7 @@ impl Collector {
     /// Reads plain lines as long as there are any, and returns what follows them. What is wrong
     /// with a line is left to the general way.
     fn plain_lines<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
-        if self.names.is_some() {
+        if self.names.is_some() || self.layout.is_some() {
             return text;
         }
         let columns = match (&self.first, self.reading) {
@@ -279,15 +306,132 @@ impl Collector {
     fn any_line(&mut self, line: &[u8]) -> Result<(), Fault> {
         let text = self.text_of(self.line, line)?;
         let mut fields = std::mem::take(&mut self.fields);
-        let done = fields::split(text, &mut fields)
+        let split = match &self.layout {
+            Some(layout) => layout.split(text, &mut fields),
+            None => fields::split(text, &mut fields),
+        };
+        let done = split
             .map_err(|problem| Place::Line(self.line).fault(problem))
-            .and_then(|()| match self.reading {
-                Reading::Strict => self.strict_line(text, &fields),
-                Reading::Lenient => self.lenient_line(text, &fields),
-                Reading::Columns(columns) => self.line_of(columns, text, &fields),
+            .and_then(|()| match (&self.layout, self.reading) {
+                _ if fields.is_empty() => {
+                    self.no_fields(text);
+                    Ok(())
+                }
+                (Some(_), _) => self.table_line(text, &fields),
+                (None, Reading::Strict) => self.strict_line(text, &fields),
+                (None, Reading::Lenient) => self.lenient_line(text, &fields),
+                (None, Reading::Columns(columns)) => self.line_of(columns, text, &fields),
             });
         self.fields = fields;
         done
+    }
+
+    /// A line that is blank or a comment.
+    fn no_fields(&mut self, text: &str) {
+        let text = text.trim_matches([' ', '\t']);
+        self.comments += u64::from(!text.is_empty());
+        if text == "#" {
+            self.doubts.lone_hash(self.pairs.len());
+        }
+    }
+
+    /// A line of a table: only the columns of the pair and of its weight matter.
+    fn table_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
+        let place = Place::Line(self.line);
+        let fault = |problem| Err(place.clone().fault(problem));
+        let Some(layout) = &self.layout else {
+            return Ok(());
+        };
+        let (ends, weight) = (layout.ends, layout.weight);
+        let found = fields.len();
+        // Fields between blanks may go on; those of a table may not.
+        let needed = ends.into_iter().chain(weight).max().unwrap_or(0) + 1;
+        let even = found == layout.columns || layout.separator.is_none() && found >= needed;
+        if !even {
+            let (expected, line) = (layout.columns, self.first.as_ref().map_or(1, |f| f.line));
+            return fault(Problem::ColumnsDiffer {
+                found,
+                expected,
+                line,
+            });
+        }
+        let labels = ends.map(|end| fields[end]);
+        let texts = labels.map(|field| field.text(text));
+        let names = [&*texts[0], &*texts[1]];
+        if self.first.is_none() {
+            let numbered = labels.iter().any(|field| field.is_number(text));
+            let head = match &layout.head {
+                Some(_) => Head::Sure,
+                None if numbered => Head::No,
+                None => Head::Perhaps,
+            };
+            self.begin(text, fields, ends, head);
+            if head == Head::Sure {
+                return Ok(());
+            }
+            if head == Head::Perhaps {
+                let light = self.is_light(text, fields);
+                if let Some(first) = &mut self.first {
+                    match light {
+                        Ok(light) => first.light = light,
+                        Err(_) => first.head = Head::ByColumn,
+                    }
+                }
+                return Ok(());
+            }
+        }
+        for (field, column) in labels.iter().zip(ends) {
+            if field.raw(text).is_empty() {
+                return fault(Problem::NoName { column: column + 1 });
+            }
+            if !field.quoted
+                && let Some(problem) = unlike_a_label(field.raw(text))
+            {
+                return fault(problem);
+            }
+        }
+        if self.is_light(text, fields)? {
+            self.light += 1;
+            return Ok(());
+        }
+        self.doubts.quotes(labels.iter().any(|field| field.quoted));
+        let [a, b] = self.nodes(names)?;
+        self.pair(a, b)
+    }
+
+    /// Whether the pair of a line weighs less than is asked for.
+    fn is_light(&self, text: &str, fields: &[Field]) -> Result<bool, Fault> {
+        let layout = self.layout.as_ref();
+        let column = layout.and_then(|layout| Some((layout.weight?, layout.separator)));
+        let (Some((column, separator)), Some(least)) = (column, &self.min_weight) else {
+            return Ok(false);
+        };
+        let given = fields[column].text(text);
+        // Where semicolons separate, commas are points.
+        let given = match separator {
+            Some(b';') => given.replace(',', "."),
+            _ => given.into_owned(),
+        };
+        match given.parse::<Decimal>() {
+            Ok(weight) => Ok(weight < *least),
+            Err(_) => Err(Place::Line(self.line).fault(Problem::NoWeight {
+                field: given,
+                column: column + 1,
+            })),
+        }
+    }
+
+    /// Keeps the first line.
+    fn begin(&mut self, text: &str, fields: &[Field], ends: [usize; 2], head: Head) {
+        let names = fields.iter().map(|field| field.text(text).into());
+        self.first = Some(First {
+            line: self.line,
+            columns: fields.len(),
+            labels: ends.map(|end| fields[end].text(text).into()),
+            names: names.collect(),
+            light: false,
+            head,
+        });
     }
 
     fn lenient_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
@@ -300,11 +444,20 @@ impl Collector {
                 Ok(())
             }
             [first, second, further @ ..] => {
+                let numbered = first.is_number(text) || second.is_number(text);
+                if self.line_is_first() && !numbered {
+                    self.begin(text, fields, [0, 1], Head::Perhaps);
+                    return Ok(());
+                }
                 self.lines_with_more += u64::from(!further.is_empty());
                 let [a, b] = self.nodes([&*first.text(text), &*second.text(text)])?;
                 self.pair(a, b)
             }
         }
+    }
+
+    fn line_is_first(&self) -> bool {
+        self.first.is_none() && self.pairs.is_empty() && self.singles.is_empty()
     }
 
     fn line_of(&mut self, columns: usize, text: &str, fields: &[Field]) -> Result<(), Fault> {
@@ -331,13 +484,8 @@ impl Collector {
     }
 
     fn strict_line(&mut self, text: &str, fields: &[Field]) -> Result<(), Fault> {
-        let fault = |problem| Err(Place::Line(self.line).fault(problem));
-        if fields.is_empty() {
-            if text.trim_matches([' ', '\t']) == "#" {
-                self.doubts.lone_hash(self.pairs.len());
-            }
-            return Ok(());
-        }
+        let place = Place::Line(self.line);
+        let fault = |problem| Err(place.clone().fault(problem));
         if names_with_blanks(text, fields) {
             let found = fields.len();
             return fault(Problem::Blanks { found });
@@ -363,34 +511,20 @@ impl Collector {
         let no_number = further.iter().position(|field| !field.is_number(text));
         let texts = [labels[0].text(text), labels[1].text(text)];
         if self.first.is_none() {
-            let names = [&*texts[0], &*texts[1]];
-            let is_pair = |[a, b]: [&str; 2]| {
-                HEADS.iter().any(|[first, second]| {
-                    first.eq_ignore_ascii_case(a) && second.eq_ignore_ascii_case(b)
-                })
-            };
             let numbered = labels.iter().any(|field| field.is_number(text));
             let head = match no_number {
-                Some(_) if !numbered => {
-                    let all: Vec<_> = fields.iter().map(|field| field.text(text)).collect();
-                    let mut pairs = all.windows(2).skip(1);
-                    if pairs.any(|pair| is_pair([&*pair[0], &*pair[1]])) {
-                        return fault(Problem::HeadBehind);
-                    }
-                    Head::ByColumn
-                }
-                None if is_pair(names) => Head::ByName,
-                _ => Head::No,
+                _ if numbered => Head::No,
+                Some(_) => Head::ByColumn,
+                None => Head::Perhaps,
             };
-            self.first = Some(First {
-                line: self.line,
-                columns: found,
-                labels: names.map(Box::from),
-                head,
-            });
-            if head != Head::No {
-                self.doubts.head();
-                return Ok(());
+            self.begin(text, fields, [0, 1], head);
+            let mut plain = labels.iter().filter(|field| !field.quoted);
+            let problem = plain.find_map(|field| unlike_a_label(field.raw(text)));
+            let problem = problem.or_else(|| poses::problem(text, further));
+            match problem.filter(|_| head == Head::Perhaps) {
+                Some(problem) => return fault(problem),
+                None if head != Head::No => return Ok(()),
+                None => {}
             }
         }
         if let Some(at) = no_number {
@@ -405,6 +539,9 @@ impl Collector {
             }
         }
         if self.pairs.len() < FIRST_LINES {
+            if let Some(problem) = poses::problem(text, further) {
+                return fault(problem);
+            }
             let bit = |field: &Field| !field.quoted && matches!(field.raw(text), "0" | "1");
             self.doubts.short_line(fields.iter().all(bit));
         }
@@ -441,6 +578,10 @@ impl Collector {
     #[inline]
     fn pair(&mut self, a: u32, b: u32) -> Result<(), Fault> {
         // A first line like `5 5` may be counts, which only the end of the text tells.
+        if a == b && self.skip_loops {
+            self.loops += 1;
+            return Ok(());
+        }
         if a == b && !(self.pairs.is_empty() && self.reading == Reading::Strict) {
             return Err(self.self_loop(self.line, a));
         }
@@ -462,36 +603,46 @@ impl Collector {
             return Err(fault(Problem::TooManyPairs));
         }
         let mut notes = Vec::new();
+        let mut read = ReadAs::new("edge list");
         if let Some(first) = self.first.take() {
             if let Some(head) = self.head(&first)? {
+                read.guessed.push(head.clone());
                 notes.push(head);
             }
             let (pairs, names) = (&self.pairs, self.names.as_ref());
-            if let Some(problem) = self.doubts.settle(pairs, names, &first) {
-                return Err(fault(problem));
+            let strict = self.reading == Reading::Strict;
+            let doubt = self.doubts.settle(pairs, names, &first);
+            let doubt = doubt.filter(|_| strict && self.layout.is_none());
+            let doubt = doubt.or_else(|| plausible::problem(pairs, names));
+            match doubt {
+                Some(problem) if strict => return Err(fault(problem)),
+                Some(problem) => notes.push(problem.to_string()),
+                None => {}
             }
             if let Some(&(a, b)) = self.pairs.first()
                 && a == b
             {
                 return Err(self.self_loop(first.line, a));
             }
-            match first.columns {
-                3 => notes.push("the third column is ignored (weights)".to_owned()),
-                columns @ 4.. => notes.push(ignored_columns(columns)),
-                _ => {}
+            if self.layout.is_none() && strict {
+                match first.columns {
+                    3 => read.ignored.push("column 3 (weights?)".to_owned()),
+                    columns @ 4.. => read.ignored.push(ignored_columns(columns)),
+                    _ => {}
+                }
             }
         }
+        if self.pairs.is_empty() && self.singles.is_empty() {
+            return Err(fault(Problem::NoNodes));
+        }
+        self.say(&mut read);
         let Self {
             reading,
             mut pairs,
             singles,
             names,
-            lines_with_more,
             ..
         } = self;
-        if pairs.is_empty() && singles.is_empty() {
-            return Err(fault(Problem::NoNodes));
-        }
         let (labels, nodes) = match names {
             Some(names) => names.sort(&mut pairs),
             None => number_integers(&mut pairs, &singles),
@@ -503,18 +654,11 @@ impl Collector {
             GraphError::SelfLoop(node) => fault(Problem::SelfLoop(labels.label(node).into())),
             GraphError::OutOfRange { .. } => fault(Problem::TooManyNodes),
         })?;
+        read.merged = merged;
         notes.extend(crate::merged(merged));
-        if let Reading::Columns(columns @ 3..) = reading {
-            notes.push(ignored_columns(columns));
+        if reading == Reading::Strict {
+            notes.extend(plausible::note(&graph));
         }
-        if lines_with_more > 0 {
-            let lines = counted(lines_with_more as usize, "line");
-            notes.push(format!("fields behind the second are ignored on {lines}"));
-        }
-        let read = ReadAs {
-            merged,
-            ..ReadAs::new("edge list")
-        };
         Ok(Parsed {
             graph,
             labels,
@@ -523,37 +667,130 @@ impl Collector {
         })
     }
 
+    /// Says what was taken and what was left out.
+    fn say(&self, read: &mut ReadAs) {
+        let kind = if self.names.is_some() {
+            "names"
+        } else {
+            "numbers"
+        };
+        read.taken = Some(match &self.layout {
+            Some(layout) => layout.taken(kind),
+            None => format!("{kind} in columns 1 and 2"),
+        });
+        let mut ignore = |phrase: String| read.ignored.push(phrase);
+        if let Some(columns) = self.layout.as_ref().and_then(Layout::ignored) {
+            ignore(columns);
+        }
+        if let Reading::Columns(columns @ 3..) = self.reading {
+            ignore(ignored_columns(columns));
+        }
+        let lines = |count: u64| counted(count as usize, "line");
+        if self.lines_with_more > 0 {
+            ignore(format!(
+                "fields behind the second on {}",
+                lines(self.lines_with_more)
+            ));
+        }
+        if self.comments > 0 {
+            ignore(format!("{} of comments", lines(self.comments)));
+        }
+        if let Some(least) = self.min_weight.as_ref().filter(|_| self.light > 0) {
+            ignore(format!("{} with a weight below {least}", lines(self.light)));
+        }
+        if self.loops > 0 {
+            ignore(format!(
+                "{} that pair a camera with itself",
+                lines(self.loops)
+            ));
+        }
+    }
+
     /// Settles whether the first line is a head: then a note about it, else the pair is taken in.
     fn head(&mut self, first: &First) -> Result<Option<String>, Fault> {
         if first.head == Head::No {
             return Ok(None);
         }
-        let known = |label: &str| {
-            self.names
-                .as_ref()
-                .is_some_and(|names| names.nodes.contains_key(label))
-        };
-        if !first.labels.iter().any(|label| known(label)) {
-            if self.pairs.is_empty() {
-                return Err(Place::Input.fault(Problem::OnlyHead));
+        let labels = [&*first.labels[0], &*first.labels[1]];
+        let known = self
+            .names
+            .as_ref()
+            .is_some_and(|names| labels.iter().any(|label| names.nodes.contains_key(*label)));
+        let unlike = match &self.names {
+            Some(names) => {
+                let mut texts = vec![""; names.nodes.len()];
+                for (label, &node) in &names.nodes {
+                    texts[node as usize] = label;
+                }
+                let text = |node: u32| texts[node as usize];
+                let text = &text;
+                let ends: [fn(&(u32, u32)) -> u32; 2] = [|pair| pair.0, |pair| pair.1];
+                heads::look_unlike(
+                    labels,
+                    ends.map(|end| self.pairs.iter().map(move |pair| text(end(pair)))),
+                )
             }
-            let [a, b] = &first.labels;
-            let more = if first.columns > 2 { ",..." } else { "" };
-            return Ok(Some(format!("the first line is a head: {a},{b}{more}")));
+            None if self.pairs.is_empty() => {
+                heads::look_unlike(labels, [(); 2].map(|()| std::iter::empty()))
+            }
+            None => true,
+        };
+        let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
+        let is_head = match first.head {
+            Head::No => false,
+            Head::Perhaps => {
+                unlike && !known && !(self.pairs.is_empty() && self.reading == Reading::Lenient)
+            }
+            Head::ByColumn | Head::Sure if known && !asked => {
+                return Err(Place::Line(first.line).fault(Problem::HeadOrPair));
+            }
+            Head::ByColumn | Head::Sure => true,
+        };
+        if is_head {
+            self.doubts.head();
+            return self.is_head(first).map(Some);
         }
         self.line = first.line;
-        if first.head == Head::ByColumn {
-            return Err(Place::Line(self.line).fault(Problem::HeadOrPair));
+        if first.light {
+            self.light += 1;
+            return Ok(None);
         }
-        let [a, b] = self.nodes([&first.labels[0], &first.labels[1]])?;
+        let [a, b] = self.nodes(labels)?;
+        if a == b && self.skip_loops {
+            self.loops += 1;
+            return Ok(None);
+        }
+        if a == b {
+            return Err(self.self_loop(first.line, a));
+        }
         self.pairs.insert(0, (a, b));
-        self.doubts.no_head();
+        self.doubts.one_more();
+        self.lines_with_more += u64::from(self.reading == Reading::Lenient && first.columns > 2);
         Ok(None)
+    }
+
+    /// A note about a head, which names cameras or leaves open what it names.
+    fn is_head(&self, first: &First) -> Result<String, Fault> {
+        if self.pairs.is_empty() && self.light == 0 && self.loops == 0 {
+            return Err(Place::Input.fault(Problem::OnlyHead));
+        }
+        let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
+        let other = first.labels.iter().find(|name| heads::is_no_camera(name));
+        if let Some(name) = other.filter(|_| !asked) {
+            let name = name.to_string();
+            return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
+        }
+        const SHOWN: usize = 4;
+        let mut names: Vec<&str> = first.names.iter().take(SHOWN).map(|name| &**name).collect();
+        if first.names.len() > SHOWN {
+            names.push("...");
+        }
+        Ok(format!("the first line is a head: {}", names.join(",")))
     }
 }
 
 fn ignored_columns(columns: usize) -> String {
-    format!("columns 3 to {columns} are ignored (relative poses)")
+    format!("columns 3 to {columns} (relative poses)")
 }
 
 /// Reads on until a text is as long as what is read at once, and whether it is.
@@ -601,20 +838,19 @@ const IMAGES: [&str; 12] = [
     ".exr",
 ];
 
+/// Whether a label ends like the name of an image.
+pub(super) fn is_image(name: &str) -> bool {
+    IMAGES.iter().any(|end| {
+        let start = name.len().checked_sub(end.len());
+        let tail = start.and_then(|start| name.get(start..));
+        tail.is_some_and(|tail| tail.eq_ignore_ascii_case(end))
+    })
+}
+
 /// Whether a line of more than two fields ends like the name of an image, as just one field
 /// before does: two names with blanks in them.
 fn names_with_blanks(line: &str, fields: &[Field]) -> bool {
-    let is_image = |field: &Field| {
-        let name = field.raw(line);
-        !field.quoted
-            && IMAGES.iter().any(|end| {
-                let start = name.len().checked_sub(end.len());
-                start.is_some_and(|start| {
-                    name.get(start..)
-                        .is_some_and(|tail| tail.eq_ignore_ascii_case(end))
-                })
-            })
-    };
+    let is_image = |field: &Field| !field.quoted && is_image(field.raw(line));
     fields.len() > 2
         && fields.last().is_some_and(is_image)
         && fields.iter().filter(|field| is_image(field)).count() == 2

@@ -52,18 +52,27 @@ fn a_single_label_is_a_node_only_leniently() {
 
 #[test]
 fn repeated_pairs_and_further_columns_are_noted() {
-    let (edges, labels, notes) = listed(
-        b"1 2 0.5\n2 1 .5\n2 3 1e3\n3 4\xc3\xa9 -7 # 1\n",
-        Reading::Strict,
-    );
+    let text = b"1 2 0.5\n2 1 .5\n2 3 1e3\n3 4\xc3\xa9 -7 # 1\n";
+    let (edges, labels, notes) = listed(text, Reading::Strict);
     assert_eq!(labels, ["1", "2", "3", "4\u{e9}"]);
     assert_eq!(edges, [(0, 1), (1, 2), (2, 3)]);
     let merged = "1 pair is given again, the same or reversed, and merged";
-    assert_eq!(notes, ["the third column is ignored (weights)", merged]);
-    let poses = format!("a b{}\nb c,{}\n", " 0.1".repeat(12), "1,".repeat(11) + "1");
-    let (_, _, notes) = listed(poses.as_bytes(), Reading::Strict);
-    assert_eq!(notes, ["columns 3 to 14 are ignored (relative poses)"]);
-    let (_, _, notes) = listed(b"a b x\nb c\nc a \"]\" ]\nb a #\n", Reading::Lenient);
+    assert_eq!(notes, [merged]);
+    let read_as = strict(text).unwrap().read;
+    assert_eq!(
+        (&*read_as.ignored, read_as.merged),
+        (&["column 3 (weights?)".to_owned()][..], 1)
+    );
+    let poses = "a b 1 0 0 0 1 0 0 0 1 7 8 9\nb c,0,0,1,1,0,0,0,1,0,7,8,9 \n";
+    let read_as = strict(poses.as_bytes()).unwrap().read;
+    assert_eq!(read_as.ignored, ["columns 3 to 14 (relative poses)"]);
+    for text in ["a b 1 0 0 0 1 0 0 0 -1 7 8 9\n", "a b .1 .1 .1 .1 1 1 1\n"] {
+        assert!(
+            refusal(text.as_bytes()).contains("not an edge list: lines of "),
+            "{text}"
+        );
+    }
+    let found = read(&b"a b x\nb c\nc a \"]\" ]\nb a #\n"[..], Reading::Lenient).unwrap();
     let bad = [
         "1 2,", "1 2,,x", "1 2 , ,x", "1 2 x,", "1 2 \"\"", "1 2 x\"y", ",1 2",
     ];
@@ -84,16 +93,14 @@ fn repeated_pairs_and_further_columns_are_noted() {
         let (edges, ..) = listed(format!("{line}\n").as_bytes(), Reading::Lenient);
         assert_eq!(edges, [(0, 1)], "{line}");
     }
-    assert_eq!(
-        notes,
-        [merged, "fields behind the second are ignored on 2 lines"]
-    );
+    assert_eq!(found.notes, [merged]);
+    assert_eq!(found.read.ignored, ["fields behind the second on 2 lines"]);
 }
 
 /// The usual lines have a parser of their own from the seventeenth on, which must not differ.
 #[test]
 fn late_lines_are_read_as_early_ones() {
-    for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 2 3 4 5 6 -7e1")] {
+    for (columns, further) in [(2, ""), (3, " 0.5"), (9, " 1 0 0 0 5 6 -7e1")] {
         let mut text: String = (0..40)
             .map(|v| format!("{v} {}{further}\n", v + 1))
             .collect();
@@ -139,24 +146,35 @@ fn heads() {
             "Image_ID1,IMAGE_ID2",
         ),
         (b"\"From\",\"To\"\n1,2\n", "From,To"),
-        (b"src dst weight\n1 2 5\n", "src,dst,..."),
-        (b"i j w\n1 2 5\n", "i,j,..."),
-        (b"id1 id2 7\n1 2 5\n", "id1,id2,..."),
+        (b"src dst weight\n1 2 5\n", "src,dst,weight"),
+        (b"i j w\n1 2 5\n", "i,j,w"),
+        (b"i j\n1 2\n", "i,j"),
+        (b"id1 id2 7\n1 2 5\n", "id1,id2,7"),
+        (b"left,right\na.jpg,b.jpg\n", "left,right"),
+        (b"here,there\na.jpg,b.jpg\n", "here,there"),
     ] {
-        let (edges, labels, notes) = listed(text, Reading::Strict);
-        assert_eq!((edges.len(), labels.len()), (1, 2));
-        assert_eq!(notes[0], format!("the first line is a head: {head}"));
+        for reading in [Reading::Strict, Reading::Lenient] {
+            let (edges, labels, notes) = listed(text, reading);
+            assert_eq!((edges.len(), labels.len()), (1, 2));
+            assert_eq!(notes[0], format!("the first line is a head: {head}"));
+        }
     }
-    // Named like a column, and a camera.
-    let (edges, labels, notes) = listed(b"from to\nto x\n", Reading::Strict);
-    assert_eq!((edges.len(), labels.len(), notes.len()), (2, 3, 0));
+    // Named like a column, and a camera, or like the others.
+    for (text, nodes) in [
+        (&b"from to\nto x\n"[..], 3),
+        (b"node1 node2\nnode3 node4\n", 4),
+        (b"a b\nc d\n", 4),
+        (b"left right\ntop bottom\n", 4),
+        (b"hub a.jpg\nb.jpg c.jpg\n", 4),
+    ] {
+        for reading in [Reading::Strict, Reading::Lenient] {
+            let (edges, labels, notes) = listed(text, reading);
+            assert_eq!((edges.len(), labels.len(), notes.len()), (2, nodes, 0));
+        }
+    }
     for (text, phrase) in [
         (
-            &b"id,source,target\n0,1,2\n"[..],
-            "list.txt:1: the head says that the pairs are not",
-        ),
-        (
-            b"1 2 nan\n2 3 0.5\n",
+            &b"1 2 nan\n2 3 0.5\n"[..],
             "list.txt:1: not an edge list: field 3, `nan`, is no number",
         ),
         (
@@ -168,14 +186,172 @@ fn heads() {
             "list.txt: the first line is a head, and there are no pairs",
         ),
         (
-            b"i j\n1 2\n2 3\n",
-            "list.txt: the first line has names and all others integers",
+            b"image,width,height\n1,640,480\n",
+            "list.txt:1: the head calls a column `width`",
         ),
     ] {
         assert!(refusal(text).starts_with(phrase), "{}", refusal(text));
     }
-    let (edges, ..) = listed(b"source target\n1 2\n", Reading::Lenient);
-    assert_eq!(edges.len(), 2);
+    let (edges, ..) = listed(b"source target\n", Reading::Lenient);
+    assert_eq!(edges.len(), 1);
+}
+
+/// A table is cut as its first lines show, or as the user says.
+#[test]
+fn tables() {
+    let table = |text: &str, columns: &str, least: &str, skip_loops| {
+        let options = ListOptions {
+            columns: (!columns.is_empty()).then(|| columns.parse().unwrap()),
+            min_weight: (!least.is_empty()).then(|| least.parse().unwrap()),
+            skip_loops,
+        };
+        let layout = layout::layout(text.as_bytes(), true, &options)
+            .map_err(|problem| Place::Input.fault(problem));
+        let read =
+            layout.and_then(|layout| read_with(text.as_bytes(), Reading::Strict, layout, &options));
+        read.map(|found| {
+            let label = |v| found.labels.label(v).into_owned();
+            let pairs = found
+                .graph
+                .edges()
+                .iter()
+                .map(|&(a, b)| label(a) + "-" + &label(b));
+            (pairs.collect::<Vec<_>>().join(" "), found.read.to_string())
+        })
+        .map_err(|fault| fault.in_file("list").to_string())
+    };
+    for (text, columns, least, pairs, read) in [
+        (
+            "id,source,target\n7,a,b\n8,b,c\n",
+            "",
+            "",
+            "a-b b-c",
+            "columns 2 and 3 (source, target)",
+        ),
+        (
+            "0,a.jpg,b.jpg\n1,b.jpg,c.jpg\n",
+            "",
+            "",
+            "a.jpg-b.jpg b.jpg-c.jpg",
+            "columns 2 and 3",
+        ),
+        (
+            "source;target\na;b\nb;c d\n",
+            "",
+            "",
+            "a-b b-c d",
+            "columns 1 and 2 (source, target)",
+        ),
+        (
+            "a;b;0,5\nb;c;1,5\n",
+            "",
+            "1.0",
+            "b-c",
+            "1 line with a weight below 1.0",
+        ),
+        (
+            "Source,Target,Label,Weight\na,b,,2\nb,c,,3\n",
+            "",
+            "2.5",
+            "b-c",
+            "column Label",
+        ),
+        (
+            "a b 2\nb c 3\nc a 1e1\n",
+            "",
+            "3",
+            "a-c b-c",
+            "1 line with a weight below 3",
+        ),
+        (
+            "p,q,r,s\na,1,b,9\nb,2,c,8\n",
+            "p,r",
+            "",
+            "a-b b-c",
+            "columns 1 and 3 (p, r)",
+        ),
+        (
+            "p,q,r,s\na,1,b,9\nb,2,c,8\n",
+            "p,r,s",
+            "9",
+            "a-b",
+            "1 line with a weight below 9",
+        ),
+        ("a x b 9\nb x c 8\n", "1,3", "", "a-b b-c", "columns 2, 4"),
+        (
+            "# query, map, score\na.jpg, b.jpg, 1\nc.jpg, a.jpg, 2\n",
+            "query,map",
+            "",
+            "a.jpg-b.jpg a.jpg-c.jpg",
+            "column 3",
+        ),
+        (
+            "Image 1,Image 2\na.jpg,b.jpg\n",
+            "",
+            "",
+            "a.jpg-b.jpg",
+            "head: Image 1,Image 2",
+        ),
+        (
+            "left wall.jpg,roof.jpg\nroof.jpg,yard.jpg\n",
+            "",
+            "",
+            "left wall.jpg-roof.jpg roof.jpg-yard.jpg",
+            "names",
+        ),
+    ] {
+        let (found, as_read) = table(text, columns, least, false).unwrap();
+        assert_eq!(found, pairs, "{text}");
+        assert!(as_read.contains(read), "{as_read}");
+    }
+    for (text, columns, least, phrase) in [
+        ("a b\nb c\n", "", "1", "there is no column of weights"),
+        ("a b 2\nb c x\n", "1,2,3", "1", "no number"),
+        (
+            "a b 1\nb c x\n",
+            "",
+            "1",
+            "list:2: --min-weight: field 3, `x`, is no number",
+        ),
+        (
+            "p,q\na,b\n",
+            "p,r",
+            "",
+            "there is no column `r`; there are p, q",
+        ),
+        (
+            "a b\nb c\n",
+            "1,4",
+            "",
+            "there is no column `4`; there are 2 columns",
+        ),
+        (
+            "source,target,w\na,b,1\na,,1\n",
+            "1,2",
+            "",
+            "list:3: field 2, where the name",
+        ),
+        ("source;target;w\na;b;1\na;b\n", "", "", "the line has"),
+    ] {
+        let refusal = table(text, columns, least, false).unwrap_err();
+        assert!(refusal.contains(phrase), "{text}: {refusal}");
+    }
+    for text in [
+        "a a\na b\nb b\n",
+        "1 1\n1 2\n2 2\n",
+        "source,target\na,a\na,b\n",
+    ] {
+        assert!(
+            table(text, "", "", false)
+                .unwrap_err()
+                .contains("is paired with itself")
+        );
+        let (_, read) = table(text, "", "", true).unwrap();
+        assert!(read.contains("pair a camera with itself"), "{read}");
+    }
+    for bad in ["", "a", "a,a", "1,", "0,1", "a,b,c,d"] {
+        assert!(bad.parse::<layout::Columns>().is_err(), "{bad}");
+    }
 }
 
 #[test]
@@ -212,7 +388,6 @@ fn what_could_be_something_else() {
         b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 2\n",
         b"a b\n#\nb c\n",
         b"07 08\n08 09\n",
-        b"1.5 a\n",
         b"\"1.5\" 2.5\n",
         b"a b\n1 a\n",
     ] {
@@ -373,8 +548,11 @@ proptest! {
             .map(|(a, b, more)| format!("{a} {b}{}\n", if *more { "\t1.5" } else { "" }))
             .collect();
         let backward: String = lines.iter().rev().map(|(a, b, _)| format!("{b} {a}\r\n")).collect();
-        let Parsed { graph, labels, .. } = read(Slowly(forward.as_bytes(), chunk), Reading::Lenient).unwrap();
+        let Parsed { graph, labels, read: ReadAs { merged, .. }, .. } = read(Slowly(forward.as_bytes(), chunk), Reading::Lenient).unwrap();
         let other = read(backward.as_bytes(), Reading::Lenient).unwrap();
+        // A head is the first line.
+        prop_assume!(graph.edges().len() + merged == lines.len());
+        prop_assume!(other.graph.edges().len() + other.read.merged == lines.len());
         prop_assert_eq!(&graph, &other.graph);
         prop_assert_eq!(&labels, &other.labels);
         let sorted = |a: &str, b: &str| if a < b { (a.to_owned(), b.to_owned()) } else { (b.to_owned(), a.to_owned()) };

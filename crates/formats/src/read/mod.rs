@@ -9,6 +9,7 @@ use std::str::FromStr;
 use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
 use crate::edge_list::Reading;
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::inflate::Inflater;
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
@@ -17,7 +18,7 @@ use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::tracks::{self, TrackFacts, TrackOptions};
-use crate::{edge_list, matlab, matrix_market};
+use crate::{edge_list, lookalikes, matlab, matrix_market};
 use viewcert::graph::{Graph, Labels};
 
 /// A graph as it was read.
@@ -100,6 +101,8 @@ impl FromStr for Format {
             "glomap" => Ok(Self::Glomap),
             "1dsfm" => Ok(Self::OneDsfm),
             "openmvg-pairs" | "adjacency-list" => Ok(Self::Document(Document::Stars)),
+            "raw-matches" => Ok(Self::Document(Document::RawMatches)),
+            "text-matrix" => Ok(Self::Document(Document::TextMatrix)),
             "g2o" => Ok(Self::Document(Document::G2o)),
             "node-link" | "json" => Ok(Self::Document(Document::NodeLink)),
             "graphml" => Ok(Self::Document(Document::GraphMl)),
@@ -113,7 +116,7 @@ impl FromStr for Format {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
-     openmvg-pairs, g2o, node-link, graphml and dot"
+     openmvg-pairs, raw-matches, text-matrix, g2o, node-link, graphml and dot"
 )]
 pub struct UnknownFormat;
 
@@ -130,6 +133,8 @@ impl fmt::Display for Format {
             Self::Glomap => "glomap",
             Self::OneDsfm => "1dsfm",
             Self::Document(Document::Stars) => "openmvg-pairs",
+            Self::Document(Document::RawMatches) => "raw-matches",
+            Self::Document(Document::TextMatrix) => "text-matrix",
             Self::Document(Document::G2o) => "g2o",
             Self::Document(Document::NodeLink) => "node-link",
             Self::Document(Document::GraphMl) => "graphml",
@@ -152,6 +157,8 @@ pub struct ReadOptions {
     pub min_inliers: Option<u32>,
     /// Whether tracks are asked for instead of pairs, and which of them count.
     pub tracks: Option<TrackOptions>,
+    /// Which lines of a list count, and where in them the pairs stand.
+    pub list: ListOptions,
 }
 
 /// The graphs of an input, or why there is none.
@@ -318,24 +325,18 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
         Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
             .map(|(graph, notes)| of_matrix("MatrixMarket matrix", graph, notes)),
-        Ok(Some(Kind::Text | Kind::Gzip)) => {
-            let (head, whole) = (sampled.head.clone(), sampled.whole);
-            edge_list::read(sampled.into_input(), edges).map_err(|fault| {
-                // What is refused by the grammar may have a name.
-                match recognise::likely(&head, whole) {
-                    Some(problem) if fault.problem.is_grammar() => Place::Input.fault(problem),
-                    _ => fault,
-                }
-            })
-        }
+        Ok(None | Some(Kind::Text | Kind::Gzip)) => list(sampled, edges, &options.list),
         Ok(Some(Kind::Document(document))) => {
-            documents::read(document, sampled.into_input(), options.format.is_some())
+            let asked = options.format.is_some();
+            documents::read_with(document, sampled.into_input(), asked, &options.list)
         }
-        Ok(None) => edge_list::read(sampled.into_input(), edges),
         Err(problem) => Err(Place::Input.fault(problem)),
     };
     match one {
         Ok(mut parsed) => {
+            if let Labels::Names(names) = &parsed.labels {
+                parsed.notes.extend(lookalikes::note(names));
+            }
             parsed.notes.extend(unused);
             Box::new(std::iter::once(Ok(NamedGraph {
                 read: parsed.read,
@@ -347,11 +348,56 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
     }
 }
 
+/// Reads a list of pairs. What its grammar refuses may have a name.
+fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Parsed, Fault> {
+    let (head, whole) = (sampled.head.clone(), sampled.whole);
+    let layout = match reading {
+        Reading::Columns(_) => None,
+        _ => edge_list::layout::layout(&head, whole, options)
+            .map_err(|problem| Place::Input.fault(problem))?,
+    };
+    let read = edge_list::read_with(sampled.into_input(), reading, layout, options);
+    read.map_err(|Fault { place, problem }| {
+        let likely = || recognise::likely(&head, whole);
+        match reading {
+            Reading::Strict if problem.is_grammar() => match likely() {
+                Some(problem) => Place::Input.fault(problem),
+                None if problem.is_of_columns()
+                    && edge_list::layout::first_two_are_pairs(&head, whole) =>
+                {
+                    place.fault(Problem::PairsFirst(Box::new(problem)))
+                }
+                None => place.fault(problem),
+            },
+            _ => place.fault(problem),
+        }
+    })
+}
+
 /// Options that say nothing about a file of this kind, in words.
 fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
     let mut notes = Vec::new();
     if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
         notes.push("--variable is ignored: this is no MATLAB file".to_owned());
+    }
+    let takes = match kind {
+        Ok(None | Some(Kind::Text)) => [true; 2],
+        Ok(Some(Kind::Document(document))) => document.takes(),
+        _ => [false; 2],
+    };
+    let list = &options.list;
+    for (option, given, taken) in [
+        (
+            "--columns",
+            list.columns.is_some(),
+            matches!(kind, Ok(None | Some(Kind::Text))),
+        ),
+        ("--min-weight", list.min_weight.is_some(), takes[0]),
+        ("--skip-loops", list.skip_loops, takes[1]),
+    ] {
+        if given && !taken {
+            notes.push(format!("{option} is ignored: this is no list of pairs"));
+        }
     }
     if !matches!(kind, Ok(Some(Kind::Sqlite))) {
         let given = [
@@ -380,6 +426,9 @@ fn database(
     Ok(graph)
 }
 
+/// Files of tracks are told by other means; no option for lists says anything about them.
+const TRACKS_KIND: Result<Option<Kind>, Problem> = Ok(Some(Kind::Gzip));
+
 /// The camera-point graph of an input.
 fn tracks_of(
     path: Option<&Path>,
@@ -388,7 +437,7 @@ fn tracks_of(
     options: &ReadOptions,
     tracks: TrackOptions,
 ) -> Result<NamedGraph, ReadError> {
-    let mut notes = ignored(options, &Ok(None));
+    let mut notes = ignored(options, &TRACKS_KIND);
     if options.format.is_some() {
         notes.push("--format is ignored: tracks are known by their content".to_owned());
     }
@@ -402,7 +451,7 @@ fn folder(folder: &Path, options: &ReadOptions) -> Result<NamedGraph, ReadError>
     let name = &folder.display().to_string();
     match options.tracks {
         Some(tracks) => {
-            let notes = ignored(options, &Ok(None));
+            let notes = ignored(options, &TRACKS_KIND);
             tracks_called(name, tracks::read_folder(folder, tracks), notes)
         }
         None if tracks::is_model(folder) => Err(Place::Input.fault(Problem::Model).in_file(name)),

@@ -1,0 +1,212 @@
+//! Whether pairs that have the form of an edge list can be pairs of cameras at all.
+//!
+//! In: the pairs in the order of the lines, first column first, and what the labels are. Out: why
+//! they are none, or what is odd about them. What is looked at ends at the first line that speaks
+//! for pairs, so a list of integers costs next to nothing.
+
+use crate::edge_list::fields::is_number;
+use crate::edge_list::is_image;
+use crate::edge_list::nodes::Index;
+use crate::error::Problem;
+use viewcert::graph::Graph;
+
+const ADVICE: &str = "write one pair a line: the names of two cameras; if other columns hold the pairs, name them \
+     with --columns";
+
+/// Fewer lines say little about a column.
+const FEW: usize = 3;
+
+/// What a column holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Number,
+    Image,
+    Other,
+}
+
+/// What is wrong with the pairs, if they are none.
+pub(super) fn problem(pairs: &[(u32, u32)], names: Option<&Index>) -> Option<Problem> {
+    let doubt = |what| {
+        Some(Problem::Doubtful {
+            what,
+            advice: ADVICE,
+        })
+    };
+    let first = *pairs.first()?;
+    if pairs.len() >= FEW && pairs.iter().all(|&pair| pair == first) {
+        return doubt("all lines have the same two fields: a table, and no list of pairs");
+    }
+    match names {
+        Some(names) => unlike_columns(pairs, names).and_then(doubt),
+        None if is_index(pairs) => doubt(
+            "the first column counts the lines, and the second has other numbers: a table, and no list of \
+             pairs",
+        ),
+        None => None,
+    }
+}
+
+/// What tells that the two columns are not of the same kind, if they have no label in common.
+fn unlike_columns(pairs: &[(u32, u32)], names: &Index) -> Option<&'static str> {
+    let mut kinds = vec![Kind::Other; names.nodes.len()];
+    for (label, &node) in &names.nodes {
+        kinds[node as usize] = match () {
+            () if is_number(label.as_bytes()) => Kind::Number,
+            () if is_image(label) => Kind::Image,
+            () => Kind::Other,
+        };
+    }
+    let kind = |node: u32| kinds[node as usize];
+    let (first, second) = (kind(pairs[0].0), kind(pairs[0].1));
+    let all_first = |is| pairs.iter().all(|pair| kind(pair.0) == is);
+    let all_second = |is| pairs.iter().all(|pair| kind(pair.1) == is);
+    let none_first = |is| pairs.iter().all(|pair| kind(pair.0) != is);
+    let none_second = |is| pairs.iter().all(|pair| kind(pair.1) != is);
+    let number = Kind::Number;
+    if first == number && second != number && all_first(number) && !all_second(number)
+        || second == number && first != number && all_second(number) && !all_first(number)
+    {
+        let disjoint = none_first(number) || none_second(number) || !shared(pairs, kinds.len());
+        return disjoint.then_some(
+            "one of the first two columns holds numbers only, and the two have no name in common: a table, \
+             and no list of pairs",
+        );
+    }
+    let image = Kind::Image;
+    (all_first(image) && none_second(image) || all_second(image) && none_first(image)).then_some(
+        "one of the first two columns holds names of images, and the other none: a table, and no list of \
+         pairs",
+    )
+}
+
+/// Whether some label stands in both columns.
+fn shared(pairs: &[(u32, u32)], nodes: usize) -> bool {
+    let mut first = vec![false; nodes];
+    for pair in pairs {
+        first[pair.0 as usize] = true;
+    }
+    pairs.iter().any(|pair| first[pair.1 as usize])
+}
+
+/// Whether the first of two integers counts the lines from 0 or 1, and the second is none of these
+/// numbers nor goes on with them, as the other side of a bipartite graph or the middle of a star does.
+fn is_index(pairs: &[(u32, u32)]) -> bool {
+    let start = pairs[0].0;
+    let behind = start as usize + pairs.len();
+    pairs.len() >= FEW
+        && start <= 1
+        && pairs
+            .iter()
+            .zip(start..)
+            .all(|(&(a, b), at)| a == at && b as usize > behind)
+}
+
+/// What is odd about a graph, in words.
+pub(super) fn note(graph: &Graph) -> Option<String> {
+    let (nodes, edges) = (graph.nodes(), graph.edges());
+    // A connected graph has a node more than pairs at most.
+    if nodes <= edges.len() + 1 {
+        return None;
+    }
+    let mut degree = vec![0u8; nodes];
+    for &(a, b) in edges {
+        for node in [a, b] {
+            degree[node as usize] = degree[node as usize].saturating_add(1);
+        }
+    }
+    let alone = |&&(a, b): &&(u32, u32)| degree[a as usize] == 1 && degree[b as usize] == 1;
+    let single = edges.iter().filter(alone).count();
+    if single == edges.len() && single >= FEW {
+        return Some(format!(
+            "no camera is in two of the {single} pairs: is this a list of pairs?"
+        ));
+    }
+    // Every other component has two nodes at least, or is a camera without pairs.
+    let others = components(graph) - single;
+    (single >= FEW && single > others).then(|| {
+        format!(
+            "{single} of {} connected parts are single pairs: is this a list of pairs?",
+            single + others
+        )
+    })
+}
+
+/// How many connected parts a graph has. Nearly linear.
+fn components(graph: &Graph) -> usize {
+    let mut parent: Vec<u32> = (0..graph.nodes() as u32).collect();
+    fn root(parent: &mut [u32], mut node: u32) -> u32 {
+        while parent[node as usize] != node {
+            parent[node as usize] = parent[parent[node as usize] as usize];
+            node = parent[node as usize];
+        }
+        node
+    }
+    let mut parts = graph.nodes();
+    for &(a, b) in graph.edges() {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        if a != b {
+            parent[a as usize] = b;
+            parts -= 1;
+        }
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::edge_list::{Reading, read};
+
+    fn refusal(text: &str) -> Option<String> {
+        let found = read(text.as_bytes(), Reading::Strict);
+        found.err().map(|fault| fault.in_file("list").to_string())
+    }
+
+    #[test]
+    fn tables_are_no_pairs() {
+        for text in [
+            "a.jpg 17\nb.jpg 18\n",
+            "17 a.jpg\n",
+            "cam0 1 0.5\ncam1 2 0.5\n",
+            "a.jpg day\nb.jpg day\nc.jpg night\n",
+            "640 480\n640 480\n640 480\n",
+            "0 1305\n1 1306\n2 1307\n",
+            "1403.5 a.png\n1404.5 b.png\n",
+        ] {
+            let refusal = refusal(text).unwrap_or_default();
+            assert!(
+                refusal.contains("a table, and no list of pairs"),
+                "{text}: {refusal}"
+            );
+        }
+        for text in [
+            // Stars, paths, bipartite graphs, single pairs.
+            "hub a\nhub b\nhub c\n",
+            "1 0\n2 0\n3 0\n4 0\n",
+            "0 4\n1 4\n2 4\n3 4\n",
+            "0 1\n1 2\n2 3\n3 4\n",
+            "0 3\n1 4\n2 5\n",
+            "0 4\n1 5\n2 6\n3 7\n0 5\n",
+            "q1.jpg d1.jpg\nq2.jpg d1.jpg\n",
+            "a b\nc d\n",
+            "1 a\na 2\n2 b\n",
+            "640 480\n640 480\n",
+        ] {
+            assert_eq!(refusal(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn single_pairs_are_noted() {
+        let notes = |text: &str| read(text.as_bytes(), Reading::Strict).unwrap().notes;
+        assert_eq!(
+            notes("a b\nc d\ne f\n"),
+            ["no camera is in two of the 3 pairs: is this a list of pairs?"]
+        );
+        assert_eq!(
+            notes("a b\nc d\ne f\ng h\nh i\n"),
+            ["3 of 4 connected parts are single pairs: is this a list of pairs?"]
+        );
+        assert!(notes("a b\nc d\n").is_empty());
+        assert!(notes("a b\nc d\ne f\ng h\nh i\nj k\nk l\nm n\nn o\n").is_empty());
+    }
+}
