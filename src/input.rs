@@ -23,7 +23,8 @@ pub(super) struct InputArguments {
     /// of every line all the same. What is ignored, merged or guessed is printed as a note.
     #[arg(long, value_enum)]
     format: Option<FormatName>,
-    /// Variable of a MATLAB file [default: A, or the only square matrix].
+    /// Variable of a MATLAB file, or array of an .npz file [default: A, the only square matrix, or
+    /// the only two columns of numbers of cameras].
     #[arg(long, value_name = "NAME")]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
@@ -56,6 +57,8 @@ enum FormatName {
     Matlab,
     /// Adjacency matrix, MatrixMarket coordinates.
     MatrixMarket,
+    /// Array of NumPy, or an archive of them (.npz), also SciPy's sparse matrices.
+    Numpy,
     /// Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc.
     #[value(alias = "hloc-pairs")]
     MatchList,
@@ -73,6 +76,10 @@ enum FormatName {
     /// Node-link graph in JSON, of networkx or d3.
     #[value(alias = "json")]
     NodeLink,
+    /// Graph of Gephi in XML.
+    Gexf,
+    /// Lists of keys and values, of networkx, igraph and Gephi.
+    Gml,
     /// Graph in XML.
     #[value(name = "graphml")]
     GraphMl,
@@ -136,12 +143,15 @@ impl InputArguments {
                 FormatName::Sparse6 => Format::Sparse6,
                 FormatName::Matlab => Format::Matlab,
                 FormatName::MatrixMarket => Format::MatrixMarket,
+                FormatName::Numpy => Format::Numpy,
                 FormatName::MatchList => Format::MatchList,
                 FormatName::Glomap => Format::Glomap,
                 FormatName::OneDsfm => Format::OneDsfm,
                 FormatName::OpenmvgPairs => Format::Document(Document::Stars),
                 FormatName::G2o => Format::Document(Document::G2o),
                 FormatName::NodeLink => Format::Document(Document::NodeLink),
+                FormatName::Gexf => Format::Document(Document::Gexf),
+                FormatName::Gml => Format::Document(Document::Gml),
                 FormatName::GraphMl => Format::Document(Document::GraphMl),
                 FormatName::Dot => Format::Document(Document::Dot),
             }),

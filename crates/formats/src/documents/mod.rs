@@ -1,4 +1,4 @@
-//! Graphs in texts that are read as a whole: DOT, g2o, GraphML, node-link JSON and stars.
+//! Graphs in texts that are read as a whole: DOT, g2o, GML, GraphML, GEXF, node-link JSON and stars.
 //!
 //! In: a text and which of these it is. Out: the graph with its labels, and notes about what was
 //! ignored, merged or guessed. Nodes are numbered by their sorted labels, as those of an edge list
@@ -16,9 +16,12 @@ use viewcert::graph::{Graph, Labels};
 mod collected;
 mod dot;
 mod g2o;
-mod graphml;
+mod gml;
 mod node_link;
 mod stars;
+mod xml;
+
+pub(crate) use collected::Collected;
 
 /// A graph, what its nodes are called, and notes about how it was read.
 pub type Parsed = (Graph, Labels, Vec<String>);
@@ -30,6 +33,10 @@ pub enum Document {
     Dot,
     /// Pose graphs of g2o.
     G2o,
+    /// Graphs of Gephi in XML.
+    Gexf,
+    /// Lists of keys and values, of networkx, igraph and Gephi.
+    Gml,
     /// Graphs in XML.
     GraphMl,
     /// Graphs in JSON as networkx writes them: lists of nodes and of edges (or links).
@@ -44,9 +51,11 @@ impl Document {
         // What is no UTF-8 is refused by the reader, with the line.
         let text = &*String::from_utf8_lossy(head);
         [
-            (Self::GraphMl, graphml::is_graphml(text)),
+            (Self::GraphMl, xml::is_graphml(text)),
+            (Self::Gexf, xml::is_gexf(text)),
             (Self::NodeLink, node_link::is_object(text)),
             (Self::Dot, dot::is_dot(text)),
+            (Self::Gml, gml::is_gml(text)),
             (Self::G2o, g2o::is_g2o(text)),
             (Self::Stars, stars::is_stars(text, whole)),
         ]
@@ -66,7 +75,8 @@ impl Document {
                 "say --format g2o or --format edges",
             ),
             // Texts that begin with a bracket are no edge lists, and stars are of uneven lines.
-            Self::GraphMl | Self::NodeLink | Self::Stars => return None,
+            // A line of GML that closes a list is no pair.
+            Self::GraphMl | Self::Gexf | Self::Gml | Self::NodeLink | Self::Stars => return None,
         };
         Some(Problem::Doubtful { what, advice })
     }
@@ -92,7 +102,9 @@ pub fn read(document: Document, mut input: impl Read, asked: bool) -> Result<Par
     match document {
         Document::Dot => dot::read(text),
         Document::G2o => g2o::read(text),
-        Document::GraphMl => graphml::read(text),
+        Document::Gexf => xml::read(text, xml::GEXF),
+        Document::Gml => gml::read(text),
+        Document::GraphMl => xml::read(text, xml::GRAPHML),
         Document::NodeLink => node_link::read(text),
         Document::Stars => stars::read(text, asked),
     }
