@@ -1,6 +1,7 @@
 //! How graphs are read: the options that all commands with graphs share.
 
 use super::{GOOD, ends_run, exit_code, running};
+use crate::report::counted;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -181,6 +182,9 @@ pub(super) fn for_each<W: Write>(
     for_each_read(options, paths, too_many, out, read)
 }
 
+/// So many lines that cannot be read are shown of one file.
+const MOST_ERRORS: usize = 10;
+
 /// A graph, or why there is none.
 pub(super) type Read = Result<NamedGraph, ReadError>;
 
@@ -198,6 +202,7 @@ pub(super) fn for_each_read<W: Write>(
 ) -> Result<u8> {
     let mut code = GOOD;
     for path in paths {
+        let mut bad = 0;
         let mut start = Instant::now();
         running::reading(path);
         let mut graphs = read_graphs(path, options).peekable();
@@ -208,6 +213,8 @@ pub(super) fn for_each_read<W: Write>(
                 bail!(reason);
             }
             running::hide();
+            bad += usize::from(input.is_err());
+            let shown = input.is_ok() || bad <= MOST_ERRORS;
             if let Ok(input) = &input {
                 running::doing(format!("working on {}", input.name));
             }
@@ -215,13 +222,23 @@ pub(super) fn for_each_read<W: Write>(
                 Ok(code) => code,
                 Err(error) if ends_run(&error) => return Err(error),
                 Err(error) => {
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    if shown {
+                        writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    }
                     exit_code(&error)
                 }
             });
             out.flush().context("standard output")?;
             running::reading(path);
             start = Instant::now();
+        }
+        if bad > MOST_ERRORS {
+            let more = counted(bad - MOST_ERRORS, "more line");
+            let path = path.display();
+            writeln!(
+                std::io::stderr(),
+                "verify: {path}: {more} cannot be read either"
+            )?;
         }
     }
     Ok(code)

@@ -386,7 +386,7 @@ MATRICES = {
     "distances": (DISTANCES, "a table of distances, similarities or weights", ""),
     "infinite": (INF, "is infinite", ""),
     "fundamental": (F, LOOSE, FUNDAMENTAL),
-    "poses": (POSES, "a matrix of 4 x 4 blocks, which are relative poses", ""),
+    "poses": (POSES, "a matrix of 4 x 4 blocks (relative poses)", ""),
     "one-way": (ONE_WAY, "the matrix is not symmetric", ""),
     "loop": (LOOP, "is non-zero: a camera paired with itself", ""),
 }

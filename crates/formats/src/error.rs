@@ -89,7 +89,7 @@ pub enum Problem {
         advice: &'static str,
     },
     /// A file of this program that is no graph.
-    #[error("this is {what} of this program, and no graph")]
+    #[error("this is {what} that this program has written, and it is not read here")]
     Own {
         /// What it is.
         what: &'static str,
@@ -444,7 +444,9 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
-            Self::Hdf5(_) => "copy the file again, or save it in MATLAB with -v7 or -v6",
+            Self::Hdf5(_) => {
+                "copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
+            }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::Database(error) => error.remedy(),
@@ -458,7 +460,7 @@ impl Problem {
                 "name the adjacency matrix with --variable"
             }
             Self::NotNumeric(_) | Self::NotNumericNamed(_) | Self::NotSquare(_) => {
-                "name a square numeric matrix with --variable"
+                "give a square matrix, of which rows and columns are cameras, or two columns of pairs (of several variables: --variable)"
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",

@@ -215,9 +215,18 @@ impl<R: BufRead> Frames<R> {
             Err(error @ FrameDecoderError::WindowSizeTooBig { .. }) => {
                 return Err(Error::new(ErrorKind::OutOfMemory, error));
             }
-            Err(error) => return Err(Error::new(ErrorKind::InvalidData, error)),
+            Err(_) => return Err(self.invalid()),
         }
         Ok(())
+    }
+
+    /// Why the data cannot be unpacked, in plain words.
+    fn invalid(&mut self) -> Error {
+        match self.source.fill_buf() {
+            Ok([]) => Error::new(ErrorKind::UnexpectedEof, "they end early"),
+            Ok(_) => Error::new(ErrorKind::InvalidData, "no Zstandard data"),
+            Err(error) => error,
+        }
     }
 
     /// What follows the data of a frame is their checksum.
@@ -243,8 +252,9 @@ impl<R: BufRead> Read for Frames<R> {
             }
             while self.decoder.can_collect() == 0 && !self.decoder.is_finished() {
                 let one = BlockDecodingStrategy::UptoBlocks(1);
-                let decoded = self.decoder.decode_blocks(&mut self.source, one);
-                decoded.map_err(|error| Error::new(ErrorKind::InvalidData, error))?;
+                if self.decoder.decode_blocks(&mut self.source, one).is_err() {
+                    return Err(self.invalid());
+                }
             }
             match self.decoder.read(buffer)? {
                 0 => self.end()?,

@@ -390,7 +390,7 @@ mod tests {
         let note = "1 pair is given again, the same or reversed, and merged";
         assert_eq!(graph(&text), (4, triangle.clone(), vec![note.into()]));
         let text = format!(
-            "{GENERAL}3 3 9\n1 2 .5\n2 1 -1e3\n3 1 1e4\n1 3 1e-999\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
+            "{GENERAL}3 3 9\n1 2 .5\n2 1 -1e3\n3 1 1e4\n1 3 1e-3\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
         );
         let values = "entries are real numbers from -1000 to 10000 (counts, weights?): each that is \
                       not zero is a pair";

@@ -154,9 +154,9 @@ const PAIRS: &str = "write one pair a line: the names of two cameras and nothing
 macro_rules! networkx {
     ($reader:literal) => {
         concat!(
-            "convert it, for example in Python: networkx.write_edgelist(",
+            "convert it, for example in Python: networkx.write_graphml(",
             $reader,
-            ", 'pairs.txt', data=False)"
+            ", 'graph.graphml')"
         )
     };
 }
@@ -191,12 +191,12 @@ const MAGIC: [(&[u8], &str, &str); 17] = [
     (
         b">>planar_code",
         "planar code",
-        "convert it to graph6 with nauty's `planarg` or plantri's option -g",
+        "write graph6 in its place (plantri: option -g)",
     ),
     (
         b">>edge_code",
         "edge code",
-        "convert it to graph6 with plantri's option -g",
+        "write graph6 in its place (plantri: option -g)",
     ),
     (b">>digraph6<<", DIGRAPH6, DIGRAPH6_ADVICE),
     (
@@ -206,9 +206,9 @@ const MAGIC: [(&[u8], &str, &str); 17] = [
     ),
 ];
 
-const DIGRAPH6: &str = "digraph6, directed graphs";
+const DIGRAPH6: &str = "digraph6 (directed graphs)";
 const DIGRAPH6_ADVICE: &str =
-    "forget the directions, for example with networkx, and write graph6 or pairs";
+    "forget the directions with nauty's `underlyingg`, which writes graph6";
 
 /// What is no text, by its first bytes.
 fn binary(head: &[u8]) -> Option<Problem> {

@@ -233,6 +233,8 @@ fn edge(tokens: &mut Tokens, collected: &mut Collected) -> Result<(), Problem> {
         match (value(tokens, key)?, key) {
             (Some(value), "source") => once(&mut source, key, text(&value))?,
             (Some(value), "target") => once(&mut target, key, text(&value))?,
+            // Gephi numbers its edges.
+            (Some(_), "id") => {}
             (Some(_), _) => collected.ignore(key),
             (None, _) => {
                 collected.ignore(key);

@@ -244,7 +244,7 @@ fn what_is_no_adjacency_is_refused_with_its_place() {
     let place = |what| format!("f.mat: variable A: {what}");
     starts(
         refusal(&full(&[2, 3], &[0; 6])),
-        &place("the matrix is 2x3, not square; name a square"),
+        &place("the matrix is 2x3, not square; give a square"),
     );
     starts(
         refusal(&full(&[2, 2, 2], &[0; 8])),
@@ -267,7 +267,7 @@ fn what_is_no_adjacency_is_refused_with_its_place() {
     );
     for class in [1, 2, 3, 4, 16] {
         let variable = LITTLE.variable(class, &[2, 2], "A", &[]);
-        assert!(refusal(&LITTLE.file(&[variable])).contains("is not a numeric matrix; name"));
+        assert!(refusal(&LITTLE.file(&[variable])).contains("is not a numeric matrix; give"));
     }
     let mut data = Vec::new();
     for value in [0.0, f64::NAN, 1.0, 0.0] {
@@ -339,7 +339,7 @@ fn other_versions_are_refused_with_what_to_do() {
     assert_eq!(
         refusal(&hdf5),
         "f.mat: it cannot be read as HDF5: invalid HDF5 magic bytes; \
-         copy the file again, or save it in MATLAB with -v7 or -v6"
+         copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
     );
     for writer in [LITTLE, BIG] {
         // Code, rows, columns, real, length of the name with its zero.

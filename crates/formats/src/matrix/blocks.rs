@@ -98,7 +98,7 @@ pub(super) fn read(matrix: &Matrix) -> Result<Option<(Graph, Option<String>)>, P
     };
     if size.is_multiple_of(4) && each_block::<4>(matrix, values, |block| block.is_pose()) {
         return Err(Problem::Foreign {
-            what: "a matrix of 4 x 4 blocks, which are relative poses",
+            what: "a matrix of 4 x 4 blocks (relative poses)",
             advice: PAIRS,
         });
     }

@@ -20,6 +20,8 @@ mod list;
 
 pub(super) use list::{List, are_pairs};
 
+/// What is smaller beside the largest entry may be an error of rounding.
+const ROUNDING: f64 = 1e-12;
 /// More entries than any graph has pairs, twice.
 const ENTRY_LIMIT: usize = 2 * i32::MAX as usize;
 
@@ -71,6 +73,9 @@ struct Range {
     least: f64,
     most: f64,
     integers: bool,
+    /// The smallest and the largest value without their signs.
+    smallest: f64,
+    largest: f64,
 }
 
 impl Matrix {
@@ -85,6 +90,8 @@ impl Matrix {
                 least: f64::INFINITY,
                 most: f64::NEG_INFINITY,
                 integers: true,
+                smallest: f64::INFINITY,
+                largest: 0.0,
             },
             diagonal: None,
             zeros: 0,
@@ -254,6 +261,8 @@ impl Matrix {
             least,
             most,
             integers,
+            smallest,
+            largest,
         } = self.range;
         if self.rows.is_empty() || least == most {
             return Ok(blocks::doubt(self));
@@ -267,11 +276,32 @@ impl Matrix {
                 advice: "choose the pairs: write a matrix with 1 for a pair and 0 for none",
             });
         }
+        if smallest < ROUNDING * largest {
+            return Err(Problem::Doubtful {
+                what: "some entries are so small beside others that they may be rounding errors, and \
+                       no pairs",
+                advice: "write a matrix with 1 for a pair and 0 for none",
+            });
+        }
         let what = if integers { "integers" } else { "real numbers" };
+        let [least, most] = [least, most].map(shown);
         Ok(Some(format!(
             "entries are {what} from {least} to {most} (counts, weights?): each that is not zero is \
              a pair"
         )))
+    }
+}
+
+/// A number in a note.
+fn shown(value: f64) -> String {
+    let size = value.abs();
+    if value.fract() == 0.0 && size < 1e15 {
+        format!("{value}")
+    } else if (1e-3..1e9).contains(&size) {
+        let digits = format!("{value:.4}");
+        digits.trim_end_matches('0').to_owned()
+    } else {
+        format!("{value:.3e}")
     }
 }
 
@@ -280,6 +310,8 @@ impl Range {
         self.least = self.least.min(value);
         self.most = self.most.max(value);
         self.integers &= value.fract() == 0.0;
+        self.smallest = self.smallest.min(value.abs());
+        self.largest = self.largest.max(value.abs());
     }
 }
 

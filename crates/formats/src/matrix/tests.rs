@@ -199,7 +199,7 @@ fn blocks_of_another_kind_are_refused_by_name() {
     });
     let text = refusal(poses);
     assert!(
-        text.starts_with("this is a matrix of 4 x 4 blocks, which are relative poses"),
+        text.starts_with("this is a matrix of 4 x 4 blocks (relative poses)"),
         "{text}"
     );
 }
@@ -281,6 +281,32 @@ fn tables_and_what_is_no_number_are_refused() {
             format!("entry (2, 1) is {what}; put zero where there is no pair")
         );
     }
+}
+
+#[test]
+fn rounding_errors_are_no_pairs() {
+    let cycle = |r: u32, c: u32| (r + 1) % 5 == c || (c + 1) % 5 == r;
+    let noise = |r: u32, c: u32| {
+        if cycle(r, c) {
+            0.5
+        } else {
+            1e-17 * f64::from(r + c)
+        }
+    };
+    let text = refusal(read(5, |r, c| {
+        if (r, c) == (0, 2) || (c, r) == (0, 2) || r == c {
+            0.0
+        } else {
+            noise(r, c)
+        }
+    }));
+    assert!(
+        text.starts_with("some entries are so small beside others"),
+        "{text}"
+    );
+    assert_eq!(shown(1e-17), "1.000e-17");
+    assert_eq!(shown(-0.125), "-0.125");
+    assert_eq!(shown(1.0 / 3.0), "0.3333");
 }
 
 #[test]
