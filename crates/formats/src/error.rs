@@ -45,7 +45,7 @@ pub enum Place {
     Input,
     /// A line of text, counted from 1.
     Line(u64),
-    /// A variable of a MATLAB file.
+    /// A variable of a MATLAB file, or an array of an archive.
     Variable(String),
     /// A place in a list of nodes, counted from 1.
     Node(u64),

@@ -24,6 +24,7 @@ pub mod read;
 mod recognise;
 pub mod sparse6;
 pub mod tracks;
+mod variables;
 
 pub use displacements::{NamedDisplacements, read_displacements};
 pub use error::ReadError;

@@ -195,7 +195,7 @@ impl File {
             return list.graph();
         }
         let (matrix, again) = Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value)?;
-        let (graph, labels, mut notes) = matrix.graph(size.rows)?;
+        let (graph, labels, mut notes) = matrix.graph()?;
         // Of a symmetric matrix both triangles were filled in.
         let symmetric = kind.symmetry != Symmetry::General;
         notes.extend(crate::merged(if symmetric { again / 2 } else { again }));

@@ -291,7 +291,7 @@ const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
 ];
 
 const COLMAP: &str =
-    "give COLMAP's database (`verify database.db`), or decide the tracks of the model: --tracks";
+    "give COLMAP's database (`verify database.db`), or the folder of the model with --tracks";
 
 /// Camera models of COLMAP, the second field of a line in cameras.txt.
 const CAMERA_MODELS: [&str; 13] = [

@@ -19,6 +19,7 @@ use std::collections::BTreeSet;
 use crate::documents::Parsed;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::variables::{Candidate, choose, chosen_note};
 use viewcert::graph::Graph;
 
 mod element;
@@ -90,21 +91,6 @@ fn is_version_four(head: &[u8]) -> bool {
     plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
 }
 
-/// A variable of a file that may be the one that is meant.
-pub(super) trait Candidate {
-    fn name(&self) -> &str;
-    /// Name, shape and class, for a list of what a file holds.
-    fn describe(&self) -> String;
-    /// Rows and columns, if it is a numeric matrix.
-    fn numeric_shape(&self) -> Option<[u64; 2]>;
-
-    /// Whether it is a square numeric matrix; a single number is none.
-    fn could_be_adjacency(&self) -> bool {
-        self.numeric_shape()
-            .is_some_and(|[rows, columns]| rows == columns && rows > 1)
-    }
-}
-
 /// One variable of a file, not yet read.
 struct Variable<'a> {
     header: Header,
@@ -159,11 +145,6 @@ pub(super) fn read_noting(bytes: &[u8], variable: Option<&str>) -> Result<Parsed
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
     }
-}
-
-/// Says which variable was chosen.
-pub(super) fn chosen_note(name: &str) -> String {
-    format!("the graph is the variable {name}, the only one that can be")
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
@@ -221,47 +202,6 @@ fn variables(bytes: &[u8]) -> Result<(ByteOrder, Vec<Variable<'_>>), Fault> {
     Ok((order, variables))
 }
 
-/// The variable that is meant.
-pub(super) fn choose<'v, V: Candidate>(
-    variables: &'v [V],
-    asked: Option<&str>,
-) -> Result<&'v V, Fault> {
-    let named = |name| variables.iter().find(|v| v.name() == name);
-    let present = || match variables {
-        [] => "no variables".to_owned(),
-        _ => {
-            let all: Vec<String> = variables.iter().map(|v| v.describe()).collect();
-            all.join(", ")
-        }
-    };
-    if let Some(name) = asked {
-        return named(name).ok_or_else(|| {
-            let present = present();
-            Place::Variable(name.to_owned()).fault(Problem::NoSuchVariable { present })
-        });
-    }
-    if let Some(variable) = named("A") {
-        return Ok(variable);
-    }
-    let squares: Vec<_> = variables
-        .iter()
-        .filter(|v| v.could_be_adjacency())
-        .collect();
-    let lists: Vec<_> = variables
-        .iter()
-        .filter(|v| v.numeric_shape().is_some_and(are_pairs))
-        .collect();
-    let problem = match (&squares[..], &lists[..]) {
-        ([variable], _) | ([], [variable]) => return Ok(variable),
-        ([], []) => Problem::NoMatrix { present: present() },
-        _ => Problem::ChooseVariable {
-            candidates: squares.len().max(lists.len()),
-            present: present(),
-        },
-    };
-    Err(Place::Input.fault(problem))
-}
-
 /// Calls `entry` with row, column and value of all non-zero entries, and of stored zeros, column by
 /// column, rows increasing.
 fn each_entry(
@@ -292,7 +232,7 @@ fn graph(variable: &Variable, order: ByteOrder) -> Result<Parsed, Problem> {
             each_entry(variable, order, |row, column, value| {
                 matrix.entry(row, column, value)
             })?;
-            matrix.graph(size)
+            matrix.graph()
         }
     }
 }

@@ -90,7 +90,7 @@ struct Seen {
 /// # Errors
 /// Blocks of another kind.
 pub(super) fn read(matrix: &Matrix) -> Result<Option<(Graph, Option<String>)>, Problem> {
-    let size = matrix.starts.len() as u32 - 1;
+    let size = matrix.size;
     // Entries that are all alike say nothing but that they are there.
     let alike = matrix.range.least >= matrix.range.most;
     let Some(values) = matrix.values.as_ref().filter(|_| !alike) else {
@@ -187,7 +187,7 @@ fn mirrored(blocks: &[Block<3>]) -> Result<Vec<(u32, u32)>, Problem> {
 /// A note on a matrix of equal entries that has the form of blocks all the same: three rows each
 /// that have the same pairs, none among themselves.
 pub(super) fn doubt(matrix: &Matrix) -> Option<String> {
-    let size = matrix.starts.len() as u32 - 1;
+    let size = matrix.size;
     let values = matrix.values.as_ref()?;
     let form = size.is_multiple_of(3)
         && !values.is_empty()

@@ -54,6 +54,8 @@ impl Places {
 
 /// The entries of a square matrix that are not zero, by columns.
 pub(super) struct Matrix {
+    /// How many rows, and columns.
+    size: u32,
     places: Places,
     /// `rows[starts[c]..starts[c + 1]]` are the rows of column c, increasing.
     starts: Vec<usize>,
@@ -82,6 +84,7 @@ impl Matrix {
     /// A matrix of so many rows without entries so far.
     pub(super) fn new(size: u32, places: Places) -> Self {
         Self {
+            size,
             places,
             starts: vec![0],
             rows: Vec::new(),
@@ -140,13 +143,7 @@ impl Matrix {
         entries: &[(u32, u32)],
         value: impl Fn(usize) -> f64,
     ) -> Result<(Self, usize), Problem> {
-        if u64::from(size) > ISOLATED_LIMIT + entries.len() as u64 {
-            return Err(Problem::TooManyIsolated {
-                nodes: size.into(),
-                pairs: entries.len() / 2,
-                limit: ISOLATED_LIMIT,
-            });
-        }
+        check_size(size, entries.len())?;
         let mut next = vec![0usize; size as usize + 1];
         for &(_, column) in entries {
             next[column as usize + 1] += 1;
@@ -184,9 +181,10 @@ impl Matrix {
     ///
     /// # Errors
     /// What is no adjacency of cameras.
-    pub(super) fn graph(mut self, size: u32) -> Result<Parsed, Problem> {
-        self.starts.resize(size as usize + 1, self.rows.len());
-        if size == 0 {
+    pub(super) fn graph(mut self) -> Result<Parsed, Problem> {
+        check_size(self.size, self.rows.len())?;
+        self.starts.resize(self.size as usize + 1, self.rows.len());
+        if self.size == 0 {
             return Err(Problem::NoNodes);
         }
         let mut notes = Vec::new();
@@ -213,7 +211,7 @@ impl Matrix {
         if let Some(row) = self.diagonal {
             return Err(Problem::Diagonal(row + self.places.first));
         }
-        let nodes = starts.len() - 1;
+        let nodes = self.size as usize;
         // next[c] is the first entry of column c whose mirror image has not come
         // by yet. Columns come in increasing order, so the mirror images of a
         // column's upper entries do too.
@@ -290,6 +288,21 @@ impl Matrix {
              a pair"
         )))
     }
+}
+
+/// What a few bytes promise takes no memory.
+///
+/// # Errors
+/// More rows than entries go with.
+fn check_size(size: u32, entries: usize) -> Result<(), Problem> {
+    if u64::from(size) > ISOLATED_LIMIT + entries as u64 {
+        return Err(Problem::TooManyIsolated {
+            nodes: size.into(),
+            pairs: entries / 2,
+            limit: ISOLATED_LIMIT,
+        });
+    }
+    Ok(())
 }
 
 /// A number in a note.

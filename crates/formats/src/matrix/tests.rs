@@ -13,7 +13,7 @@ fn read(size: u32, entry: impl Fn(u32, u32) -> f64) -> Result<Parsed, Problem> {
             }
         }
     }
-    matrix.graph(size)
+    matrix.graph()
 }
 
 fn refusal(found: Result<Parsed, Problem>) -> String {
@@ -318,7 +318,7 @@ fn entries_in_any_order_are_added_up() {
         transposed: true,
     };
     let (matrix, again) = Matrix::of_entries(4, zero_based, &entries, |at| values[at]).unwrap();
-    let (graph, labels, notes) = matrix.graph(4).unwrap();
+    let (graph, labels, notes) = matrix.graph().unwrap();
     assert_eq!((again, graph.nodes()), (1, 4));
     assert_eq!(graph.edges(), [(0, 1), (0, 2), (1, 2)]);
     assert_eq!(labels, Labels::Numbers { first: 0 });
@@ -328,12 +328,12 @@ fn entries_in_any_order_are_added_up() {
         [1.0, -1.0, 0.0][at]
     })
     .unwrap();
-    let (graph, _, notes) = matrix.graph(2).unwrap();
+    let (graph, _, notes) = matrix.graph().unwrap();
     assert_eq!(graph.edges(), []);
     assert_eq!(notes, ["explicit zeros are no pairs: 2 entries"]);
     // What is a column here is a row in the file.
     let (matrix, _) = Matrix::of_entries(3, zero_based, &[(2, 0)], |_| 1.0).unwrap();
-    let text = refusal(matrix.graph(3));
+    let text = refusal(matrix.graph());
     assert!(
         text.contains("(0, 2) is non-zero, (2, 0) is zero"),
         "{text}"

@@ -10,8 +10,8 @@ use super::{damaged, graph, malformed, numbers};
 use crate::documents::Parsed;
 use crate::error::{Fault, Place, Problem};
 use crate::inflate::Inflated;
-use crate::matlab::{Candidate, choose, chosen_note};
 use crate::matrix::{Matrix, Places};
+use crate::variables::{Candidate, choose, chosen_note};
 
 /// What ZIP archives begin with.
 pub(in super::super) const MAGIC: &[u8] = b"PK\x03\x04";
@@ -268,7 +268,7 @@ impl<'s, 'a, F: Fn(&str) -> Option<&'s Array<'a>>> Sparse<'s, 'a, F> {
             transposed: format != "csc",
         };
         let (matrix, again) = Matrix::of_entries(rows, order, &places, |at| values[at])?;
-        let (graph, labels, mut notes) = matrix.graph(rows)?;
+        let (graph, labels, mut notes) = matrix.graph()?;
         notes.extend(crate::merged(again));
         Ok((graph, labels, notes))
     }

@@ -87,7 +87,7 @@ fn graph(header: &Header, input: &mut dyn Read) -> Result<Parsed, Problem> {
             each_entry(header, input, |fast, slow, value| {
                 matrix.entry(fast, slow, value)
             })?;
-            matrix.graph(size)
+            matrix.graph()
         }
         // Two rows of many are how graph libraries of Python keep edges.
         (Element::Number(..), &[rows, columns])

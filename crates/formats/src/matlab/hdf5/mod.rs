@@ -11,10 +11,11 @@
 use hdf5_reader::messages::datatype::Datatype;
 use hdf5_reader::{Attribute, ByteOrder, Dataset, Hdf5File, OpenOptions};
 
-use super::{Candidate, choose, malformed};
+use super::malformed;
 use crate::documents::Parsed;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::variables::{Candidate, choose};
 
 /// Deflated data can hold at most so many times their own length.
 const RATIO: usize = 1032;
@@ -98,7 +99,7 @@ impl Variable {
             Content::Complex => return Err(Problem::Complex),
             _ => self.square()?,
         };
-        self.matrix(size, most)?.graph(size)
+        self.matrix(size, most)?.graph()
     }
 
     /// Calls `entry` with the entries of a full matrix that are not zero, in the order in which they
