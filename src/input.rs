@@ -1,6 +1,7 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{BAD_INPUT, GOOD, TOO_LARGE, ends_run, exit_code, running};
+use super::{GOOD, ends_run, exit_code, running};
+use crate::report::counted;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -37,7 +38,8 @@ pub(super) struct InputArguments {
     /// Leave out pairs of a camera with itself, which are refused otherwise.
     #[arg(long, help_heading = READING)]
     skip_loops: bool,
-    /// Variable of a MATLAB file [default: A, or the only square matrix].
+    /// Variable of a MATLAB file, or array of an .npz file [default: A, the only square matrix, or
+    /// the only two columns of numbers of cameras].
     #[arg(long, value_name = "NAME", help_heading = READING)]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
@@ -76,6 +78,8 @@ enum FormatName {
     Matlab,
     /// Adjacency matrix, MatrixMarket coordinates.
     MatrixMarket,
+    /// Array of NumPy, or an archive of them (.npz), also SciPy's sparse matrices.
+    Numpy,
     /// Two names of images a line and nothing else: COLMAP's lists of matches, pairs of hloc.
     #[value(alias = "hloc-pairs")]
     MatchList,
@@ -97,6 +101,10 @@ enum FormatName {
     /// Node-link graph in JSON, of networkx or d3.
     #[value(alias = "json")]
     NodeLink,
+    /// Graph of Gephi in XML.
+    Gexf,
+    /// Lists of keys and values, of networkx, igraph and Gephi.
+    Gml,
     /// Graph in XML.
     #[value(name = "graphml")]
     GraphMl,
@@ -160,6 +168,7 @@ impl InputArguments {
                 FormatName::Sparse6 => Format::Sparse6,
                 FormatName::Matlab => Format::Matlab,
                 FormatName::MatrixMarket => Format::MatrixMarket,
+                FormatName::Numpy => Format::Numpy,
                 FormatName::MatchList => Format::MatchList,
                 FormatName::Glomap => Format::Glomap,
                 FormatName::OneDsfm => Format::OneDsfm,
@@ -168,6 +177,8 @@ impl InputArguments {
                 FormatName::TextMatrix => Format::Document(Document::TextMatrix),
                 FormatName::G2o => Format::Document(Document::G2o),
                 FormatName::NodeLink => Format::Document(Document::NodeLink),
+                FormatName::Gexf => Format::Document(Document::Gexf),
+                FormatName::Gml => Format::Document(Document::Gml),
                 FormatName::GraphMl => Format::Document(Document::GraphMl),
                 FormatName::Dot => Format::Document(Document::Dot),
             }),
@@ -219,28 +230,19 @@ pub(super) fn for_each_read<W: Write>(
 ) -> Result<u8> {
     let mut code = GOOD;
     for path in paths {
+        let mut bad = 0;
         let mut start = Instant::now();
         running::reading(path);
         let mut graphs = read_graphs(path, options).peekable();
-        let mut refused = 0;
         while let Some(input) = graphs.next() {
-            refused += usize::from(input.is_err());
-            if refused > MOST_ERRORS
-                && let Err(error) = &input
-            {
-                code = code.max(if error.problem.is_size() {
-                    TOO_LARGE
-                } else {
-                    BAD_INPUT
-                });
-                continue;
-            }
             if let Some(reason) = too_many(&format!("several in {}", path.display()))
                 && graphs.peek().is_some()
             {
                 bail!(reason);
             }
             running::hide();
+            bad += usize::from(input.is_err());
+            let shown = input.is_ok() || bad <= MOST_ERRORS;
             if let Ok(input) = &input {
                 running::doing(format!("working on {}", input.name));
             }
@@ -248,7 +250,9 @@ pub(super) fn for_each_read<W: Write>(
                 Ok(code) => code,
                 Err(error) if ends_run(&error) => return Err(error),
                 Err(error) => {
-                    writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    if shown {
+                        writeln!(std::io::stderr(), "verify: {error:#}")?;
+                    }
                     exit_code(&error)
                 }
             });
@@ -256,9 +260,13 @@ pub(super) fn for_each_read<W: Write>(
             running::reading(path);
             start = Instant::now();
         }
-        if refused > MOST_ERRORS {
-            let (path, more) = (path.display(), refused - MOST_ERRORS);
-            writeln!(std::io::stderr(), "verify: {path}: ... and {more} more")?;
+        if bad > MOST_ERRORS {
+            let more = counted(bad - MOST_ERRORS, "more line");
+            let path = path.display();
+            writeln!(
+                std::io::stderr(),
+                "verify: {path}: {more} cannot be read either"
+            )?;
         }
     }
     Ok(code)

@@ -30,7 +30,8 @@ mod running;
 mod verify;
 mod witness;
 
-use clap::{Parser, Subcommand};
+use anyhow::{Result, bail};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 use viewcert::decide::VerdictError;
 use viewcert::watch::{Reason, Stopped};
@@ -105,7 +106,7 @@ pub fn main() -> ExitCode {
         Some(Command::Conditions(arguments)) => conditions::run(&arguments),
         Some(Command::Completions(arguments)) => man::completions(&arguments),
         Some(Command::Manpage(arguments)) => man::manpage(&arguments),
-        None => verify::run(&arguments.verify),
+        None => no_command(&arguments.verify).and_then(|()| verify::run(&arguments.verify)),
     });
     running::hide();
     match done {
@@ -122,6 +123,25 @@ pub fn main() -> ExitCode {
             ExitCode::from(exit_code(&error))
         }
     }
+}
+
+/// That the first graph is none of our commands, mistyped.
+fn no_command(arguments: &verify::VerifyArguments) -> Result<()> {
+    /// Letters that differ, or are in each other's places.
+    const NEAR: usize = 2;
+    let Some(word) = arguments.first_word() else {
+        return Ok(());
+    };
+    let commands = CommandLine::command();
+    let names = commands.get_subcommands().map(clap::Command::get_name);
+    let near = names.map(|name| (strsim::osa_distance(&word.to_lowercase(), name), name));
+    let nearest = near.filter(|(distance, _)| *distance <= NEAR).min();
+    let meant = nearest.map(|(_, name)| format!("; did you mean `verify {name}`?"));
+    let or = || "; give the path of a graph, or see `verify --help` for the commands".to_owned();
+    bail!(
+        "{word}: no such file and no such command{}",
+        meant.unwrap_or_else(or)
+    )
 }
 
 /// Why work was stopped, if that is what an error says.

@@ -132,6 +132,14 @@ enum Solutions {
     Full,
 }
 impl VerifyArguments {
+    /// The first graph, if it looks like a word and there is no such file.
+    pub(super) fn first_word(&self) -> Option<&str> {
+        let path = self.graphs.first()?;
+        let word = path.to_str()?;
+        let letters = word.bytes().all(|b| b.is_ascii_alphabetic());
+        (letters && !word.is_empty() && !path.exists()).then_some(word)
+    }
+
     /// The model that is given or implied.
     fn model(&self) -> Result<Model> {
         let tracks = self.tracks.options().is_some();

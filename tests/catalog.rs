@@ -614,7 +614,11 @@ fn a_folder_of_links_ends() {
 fn the_reason_of_a_rejection_is_escaped() {
     let folder = tempfile::tempdir().unwrap();
     let bad = folder.path().join("bad.json");
-    fs::write(&bad, "{\"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1}").unwrap();
+    fs::write(
+        &bad,
+        "{\"format\": 1, \"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1}",
+    )
+    .unwrap();
     for path in [bad.as_path(), folder.path()] {
         let run = verify(&["check", path.to_str().unwrap()]);
         assert_eq!(run.status.code(), Some(1));

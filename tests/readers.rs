@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::data;
+use common::{data, verify, verify_with};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -395,5 +395,163 @@ mod sparse6 {
             }
         }
         assert_eq!(graphs, 2080);
+    }
+}
+
+/// What this program writes is no graph, and the message says what to do with it.
+#[test]
+fn own_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).unwrap();
+        path(name)
+    };
+    let graph = write("graph.txt", "a b\nb c\nc a\n");
+    let [certificate, page, picture] = ["c.json", "page.html", "picture.svg"].map(path);
+    let options = [
+        "--certificate",
+        &certificate,
+        "--html",
+        &page,
+        "--svg",
+        &picture,
+    ];
+    let text = verify(&[&[&*graph][..], &options].concat());
+    assert_eq!(text.code, 0, "{}", text.err);
+    let mut own = vec![
+        (certificate.clone(), "a certificate", "`verify check FILE"),
+        (page, "a page", "give the graph that it shows"),
+        (picture, "a picture", "give the graph that it shows"),
+        (
+            write("report.txt", &text.out),
+            "a report",
+            "give the graph that it is about",
+        ),
+    ];
+    for command in [
+        &[][..],
+        &["compare"],
+        &["conditions"],
+        &["audit"],
+        &["models"],
+        &["overview"],
+    ] {
+        let run = verify(&[command, &[&*graph, "--json"]].concat());
+        let name = format!("report-{}.json", command.first().unwrap_or(&"verify"));
+        own.push((
+            write(&name, &run.out),
+            "a report",
+            "give the graph that it is about",
+        ));
+    }
+    let catalog = verify(&["catalog", "--nodes", "4", "--list"]).out;
+    let table = write("catalog.tsv", &catalog);
+    own.push((
+        table.clone(),
+        "a table of graphs",
+        "cut -f1 FILE | tail -n +2 | verify -",
+    ));
+    for (file, what, advice) in &own {
+        let run = verify(&[file]);
+        assert_eq!((run.code, &*run.out), (2, ""), "{file}");
+        let expected = format!("this is {what} that this program has written");
+        assert!(
+            run.err.contains(&expected) && run.err.contains(advice),
+            "{}",
+            run.err
+        );
+    }
+    // The advice on a table, done.
+    let graphs: String = catalog
+        .lines()
+        .skip(1)
+        .map(|line| line.split('\t').next().unwrap().to_owned() + "\n")
+        .collect();
+    let run = verify_with(graphs.as_bytes(), &["-", "--json"]);
+    assert_eq!(run.json().len(), catalog.lines().count() - 1);
+    for option in ["--parts", "--displacements"] {
+        let run = verify(&[&*graph, "--model", "calibrated", option, &certificate]);
+        assert_eq!(run.code, 2);
+        assert!(
+            run.err
+                .contains("this is a certificate that this program has written"),
+            "{}",
+            run.err
+        );
+    }
+}
+
+/// What is no certificate is not rejected: that would be said of a claim.
+#[test]
+fn swapped_arguments_of_check() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (graph, certificate, report) = (path("graph.txt"), path("c.json"), path("report.json"));
+    std::fs::write(&graph, "a b\nb c\nc a\n").unwrap();
+    let run = verify(&[&*graph, "--json", "--certificate", &certificate]);
+    std::fs::write(&report, &run.out).unwrap();
+    let refused = |arguments: &[&str]| {
+        let run = verify(&[&["check"], arguments].concat());
+        assert_eq!((run.code, &*run.out), (2, ""), "{arguments:?}");
+        run.err
+    };
+    assert!(
+        refused(&[&graph, &certificate]).contains("did you swap them? The certificate comes first")
+    );
+    for other in [&graph, &report] {
+        let text = refused(&[other]);
+        assert!(
+            text.contains("this is no certificate") && !text.contains("swap"),
+            "{text}"
+        );
+        assert!(refused(&[other, &graph]).contains("this is no certificate"));
+    }
+    assert_eq!(verify(&["check", &certificate, &graph]).code, 0);
+}
+
+#[test]
+fn mistyped_commands() {
+    for (word, meant) in [
+        ("chekc", "check"),
+        ("modles", "models"),
+        ("Overview", "overview"),
+    ] {
+        let run = verify(&[word, "graph.txt"]);
+        assert_eq!((run.code, &*run.out), (2, ""));
+        let expected =
+            format!("{word}: no such file and no such command; did you mean `verify {meant}`?\n");
+        assert!(run.err.ends_with(&expected), "{}", run.err);
+    }
+    let run = verify(&["something"]);
+    assert!(
+        run.err
+            .contains("something: no such file and no such command; give the path"),
+        "{}",
+        run.err
+    );
+    let run = verify(&["something.txt"]);
+    assert!(
+        run.err.contains("something.txt: cannot be read: "),
+        "{}",
+        run.err
+    );
+}
+
+/// A wrong file is not answered by a flood.
+#[test]
+fn ten_bad_lines_are_shown() {
+    let bad = "a b\n".repeat(1000);
+    for (text, shown, good) in [
+        (format!(">>graph6<<Bw\n{bad}C~\n"), 11, 2),
+        (">>graph6<<Bw\na b\nc d\n".to_owned(), 2, 1),
+    ] {
+        let run = verify_with(text.as_bytes(), &["-", "--json"]);
+        assert_eq!((run.code, run.json().len()), (2, good));
+        assert_eq!(run.err.lines().count(), shown, "{}", run.err);
+        let more = run
+            .err
+            .contains("-: 990 more lines cannot be read either\n");
+        assert_eq!(more, shown > 10, "{}", run.err);
     }
 }

@@ -7,7 +7,7 @@ use libfuzzer_sys::fuzz_target;
 use viewcert_formats::matrix_market;
 
 fuzz_target!(|data: &[u8]| {
-    let Ok((graph, _)) = matrix_market::read(data) else {
+    let Ok((graph, ..)) = matrix_market::read(data) else {
         return;
     };
     assert!(graph.edges().is_sorted_by(|a, b| a < b));
@@ -18,7 +18,7 @@ fuzz_target!(|data: &[u8]| {
     for (i, j) in graph.edges() {
         writeln!(text, "{} {}", j + 1, i + 1).unwrap();
     }
-    let (again, notes) = matrix_market::read(&text[..]).expect("own text is read");
+    let (again, _, notes) = matrix_market::read(&text[..]).expect("own text is read");
     assert_eq!(again, graph);
     assert!(notes.is_empty());
 });

@@ -9,7 +9,7 @@ use super::manifest::Contents;
 use super::parts::PartArguments;
 use super::{GOOD, NOT, TOO_LARGE};
 use crate::report::counted;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use flate2::read::MultiGzDecoder;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -20,6 +20,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_check::Failure;
+use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_formats::ReadOptions;
 
 /// Certificates that are read before they are checked together.
@@ -77,6 +78,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         return check_files(path, &listing);
     }
     let text = read(path)?;
+    ensure_certificate(path, &text, arguments.graph.as_deref())?;
     let parts = arguments.parts.path();
     let inputs = [Some(&**path), arguments.graph.as_deref(), parts];
     let standard = inputs
@@ -126,6 +128,21 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     };
     out.flush().context("standard output")?;
     Ok(ExitCode::from(code))
+}
+
+/// What is no certificate is not rejected, which would say something about a claim.
+///
+/// # Errors
+/// If it is none; whether the other file is one is said.
+fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<()> {
+    if is_certificate(text) {
+        return Ok(());
+    }
+    let swapped = graph.is_some_and(|graph| {
+        let other = graph.is_file().then(|| fs::read(graph));
+        matches!(other, Some(Ok(other)) if is_certificate(&other))
+    });
+    bail!("{}: {}", path.display(), no_certificate(swapped))
 }
 
 /// Longest text from a certificate or a file name that is printed, in characters.

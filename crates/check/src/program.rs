@@ -55,7 +55,7 @@ Limits (beyond them: exit code 3):
 
 Standard output has lines that begin with VERIFIED, or the word REJECTED, or nothing. Reasons are on
 standard error. Exit codes: 0 verified, 1 rejected or not as expected, 2 bad usage or a file that
-cannot be read, 3 too large for the limits.
+cannot be read or is no certificate, 3 too large for the limits.
 "
     )
 }
@@ -239,6 +239,14 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         file.transpose()
     };
     let (file, parts) = (open(&arguments.graph)?, open(&arguments.parts)?);
+    if !is_certificate(&text) {
+        let name = arguments.certificate.display();
+        let swapped = file.as_ref().is_some_and(|(_, file)| is_certificate(file));
+        return Err(Stop::no_answer(format!(
+            "{name}: {}",
+            no_certificate(swapped)
+        )));
+    }
     let certificate = LazyLock::new(|| Certificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
@@ -280,6 +288,24 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
             code: TOO_LARGE,
             message: limit.to_string(),
         }),
+    }
+}
+
+/// Whether a file may be meant as a certificate: an object in JSON that says its format, or what it
+/// claims. What is not is neither verified nor rejected.
+pub fn is_certificate(text: &[u8]) -> bool {
+    let text = text.trim_ascii_start();
+    let has = |member: &[u8]| text.windows(member.len()).any(|word| word == member);
+    text.starts_with(b"{") && (has(b"\"format\"") || has(b"\"claim\""))
+}
+
+/// Why there is no answer about a file that is no certificate; `swapped` if the graph's file is one.
+pub fn no_certificate(swapped: bool) -> &'static str {
+    if swapped {
+        "this is no certificate, but the other file is one: did you swap them? The certificate comes \
+         first"
+    } else {
+        "this is no certificate (JSON that says \"format\": \"viewcert certificate\")"
     }
 }
 

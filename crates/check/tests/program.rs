@@ -370,3 +370,27 @@ fn hypotheses_are_none_unless_they_are_named() {
         wrong.err
     );
 }
+
+/// What is no certificate is neither verified nor rejected.
+#[test]
+fn files_that_are_no_certificates() {
+    let square = path("square");
+    let graph = file("graph.txt", b"a b\nb c\nc d\nd a\n");
+    let swapped = run(&[&graph, &square]);
+    assert_eq!((swapped.code, swapped.out.as_str()), (2, ""));
+    assert!(
+        swapped.err.contains("did you swap them?"),
+        "{}",
+        swapped.err
+    );
+    let empty = file("empty.json", b"");
+    let report = file("report.json", b"{\"graph\":{\"name\":\"a\"},\"notes\":[]}");
+    for other in [&graph, &empty, &report] {
+        let none = run(&[other]);
+        assert_eq!((none.code, none.out.as_str()), (2, ""));
+        assert!(none.err.contains("this is no certificate"), "{}", none.err);
+    }
+    // What says that it is one is judged.
+    let hollow = file("hollow.json", b"{\"format\":\"viewcert certificate\"}");
+    assert_eq!(run(&[&hollow]).code, 1);
+}

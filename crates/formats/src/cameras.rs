@@ -12,6 +12,8 @@ use crate::NamedGraph;
 use crate::edge_list::fields::integer;
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
+use crate::own;
+use crate::recognise::SAMPLE;
 use viewcert::graph::Labels;
 
 /// The nodes of a graph by their labels.
@@ -81,6 +83,9 @@ pub(crate) fn for_each_line(
     let read = input.read_to_end(&mut bytes);
     read.map_err(|error| Place::Input.fault(error.into()))?;
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
+    if let Some(problem) = own::known(&bytes[..bytes.len().min(SAMPLE)]) {
+        return Err(Place::Input.fault(problem));
+    }
     let cameras = Cameras::new(graph);
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {
         let line = line.strip_suffix(b"\r").unwrap_or(line);

@@ -45,7 +45,7 @@ pub enum Place {
     Input,
     /// A line of text, counted from 1.
     Line(u64),
-    /// A variable of a MATLAB file.
+    /// A variable of a MATLAB file, or an array of an archive.
     Variable(String),
     /// A place in a list of nodes, counted from 1.
     Node(u64),
@@ -74,7 +74,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with an input. Rows and columns of matrices count from 1.
+/// What is wrong with an input. Rows and columns of matrices count from 1, in files of NumPy from 0.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// The operating system refuses the file.
@@ -86,6 +86,14 @@ pub enum Problem {
         /// What it is.
         what: &'static str,
         /// What to do about it.
+        advice: &'static str,
+    },
+    /// A file of this program that is no graph.
+    #[error("this is {what} that this program has written, and it is not read here")]
+    Own {
+        /// What it is.
+        what: &'static str,
+        /// Which command reads it.
         advice: &'static str,
     },
     /// Text that has the form of an edge list and may mean something else.
@@ -394,22 +402,38 @@ pub enum Problem {
     /// Not as many rows as columns, or more than two dimensions.
     #[error("the matrix is {0}, not square")]
     NotSquare(String),
-    /// An entry that is not a number.
-    #[error("entry ({row}, {column}) is not a number (NaN)")]
+    /// An entry that is not a number, or is infinite.
+    #[error("entry ({row}, {column}) is {}", if .value.is_nan() {"not a number (NaN)"} else {"infinite"})]
     NotANumber {
-        /// Row, from 1.
+        /// Row, as the format counts.
         row: u32,
-        /// Column, from 1.
+        /// Column, likewise.
         column: u32,
+        /// The entry.
+        value: f64,
+    },
+    /// An array of another shape.
+    #[error("the array is {}, and neither a square matrix nor two columns of numbers of cameras", if .0.is_empty() {"one value"} else {.0})]
+    NoMatrixShape(String),
+    /// A number that is none of a camera, where two columns are pairs.
+    #[error("in two columns of numbers, {0} is no number of a camera")]
+    NoPairs(f64),
+    /// No variable that could be an adjacency or a list of pairs.
+    #[error(
+        "there is no square matrix, and there are no two columns of numbers of cameras; the file holds {present}"
+    )]
+    NoMatrix {
+        /// The variables that are there, described.
+        present: String,
     },
     /// An entry without its mirror image.
     #[error(
         "the matrix is not symmetric: ({row}, {column}) is non-zero, ({column}, {row}) is zero"
     )]
     Asymmetric {
-        /// Row of the non-zero entry, from 1.
+        /// Row of the non-zero entry, as the format counts.
         row: u32,
-        /// Its column, from 1.
+        /// Its column, likewise.
         column: u32,
     },
     /// Two different entries where a pair has one weight.
@@ -436,9 +460,15 @@ impl Problem {
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check its path and permissions",
-            Self::Foreign { advice, .. } | Self::Doubtful { advice, .. } => advice,
-            Self::Compressed(_) => "copy the file again, and test it with `gzip -t`",
-            Self::Inflated(_) => "if you trust it, inflate it with `gunzip` first",
+            Self::Foreign { advice, .. }
+            | Self::Own { advice, .. }
+            | Self::Doubtful { advice, .. } => advice,
+            Self::Compressed(_) => {
+                "copy the file again, and test it (`gzip -t`, `bzip2 -t`, `xz -t`, `zstd -t`)"
+            }
+            Self::Inflated(_) => {
+                "if you trust it, unpack it first (`gunzip`, `bunzip2`, `unxz`, `unzstd --memory=2048MB`)"
+            }
             Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
             Self::NoParts => "put the cameras of one part on each line",
             Self::UnknownCamera(_) => {
@@ -515,7 +545,9 @@ impl Problem {
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
             }
-            Self::Hdf5(_) => "copy the file again, or save it in MATLAB with -v7 or -v6",
+            Self::Hdf5(_) => {
+                "copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
+            }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",
             Self::Database(error) => error.remedy(),
@@ -529,14 +561,23 @@ impl Problem {
                 "name the adjacency matrix with --variable"
             }
             Self::NotNumeric(_) | Self::NotNumericNamed(_) | Self::NotSquare(_) => {
-                "name a square numeric matrix with --variable"
+                "give a square matrix, of which rows and columns are cameras, or two columns of pairs (of several variables: --variable)"
             }
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",
             Self::Uneven { .. } => {
                 "write A + A' if only one triangle is filled; if this is no matrix of counts, write one pair a line"
             }
-            Self::Asymmetric { .. } => "save A | A' if the direction of pairs does not matter",
+            Self::NoPairs(_) => {
+                "write pairs as natural numbers, or a square matrix with 1 for a pair and 0 for none"
+            }
+            Self::NoMatrix { .. } | Self::NoMatrixShape(_) => {
+                "save the adjacency matrix, or the pairs as integers in two columns"
+            }
+            Self::Asymmetric { .. } => {
+                "if the direction of pairs does not matter, fill in the other triangle: save A ~= 0 | \
+                 A' ~= 0 in MATLAB, (A != 0) + (A != 0).T in NumPy and SciPy"
+            }
             Self::Diagonal(_) => {
                 "set the diagonal to zero (of matrices as text, --skip-loops leaves it out)"
             }

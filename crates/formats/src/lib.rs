@@ -15,7 +15,10 @@ mod lines;
 mod lookalikes;
 pub mod matching;
 pub mod matlab;
+mod matrix;
 pub mod matrix_market;
+pub mod numpy;
+mod own;
 pub mod pairs;
 pub mod parts;
 pub mod read;
@@ -23,6 +26,7 @@ mod read_as;
 mod recognise;
 pub mod sparse6;
 pub mod tracks;
+mod variables;
 
 pub use displacements::{NamedDisplacements, read_displacements};
 pub use edge_list::decimal::{Decimal, NoDecimal};

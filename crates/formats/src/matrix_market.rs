@@ -1,26 +1,27 @@
-//! MatrixMarket files: a sparse adjacency matrix as text.
+//! MatrixMarket files: an adjacency matrix as text.
 //!
 //! Format by NIST, "The Matrix Market Exchange Formats": a line that says what the matrix is,
-//! comments, a line with the numbers of rows, columns and entries, and an entry a line: row and
-//! column, counted from 1, and its value unless only the pattern is given. Of a symmetric matrix
-//! one triangle is enough.
+//! comments, a line with the sizes, and the entries. Of the format `coordinate` an entry a line: row
+//! and column, counted from 1, and its value unless only the pattern is given. Of the format `array`
+//! all values, column by column. Of a symmetric or skew-symmetric matrix one triangle is enough.
 //!
-//! Every entry that is not zero is a pair, whatever its value; only the pattern has to be
-//! symmetric. Nodes are numbered as rows.
+//! What makes a graph of a matrix is in [`matrix`](crate::matrix); nodes are numbered as rows.
 
 use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::fields::is_number;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
-use crate::sparse6::ISOLATED_LIMIT;
-use viewcert::graph::{Graph, GraphError};
-use viewcert::wording::counted;
+use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::read_as::Parsed;
 
 /// What every file begins with; upper and lower case are the same.
 pub const HEADER: &str = "%%MatrixMarket";
 
 /// The longest line that is read.
+/// What it is called in reports.
+const FORMAT: &str = "MatrixMarket matrix";
+
 const LINE_LIMIT: u64 = 1 << 20;
 
 /// Whether these are the first bytes of a MatrixMarket file.
@@ -30,9 +31,12 @@ pub(super) fn is_matrix_market(head: &[u8]) -> bool {
 }
 
 /// What the first line says of the entries.
+#[derive(Clone, Copy)]
 struct Kind {
+    /// All values are there, and no places.
+    array: bool,
     values: Values,
-    symmetric: bool,
+    symmetry: Symmetry,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -42,17 +46,25 @@ enum Values {
     Real,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Symmetry {
+    General,
+    Symmetric,
+    /// The other triangle has the opposite signs.
+    Skew,
+}
+
 /// The graph of an adjacency matrix, and notes about what was merged or ignored.
-/// O(bytes + m log m).
+/// O(bytes + m log d) for largest degree d.
 ///
 /// # Errors
-/// With the number of the line: what is not a coordinate matrix, pattern, integer or real,
-/// symmetric or general, square, with a zero diagonal; an entry out of range; NaN. Without: a
-/// pattern that is not symmetric, fewer or more entries than promised.
-pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
+/// With the number of the line: what is not a matrix, pattern, integer or real, symmetric,
+/// skew-symmetric or general, square; an entry out of range; NaN. Without: a pattern that is not
+/// symmetric with a zero diagonal, fewer or more entries than promised.
+pub fn read(input: impl Read) -> Result<Parsed, Fault> {
     let mut input = BufReader::with_capacity(1 << 16, input);
     let mut line = Vec::new();
-    let mut matrix = Matrix::default();
+    let mut file = File::default();
     for number in 1.. {
         line.clear();
         let got = input
@@ -63,27 +75,35 @@ pub fn read(input: impl Read) -> Result<(Graph, Vec<String>), Fault> {
         if got == 0 {
             break;
         }
-        let taken = matrix.take(&line);
+        let taken = file.take(&line);
         taken.map_err(|problem| Place::Line(number).fault(problem))?;
     }
-    matrix
-        .graph()
-        .map_err(|problem| Place::Input.fault(problem))
+    file.graph().map_err(|problem| Place::Input.fault(problem))
 }
 
 /// What the lines have said so far.
 #[derive(Default)]
-struct Matrix {
+struct File {
     kind: Option<Kind>,
-    /// Rows, and how many entries are promised.
-    size: Option<(u32, u64)>,
-    /// The pairs of entries that are not zero, and whether each stands below the diagonal.
-    entries: Vec<(u32, u32, bool)>,
+    size: Option<Size>,
+    /// Rows and columns of entries, in both triangles.
+    entries: Vec<(u32, u32)>,
+    /// Their values, unless only the pattern is given.
+    values: Vec<f64>,
     seen: u64,
-    zeros: usize,
+    /// Where the next value of an array stands.
+    next: (u32, u32),
 }
 
-impl Matrix {
+/// Rows, columns, and how many entries are promised.
+#[derive(Clone, Copy)]
+struct Size {
+    rows: u32,
+    columns: u32,
+    entries: u64,
+}
+
+impl File {
     /// One more line, with its end.
     fn take(&mut self, line: &[u8]) -> Result<(), Problem> {
         if line.len() as u64 > LINE_LIMIT {
@@ -95,100 +115,109 @@ impl Matrix {
         let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
         let line = text(bytes)?;
         let mut words = line.split([' ', '\t']).filter(|word| !word.is_empty());
-        let Some(kind) = &self.kind else {
+        let Some(kind) = self.kind else {
             self.kind = Some(Kind::of_header(words)?);
             return Ok(());
         };
         let Some(first) = words.next().filter(|word| !word.starts_with('%')) else {
             return Ok(());
         };
-        let Some((nodes, promised)) = self.size else {
-            self.size = Some(sizes(first, words)?);
+        let Some(size) = self.size else {
+            self.size = Some(kind.sizes(first, words)?);
+            self.next = (u32::from(kind.symmetry == Symmetry::Skew), 0);
             return Ok(());
         };
         self.seen += 1;
-        if self.seen > promised {
+        if self.seen > size.entries {
+            let promised = size.entries;
             return Err(said(format!(
                 "{promised} entries are promised, and here is one more"
             )));
         }
-        match kind.entry(first, words, nodes)? {
-            None => self.zeros += 1,
-            Some((row, column)) if row == column => return Err(Problem::Diagonal(row + 1)),
-            Some((row, column)) => {
-                let entry = (row.min(column), row.max(column), row > column);
-                self.entries.push(entry);
+        let (row, column) = if kind.array {
+            self.next
+        } else {
+            let row = place(first, size.rows)?;
+            match words.next() {
+                Some(word) => (row, place(word, size.columns)?),
+                None => return Err(said("the entry has no column".into())),
             }
+        };
+        let word = if kind.array {
+            Some(first)
+        } else {
+            words.next()
+        };
+        let value = kind.value(word)?;
+        if !value.is_finite() {
+            let (row, column) = (row + 1, column + 1);
+            return Err(Problem::NotANumber { row, column, value });
+        }
+        if words.next().is_some() {
+            return Err(said("the entry has too many fields".into()));
+        }
+        if kind.array {
+            self.next = kind.behind(self.next, size);
+            // What is not there is written as zero.
+            if value == 0.0 {
+                return Ok(());
+            }
+        }
+        self.push(kind, row, column, value);
+        if kind.symmetry != Symmetry::General && row != column {
+            let skew = kind.symmetry == Symmetry::Skew;
+            self.push(kind, column, row, if skew { -value } else { value });
         }
         Ok(())
     }
 
+    fn push(&mut self, kind: Kind, row: u32, column: u32, value: f64) {
+        self.entries.push((row, column));
+        if kind.values != Values::Pattern {
+            self.values.push(value);
+        }
+    }
+
     /// The graph, after the last line.
-    fn graph(self) -> Result<(Graph, Vec<String>), Problem> {
-        let (Some(kind), Some((nodes, promised))) = (self.kind, self.size) else {
+    fn graph(self) -> Result<Parsed, Problem> {
+        let (Some(kind), Some(size)) = (self.kind, self.size) else {
             return Err(said("the line with the sizes is missing".into()));
         };
-        let seen = self.seen;
+        let (seen, promised) = (self.seen, size.entries);
         if seen < promised {
             return Err(said(format!(
                 "{promised} entries are promised, and {seen} are there"
             )));
         }
-        let (pairs, repeated) = kind.pairs(self.entries)?;
-        if nodes == 0 {
-            return Err(Problem::NoNodes);
-        }
-        if pairs.len() > i32::MAX as usize {
-            return Err(Problem::TooManyPairs);
-        }
-        if u64::from(nodes) > ISOLATED_LIMIT + 2 * pairs.len() as u64 {
-            return Err(Problem::TooManyIsolated {
-                nodes: nodes.into(),
-                pairs: pairs.len(),
-                limit: ISOLATED_LIMIT,
-            });
-        }
-        let graph = Graph::from_pairs(nodes, pairs).map_err(|error| match error {
-            // Neither happens: entries are off the diagonal, and within the size.
-            GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. } => {
-                Problem::Diagonal(node + 1)
+        let value = |at: usize| self.values.get(at).copied().unwrap_or(1.0);
+        if size.rows != size.columns {
+            let mut list = List::new(size.shape());
+            for (at, &(row, column)) in self.entries.iter().enumerate() {
+                list.entry(row, column, value(at))?;
             }
-        })?;
-        let mut notes = Vec::from_iter(crate::merged(repeated));
-        if self.zeros > 0 {
-            let entries = counted(self.zeros, "entry");
-            notes.push(format!("explicit zeros are no pairs: {entries}"));
+            let mut parsed = list.graph()?;
+            parsed.read.format = FORMAT;
+            return Ok(parsed);
         }
-        Ok((graph.0, notes))
+        let (matrix, again) = Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value)?;
+        let mut parsed = matrix.graph()?;
+        parsed.read.format = FORMAT;
+        // Of a symmetric matrix both triangles were filled in.
+        let symmetric = kind.symmetry != Symmetry::General;
+        let again = if symmetric { again / 2 } else { again };
+        parsed.notes.extend(crate::merged(again));
+        Ok(parsed)
+    }
+}
+
+impl Size {
+    fn shape(self) -> [u64; 2] {
+        [self.rows.into(), self.columns.into()]
     }
 }
 
 fn said(what: String) -> Problem {
     Problem::MatrixMarket(what)
-}
-
-/// Rows and entries, from the line with rows, columns and entries.
-fn sizes<'a>(rows: &str, mut others: impl Iterator<Item = &'a str>) -> Result<(u32, u64), Problem> {
-    let (columns, entries) = (others.next(), others.next());
-    let number = |word: Option<&str>| {
-        word.filter(|word| word.bytes().all(|b| b.is_ascii_digit()))
-            .and_then(|word| word.parse::<u64>().ok())
-    };
-    let (Some(row), Some(column), Some(entries), None) = (
-        number(Some(rows)),
-        number(columns),
-        number(entries),
-        others.next(),
-    ) else {
-        return Err(said(
-            "the line with the sizes holds rows, columns and entries".into(),
-        ));
-    };
-    if row != column {
-        return Err(Problem::NotSquare(format!("{row} x {column}")));
-    }
-    let rows = u32::try_from(row).map_err(|_| Problem::TooManyNodes)?;
-    Ok((rows, entries))
 }
 
 /// A row or column, from 0.
@@ -212,56 +241,103 @@ impl Kind {
         if header != HEADER.to_ascii_lowercase() || object != "matrix" {
             return Err(said(format!("a {header} {object} is not a matrix")));
         }
-        if format != "coordinate" {
-            return Err(said(format!(
-                "the format `{format}` is not read here, only `coordinate`"
-            )));
-        }
+        let array = match &*format {
+            "array" => true,
+            "coordinate" => false,
+            _ => {
+                return Err(said(format!(
+                    "the format `{format}` is not read here, only `coordinate` and `array`"
+                )));
+            }
+        };
         let values = match &*values {
-            "pattern" => Values::Pattern,
-            "integer" => Values::Integer,
-            "real" => Values::Real,
+            "pattern" if !array => Values::Pattern,
+            "integer" | "unsigned-integer" => Values::Integer,
+            "real" | "double" => Values::Real,
             _ => {
                 return Err(said(format!(
                     "entries that are `{values}` are not read here"
                 )));
             }
         };
-        let symmetric = match &*symmetry {
-            "symmetric" => true,
-            "general" => false,
+        let symmetry = match &*symmetry {
+            "symmetric" => Symmetry::Symmetric,
+            "skew-symmetric" => Symmetry::Skew,
+            "general" => Symmetry::General,
             _ => {
                 return Err(said(format!(
                     "a matrix that is `{symmetry}` is not read here"
                 )));
             }
         };
-        Ok(Self { values, symmetric })
+        Ok(Self {
+            array,
+            values,
+            symmetry,
+        })
     }
 
-    /// Row and column of an entry, from 0, unless it is zero.
-    fn entry<'a>(
-        &self,
-        row: &str,
-        mut words: impl Iterator<Item = &'a str>,
-        nodes: u32,
-    ) -> Result<Option<(u32, u32)>, Problem> {
-        let row = place(row, nodes)?;
-        let column = match words.next() {
-            Some(word) => place(word, nodes)?,
-            None => return Err(said("the entry has no column".into())),
+    /// The line with rows and columns, and entries unless all are there.
+    fn sizes<'a>(
+        self,
+        rows: &'a str,
+        others: impl Iterator<Item = &'a str>,
+    ) -> Result<Size, Problem> {
+        let number = |word: &str| {
+            let digits = word.bytes().all(|b| b.is_ascii_digit());
+            word.parse::<u64>().ok().filter(|_| digits)
         };
-        let present = self.is_present(words.next(), row, column)?;
-        if words.next().is_some() {
-            return Err(said("the entry has too many fields".into()));
+        let numbers: Option<Vec<u64>> = std::iter::once(rows).chain(others).map(number).collect();
+        let (rows, columns, entries) = match (numbers.as_deref(), self.array) {
+            (Some(&[rows, columns, entries]), false) => (rows, columns, Some(entries)),
+            (Some(&[rows, columns]), true) => (rows, columns, None),
+            (_, false) => {
+                let what = "the line with the sizes holds rows, columns and entries";
+                return Err(said(what.into()));
+            }
+            (_, true) => {
+                return Err(said(
+                    "the line with the sizes holds rows and columns".into(),
+                ));
+            }
+        };
+        let is_list =
+            self.array && self.symmetry == Symmetry::General && are_pairs([rows, columns]);
+        if rows != columns && !is_list {
+            return Err(Problem::NotSquare(format!("{rows} x {columns}")));
         }
-        Ok(present.then_some((row, column)))
+        let (Ok(height), Ok(width)) = (u32::try_from(rows), u32::try_from(columns)) else {
+            return Err(Problem::TooManyNodes);
+        };
+        let entries = entries.unwrap_or(match self.symmetry {
+            Symmetry::General => rows * columns,
+            Symmetry::Symmetric => rows * (rows + 1) / 2,
+            Symmetry::Skew => rows * rows.saturating_sub(1) / 2,
+        });
+        Ok(Size {
+            rows: height,
+            columns: width,
+            entries,
+        })
     }
 
-    /// Whether an entry of this value is not zero.
-    fn is_present(&self, value: Option<&str>, row: u32, column: u32) -> Result<bool, Problem> {
+    /// The place behind that of a value of an array, column by column, from 0.
+    fn behind(self, (row, column): (u32, u32), size: Size) -> (u32, u32) {
+        if row + 1 < size.rows {
+            return (row + 1, column);
+        }
+        let first = match self.symmetry {
+            Symmetry::General => 0,
+            Symmetry::Symmetric => column + 1,
+            Symmetry::Skew => column + 2,
+        };
+        (first, column + 1)
+    }
+
+    /// A value; that of a pattern is 1.
+    fn value(self, value: Option<&str>) -> Result<f64, Problem> {
         let word = match (self.values, value) {
-            (Values::Pattern, None) => return Ok(true),
+            (Values::Pattern, None) => return Ok(1.0),
             (Values::Pattern, Some(_)) => {
                 return Err(said(
                     "the entry has a value, and only the pattern is promised".into(),
@@ -270,56 +346,27 @@ impl Kind {
             (_, None) => return Err(said("the entry has no value".into())),
             (_, Some(word)) => word,
         };
-        let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
         if self.values == Values::Integer {
-            let integer = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
-            return if integer {
-                Ok(digits.bytes().any(|b| b != b'0'))
-            } else {
-                Err(said(format!("`{word}` is no integer")))
-            };
-        }
-        let lower = digits.to_ascii_lowercase();
-        if lower == "nan" {
-            let (row, column) = (row + 1, column + 1);
-            return Err(Problem::NotANumber { row, column });
-        }
-        if is_number(word.as_bytes()) {
-            let mantissa = lower.split('e').next().unwrap_or_default();
-            return Ok(mantissa.bytes().any(|b| matches!(b, b'1'..=b'9')));
-        }
-        if lower == "inf" || lower == "infinity" {
-            return Ok(true);
-        }
-        Err(said(format!("`{word}` is no number")))
-    }
-
-    /// The pairs of all entries, each with its smaller node first and whether it stands below the
-    /// diagonal; and how many entries were repeated.
-    fn pairs(
-        &self,
-        mut entries: Vec<(u32, u32, bool)>,
-    ) -> Result<(Vec<(u32, u32)>, usize), Problem> {
-        let given = entries.len();
-        entries.sort_unstable();
-        entries.dedup();
-        let mut repeated = given - entries.len();
-        let mut pairs = Vec::with_capacity(entries.len());
-        for both in entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let (i, j, below) = both[0];
-            if !self.symmetric && both.len() == 1 {
-                let (row, column) = if below { (j, i) } else { (i, j) };
-                return Err(Problem::Asymmetric {
-                    row: row + 1,
-                    column: column + 1,
-                });
+            let digits = word.strip_prefix(['+', '-']).unwrap_or(word);
+            if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+                return Err(said(format!("`{word}` is no integer")));
             }
-            if self.symmetric {
-                repeated += both.len() - 1;
-            }
-            pairs.push((i, j));
         }
-        Ok((pairs, repeated))
+        let value = word.parse::<f64>();
+        let named = value.as_ref().is_ok_and(|value| !value.is_finite());
+        match value {
+            Ok(value) if named || is_number(word.as_bytes()) => {
+                let mantissa = word.split(['e', 'E']).next().unwrap_or_default();
+                let zero = !mantissa.bytes().any(|b| matches!(b, b'1'..=b'9'));
+                // What is too small for a number is not zero all the same.
+                Ok(if value == 0.0 && !zero {
+                    f64::MIN_POSITIVE
+                } else {
+                    value
+                })
+            }
+            _ => Err(said(format!("`{word}` is no number"))),
+        }
     }
 }
 
@@ -328,7 +375,13 @@ mod tests {
     use super::*;
 
     fn graph(text: &str) -> (usize, Vec<(u32, u32)>, Vec<String>) {
-        let (graph, notes) = read(text.as_bytes()).unwrap();
+        let Parsed {
+            graph,
+            labels,
+            notes,
+            ..
+        } = read(text.as_bytes()).unwrap();
+        assert_eq!(labels.label(0), "1");
         (graph.nodes(), graph.edges().to_vec(), notes)
     }
 
@@ -349,11 +402,38 @@ mod tests {
         let note = "1 pair is given again, the same or reversed, and merged";
         assert_eq!(graph(&text), (4, triangle.clone(), vec![note.into()]));
         let text = format!(
-            "{GENERAL}3 3 9\n1 2 .5\n2 1 -1e3\n3 1 inf\n1 3 1e-999\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
+            "{GENERAL}3 3 9\n1 2 .5\n2 1 -1e3\n3 1 1e4\n1 3 1e-3\n2 3 7\n3 2 8\n1 1 0\n2 2 -0.0e5\n3 3 +.0"
         );
+        let values = "entries are real numbers from -1000 to 10000 (counts, weights?): each that is \
+                      not zero is a pair";
         let note = "explicit zeros are no pairs: 3 entries";
-        assert_eq!(graph(&text), (3, triangle, vec![note.into()]));
+        assert_eq!(
+            graph(&text),
+            (3, triangle, vec![values.into(), note.into()])
+        );
         assert_eq!(graph(&format!("{GENERAL}2 2 0\n")), (2, vec![], vec![]));
+    }
+
+    /// All values, those of the lower triangle, and those below the diagonal.
+    #[test]
+    fn arrays() {
+        let path = vec![(0, 1), (1, 2)];
+        for (symmetry, values) in [
+            ("general", "0 1 0 1 0 1 0 1 0"),
+            ("symmetric", "0 1 0 0 1 0"),
+            ("skew-symmetric", "1 0 1"),
+        ] {
+            let values = values.replace(' ', "\n");
+            let text = format!("%%MatrixMarket matrix array integer {symmetry}\n3 3\n{values}\n");
+            let (nodes, edges, notes) = graph(&text);
+            assert_eq!((nodes, edges), (3, path.clone()), "{symmetry}");
+            // The other triangle has opposite signs.
+            assert_eq!(notes.len(), usize::from(symmetry.starts_with("skew")));
+        }
+        let text = "%%MatrixMarket matrix array integer general\n3 2\n1\n2\n3\n2\n3\n1\n";
+        let note = "the rows are pairs: two numbers of cameras each";
+        let expected = (3, vec![(0, 1), (0, 2), (1, 2)], vec![note.into()]);
+        assert_eq!(graph(text), expected);
     }
 
     #[test]
@@ -361,8 +441,8 @@ mod tests {
         let header = |words: &str| format!("%%MatrixMarket matrix {words}\n2 2 1\n2 1 1\n");
         for (text, phrase) in [
             (
-                header("array real general"),
-                "a.mtx:1: MatrixMarket: the format `array` is not read",
+                header("elemental real general"),
+                "a.mtx:1: MatrixMarket: the format `elemental` is not read",
             ),
             (
                 header("coordinate complex general"),
@@ -387,11 +467,23 @@ mod tests {
             ),
             (
                 format!("{GENERAL}2 2 1\n1 1 1\n"),
-                "a.mtx:3: diagonal entry (1, 1)",
+                "a.mtx: diagonal entry (1, 1)",
             ),
             (
                 format!("{GENERAL}2 2 1\n1 2 nan\n"),
-                "entry (1, 2) is not a number",
+                "a.mtx:3: entry (1, 2) is not a number",
+            ),
+            (
+                format!("{GENERAL}2 2 1\n1 2 -inf\n"),
+                "a.mtx:3: entry (1, 2) is infinite",
+            ),
+            (
+                header("array pattern general"),
+                "entries that are `pattern` are not read",
+            ),
+            (
+                "%%MatrixMarket matrix array real general\n2 2\n0\n1\n1\n".to_owned(),
+                "4 entries are promised, and 3 are there",
             ),
             (format!("{GENERAL}2 2 1\n1 2 x\n"), "`x` is no number"),
             (

@@ -8,9 +8,9 @@ use crate::documents::Document;
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::is_number;
 use crate::error::{Problem, TRACKS};
-use crate::inflate;
+use crate::inflate::Compression;
 use crate::lines::{Encoding, trimmed};
-use crate::{colmap, matlab, matrix_market, sparse6, tracks};
+use crate::{colmap, matlab, matrix_market, numpy, own, sparse6, tracks};
 use viewcert::graph::graph6;
 
 /// How much of an input is looked at.
@@ -26,7 +26,11 @@ pub(super) enum Kind {
     },
     Matlab,
     MatrixMarket,
-    Gzip,
+    /// An array of NumPy.
+    Numpy,
+    /// Arrays of NumPy in a ZIP archive.
+    NumpyArchive,
+    Compressed(Compression),
     /// A database, which is COLMAP's or nothing that is read.
     Sqlite,
     /// Text that is read as a whole.
@@ -41,14 +45,20 @@ pub(super) enum Kind {
 /// # Errors
 /// What is recognised as something that is not read.
 pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
-    if head.starts_with(inflate::MAGIC) {
-        return Ok(Kind::Gzip);
+    if let Some(compression) = Compression::of(head) {
+        return Ok(Kind::Compressed(compression));
     }
     if head.starts_with(colmap::MAGIC) {
         return Ok(Kind::Sqlite);
     }
     if matlab::is_matlab(head) {
         return Ok(Kind::Matlab);
+    }
+    if head.starts_with(numpy::MAGIC) {
+        return Ok(Kind::Numpy);
+    }
+    if numpy::is_archive(head) {
+        return Ok(Kind::NumpyArchive);
     }
     if let Some(problem) = binary(head) {
         return Err(problem);
@@ -71,7 +81,7 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
             return Ok(Kind::Lines { encoding, guessed });
         }
     }
-    if let Some(problem) = certain(head) {
+    if let Some(problem) = own::known(head).or_else(|| certain(head)) {
         return Err(problem);
     }
     let guessed = true;
@@ -144,26 +154,21 @@ const PAIRS: &str = "write one pair a line: the names of two cameras and nothing
 macro_rules! networkx {
     ($reader:literal) => {
         concat!(
-            "convert it, for example in Python: networkx.write_edgelist(",
+            "convert it, for example in Python: networkx.write_graphml(",
             $reader,
-            ", 'pairs.txt', data=False)"
+            ", 'graph.graphml')"
         )
     };
 }
 
 /// Files that begin with these bytes, whatever follows.
-const MAGIC: [(&[u8], &str, &str); 21] = [
+const MAGIC: [(&[u8], &str, &str); 17] = [
     (
-        b"PK\x03\x04",
-        "a ZIP archive (an .npz file, perhaps)",
-        "unpack it, and write the adjacency matrix with scipy.io.mmwrite or scipy.io.savemat",
+        numpy::ARCHIVE_MAGIC,
+        "a ZIP archive without NumPy's arrays",
+        "unpack it, and give the file that is meant",
     ),
-    (b"PK\x05\x06", "a ZIP archive", "unpack it"),
-    (
-        b"\x93NUMPY",
-        "a NumPy array",
-        "write it with scipy.io.mmwrite(name, scipy.sparse.coo_matrix(array)) or scipy.io.savemat",
-    ),
+    (b"PK\x05\x06", "an empty ZIP archive", PAIRS),
     (b"\x89PNG\r\n\x1a\n", "a PNG image", PAIRS),
     (b"\xff\xd8\xff", "a JPEG image", PAIRS),
     (b"GIF8", "a GIF image", PAIRS),
@@ -171,21 +176,6 @@ const MAGIC: [(&[u8], &str, &str); 21] = [
     (b"MM\0*", "a TIFF image", PAIRS),
     (b"RIFF", "a RIFF file (an image or sound)", PAIRS),
     (b"%PDF-", "a PDF document", PAIRS),
-    (
-        b"BZh",
-        "compressed by bzip2",
-        "unpack it with `bunzip2`, or compress it with `gzip`",
-    ),
-    (
-        b"\xfd7zXZ\0",
-        "compressed by xz",
-        "unpack it with `unxz`, or compress it with `gzip`",
-    ),
-    (
-        b"\x28\xb5\x2f\xfd",
-        "compressed by Zstandard",
-        "unpack it with `unzstd`, or compress it with `gzip`",
-    ),
     (b"7z\xbc\xaf\x27\x1c", "a 7-Zip archive", "unpack it"),
     (b"\x7fELF", "a program (ELF)", PAIRS),
     (
@@ -201,12 +191,12 @@ const MAGIC: [(&[u8], &str, &str); 21] = [
     (
         b">>planar_code",
         "planar code",
-        "convert it to graph6 with nauty's `planarg` or plantri's option -g",
+        "write graph6 in its place (plantri: option -g)",
     ),
     (
         b">>edge_code",
         "edge code",
-        "convert it to graph6 with plantri's option -g",
+        "write graph6 in its place (plantri: option -g)",
     ),
     (b">>digraph6<<", DIGRAPH6, DIGRAPH6_ADVICE),
     (
@@ -216,9 +206,9 @@ const MAGIC: [(&[u8], &str, &str); 21] = [
     ),
 ];
 
-const DIGRAPH6: &str = "digraph6, directed graphs";
+const DIGRAPH6: &str = "digraph6 (directed graphs)";
 const DIGRAPH6_ADVICE: &str =
-    "forget the directions, for example with networkx, and write graph6 or pairs";
+    "forget the directions with nauty's `underlyingg`, which writes graph6";
 
 /// What is no text, by its first bytes.
 fn binary(head: &[u8]) -> Option<Problem> {
@@ -301,7 +291,7 @@ const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
 ];
 
 const COLMAP: &str =
-    "give COLMAP's database (`verify database.db`), or decide the tracks of the model: --tracks";
+    "give COLMAP's database (`verify database.db`), or the folder of the model with --tracks";
 
 /// Camera models of COLMAP, the second field of a line in cameras.txt.
 const CAMERA_MODELS: [&str; 13] = [
@@ -449,9 +439,7 @@ fn markup(text: &str) -> Option<Problem> {
     let start = text.trim_start();
     let lower = start.to_ascii_lowercase();
     if start.starts_with('<') {
-        let gexf = foreign("GEXF", networkx!("networkx.read_gexf(FILE)"));
         return Some(match () {
-            () if lower.contains("<gexf") => gexf,
             () if lower.contains("<html") || lower.contains("<!doctype html") => {
                 foreign("a web page (HTML)", "download the file itself")
             }
@@ -468,14 +456,6 @@ fn markup(text: &str) -> Option<Problem> {
     }
     let words: Vec<&str> = lower.split_whitespace().take(3).collect();
     let word = |k: usize| words.get(k).copied().unwrap_or_default();
-    let gml = word(0) == "graph" && (word(1) == "[" || word(0).ends_with('['))
-        || word(0) == "graph["
-        || ["creator", "version"].contains(&word(0))
-            && lower.contains("graph")
-            && lower.contains('[');
-    if gml {
-        return Some(foreign("GML", networkx!("networkx.read_gml(FILE)")));
-    }
     if word(0) == "dl" && (word(1).starts_with("n=") || word(1) == "n") {
         return Some(foreign("a UCINET DL file", PAIRS));
     }

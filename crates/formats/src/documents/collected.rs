@@ -1,6 +1,6 @@
 //! Nodes and pairs as they are met, and the graph that they make.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::edge_list::PAIR_LIMIT;
 use crate::edge_list::nodes::Index;
@@ -14,7 +14,7 @@ const MOST_NAMES: usize = 6;
 
 /// The part of a graph that has been read.
 #[derive(Default)]
-pub(super) struct Collected {
+pub(crate) struct Collected {
     index: Index,
     pairs: Vec<(u32, u32)>,
     /// Of every node, whether it is listed as such and not only the end of a pair.
@@ -22,15 +22,20 @@ pub(super) struct Collected {
     listed_again: usize,
     directed: bool,
     ignored: BTreeSet<String>,
-    pub(super) notes: Vec<String>,
+    /// What nodes are called by an attribute, for each of [`NAMES`].
+    names: [BTreeMap<u32, String>; 2],
+    pub(crate) notes: Vec<String>,
 }
+
+/// Attributes that name nodes, the better one first.
+pub(super) const NAMES: [&str; 2] = ["label", "name"];
 
 impl Collected {
     /// The node of a label, a new one if need be.
     ///
     /// # Errors
     /// A label that is empty or has control characters; too many nodes.
-    pub(super) fn node(&mut self, label: &str) -> Result<u32, Problem> {
+    pub(crate) fn node(&mut self, label: &str) -> Result<u32, Problem> {
         if label.is_empty() {
             return Err(Problem::EmptyLabel);
         }
@@ -48,7 +53,7 @@ impl Collected {
     ///
     /// # Errors
     /// Those of [`Collected::node`].
-    pub(super) fn list(&mut self, label: &str) -> Result<u32, Problem> {
+    pub(crate) fn list(&mut self, label: &str) -> Result<u32, Problem> {
         let node = self.node(label)?;
         let listed = &mut self.listed[node as usize];
         self.listed_again += usize::from(*listed);
@@ -57,7 +62,7 @@ impl Collected {
     }
 
     /// The node of a label, if it has been met.
-    pub(super) fn find(&self, label: &str) -> Option<u32> {
+    pub(crate) fn find(&self, label: &str) -> Option<u32> {
         self.index.nodes.get(label).copied()
     }
 
@@ -65,7 +70,7 @@ impl Collected {
     ///
     /// # Errors
     /// A node with itself; too many pairs.
-    pub(super) fn pair(&mut self, a: u32, b: u32) -> Result<(), Problem> {
+    pub(crate) fn pair(&mut self, a: u32, b: u32) -> Result<(), Problem> {
         if a == b {
             let label = self.index.labels().swap_remove(a as usize);
             return Err(Problem::SelfLoop(label.into()));
@@ -78,22 +83,75 @@ impl Collected {
     }
 
     /// The graph is, or has edges that are, directed.
-    pub(super) fn directed(&mut self) {
+    pub(crate) fn directed(&mut self) {
         self.directed = true;
     }
 
     /// An attribute, or the like, that is of no concern.
-    pub(super) fn ignore(&mut self, name: &str) {
+    pub(crate) fn ignore(&mut self, name: &str) {
         if !self.ignored.contains(name) {
             self.ignored.insert(name.to_owned());
         }
+    }
+
+    /// What an attribute, one of [`NAMES`], calls a node.
+    pub(super) fn name(&mut self, attribute: &str, node: u32, name: String) {
+        if let Some(at) = NAMES.iter().position(|known| *known == attribute) {
+            self.names[at].insert(node, name);
+        }
+    }
+
+    /// Calls nodes by the first attribute that names them all, and each differently.
+    fn rename(&mut self) {
+        let mut renamed = false;
+        for (attribute, names) in NAMES.into_iter().zip(std::mem::take(&mut self.names)) {
+            if names.is_empty() {
+                continue;
+            }
+            if renamed {
+                self.ignore(attribute);
+                continue;
+            }
+            match self.index_of(&names) {
+                Ok(nodes) if nodes == self.index.nodes => renamed = true,
+                Ok(nodes) => {
+                    let note =
+                        format!("nodes are called by their `{attribute}`, and not by their ids");
+                    self.notes.push(note);
+                    self.index.nodes = nodes;
+                    renamed = true;
+                }
+                Err(why) => self.notes.push(format!(
+                    "nodes are called by their ids, and not by their `{attribute}`: {why}"
+                )),
+            }
+        }
+    }
+
+    /// The nodes by these names, or why they are none.
+    fn index_of(&self, names: &BTreeMap<u32, String>) -> Result<HashMap<Box<str>, u32>, String> {
+        if names.len() < self.listed.len() {
+            let without = counted(self.listed.len() - names.len(), "node");
+            return Err(format!("{without} without any"));
+        }
+        let mut nodes = HashMap::new();
+        for (&node, name) in names {
+            if name.is_empty() || name.chars().any(char::is_control) {
+                return Err("some are empty, or have control characters".to_owned());
+            }
+            if nodes.insert(name.as_str().into(), node).is_some() {
+                return Err(format!("several are called {}", short(name)));
+            }
+        }
+        Ok(nodes)
     }
 
     /// The graph, its labels, and notes.
     ///
     /// # Errors
     /// If there are no nodes.
-    pub(super) fn finish(self) -> Result<Parsed, Fault> {
+    pub(crate) fn finish(mut self) -> Result<Parsed, Fault> {
+        self.rename();
         let fault = |problem| Place::Input.fault(problem);
         let Self {
             index,
@@ -103,6 +161,7 @@ impl Collected {
             directed,
             ignored,
             mut notes,
+            names: _,
         } = self;
         if listed.is_empty() {
             return Err(fault(Problem::NoNodes));

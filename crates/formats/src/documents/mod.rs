@@ -1,5 +1,5 @@
-//! Graphs in texts that are read as a whole: DOT, g2o, GraphML, node-link JSON, stars, raw matches,
-//! matrices as text.
+//! Graphs in texts that are read as a whole: DOT, g2o, GML, GraphML, GEXF, node-link JSON, stars, raw
+//! matches, matrices as text.
 //!
 //! In: a text and which of these it is. Out: the graph with its labels, and notes about what was
 //! ignored, merged or guessed. Nodes are numbered by their sorted labels, as those of an edge list
@@ -18,11 +18,14 @@ use crate::read_as::Parsed;
 mod collected;
 mod dot;
 mod g2o;
-mod graphml;
+mod gml;
 mod node_link;
 mod raw_matches;
 mod stars;
 mod text_matrix;
+mod xml;
+
+pub(crate) use collected::Collected;
 
 /// The formats of this folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +34,10 @@ pub enum Document {
     Dot,
     /// Pose graphs of g2o.
     G2o,
+    /// Graphs of Gephi in XML.
+    Gexf,
+    /// Lists of keys and values, of networkx, igraph and Gephi.
+    Gml,
     /// Graphs in XML.
     GraphMl,
     /// Graphs in JSON as networkx writes them: lists of nodes and of edges (or links).
@@ -49,9 +56,11 @@ impl Document {
         // What is no UTF-8 is refused by the reader, with the line.
         let text = &*String::from_utf8_lossy(head);
         [
-            (Self::GraphMl, graphml::is_graphml(text)),
+            (Self::GraphMl, xml::is_graphml(text)),
+            (Self::Gexf, xml::is_gexf(text)),
             (Self::NodeLink, node_link::is_object(text)),
             (Self::Dot, dot::is_dot(text)),
+            (Self::Gml, gml::is_gml(text)),
             (Self::G2o, g2o::is_g2o(text)),
             (Self::RawMatches, raw_matches::is_raw(text, whole)),
             (Self::TextMatrix, text_matrix::is_matrix(text, whole)),
@@ -75,6 +84,8 @@ impl Document {
         match self {
             Self::Dot => "DOT",
             Self::G2o => "pose graph of g2o",
+            Self::Gexf => "GEXF",
+            Self::Gml => "GML",
             Self::GraphMl => "GraphML",
             Self::NodeLink => "node-link JSON",
             Self::Stars => "adjacency list",
@@ -132,7 +143,9 @@ pub(super) fn read_with(
     let mut parsed = match document {
         Document::Dot => dot::read(text),
         Document::G2o => g2o::read(text),
-        Document::GraphMl => graphml::read(text),
+        Document::Gexf => xml::read(text, xml::GEXF),
+        Document::Gml => gml::read(text),
+        Document::GraphMl => xml::read(text, xml::GRAPHML),
         Document::NodeLink => node_link::read(text),
         Document::Stars => stars::read(text, asked, options),
         Document::RawMatches => raw_matches::read(text, asked, options),

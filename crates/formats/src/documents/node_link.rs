@@ -94,7 +94,9 @@ impl Document {
             (Some(edges), None) | (None, Some(edges)) => edges,
             (Some(_), Some(_)) => return Err(fault("both `edges` and `links` are there".into())),
             (None, None) if has("adjacency") => {
-                return Err(fault("this is adjacency data, with `adjacency`".into()));
+                let what = "this is adjacency data, with `adjacency` (networkx.node_link_data writes what is \
+                            read)";
+                return Err(fault(what.into()));
             }
             (None, None) => return Err(fault("there is no list `edges` or `links`".into())),
         };

@@ -153,7 +153,7 @@ fn formats_are_recognised_by_their_content() {
         ),
         ("graph{", Some(Document::Dot)),
         // GML, and names that begin alike.
-        ("graph [\n directed 0\n]", None),
+        ("graph [\n directed 0\n]", Some(Document::Gml)),
         ("graph a\na b\n", None),
         ("graphs {", None),
         ("# c\n\n VERTEX_SE2 0", Some(Document::G2o)),
@@ -164,7 +164,7 @@ fn formats_are_recognised_by_their_content() {
         ),
         ("<g:graphml xmlns:g='x'>", Some(Document::GraphMl)),
         ("<html><body>the graphml format</body></html>", None),
-        ("<gexf>", None),
+        ("<gexf>", Some(Document::Gexf)),
         ("{\n \"nodes\"", Some(Document::NodeLink)),
         ("[[0, 1]]", None),
         ("{0, 1}", None),
@@ -341,9 +341,11 @@ fn what_is_no_text_is_refused_with_the_line() {
     }
 }
 
-const ALL: [Document; 5] = [
+const ALL: [Document; 7] = [
     Document::Dot,
     Document::G2o,
+    Document::Gexf,
+    Document::Gml,
     Document::GraphMl,
     Document::NodeLink,
     Document::Stars,
@@ -382,6 +384,31 @@ fn written(document: Document, labels: &[String], pairs: &[(usize, usize)]) -> S
                 writeln!(text, "<edge source={a} target={b}></edge>").unwrap();
             }
             text += "</graph></graphml>\n";
+        }
+        // Nodes have numbers as ids, and their names are attributes.
+        Document::Gexf => {
+            text += "<gexf><graph defaultedgetype=\"undirected\"><nodes>\n";
+            for (label, id) in labels.iter().zip(7..) {
+                writeln!(text, "<node id=\"{id}\" label={}/>", xml(label)).unwrap();
+            }
+            text += "</nodes><edges>\n";
+            for &(a, b) in pairs {
+                let (a, b) = (a + 7, b + 7);
+                writeln!(text, "<edge source=\"{a}\" target=\"{b}\"/>").unwrap();
+            }
+            text += "</edges></graph></gexf>\n";
+        }
+        Document::Gml => {
+            text += "Creator \"nobody\"\ngraph [\n";
+            for (label, id) in labels.iter().zip(7..) {
+                let label = xml(label).replace('\u{e9}', "&#233;");
+                writeln!(text, "node [\n id {id}\n label {label}\n]").unwrap();
+            }
+            for &(a, b) in pairs {
+                let (a, b) = (a + 7, b + 7);
+                writeln!(text, "edge [\n source {a}\n target {b}\n]").unwrap();
+            }
+            text += "]\n";
         }
         Document::NodeLink => {
             let nodes: Vec<String> = labels
@@ -501,7 +528,8 @@ proptest! {
 
     #[test]
     fn what_is_written_is_read((labels, pairs) in graph(true)) {
-        agree(&[Document::Dot, Document::GraphMl, Document::NodeLink], &labels, &pairs);
+        let named = [Document::Dot, Document::Gexf, Document::Gml, Document::GraphMl, Document::NodeLink];
+        agree(&named, &labels, &pairs);
     }
 
     #[test]
@@ -515,7 +543,8 @@ proptest! {
         (labels, pairs) in graph(false),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0..4u8), 1..6),
     ) {
-        const PIECES: [&[u8]; 30] = [
+        const PIECES: [&[u8]; 34] = [
+            b"node [ ", b"graph [ ", b"<nodes>", b"label \"&#x0;\" ",
             b"{", b"}", b"[", b"]", b"\"", b"\\", b"<", b">", b"/", b"--", b"->", b";", b":", b",",
             b"=", b"\n", b" ", b"\0", b"\xff", b"\xc3", b"subgraph ", b"<graph>", b"</graph>",
             b"<node ", b"/*", b"&#0;", b"\"id\": ", b"EDGE_SE2 ", b"-1", b"1e400",
@@ -546,4 +575,140 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn gml_of_networkx_igraph_and_gephi() {
+    let networkx = "graph [\n  directed 1\n  multigraph 1\n  node [\n    id 0\n    label \"a&amp;b &#233;.jpg\"\n  ]\n  \
+                    node [\n    id 1\n    label \"7\"\n  ]\n  edge [\n    source 0\n    target 1\n    key 0\n    weight 2.5\n  ]\n]\n";
+    let parsed = found(Document::Gml, networkx).unwrap();
+    assert_eq!(pairs(Document::Gml, networkx), ["7 a&b é.jpg"]);
+    assert_eq!(
+        parsed.notes,
+        [
+            "nodes are called by their `label`, and not by their ids",
+            "the graph is directed, and directions are ignored",
+            "attributes are ignored: key, weight",
+        ]
+    );
+    let igraph = "Creator \"igraph version 0.10\"\nVersion 1\ngraph\n[\n  directed 0\n  node\n  [\n    id 0\n    name \"x\"\n  ]\n  \
+                  node\n  [\n    id 1\n    name \"y\"\n  ]\n  edge\n  [\n    source 1\n    target 0\n  ]\n]\n";
+    assert_eq!(pairs(Document::Gml, igraph), ["x y"]);
+    let gephi = "Creator Gephi\ngraph\n[\n  node\n  [\n    id 3\n    label \"\"\n    graphics\n    [\n      x -1.5E+2\n      fill \"#c0\"\n    ]\n  ]\n  \
+                 node\n  [\n    id 4\n    label \"\"\n  ]\n  edge [ source 3 target 4 ]\n]\n";
+    assert_eq!(pairs(Document::Gml, gephi), ["3 4"]);
+    let notes = found(Document::Gml, gephi).unwrap().notes;
+    assert!(
+        notes[0]
+            .starts_with("nodes are called by their ids, and not by their `label`: some are empty"),
+        "{notes:?}"
+    );
+    for text in [networkx, igraph, gephi] {
+        assert_eq!(Document::of(text.as_bytes(), true), Some(Document::Gml));
+    }
+    for text in [
+        "graph {a--b}",
+        "graph a\nb c\n",
+        "creator x\ny z\n",
+        "graph",
+    ] {
+        assert_ne!(Document::of(text.as_bytes(), true), Some(Document::Gml));
+    }
+}
+
+#[test]
+fn gml_is_refused_with_its_line() {
+    for (text, phrase) in [
+        (
+            "graph [\n node [ label \"a\" ]\n]",
+            "in:2: GML: this node has no `id`",
+        ),
+        (
+            "graph [\n edge [ source 1 ]\n]",
+            "in:2: GML: this edge has no `target`",
+        ),
+        (
+            "graph [ edge [ source 1 target 1 ] ]",
+            "in:1: camera 1 is paired with itself",
+        ),
+        ("graph [ node [ id 1 id 2 ] ]", "`id` is there twice"),
+        ("graph [ node [ id 1 ]", "the file is truncated"),
+        ("graph [ node [ id \"1 ] ]", "a quote (\") is not closed"),
+        ("graph [ node [ id ] ]", "`id` has no value"),
+        ("graph [ 1 2 ]", "here should be a key"),
+        ("graph [ ] graph [ ]", "a second graph"),
+        ("graph [ ]", "the graph is empty"),
+        ("version 1", "there is no graph"),
+        ("graph [ node ( ]", "`(` belongs to no key"),
+    ] {
+        let error = refusal(Document::Gml, text);
+        assert!(error.contains(phrase), "{text}: {error}");
+    }
+    let deep = format!("graph [ x {} {} ]", "[ y ".repeat(1000), "]".repeat(1000));
+    assert!(refusal(Document::Gml, &deep).contains("more than 100 deep"));
+}
+
+#[test]
+fn names_of_nodes_in_xml() {
+    let graphml = |key: &str, first: &str, second: &str| {
+        format!(
+            "<graphml><key id=\"d0\" for=\"node\" attr.name=\"{key}\" attr.type=\"string\"/>\
+             <graph edgedefault=\"undirected\"><node id=\"n0\"><data key=\"d0\">{first}</data></node>\
+             <node id=\"n1\"><data key=\"d0\">{second}</data></node>\
+             <edge source=\"n0\" target=\"n1\"/></graph></graphml>"
+        )
+    };
+    for key in ["label", "name"] {
+        let text = graphml(key, "left &amp; right&#x2e;jpg", "<![CDATA[b<c]]>");
+        assert_eq!(pairs(Document::GraphMl, &text), ["b<c left & right.jpg"]);
+        let notes = found(Document::GraphMl, &text).unwrap().notes;
+        assert_eq!(
+            notes,
+            [format!(
+                "nodes are called by their `{key}`, and not by their ids"
+            )]
+        );
+        let text = graphml(key, "same", "same");
+        assert_eq!(pairs(Document::GraphMl, &text), ["n0 n1"]);
+        let notes = found(Document::GraphMl, &text).unwrap().notes;
+        let why = format!(
+            "nodes are called by their ids, and not by their `{key}`: several are called same"
+        );
+        assert_eq!(notes, [why]);
+        // Names that are the ids are not worth a word.
+        assert_eq!(
+            found(Document::GraphMl, &graphml(key, "n0", "n1"))
+                .unwrap()
+                .notes,
+            [""; 0]
+        );
+    }
+    assert_eq!(
+        pairs(Document::GraphMl, &graphml("colour", "red", "blue")),
+        ["n0 n1"]
+    );
+    assert!(
+        refusal(Document::GraphMl, &graphml("name", "&x;", "b"))
+            .contains("the entity `x` is not known")
+    );
+    let gexf = "<?xml version=\"1.0\"?><gexf version=\"1.2\"><meta><creator>Gephi</creator></meta>\
+                <graph defaultedgetype=\"undirected\" mode=\"static\"><attributes class=\"node\"/>\
+                <nodes count=\"3\"><node id=\"0\" label=\"a b\"><attvalues/></node><node id=\"1\" label=\"c\"/>\
+                <node id=\"2\" label=\"d\"/></nodes><edges><edge id=\"0\" source=\"0\" target=\"1\" weight=\"2\"/>\
+                <edge id=\"1\" source=\"2\" target=\"1\" type=\"directed\"/></edges></graph></gexf>";
+    assert_eq!(Document::of(gexf.as_bytes(), true), Some(Document::Gexf));
+    assert_eq!(pairs(Document::Gexf, gexf), ["a b c", "c d"]);
+    assert_eq!(
+        found(Document::Gexf, gexf).unwrap().notes,
+        [
+            "nodes are called by their `label`, and not by their ids",
+            "the graph is directed, and directions are ignored",
+            "attributes are ignored: attvalues, weight",
+        ]
+    );
+    let nested = gexf.replace("<attvalues/>", "<nodes><node id=\"9\"/></nodes>");
+    assert!(refusal(Document::Gexf, &nested).contains("graphs within nodes are not read"));
+    assert!(
+        refusal(Document::Gexf, &graphml("name", "a", "b")).contains("the root is not one `gexf`")
+    );
 }

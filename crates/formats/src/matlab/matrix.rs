@@ -101,9 +101,16 @@ impl Header {
         class_name(self.class).is_some_and(|(_, numeric)| numeric)
     }
 
-    /// Whether this is a square numeric matrix; a single number is none.
-    pub(super) fn could_be_adjacency(&self) -> bool {
-        self.is_numeric() && self.square().is_ok_and(|size| size > 1)
+    /// Rows and columns of a numeric matrix.
+    pub(super) fn numeric_shape(&self) -> Option<[u64; 2]> {
+        match self.dimensions[..] {
+            [rows, columns] if self.is_numeric() => Some([rows.into(), columns.into()]),
+            _ => None,
+        }
+    }
+
+    pub(super) fn is_sparse(&self) -> bool {
+        self.class == SPARSE
     }
 
     /// Rows and columns of a real numeric matrix.
@@ -135,7 +142,7 @@ impl Header {
 }
 
 /// Calls `entry` with row, column and value of every non-zero entry of a real
-/// matrix, column by column with rows increasing; `source` stands behind the
+/// matrix, and with zeros that a sparse one stores, column by column with rows increasing; `source` stands behind the
 /// header, and is left behind the last value.
 pub(super) fn each_entry(
     header: &Header,
@@ -219,10 +226,7 @@ fn each_sparse_entry(
         }
         at += 1;
         least_row = row + 1;
-        if value != 0.0 {
-            entry(row, column, value)?;
-        }
-        Ok(())
+        entry(row, column, value)
     })?;
     if at != entries {
         return Err(Problem::Corrupt(format!(

@@ -8,8 +8,7 @@
 //! read, sparse and full matrices of every real numeric class, and every
 //! integer type in which MATLAB stores numbers compactly.
 //!
-//! Every entry that is not zero is a pair, whatever its value; only the pattern
-//! has to be symmetric. Nodes are numbered as rows.
+//! What makes a graph of a matrix is in [`matrix`](crate::matrix); nodes are numbered as rows.
 //!
 //! No length in a file is believed before the bytes are there: memory grows
 //! with what has been read, and deflated data can hold at most 1032 times
@@ -18,7 +17,10 @@
 use std::collections::BTreeSet;
 
 use crate::error::{Fault, Place, Problem};
-use viewcert::graph::{Graph, GraphError};
+use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::read_as::Parsed;
+use crate::variables::{Candidate, choose, chosen_note};
+use viewcert::graph::Graph;
 
 mod element;
 mod hdf5;
@@ -89,15 +91,6 @@ fn is_version_four(head: &[u8]) -> bool {
     plausible(u32::from_le_bytes) || plausible(u32::from_be_bytes)
 }
 
-/// A variable of a file that may be the one that is meant.
-trait Candidate {
-    fn name(&self) -> &str;
-    /// Name, shape and class, for a list of what a file holds.
-    fn describe(&self) -> String;
-    /// Whether it is a square numeric matrix; a single number is none.
-    fn could_be_adjacency(&self) -> bool;
-}
-
 /// One variable of a file, not yet read.
 struct Variable<'a> {
     header: Header,
@@ -115,43 +108,44 @@ impl Candidate for Variable<'_> {
         self.header.describe()
     }
 
-    fn could_be_adjacency(&self) -> bool {
-        self.header.could_be_adjacency()
+    fn numeric_shape(&self) -> Option<[u64; 2]> {
+        self.header.numeric_shape()
     }
 }
 
-/// The graph of an adjacency matrix: of the variable named, else of `A`, else
-/// of the only square numeric matrix with more than one row. O(bytes + m log d)
-/// for largest degree d; takes about 16 bytes a pair beyond the file's bytes,
-/// whether they are deflated or not.
+/// The graph of an adjacency matrix or of two columns of pairs: of the variable named, else of
+/// `A`, else of the only square numeric matrix with more than one row, else of the only one with two
+/// columns. O(bytes + m log d) for largest degree d; takes about 24 bytes a pair beyond the file's
+/// bytes, whether they are deflated or not.
 ///
 /// # Errors
 /// No such variable, or no way to choose one; a matrix that is not numeric,
 /// real, square and symmetric with a zero diagonal, or has no rows; NaN; a
 /// file of another version, truncated, or corrupt.
 pub fn read(bytes: &[u8], variable: Option<&str>) -> Result<Graph, Fault> {
-    read_noting(bytes, variable).map(|(graph, _)| graph)
+    read_noting(bytes, variable).map(|parsed| parsed.graph)
 }
 
-/// As [`read`]; with a note if the variable was neither named nor is it `A`.
-pub(super) fn read_noting(
-    bytes: &[u8],
-    variable: Option<&str>,
-) -> Result<(Graph, Option<String>), Fault> {
+/// As [`read`]; with labels, and with notes: on the entries, and on the variable if it was neither
+/// named nor is it `A`.
+pub(super) fn read_noting(bytes: &[u8], variable: Option<&str>) -> Result<Parsed, Fault> {
     let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
         hdf5::read(bytes, variable)?
     } else {
         let (order, variables) = variables(bytes)?;
         let chosen = choose(&variables, variable)?;
-        let name = chosen.header.name.clone();
-        let graph = pattern(chosen, order).and_then(|pattern| pattern.graph());
-        (name, graph)
+        (chosen.header.name.clone(), graph(chosen, order))
     };
-    let note = (variable.is_none() && name != "A")
-        .then(|| format!("the graph is the variable {name}, the only square matrix"));
-    graph
-        .map(|graph| (graph, note))
-        .map_err(|problem| Place::Variable(name).fault(problem))
+    match graph {
+        Ok(mut parsed) => {
+            if variable.is_none() && name != "A" {
+                parsed.notes.insert(0, chosen_note(&name));
+            }
+            parsed.read.format = "MATLAB matrix";
+            Ok(parsed)
+        }
+        Err(problem) => Err(Place::Variable(name).fault(problem)),
+    }
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
@@ -165,7 +159,7 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
     let variable = choose(&variables, Some(variable))?;
     let mut entries = Vec::new();
     each_entry(variable, order, |row, column, value| {
-        entries.push((row, column, value));
+        entries.extend((value != 0.0).then_some((row, column, value)));
         Ok(())
     })
     .map_err(|problem| Place::Variable(variable.header.name.clone()).fault(problem))?;
@@ -209,38 +203,7 @@ fn variables(bytes: &[u8]) -> Result<(ByteOrder, Vec<Variable<'_>>), Fault> {
     Ok((order, variables))
 }
 
-fn choose<'v, V: Candidate>(variables: &'v [V], asked: Option<&str>) -> Result<&'v V, Fault> {
-    let named = |name| variables.iter().find(|v| v.name() == name);
-    let present = || match variables {
-        [] => "no variables".to_owned(),
-        _ => {
-            let all: Vec<String> = variables.iter().map(|v| v.describe()).collect();
-            all.join(", ")
-        }
-    };
-    if let Some(name) = asked {
-        return named(name).ok_or_else(|| {
-            let present = present();
-            Place::Variable(name.to_owned()).fault(Problem::NoSuchVariable { present })
-        });
-    }
-    if let Some(variable) = named("A") {
-        return Ok(variable);
-    }
-    let candidates: Vec<_> = variables
-        .iter()
-        .filter(|v| v.could_be_adjacency())
-        .collect();
-    match candidates[..] {
-        [variable] => Ok(variable),
-        _ => Err(Place::Input.fault(Problem::ChooseVariable {
-            candidates: candidates.len(),
-            present: present(),
-        })),
-    }
-}
-
-/// Calls `entry` with row, column and value of all non-zero entries, column by
+/// Calls `entry` with row, column and value of all non-zero entries, and of stored zeros, column by
 /// column, rows increasing.
 fn each_entry(
     variable: &Variable,
@@ -253,99 +216,25 @@ fn each_entry(
     source.finish()
 }
 
-/// The places of the non-zero entries of a square matrix, by columns.
-struct Pattern {
-    /// `rows[starts[c]..starts[c + 1]]` are the rows of column c, increasing.
-    starts: Vec<usize>,
-    rows: Vec<u32>,
-}
-
-fn pattern(variable: &Variable, order: ByteOrder) -> Result<Pattern, Problem> {
+/// The graph of a variable.
+fn graph(variable: &Variable, order: ByteOrder) -> Result<Parsed, Problem> {
     let header = &variable.header;
-    let size = header.real_square()?;
-    let mut pattern = Pattern::new();
-    each_entry(variable, order, |row, column, value| {
-        pattern.entry(row, column, value)
-    })?;
-    pattern.complete(size);
-    Ok(pattern)
-}
-
-impl Pattern {
-    /// No entries so far.
-    fn new() -> Self {
-        Self {
-            starts: vec![0],
-            rows: Vec::new(),
+    match header.numeric_shape() {
+        Some(shape) if are_pairs(shape) && !header.is_sparse() => {
+            let mut list = List::new(shape);
+            each_entry(variable, order, |row, column, value| {
+                list.entry(row, column, value)
+            })?;
+            list.graph()
         }
-    }
-
-    /// Takes in an entry that is not zero, behind all in earlier columns, and in earlier rows of
-    /// its column.
-    fn entry(&mut self, row: u32, column: u32, value: f64) -> Result<(), Problem> {
-        if value.is_nan() {
-            let (row, column) = (row + 1, column + 1);
-            return Err(Problem::NotANumber { row, column });
+        _ => {
+            let size = header.real_square()?;
+            let mut matrix = Matrix::new(size, Places::MATLAB);
+            each_entry(variable, order, |row, column, value| {
+                matrix.entry(row, column, value)
+            })?;
+            matrix.graph()
         }
-        if row == column {
-            return Err(Problem::Diagonal(row + 1));
-        }
-        if self.starts.len() <= column as usize {
-            self.starts.resize(column as usize + 1, self.rows.len());
-        }
-        self.rows.push(row);
-        Ok(())
-    }
-
-    /// Ends the last column: there are as many as the file has, whose data have been read.
-    fn complete(&mut self, columns: u32) {
-        self.starts.resize(columns as usize + 1, self.rows.len());
-    }
-
-    /// The graph whose adjacency has this pattern. O(m).
-    fn graph(self) -> Result<Graph, Problem> {
-        let Self { starts, rows } = self;
-        let nodes = starts.len() - 1;
-        if nodes == 0 {
-            return Err(Problem::NoNodes);
-        }
-        // next[c] is the first entry of column c whose mirror image has not come
-        // by yet. Columns come in increasing order, so the mirror images of a
-        // column's upper entries do too.
-        let mut next = starts[..nodes].to_vec();
-        let mut pairs = Vec::with_capacity(rows.len() / 2);
-        for (c, number) in (0..nodes).zip(0u32..) {
-            // What is above the diagonal and still waiting has no mirror image.
-            if let Some(&row) = rows[next[c]..starts[c + 1]].first()
-                && row < number
-            {
-                return Err(asymmetric(row, number));
-            }
-            for &row in &rows[next[c]..starts[c + 1]] {
-                let mirror = &mut next[row as usize];
-                match rows[*mirror..starts[row as usize + 1]].first() {
-                    Some(&found) if found == number => *mirror += 1,
-                    Some(&found) if found < number => return Err(asymmetric(found, row)),
-                    _ => return Err(asymmetric(row, number)),
-                }
-                pairs.push((number, row));
-            }
-        }
-        let nodes = nodes as u32;
-        match Graph::from_pairs(nodes, pairs) {
-            Ok((graph, _)) => Ok(graph),
-            // The diagonal is empty and every row below the number of rows.
-            Err(GraphError::SelfLoop(node) | GraphError::OutOfRange { node, .. }) => {
-                Err(Problem::Diagonal(node + 1))
-            }
-        }
-    }
-}
-
-fn asymmetric(row: u32, column: u32) -> Problem {
-    Problem::Asymmetric {
-        row: row + 1,
-        column: column + 1,
     }
 }
 

@@ -11,14 +11,14 @@ use crate::documents::{self, Document};
 use crate::edge_list::Reading;
 use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::inflate::Inflater;
+use crate::inflate::{Compression, Inflater};
 use crate::lines::{Encoding, LINE_LIMIT, Lines};
 use crate::matching::Matching;
 use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
 use crate::tracks::{self, TrackFacts, TrackOptions};
-use crate::{edge_list, lookalikes, matlab, matrix_market};
+use crate::{edge_list, lookalikes, matlab, matrix_market, numpy};
 use viewcert::graph::{Graph, Labels};
 
 /// A graph as it was read.
@@ -76,6 +76,8 @@ pub enum Format {
     Matlab,
     /// An adjacency matrix in a MatrixMarket file; see [`matrix_market`].
     MatrixMarket,
+    /// An array of NumPy, or several (`.npz`), or a sparse matrix of SciPy; see [`numpy`].
+    Numpy,
     /// Two names of images a line and nothing else, as COLMAP imports and hloc writes them.
     MatchList,
     /// Relative poses of GLOMAP: a pair, a quaternion, a translation.
@@ -97,6 +99,7 @@ impl FromStr for Format {
             "sparse6" => Ok(Self::Sparse6),
             "matlab" => Ok(Self::Matlab),
             "matrix-market" => Ok(Self::MatrixMarket),
+            "numpy" => Ok(Self::Numpy),
             "match-list" | "hloc-pairs" => Ok(Self::MatchList),
             "glomap" => Ok(Self::Glomap),
             "1dsfm" => Ok(Self::OneDsfm),
@@ -105,6 +108,8 @@ impl FromStr for Format {
             "text-matrix" => Ok(Self::Document(Document::TextMatrix)),
             "g2o" => Ok(Self::Document(Document::G2o)),
             "node-link" | "json" => Ok(Self::Document(Document::NodeLink)),
+            "gexf" => Ok(Self::Document(Document::Gexf)),
+            "gml" => Ok(Self::Document(Document::Gml)),
             "graphml" => Ok(Self::Document(Document::GraphMl)),
             "dot" | "graphviz" => Ok(Self::Document(Document::Dot)),
             _ => Err(UnknownFormat),
@@ -115,8 +120,8 @@ impl FromStr for Format {
 /// A word that is not the name of a format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the formats are edges, graph6, sparse6, matlab, matrix-market, match-list, glomap, 1dsfm, \
-     openmvg-pairs, raw-matches, text-matrix, g2o, node-link, graphml and dot"
+    "the formats are edges, graph6, sparse6, matlab, matrix-market, numpy, match-list, glomap, \
+     1dsfm, openmvg-pairs, raw-matches, text-matrix, g2o, node-link, graphml, gml, gexf and dot"
 )]
 pub struct UnknownFormat;
 
@@ -129,6 +134,7 @@ impl fmt::Display for Format {
             Self::Sparse6 => "sparse6",
             Self::Matlab => "matlab",
             Self::MatrixMarket => "matrix-market",
+            Self::Numpy => "numpy",
             Self::MatchList => "match-list",
             Self::Glomap => "glomap",
             Self::OneDsfm => "1dsfm",
@@ -137,6 +143,8 @@ impl fmt::Display for Format {
             Self::Document(Document::TextMatrix) => "text-matrix",
             Self::Document(Document::G2o) => "g2o",
             Self::Document(Document::NodeLink) => "node-link",
+            Self::Document(Document::Gexf) => "gexf",
+            Self::Document(Document::Gml) => "gml",
             Self::Document(Document::GraphMl) => "graphml",
             Self::Document(Document::Dot) => "dot",
         })
@@ -148,7 +156,8 @@ impl fmt::Display for Format {
 pub struct ReadOptions {
     /// The format; by default what the content is, if it can be only one.
     pub format: Option<Format>,
-    /// The variable of a MATLAB file; by default `A` or the only square matrix.
+    /// The variable of a MATLAB file or the array of an `.npz` file; by default `A`, the only square
+    /// matrix or the only list of pairs.
     pub variable: Option<String>,
     /// Which mapper's pairs to take from a database; by default those of incremental mapping.
     pub pipeline: Option<Pipeline>,
@@ -167,8 +176,8 @@ pub type Graphs = Box<dyn Iterator<Item = Result<NamedGraph, ReadError>>>;
 type Input = Box<dyn Read>;
 
 /// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
-/// sparse6, else one. Nothing is read before the first item is asked for. What gzip has
-/// compressed is inflated.
+/// sparse6, else one. Nothing is read before the first item is asked for. What gzip, bzip2, xz
+/// or Zstandard has compressed is unpacked.
 ///
 /// A bad line of graph6 or sparse6 is an `Err` item, and the next line follows it, if a header or
 /// the options say that it is such a file; every other error ends the stream.
@@ -198,22 +207,24 @@ fn graphs_at(
     input: impl Read + 'static,
     options: ReadOptions,
 ) -> Graphs {
-    match sampled(Box::new(input)) {
-        Ok(sampled) if sampled.is_gzip() => {
-            let inner = sampled_again(sampled);
-            let graphs = inner.map(|inner| of_sampled(None, name.clone(), inner, options));
-            let graphs =
-                graphs.unwrap_or_else(|problem| failed(&name, Place::Input.fault(problem)));
-            Box::new(graphs.map(|graph| {
-                graph.map(|mut graph| {
-                    graph.read.compression = Some("gzip");
-                    graph
-                })
-            }))
-        }
-        Ok(sampled) => of_sampled(path, name, sampled, options),
-        Err(problem) => failed(&name, Place::Input.fault(problem)),
-    }
+    let sampled = match sampled(Box::new(input)) {
+        Ok(sampled) => sampled,
+        Err(problem) => return failed(&name, Place::Input.fault(problem)),
+    };
+    let Some(compression) = Compression::of(&sampled.head) else {
+        return of_sampled(path, name, sampled, options);
+    };
+    let inner = match sampled_again(sampled, compression) {
+        Ok(inner) => inner,
+        Err(problem) => return failed(&name, Place::Input.fault(problem)),
+    };
+    let graphs = of_sampled(None, name, inner, options);
+    Box::new(graphs.map(move |graph| {
+        graph.map(|mut graph| {
+            graph.read.compression = Some(compression.name());
+            graph
+        })
+    }))
 }
 
 /// An input whose first bytes are known.
@@ -226,10 +237,6 @@ struct Sampled {
 }
 
 impl Sampled {
-    fn is_gzip(&self) -> bool {
-        recognise::kind(&self.head, self.whole).is_ok_and(|kind| kind == Kind::Gzip)
-    }
-
     fn into_input(self) -> Input {
         Box::new(Cursor::new(self.head).chain(self.rest))
     }
@@ -267,13 +274,13 @@ fn more(input: &mut Input, head: &mut Vec<u8>, count: u64) -> Result<bool, Probl
     Ok((got as u64) < count)
 }
 
-/// What is in a gzip file, which has to be something else.
-fn sampled_again(outer: Sampled) -> Result<Sampled, Problem> {
-    let inner = sampled(Box::new(Inflater::new(outer.into_input())))?;
-    if inner.is_gzip() {
+/// What is in a compressed file, which has to be something else.
+fn sampled_again(outer: Sampled, compression: Compression) -> Result<Sampled, Problem> {
+    let inner = sampled(Box::new(Inflater::new(outer.into_input(), compression)))?;
+    if Compression::of(&inner.head).is_some() {
         return Err(Problem::Foreign {
-            what: "gzip within gzip",
-            advice: "inflate it with `gunzip` once",
+            what: "a file that is compressed twice",
+            advice: "unpack it once",
         });
     }
     Ok(inner)
@@ -305,6 +312,10 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         })),
         Some(Format::Matlab) => Ok(Some(Kind::Matlab)),
         Some(Format::MatrixMarket) => Ok(Some(Kind::MatrixMarket)),
+        Some(Format::Numpy) if sampled.head.starts_with(numpy::ARCHIVE_MAGIC) => {
+            Ok(Some(Kind::NumpyArchive))
+        }
+        Some(Format::Numpy) => Ok(Some(Kind::Numpy)),
         Some(Format::Document(document)) => Ok(Some(Kind::Document(document))),
         None => recognise::kind(&sampled.head, sampled.whole).map(Some),
     };
@@ -322,10 +333,14 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Ok(Some(Kind::Sqlite)) => {
             return Box::new(std::iter::once(database(path, &name, &options, unused)));
         }
-        Ok(Some(Kind::Matlab)) => read_matlab(sampled.into_input(), options.variable.as_deref()),
-        Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input())
-            .map(|(graph, notes)| of_matrix("MatrixMarket matrix", graph, notes)),
-        Ok(None | Some(Kind::Text | Kind::Gzip)) => list(sampled, edges, &options.list),
+        Ok(Some(Kind::Matlab)) => all(sampled.into_input())
+            .and_then(|bytes| matlab::read_noting(&bytes, options.variable.as_deref())),
+        Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input()),
+        Ok(Some(Kind::Numpy)) => all(sampled.into_input()).and_then(|bytes| numpy::read(&bytes)),
+        Ok(Some(Kind::NumpyArchive)) => all(sampled.into_input())
+            .and_then(|bytes| numpy::read_archive(&bytes, options.variable.as_deref())),
+        // Compressed data within such are refused.
+        Ok(None | Some(Kind::Text | Kind::Compressed(_))) => list(sampled, edges, &options.list),
         Ok(Some(Kind::Document(document))) => {
             let asked = options.format.is_some();
             documents::read_with(document, sampled.into_input(), asked, &options.list)
@@ -377,8 +392,10 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
 /// Options that say nothing about a file of this kind, in words.
 fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<String> {
     let mut notes = Vec::new();
-    if options.variable.is_some() && !matches!(kind, Ok(Some(Kind::Matlab))) {
-        notes.push("--variable is ignored: this is no MATLAB file".to_owned());
+    let variables = matches!(kind, Ok(Some(Kind::Matlab | Kind::NumpyArchive)));
+    if options.variable.is_some() && !variables {
+        let why = "this is no MATLAB file, and no archive of NumPy";
+        notes.push(format!("--variable is ignored: {why}"));
     }
     let takes = match kind {
         Ok(None | Some(Kind::Text)) => [true; 2],
@@ -427,7 +444,7 @@ fn database(
 }
 
 /// Files of tracks are told by other means; no option for lists says anything about them.
-const TRACKS_KIND: Result<Option<Kind>, Problem> = Ok(Some(Kind::Gzip));
+const TRACKS_KIND: Result<Option<Kind>, Problem> = Ok(Some(Kind::Compressed(Compression::Gzip)));
 
 /// The camera-point graph of an input.
 fn tracks_of(
@@ -477,23 +494,12 @@ fn failed(name: &str, fault: Fault) -> Graphs {
     Box::new(std::iter::once(Err(fault.in_file(name))))
 }
 
-fn read_matlab(mut input: impl Read, variable: Option<&str>) -> Result<Parsed, Fault> {
+/// All bytes of an input.
+fn all(mut input: impl Read) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
-    input
-        .read_to_end(&mut bytes)
-        .map_err(|error| Place::Input.fault(error.into()))?;
-    let (graph, chosen) = matlab::read_noting(&bytes, variable)?;
-    Ok(of_matrix("MATLAB matrix", graph, Vec::from_iter(chosen)))
-}
-
-/// The graph of a matrix, whose rows are numbered from 1.
-fn of_matrix(format: &'static str, graph: Graph, notes: Vec<String>) -> Parsed {
-    Parsed {
-        graph,
-        labels: Labels::Numbers { first: 1 },
-        read: ReadAs::new(format),
-        notes,
-    }
+    let done = input.read_to_end(&mut bytes);
+    done.map_err(|error| Place::Input.fault(error.into()))?;
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -119,7 +119,7 @@ fn gzip_is_inflated() {
         (3, Some("gzip"))
     );
     assert_eq!(all(&gzip(b"Bw\nC~\n")).iter().flatten().count(), 2);
-    assert!(one_error(&gzip(&two)).starts_with("in: this is gzip within gzip"));
+    assert!(one_error(&gzip(&two)).starts_with("in: this is a file that is compressed twice"));
     assert!(one_error(&two[..two.len() - 5]).starts_with("in: the compressed data are damaged"));
     assert!(one_error(&gzip(b"\x89PNG\r\n\x1a\n")).starts_with("in: this is a PNG image"));
 }
@@ -160,10 +160,13 @@ fn a_format_that_is_asked_for_is_not_guessed() {
         ("sparse6", Format::Sparse6),
         ("matlab", Format::Matlab),
         ("matrix-market", Format::MatrixMarket),
+        ("numpy", Format::Numpy),
         ("match-list", Format::MatchList),
         ("1dsfm", Format::OneDsfm),
         ("openmvg-pairs", Format::Document(Document::Stars)),
         ("json", Format::Document(Document::NodeLink)),
+        ("gexf", Format::Document(Document::Gexf)),
+        ("gml", Format::Document(Document::Gml)),
         ("graphviz", Format::Document(Document::Dot)),
     ] {
         assert_eq!(name.parse(), Ok(format));

@@ -11,9 +11,11 @@
 use hdf5_reader::messages::datatype::Datatype;
 use hdf5_reader::{Attribute, ByteOrder, Dataset, Hdf5File, OpenOptions};
 
-use super::{Candidate, Pattern, choose, malformed};
+use super::malformed;
 use crate::error::{Fault, Place, Problem};
-use viewcert::graph::Graph;
+use crate::matrix::{List, Matrix, Places, are_pairs};
+use crate::read_as::Parsed;
+use crate::variables::{Candidate, choose};
 
 /// Deflated data can hold at most so many times their own length.
 const RATIO: usize = 1032;
@@ -56,8 +58,11 @@ impl Candidate for Variable {
         format!("{} ({} {})", self.name, self.shape_text(), self.class)
     }
 
-    fn could_be_adjacency(&self) -> bool {
-        !matches!(self.content, Content::Other) && self.square().is_ok_and(|size| size > 1)
+    fn numeric_shape(&self) -> Option<[u64; 2]> {
+        match self.shape[..] {
+            [rows, columns] if !matches!(self.content, Content::Other) => Some([rows, columns]),
+            _ => None,
+        }
     }
 }
 
@@ -74,49 +79,75 @@ impl Variable {
         }
     }
 
-    fn graph(&self, most: usize) -> Result<Graph, Problem> {
-        let graph = self.pattern(most).and_then(Pattern::graph);
-        graph.map_err(|problem| match problem {
-            // What is a column here is a row in the eyes of whoever wrote the file.
-            Problem::Asymmetric { row, column } if !self.by_matlab => Problem::Asymmetric {
-                row: column,
-                column: row,
-            },
-            Problem::NotANumber { row, column } if !self.by_matlab => Problem::NotANumber {
-                row: column,
-                column: row,
-            },
-            other => other,
-        })
-    }
-
-    fn pattern(&self, most: usize) -> Result<Pattern, Problem> {
-        let mut pattern = Pattern::new();
-        match &self.content {
+    fn graph(&self, most: usize) -> Result<Parsed, Problem> {
+        if let Content::Full(dataset) = &self.content
+            && let Some(shape) = self.numeric_shape().filter(|&shape| are_pairs(shape))
+        {
+            let numbers = Numbers::read(dataset, most)?;
+            let mut list = List::new(shape);
+            self.each_entry(&numbers, shape, |fast, slow, value| {
+                if self.by_matlab {
+                    list.entry(fast, slow, value)
+                } else {
+                    list.entry(slow, fast, value)
+                }
+            })?;
+            return list.graph();
+        }
+        let size = match self.content {
             Content::Other => return Err(Problem::NotNumericNamed(self.class.clone())),
             Content::Complex => return Err(Problem::Complex),
-            Content::Empty => pattern.complete(self.square()?),
+            _ => self.square()?,
+        };
+        self.matrix(size, most)?.graph()
+    }
+
+    /// Calls `entry` with the entries of a full matrix that are not zero, in the order in which they
+    /// are stored: with the index that changes from each to the next, and the other one.
+    fn each_entry(
+        &self,
+        numbers: &Numbers,
+        [rows, columns]: [u64; 2],
+        mut entry: impl FnMut(u32, u32, f64) -> Result<(), Problem>,
+    ) -> Result<(), Problem> {
+        if rows.checked_mul(columns) != Some(numbers.count() as u64) {
+            return Err(malformed("a matrix without all of its entries"));
+        }
+        let [fast, slow] = if self.by_matlab {
+            [rows, columns]
+        } else {
+            [columns, rows]
+        };
+        let [fast, slow] = [fast, slow].map(u32::try_from);
+        let (Ok(fast), Ok(slow)) = (fast, slow) else {
+            return Err(Problem::TooManyNodes);
+        };
+        let places = (0..slow).flat_map(|slow| (0..fast).map(move |fast| (fast, slow)));
+        for (value, (fast, slow)) in numbers.values().zip(places) {
+            if value != 0.0 {
+                entry(fast, slow, value)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn matrix(&self, size: u32, most: usize) -> Result<Matrix, Problem> {
+        let places = Places {
+            first: 1,
+            transposed: !self.by_matlab,
+        };
+        let mut matrix = Matrix::new(size, places);
+        match &self.content {
+            Content::Other | Content::Complex | Content::Empty => {}
             Content::Full(dataset) => {
-                let size = self.square()?;
                 let numbers = Numbers::read(dataset, most)?;
-                if numbers.count() as u64 != u64::from(size) * u64::from(size) {
-                    return Err(malformed("a matrix without all of its entries"));
-                }
-                let (mut row, mut column) = (0, 0);
-                for value in numbers.values() {
-                    if value != 0.0 {
-                        pattern.entry(row, column, value)?;
-                    }
-                    row += 1;
-                    if row == size {
-                        (row, column) = (0, column + 1);
-                    }
-                }
-                pattern.complete(size);
+                let shape = [u64::from(size); 2];
+                self.each_entry(&numbers, shape, |row, column, value| {
+                    matrix.entry(row, column, value)
+                })?;
             }
             Content::Sparse(parts) => {
                 let (starts, entries) = &**parts;
-                let size = self.square()?;
                 let starts = indices(starts, most)?;
                 let (rows, values) = match entries {
                     None => (Vec::new(), Vec::new()),
@@ -142,15 +173,12 @@ impl Variable {
                         return Err(malformed("the row numbers of a sparse matrix"));
                     }
                     for (&row, &value) in rows.iter().zip(&values[place]) {
-                        if value != 0.0 {
-                            pattern.entry(row, column, value)?;
-                        }
+                        matrix.entry(row, column, value)?;
                     }
                 }
-                pattern.complete(size);
             }
         }
-        Ok(pattern)
+        Ok(matrix)
     }
 }
 
@@ -161,7 +189,7 @@ impl Variable {
 pub(super) fn read(
     bytes: &[u8],
     variable: Option<&str>,
-) -> Result<(String, Result<Graph, Problem>), Fault> {
+) -> Result<(String, Result<Parsed, Problem>), Fault> {
     let most = bytes.len().saturating_mul(RATIO).min(LIMIT);
     let variables = variables(bytes, most).map_err(|problem| Place::Input.fault(problem))?;
     let chosen = choose(&variables, variable)?;

@@ -1,0 +1,110 @@
+//! Files that this program writes and that are no graphs, given where one is expected.
+//!
+//! In: the first bytes of a file. Out: its name, and the command that reads it.
+
+use crate::error::Problem;
+
+const CHECK: &str = "`verify check FILE` verifies it; if the graph is in a file of its own, \
+                     `verify check FILE GRAPH`";
+const MANIFEST: &str =
+    "`verify check FOLDER`, with the folder that it lies in, checks what it lists";
+const REPORT: &str = "give the graph that it is about; `verify check` reads certificates \
+                      (`verify GRAPH --certificate FILE`)";
+const PICTURE: &str = "give the graph that it shows";
+const TABLE: &str = "its graphs are in the first column: cut -f1 FILE | tail -n +2 | verify -";
+const COUNTS: &str = "the graphs are in the files .g6 and .jsonl.gz beside it";
+const WITNESS: &str =
+    "give the graph that it is about; the cameras are for `check.py` and the like";
+
+/// The names of formats in JSON: the first member of a file.
+const FORMATS: [(&str, &str, &str); 3] = [
+    ("viewcert certificate", "a certificate", CHECK),
+    (
+        "viewcert manifest",
+        "the manifest of a folder of certificates",
+        MANIFEST,
+    ),
+    (
+        "viewcert witness",
+        "a witness: two sets of cameras",
+        WITNESS,
+    ),
+];
+
+/// The first columns of tables.
+const HEADS: [(&str, &str, &str); 4] = [
+    ("graph6\tverdict\t", "a table of graphs", TABLE),
+    ("graph6\tdegrees\t", "a table of graphs", TABLE),
+    ("nodes\tedges\tconnected\t", "a table of counts", COUNTS),
+    ("nodes\tedges\tcandidates\t", "a table of counts", COUNTS),
+];
+
+/// What a file is that begins like this, if this program has written it.
+pub(super) fn known(head: &[u8]) -> Option<Problem> {
+    let text = String::from_utf8_lossy(head);
+    let text = text.trim_start();
+    let own = |what, advice| Some(Problem::Own { what, advice });
+    if text.starts_with('{') {
+        let member = |name: &str| {
+            let behind = text.split_once(&format!("\"{name}\""))?.1.trim_start();
+            Some(behind.strip_prefix(':')?.trim_start())
+        };
+        if let Some(format) = member("format").and_then(|value| value.strip_prefix('"')) {
+            let known = FORMATS.iter().find(|(name, ..)| format.starts_with(name));
+            if let Some((_, what, advice)) = known {
+                return own(what, advice);
+            }
+        }
+        // All reports say which graph they are about, and what was noted in reading it.
+        let graph = member("graph")
+            .is_some_and(|value| value.starts_with('"') || value.starts_with("{\"name\":"));
+        let notes = member("notes").is_some_and(|value| value.starts_with('['));
+        return if graph && notes {
+            own("a report", REPORT)
+        } else {
+            None
+        };
+    }
+    if text.starts_with("<svg") && text.contains("data-component=") {
+        return own("a picture", PICTURE);
+    }
+    // What a page may do is said at its head: nothing but its own script.
+    if text.starts_with("<!DOCTYPE html>")
+        && text.contains("default-src 'none'; script-src 'sha256-")
+    {
+        return own("a page", PICTURE);
+    }
+    if let Some((_, what, advice)) = HEADS.iter().find(|(head, ..)| text.starts_with(head)) {
+        return own(what, advice);
+    }
+    // A report for people: the graph's name, and lines of a word and what it is.
+    let mut lines = text.lines().skip(1);
+    let is = |line: Option<&str>, word: &str| line.is_some_and(|line| line.starts_with(word));
+    let report =
+        is(lines.next(), "  graph       ") && lines.any(|line| is(Some(line), "  verdict     "));
+    if report {
+        own("a report", REPORT)
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_others_are_not_ours() {
+        for text in [
+            "{\"nodes\": [{\"id\": 1}], \"links\": [], \"graph\": {}}",
+            "{\"format\": \"another\", \"notes\": []}",
+            "{\"graph\": {\"nodes\": 3}, \"notes\": []}",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>",
+            "<!DOCTYPE html><html></html>",
+            "graph6 verdict\n",
+            "a b\n  graph       c\n",
+        ] {
+            assert!(known(text.as_bytes()).is_none(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,89 @@
+Creator "igraph version 1.0.0 Mon Nov 23 03:54:32 2026"
+Version 1
+graph
+[
+  directed 1
+  node
+  [
+    id 0
+  ]
+  node
+  [
+    id 1
+  ]
+  node
+  [
+    id 2
+  ]
+  node
+  [
+    id 3
+  ]
+  node
+  [
+    id 4
+  ]
+  node
+  [
+    id 5
+  ]
+  node
+  [
+    id 6
+  ]
+  edge
+  [
+    source 0
+    target 1
+  ]
+  edge
+  [
+    source 0
+    target 2
+  ]
+  edge
+  [
+    source 1
+    target 2
+  ]
+  edge
+  [
+    source 1
+    target 3
+  ]
+  edge
+  [
+    source 2
+    target 3
+  ]
+  edge
+  [
+    source 2
+    target 4
+  ]
+  edge
+  [
+    source 3
+    target 4
+  ]
+  edge
+  [
+    source 3
+    target 5
+  ]
+  edge
+  [
+    source 4
+    target 5
+  ]
+  edge
+  [
+    source 4
+    target 6
+  ]
+  edge
+  [
+    source 5
+    target 6
+  ]
+]

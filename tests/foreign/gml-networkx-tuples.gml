@@ -1,0 +1,74 @@
+graph [
+  node [
+    id 0
+    label "(0,0)"
+  ]
+  node [
+    id 1
+    label "(0,1)"
+  ]
+  node [
+    id 2
+    label "(0,2)"
+  ]
+  node [
+    id 3
+    label "(1,0)"
+  ]
+  node [
+    id 4
+    label "(1,1)"
+  ]
+  node [
+    id 5
+    label "(1,2)"
+  ]
+  node [
+    id 6
+    label "(2,0)"
+  ]
+  edge [
+    source 0
+    target 1
+  ]
+  edge [
+    source 0
+    target 2
+  ]
+  edge [
+    source 1
+    target 2
+  ]
+  edge [
+    source 1
+    target 3
+  ]
+  edge [
+    source 2
+    target 3
+  ]
+  edge [
+    source 2
+    target 4
+  ]
+  edge [
+    source 3
+    target 4
+  ]
+  edge [
+    source 3
+    target 5
+  ]
+  edge [
+    source 4
+    target 5
+  ]
+  edge [
+    source 4
+    target 6
+  ]
+  edge [
+    source 5
+    target 6
+  ]
+]
