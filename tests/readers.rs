@@ -398,6 +398,14 @@ mod sparse6 {
     }
 }
 
+/// Whether a graph was read from a list of pairs as it stands, or from another format that the checker
+/// may read.
+fn is_plain(named: &viewcert_formats::NamedGraph) -> bool {
+    let read = &named.read;
+    let taken = read.taken.as_deref().unwrap_or("columns 1 and 2");
+    read.guessed.is_empty() && taken.ends_with("columns 1 and 2")
+}
+
 /// Two programs read edge lists, the prover and the checker, without a line in common. What the
 /// first accepts, the second must read as the same graph (the first refuses more: control
 /// characters, graphs without pairs).
@@ -453,7 +461,8 @@ mod two_readers {
         fn agree(text in text()) {
             let path = concat!(env!("CARGO_TARGET_TMPDIR"), "/two-readers.txt");
             std::fs::write(path, &text).unwrap();
-            if let Some(Ok(named)) = read_graphs(path, &ReadOptions::default()).next() {
+            let named = read_graphs(path, &ReadOptions::default()).next();
+            if let Some(Ok(named)) = named && is_plain(&named) {
                 let checked = viewcert_check::Graph::read(text.as_bytes(), || None);
                 prop_assert_eq!(checked.unwrap().sha256(), sha256(&named.graph));
             }
@@ -477,7 +486,7 @@ mod one_graph_for_both {
         let input = Cursor::new(bytes.to_vec());
         let named = graphs("in".to_owned(), input, ReadOptions::default()).next()?;
         let checked = viewcert_check::Graph::read(bytes, || None);
-        Some((named.ok()?, checked.ok()?))
+        Some((named.ok().filter(is_plain)?, checked.ok()?))
     }
 
     #[test]
@@ -486,6 +495,9 @@ mod one_graph_for_both {
         let mut alike = 0;
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            if path.is_dir() {
+                continue;
+            }
             if let Some((named, checked)) = both(&std::fs::read(&path).unwrap()) {
                 assert_eq!(checked.sha256(), sha256(&named.graph), "{}", path.display());
                 alike += 1;
