@@ -1,7 +1,7 @@
 //! Files beside a graph, which name its cameras: what is common to them.
 //!
 //! In: a text, and the graph. Out: its lines, and the nodes by what the user calls them. Fields,
-//! quotes and comments are those of edge lists (docs/certificate.md, section 2).
+//! quotes and comments are those of edge lists (docs/input.md).
 
 use std::collections::HashMap;
 use std::fs::File;

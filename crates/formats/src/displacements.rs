@@ -2,9 +2,9 @@
 //! is.
 //!
 //! In: a text, and the graph whose cameras it names. Out: the groups ([`Displacements`]), with
-//! notes on what counts once or says nothing. The grammar is that of docs/certificate.md, section
-//! 2: fields as in edge lists, two labels per line or one, and no head; behind them, on all lines or
-//! on none, the vector from the first camera to the second, or the position (docs/models.md).
+//! notes on what counts once or says nothing. The grammar is that of docs/input.md: fields as in
+//! edge lists, two labels per line or one, and no head; behind them, on all lines or on none, the
+//! vector from the first camera to the second, or the position (docs/models.md).
 
 use std::collections::BTreeSet;
 use std::io::Read;

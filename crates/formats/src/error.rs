@@ -273,6 +273,12 @@ pub enum Problem {
         /// The name.
         name: String,
     },
+    /// A head whose first two names are no pair, and below it nothing that tells.
+    #[error("the head `{}` does not say which two columns hold the pairs", shown(.head))]
+    NoPairOfNames {
+        /// Its first names.
+        head: String,
+    },
     /// A column that is asked for and not there.
     #[error("there is no column `{}`; there are {columns}", shown(.column))]
     NoColumn {
@@ -525,7 +531,9 @@ impl Problem {
             Self::NoNumber { .. } => {
                 "further columns hold numbers (quote names with blanks), or a head says which columns are the pair"
             }
-            Self::NoCameras { .. } => "if other columns hold the pairs, name them with --columns",
+            Self::NoCameras { .. } | Self::NoPairOfNames { .. } => {
+                "if other columns hold the pairs, name them with --columns"
+            }
             Self::NoColumn { .. } => {
                 "name the two columns of the pairs by their names or their numbers from 1 (--columns img1,img2)"
             }

@@ -2,7 +2,7 @@
 //!
 //! In: a text, and the graph whose cameras it names. Out: the parts in their canonical form
 //! ([`KnownParts`]), with notes about what counts once or says nothing. The grammar is that of
-//! docs/certificate.md, section 2: fields as in edge lists, all of them labels, and no head.
+//! docs/input.md: fields as in edge lists, all of them labels, and no head.
 
 use std::io::Read;
 use std::path::Path;

@@ -371,20 +371,20 @@ const DIMACS_ADVICE: &str =
 
 /// Edges of DIMACS, with or without the line that counts them.
 fn is_dimacs<'a>(lines: &mut dyn Iterator<Item = &'a str>) -> bool {
-    // The last line may be cut.
     let mut edges = 0;
-    let mut others = 0;
     for line in lines {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        match words[..] {
-            ["e" | "a", a, b, ..] if words.len() < 5 && is_integer(a) && is_integer(b) => {
-                edges += 1
-            }
-            ["c", ..] | ["p" | "n" | "d" | "v" | "x", _, _, ..] => {}
-            _ => others += 1,
+        let mut words = line.split_whitespace();
+        let kind = words.next();
+        let others: Vec<&str> = words.take(4).collect();
+        match (kind, &others[..]) {
+            (Some("e" | "a"), [a, b] | [a, b, _]) if is_integer(a) && is_integer(b) => edges += 1,
+            // The last line may be cut.
+            (Some("e" | "a"), [] | [_]) => {}
+            (Some("c"), _) | (Some("p" | "n" | "d" | "v" | "x"), [_, _, ..]) => {}
+            _ => return false,
         }
     }
-    edges > 0 && others == 0
+    edges > 0
 }
 
 /// Lists of igraph's LGL format: a node in a comment, and below it a neighbour and a weight a line.

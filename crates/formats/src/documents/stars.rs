@@ -105,6 +105,20 @@ fn is_of_networkx(text: &str) -> bool {
     comments.take(3).any(|line| line.starts_with(NETWORKX))
 }
 
+/// Whether some lines have another number of fields than the first. (Most lists of pairs end here.)
+fn is_uneven(text: &str) -> bool {
+    let counts = text.lines().map(|line| {
+        let blank = [' ', '\t', ','];
+        line.split(blank)
+            .filter(|field| !field.is_empty())
+            .take_while(|field| !field.starts_with(['#', '%']))
+            .count()
+    });
+    let mut counts = counts.filter(|&count| count > 0);
+    let first = counts.next();
+    counts.any(|count| Some(count) != first)
+}
+
 /// Whether a text that begins like this may be read as stars unasked.
 pub(super) fn is_stars(head: &str, whole: bool) -> bool {
     let end = if whole {
@@ -114,7 +128,8 @@ pub(super) fn is_stars(head: &str, whole: bool) -> bool {
     };
     let text = &head[..end.unwrap_or(0)];
     is_of_networkx(text)
-        || shape(text).is_some_and(|shape| shape.are_stars(whole) || whole && shape.is_closed())
+        || is_uneven(text)
+            && shape(text).is_some_and(|shape| shape.are_stars(whole) || whole && shape.is_closed())
 }
 
 /// Reads stars.

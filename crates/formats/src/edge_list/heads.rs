@@ -214,7 +214,7 @@ pub(super) fn is_pair(first: &str, second: &str) -> bool {
 }
 
 /// Whether these may be such names.
-fn may_be_pair(first: &str, second: &str) -> bool {
+pub(super) fn may_be_pair(first: &str, second: &str) -> bool {
     is_pair(first, second) || PERHAPS.contains(&[&*plain(first), &*plain(second)])
 }
 
@@ -240,7 +240,9 @@ pub(super) fn pair_among(names: &[&str], sure: bool) -> Option<[usize; 2]> {
         .filter(|[first, second]| first < second)
         .find(|&[first, second]| {
             let [first, second] = [names[first], names[second]];
-            is_pair(first, second) || sure && may_be_pair(first, second)
+            // Letters are names of columns of all kinds.
+            let words = first.len() > 1;
+            is_pair(first, second) || sure && words && may_be_pair(first, second)
         })
 }
 

@@ -283,6 +283,12 @@ impl Sample {
             && images(1) == images(2)
     }
 
+    /// Whether some field has a blank in it that no quotes protect.
+    fn has_inner_blanks(&self) -> bool {
+        let mut cells = self.lines.iter().flat_map(|line| line.iter().take(2));
+        cells.any(|cell| !cell.quoted && cell.text.contains(' '))
+    }
+
     /// Whether names have blanks in them: two columns end like images, one name each.
     fn has_blanks(&self) -> bool {
         self.columns() >= 2
@@ -290,15 +296,20 @@ impl Sample {
                 .lines
                 .iter()
                 .all(|line| is_image(&line[0].text) && is_image(&line[1].text))
-            && self.lines.iter().any(|line| {
-                line[..2]
-                    .iter()
-                    .any(|cell| !cell.quoted && cell.text.contains(' '))
-            })
+            && self.has_inner_blanks()
             && self
                 .lines
                 .iter()
                 .all(|line| line[2..].iter().all(Cell::is_number))
+    }
+
+    /// Whether lines are two names, or these and a number, without anything that separates otherwise.
+    fn is_list(&self) -> bool {
+        let name = |cell: &Cell| {
+            let separates = |text: &str| text.contains([' ', '\t', ',']);
+            !cell.text.is_empty() && (cell.quoted || !separates(&cell.text))
+        };
+        self.columns() <= 3 && self.lines.iter().all(|line| line[..2].iter().all(name))
     }
 
     fn has_empty(&self) -> bool {
@@ -359,16 +370,13 @@ fn unasked(sample: &Sample) -> Option<Layout> {
     let columns = sample.columns();
     let (head, pair) = sample.head().unzip();
     let pair = pair.flatten();
-    let blank_head = head
-        .as_ref()
-        .is_some_and(|names| names.iter().any(|name| name.contains(' ')));
     let usual = [2, 3].contains(&columns) && sample.separator != Some(b';') && !sample.has_empty();
     let ends = match pair {
-        Some([0, 1]) if usual && !sample.has_blanks() && !blank_head => return None,
+        Some([0, 1]) if usual && !sample.has_inner_blanks() => return None,
         Some(ends) => ends,
         None if columns > 2 && sample.indexed() => [1, 2],
         None if sample.has_blanks() => [0, 1],
-        None if sample.separator == Some(b';') && columns <= 3 && !sample.has_empty() => [0, 1],
+        None if sample.separator == Some(b';') && sample.is_list() => [0, 1],
         None => return None,
     };
     // Above an index stands a head, whatever it is.

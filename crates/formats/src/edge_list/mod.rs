@@ -15,6 +15,7 @@
 //! cores, and integers become nodes by a bitmap of those that occur; everything else takes the
 //! general way, through an index of labels.
 
+use std::collections::HashSet;
 use std::io::{self, Read};
 
 use crate::error::{Fault, Place, Problem};
@@ -780,12 +781,38 @@ impl Collector {
             let name = name.to_string();
             return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
         }
+        let shown = first.shown();
+        if first.head != Head::Sure && !asked && !self.heads_pairs(first) {
+            return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
+        }
+        Ok(format!("the first line is a head: {shown}"))
+    }
+
+    /// Whether a head names a pair, or what stands below its first two names looks like one; with more
+    /// than two columns, the third one has to be one of weights then.
+    fn heads_pairs(&self, first: &First) -> bool {
+        const MOST: usize = 1 << 16;
+        let [a, b] = &first.labels;
+        let weights = first.names.get(2).is_none_or(|name| heads::is_weight(name));
+        let below = || {
+            let pairs = || self.pairs.iter().take(MOST);
+            let starts: HashSet<u32> = pairs().map(|pair| pair.0).collect();
+            let images = |names: &Index| names.nodes.keys().all(|label| is_image(label));
+            pairs().any(|pair| starts.contains(&pair.1)) || self.names.as_ref().is_some_and(images)
+        };
+        heads::is_pair(a, b) || weights && (heads::may_be_pair(a, b) || below())
+    }
+}
+
+impl First {
+    /// Its first fields.
+    fn shown(&self) -> String {
         const SHOWN: usize = 4;
-        let mut names: Vec<&str> = first.names.iter().take(SHOWN).map(|name| &**name).collect();
-        if first.names.len() > SHOWN {
+        let mut names: Vec<&str> = self.names.iter().take(SHOWN).map(|name| &**name).collect();
+        if self.names.len() > SHOWN {
             names.push("...");
         }
-        Ok(format!("the first line is a head: {}", names.join(",")))
+        names.join(",")
     }
 }
 

@@ -20,6 +20,8 @@ const FEW: usize = 3;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
+    /// A date or a time of day.
+    Time,
     Image,
     Other,
 }
@@ -52,6 +54,7 @@ fn unlike_columns(pairs: &[(u32, u32)], names: &Index) -> Option<&'static str> {
     for (label, &node) in &names.nodes {
         kinds[node as usize] = match () {
             () if is_number(label.as_bytes()) => Kind::Number,
+            () if is_time(label) => Kind::Time,
             () if is_image(label) => Kind::Image,
             () => Kind::Other,
         };
@@ -72,11 +75,29 @@ fn unlike_columns(pairs: &[(u32, u32)], names: &Index) -> Option<&'static str> {
              and no list of pairs",
         );
     }
+    if all_first(Kind::Time) || all_second(Kind::Time) {
+        return Some(
+            "one of the first two columns holds dates or times: a table, and no list of pairs",
+        );
+    }
     let image = Kind::Image;
     (all_first(image) && none_second(image) || all_second(image) && none_first(image)).then_some(
         "one of the first two columns holds names of images, and the other none: a table, and no list of \
          pairs",
     )
+}
+
+/// Whether this is a date like 2011-09-26 or a time like 13:02:25.5.
+fn is_time(label: &str) -> bool {
+    let digits = |text: &&str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let parts = |mark| -> Vec<&str> { label.split(mark).collect() };
+    match (&parts('-')[..], &parts(':')[..]) {
+        ([year, month, day], _) => year.len() == 4 && [year, month, day].into_iter().all(digits),
+        (_, [hour, minute, second]) => {
+            digits(hour) && digits(minute) && is_number(second.as_bytes())
+        }
+        _ => false,
+    }
 }
 
 /// Whether some label stands in both columns.
@@ -171,6 +192,7 @@ mod tests {
             "640 480\n640 480\n640 480\n",
             "0 1305\n1 1306\n2 1307\n",
             "1403.5 a.png\n1404.5 b.png\n",
+            "2011-09-26 13:02:25.1\n2011-09-26 13:02:25.2\n",
         ] {
             let refusal = refusal(text).unwrap_or_default();
             assert!(
