@@ -1,0 +1,69 @@
+(* viewcert-proved GRAPH PROOF, or viewcert-proved --list FILE with a line "GRAPH PROOF" for each graph.
+
+   Exit codes: 0 all verified, 1 a proof is rejected, 2 something is unreadable, 3 too large for this machine. *)
+
+let say = Printf.printf
+
+(* what verify_sound and its corollaries say of these numbers *)
+let theorem n lower upper =
+  let full = (11 * n) - 15 in
+  if lower = full then say "  the generic rank of J is %d = 11 n - 15: full rank\n" full
+  else if lower = upper then say "  the generic rank of J is %d\n" lower
+  else begin
+    if lower > 0 then say "  some rational cameras have rank %d at least\n" lower;
+    if upper < full then say "  for all cameras over all fields of characteristic 0 the rank of J is at most %d\n" upper
+  end;
+  if upper < full then say "  full rank would be 11 n - 15 = %d: not of full rank\n" full;
+  if lower = 0 && upper >= full then say "  nothing is claimed\n"
+
+let check graph_path proof_path =
+  let graph = Graph.read graph_path in
+  let n = graph.nodes and m = Array.length graph.first in
+  let first k = graph.first.(k) and second k = graph.second.(k) in
+  let order = Proof.by_key m (fun k -> (n * first k) + second k) in
+  let by_pair k = order.(k) in
+  if not (Checker.graph_ok n m first second by_pair) then
+    raise (Graph.Unreadable (graph_path ^ ": not a simple graph with two nodes or more, smaller node of a pair first"));
+  let proof = Proof.read proof_path graph in
+  let last = max 0 (Array.length proof.bodies - 1) in
+  let accepted =
+    (proof.lower = 0 || Array.length proof.bodies > 0)
+    && Checker.verify n m first second by_pair
+         (fun b -> proof.bodies.(b)) last proof.lower
+         (fun c -> proof.blocks.(c)) (Array.length proof.blocks)
+         (fun k -> proof.place.(k)) proof.upper
+  in
+  say "%s: %d nodes, %d pairs, MD5 %s: %s\n" graph_path n m graph.md5
+    (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");
+  if accepted then theorem n proof.lower proof.upper;
+  if accepted then 0 else 1
+
+let guarded graph proof =
+  let unreadable why = flush stdout; prerr_endline ("viewcert-proved: " ^ why); 2 in
+  let too_large () = flush stdout; prerr_endline ("viewcert-proved: " ^ proof ^ ": too large for this machine"); 3 in
+  try check graph proof with
+  | Graph.Unreadable why | Proof.Unreadable why | Sys_error why -> unreadable why
+  | Invalid_argument _ | Not_found | Division_by_zero | Failure _ -> unreadable (proof ^ ": out of range")
+  | Out_of_memory | Stack_overflow -> too_large ()
+
+let list_of path =
+  let line text =
+    match String.split_on_char ' ' text with
+    | [ graph; proof ] -> (graph, proof)
+    | _ -> raise (Graph.Unreadable (path ^ ": a line with a graph and a proof expected"))
+  in
+  let text = Graph.contents path in
+  List.map line (List.filter (( <> ) "") (String.split_on_char '\n' text))
+
+let () =
+  let pairs =
+    match Array.to_list Sys.argv with
+    | [ _; "--list"; path ] -> (
+        try list_of path with Graph.Unreadable why | Sys_error why -> prerr_endline ("viewcert-proved: " ^ why); exit 2)
+    | [ _; graph; proof ] -> [ (graph, proof) ]
+    | _ -> prerr_endline "usage: viewcert-proved GRAPH PROOF, or viewcert-proved --list FILE"; exit 2
+  in
+  if pairs = [] then (prerr_endline "viewcert-proved: an empty list"; exit 2);
+  say "Statements are about the matrix J of proofs/theories/Statement.v. A graph is finite solvable iff it has full rank:\n\
+       that is Theorem 1.3 of docs/theory.md, which is cited and not proved here.\n";
+  exit (List.fold_left (fun worst (graph, proof) -> max worst (guarded graph proof)) 0 pairs)

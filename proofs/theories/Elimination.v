@@ -1,0 +1,313 @@
+(* Proposition 1.4 as a program: elimination modulo p at given centres, and what its result means.
+
+   Columns are eliminated in increasing order. Rows wait in a heap, the one that begins first on top. Nothing has to be
+   complete: what is left when the program stops are rows that vanish on every solution of those it began with, and
+   [staircase] looks whether they are in echelon form. *)
+From mathcomp Require Import all_ssreflect all_algebra zify ring.
+From Viewcert Require Import Statement Skew Motions Generic NormalForm Rigid.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import GRing.Theory Num.Theory.
+
+Section Program.
+Variable p : nat.
+Definition addp a b := (a + b) %% p.
+Definition mulp a b := (a * b) %% p.
+Definition oppp a := (p - a %% p) %% p.
+
+(* a row: columns and entries, by increasing columns *)
+Definition sparse := seq (nat * nat).
+
+(* s y1 + y2 *)
+Fixpoint axpy s (y1 : sparse) : sparse -> sparse :=
+  match y1 with
+  | [::] => fun y2 => y2
+  | (k1, x1) :: t1 => fix with_ (y2 : sparse) : sparse :=
+    match y2 with
+    | [::] => (k1, mulp s x1) :: axpy s t1 [::]
+    | (k2, x2) :: t2 =>
+      if k1 < k2 then (k1, mulp s x1) :: axpy s t1 y2
+      else if k2 < k1 then (k2, x2) :: with_ t2
+      else let x := addp (mulp s x1) x2 in
+           if eqn x 0 then axpy s t1 t2 else (k1, x) :: axpy s t1 t2
+    end
+  end.
+
+Fixpoint sorted_row (y : sparse) : sparse :=
+  if y is (k, x) :: t then
+    let z := sorted_row t in if eqn x 0 then z else axpy 1 [:: (k, x)] z
+  else [::].
+
+Fixpoint power fuel x k : nat :=
+  if fuel is f.+1 then
+    if eqn k 0 then 1 else
+    let h := power f (mulp x x) (k %/ 2) in if eqn (k %% 2) 0 then h else mulp x h
+  else 1.
+
+(* a heap of rows that are not empty: first column, its entry, the rest of the row *)
+Inductive heap := Leaf | Node of nat & nat & sparse & heap & heap.
+Fixpoint meld (h1 : heap) : heap -> heap :=
+  match h1 with
+  | Leaf => fun h2 => h2
+  | Node c1 x1 t1 l1 r1 => fix with_ (h2 : heap) : heap :=
+    match h2 with
+    | Leaf => h1
+    | Node c2 x2 t2 l2 r2 =>
+      if c1 <= c2 then Node c1 x1 t1 (meld r1 h2) l1 else Node c2 x2 t2 (with_ r2) l2
+    end
+  end.
+Definition push (y : sparse) h := if y is (c, x) :: t then meld (Node c x t Leaf Leaf) h else h.
+Fixpoint push_all (Y : seq sparse) h := if Y is y :: Z then push_all Z (push (sorted_row y) h) else h.
+
+(* a pivot row has the entry 1 in its first column; given are this column and the rest *)
+Definition pivot := (nat * sparse)%type.
+Fixpoint eliminate fuel (now : pivot) (h : heap) (done : seq pivot) : seq pivot :=
+  if fuel is f.+1 then
+    match h with
+    | Leaf => now :: done
+    | Node c x t l r =>
+      if eqn c now.1 then eliminate f now (push (axpy (oppp x) now.2 t) (meld l r)) done
+      else let s := power 64 x (p - 2) in
+           if eqn (mulp s x) 1 then eliminate f (c, axpy s t [::]) (meld l r) (now :: done) else now :: done
+    end
+  else done.
+
+Fixpoint above c (t : sparse) := if t is (k, _) :: t' then if c < k then above c t' else false else true.
+Fixpoint staircase bound (Z : seq pivot) :=
+  if Z is (c, t) :: Z' then if c < bound then if above c t then staircase c Z' else false else false else true.
+
+(* pairs of nodes 0 .. k-1 at centres cs; bit t of the number with a pair says whether its t-th row is used *)
+Definition entries10 : seq (nat * nat) :=
+  [:: (0, 0); (0, 1); (0, 2); (0, 3); (1, 1); (1, 2); (1, 3); (2, 2); (2, 3); (3, 3)].
+Section Rows.
+Variable cs : nat -> nat -> nat.
+Fixpoint rows_of i j mask (ab : seq (nat * nat)) (tail : seq sparse) : seq sparse :=
+  if ab is (a, b) :: ab' then
+    let more := rows_of i j (mask %/ 2) ab' tail in
+    if eqn (mask %% 2) 0 then more
+    else combination 0 addp mulp oppp (cs i) (cs j) i j a b :: more
+  else tail.
+Fixpoint all_rows (L : seq (nat * nat * nat)) : seq sparse :=
+  if L is (i, j, mask) :: L' then rows_of i j mask entries10 (all_rows L') else [::].
+Definition core_rank k (L : seq (nat * nat * nat)) : nat :=
+  let Y := all_rows L in
+  let N := 12 * k in
+  match push_all Y Leaf with
+  | Leaf => 0
+  | Node c x t l r =>
+    let s := power 64 x (p - 2) in
+    if eqn (mulp s x) 1 then
+      let Z := eliminate (size Y * N).+1 (c, axpy s t [::]) (meld l r) [::] in
+      if staircase N Z then size Z else 0
+    else 0
+  end.
+End Rows.
+End Program.
+Arguments power : simpl never.
+
+Local Open Scope ring_scope.
+Section Sound.
+Variable p : nat.
+Hypothesis p_prime : prime p.
+Notation Fp := 'F_p.
+
+Lemma addpE a b : (addp p a b)%:R = a%:R + b%:R :> Fp.
+Proof. by rewrite /addp Fp_nat_mod // natrD. Qed.
+Lemma mulpE a b : (mulp p a b)%:R = a%:R * b%:R :> Fp.
+Proof. by rewrite /mulp Fp_nat_mod // natrM. Qed.
+Lemma opppE a : (oppp p a)%:R = - a%:R :> Fp.
+Proof.
+rewrite /oppp Fp_nat_mod // -[in RHS](Fp_nat_mod p_prime a) natrB; last by rewrite ltnW // ltn_mod prime_gt0.
+by rewrite -[X in X - _](Fp_nat_mod p_prime p) modnn sub0r.
+Qed.
+
+Variable n : nat.
+Notation motion := (cameras [comRingType of Fp] n).
+Implicit Types (u : motion) (y : sparse) (z : pivot) (h : heap).
+Definition eval y u : Fp := \sum_(kx <- y) kx.2%:R * coord u kx.1.
+Lemma eval_cons k x y u : eval ((k, x) :: y) u = x%:R * coord u k + eval y u.
+Proof. by rewrite /eval big_cons. Qed.
+Lemma eval_nil u : eval [::] u = 0. Proof. by rewrite /eval big_nil. Qed.
+
+Lemma eval_axpy s y (z : sparse) u : eval (axpy p s y z) u = s%:R * eval y u + eval z u.
+Proof.
+elim: y z => [|[k x] y ihy] z; first by rewrite eval_nil mulr0 add0r.
+elim: z => [|[l w] z ihz] /=; first by rewrite !eval_cons ihy mulpE mulrDr mulrA eval_nil !addr0.
+rewrite -/(axpy p s ((k, x) :: y)); case: ltngtP => /= kl.
+- by rewrite eval_cons ihy !eval_cons mulpE mulrDr mulrA addrA.
+- by rewrite eval_cons ihz !eval_cons addrCA.
+rewrite kl; set w' := addp _ _ _.
+have -> : eval (if eqn w' 0 then axpy p s y z else (l, w') :: axpy p s y z) u
+  = w'%:R * coord u l + eval (axpy p s y z) u.
+  by case: eqnP => [->|_]; rewrite ?eval_cons // mul0r add0r.
+by rewrite ihy !eval_cons addpE mulpE mulrDl mulrDr mulrA addrACA.
+Qed.
+
+Lemma eval_sorted y u : eval (sorted_row p y) u = eval y u.
+Proof.
+elim: y => [|[k x] y ih] //; rewrite eval_cons.
+rewrite -[sorted_row p _]/(if eqn x 0 then sorted_row p y else axpy p 1 [:: (k, x)] (sorted_row p y)).
+case: eqnP => [->|_].
+  by rewrite mul0r add0r ih.
+by rewrite eval_axpy mul1r !eval_cons eval_nil addr0 ih.
+Qed.
+
+(* u vanishes on all rows of a heap; on pivot rows *)
+Fixpoint vanishes u h : Prop :=
+  if h is Node c x t l r then [/\ eval ((c, x) :: t) u = 0, vanishes u l & vanishes u r] else True.
+Definition solves u (z : pivot) := coord u z.1 + eval z.2 u = 0.
+
+Lemma vanishes_meld u h1 h2 : vanishes u h1 -> vanishes u h2 -> vanishes u (meld h1 h2).
+Proof.
+elim: h1 h2 => [|c1 x1 t1 l1 _ r1 ih1] h2 //= v1.
+elim: h2 => [|c2 x2 t2 l2 _ r2 ih2] //= v2; case: v1 v2 => e1 vl1 vr1 [e2 vl2 vr2].
+by case: ifP => _; split=> //; [apply: ih1 | apply: ih2].
+Qed.
+Lemma vanishes_push u y h : eval y u = 0 -> vanishes u h -> vanishes u (push y h).
+Proof. by case: y => [|[c x] t] // e v; apply: vanishes_meld. Qed.
+Lemma vanishes_all u (Y : seq sparse) h : (forall y, y \in Y -> eval y u = 0) -> vanishes u h -> vanishes u (push_all p Y h).
+Proof.
+elim: Y h => //= y Y ih h all v; apply: ih => [z zY|]; first by apply: all; rewrite inE zY orbT.
+by apply: vanishes_push; rewrite ?eval_sorted ?all ?mem_head.
+Qed.
+
+Lemma solves_scaled u s c x t : eqn (mulp p s x) 1 -> eval ((c, x) :: t) u = 0 -> solves u (c, axpy p s t [::]).
+Proof.
+move=> /eqnP sx e; rewrite /solves /= eval_axpy eval_nil addr0.
+have sx1 : s%:R * x%:R = 1 :> Fp by rewrite -mulpE sx.
+have -> : coord u c + s%:R * eval t u = s%:R * eval ((c, x) :: t) u by rewrite eval_cons mulrDr mulrA sx1 mul1r.
+by rewrite e mulr0.
+Qed.
+
+Lemma eliminate_sound u fuel now h (done : seq pivot) : solves u now -> vanishes u h -> (forall z, z \in done -> solves u z) ->
+  forall z, z \in eliminate p fuel now h done -> solves u z.
+Proof.
+have cons now' D : solves u now' -> (forall z, z \in D -> solves u z) -> forall z, z \in now' :: D -> solves u z.
+  by move=> s d z; rewrite inE => /predU1P [-> | /d].
+elim: fuel now h done => //= f ih now [|c x t l r] done s; first by move=> _; apply: cons.
+move=> [e vl vr] d; case: eqnP => [cn|_].
+  apply: ih => //; apply: vanishes_push; last exact: vanishes_meld.
+  have -> : eval (axpy p (oppp p x) now.2 t) u = eval ((c, x) :: t) u - x%:R * (coord u now.1 + eval now.2 u).
+    by rewrite eval_axpy eval_cons opppE cn; ring.
+  by rewrite e s mulr0 subr0.
+case: ifP => sx; last exact: cons.
+apply: ih (solves_scaled sx e) (vanishes_meld vl vr) (cons _ _ s d).
+Qed.
+
+Definition heads (Z : seq pivot) := [seq z.1 | z <- Z].
+Lemma aboveP c t : above c t -> all (fun kx => c < kx.1)%N t.
+Proof. by elim: t => //= [[k x] t ih]; case: ifP => //= _ /ih. Qed.
+
+Lemma staircaseP bound Z : staircase bound Z ->
+  [/\ all (fun c => c < bound)%N (heads Z), uniq (heads Z) & forall z, z \in Z -> above z.1 z.2].
+Proof.
+elim: Z bound => //= [[c t] Z ih] bound; case: ifP => //= cb; case: ifP => // at_ /ih [lt u ab].
+split=> [||z]; last by rewrite inE => /predU1P [->|/ab].
+  by apply/allP=> k kZ; apply: ltn_trans (allP lt _ kZ) cb.
+by rewrite u andbT; apply/negP=> /(allP lt); rewrite ltnn.
+Qed.
+
+Lemma echelon u N Z : staircase N Z -> (forall z, z \in Z -> solves u z) ->
+  (forall k, k \notin heads Z -> coord u k = 0) -> forall k, coord u k = 0.
+Proof.
+move=> /staircaseP [lt _ ab] sol free k.
+have [d le] := ubnP (N - k); elim: d k le => // d ih k le.
+case: (boolP (k \in heads Z)) => [/mapP [[c t] zZ /= kc]|]; last exact: free.
+have := sol _ zZ; rewrite /solves /= -kc /eval big_seq big1 ?addr0 // => kx kxt.
+have ck : (k < kx.1)%N by rewrite kc; apply: allP (aboveP (ab _ zZ)) _ kxt.
+have kN : (k < N)%N by apply: allP lt _ _; rewrite kc (map_f fst zZ).
+by rewrite ih ?mulr0 //; apply: leq_trans (ltn_sub2l kN ck) _.
+Qed.
+
+(* rows of J_P at centres cs *)
+Variable cs : nat -> nat -> nat.
+Definition csF (v k : nat) : Fp := (cs v k)%:R.
+Lemma F_entryE ci cj (h k : nat) : (F_entry 0%N (addp p) (oppp p) ci cj h k)%:R =
+  F_entry (0 : Fp) +%R -%R (fun k => (ci k)%:R) (fun k => (cj k)%:R) h k.
+Proof.
+by move: h k; case=> [|[|[|h]]]; case=> [|[|[|k]]]; rewrite /F_entry /diff ?opppE ?addpE ?opppE ?mulr0n.
+Qed.
+Lemma M_entryE ci cj (h k : nat) : (M_entry 0%N (addp p) (mulp p) (oppp p) ci cj h k)%:R =
+  M_entry (0 : Fp) +%R *%R -%R (fun k => (ci k)%:R) (fun k => (cj k)%:R) h k.
+Proof. by rewrite /M_entry; case: ifP => _; rewrite ?opppE ?addpE ?mulpE ?addpE ?mulpE ?F_entryE. Qed.
+
+Lemma row_sound (i j : 'I_n) (a b : 'I_4) u :
+  eval (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b) u = equation (normal n csF) (i, j) u a b.
+Proof. by rewrite equation_normal /eval /value /combination !big_cons !big_nil /= !opppE !M_entryE. Qed.
+
+Lemma rows_ofP i j mask ab tail y : y \in rows_of p cs i j mask ab tail -> y \in tail \/
+  exists2 e, e \in ab & y = combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j e.1 e.2.
+Proof.
+elim: ab mask => [|[a b] ab ih] mask /=; first by left.
+have more : y \in rows_of p cs i j (mask %/ 2) ab tail -> y \in tail \/ exists2 e, e \in (a, b) :: ab
+  & y = combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j e.1 e.2.
+  by case/ih=> [|[e eab ->]]; [left | right; exists e; rewrite // inE eab orbT].
+case: ifP => // _; rewrite inE => /predU1P [->|//]; right; exists (a, b) => //; exact: mem_head.
+Qed.
+
+Arguments rows_of : simpl never.
+Lemma all_rowsP L y : y \in all_rows p cs L -> exists2 e, e \in L & exists2 ab, ab \in entries10 &
+  y = combination 0%N (addp p) (mulp p) (oppp p) (cs e.1.1) (cs e.1.2) e.1.1 e.1.2 ab.1 ab.2.
+Proof.
+elim: L => [|[[i j] mask] L ih] //; rewrite [all_rows _ _ _]/=; move=> /rows_ofP [/ih [e eL h] | [ab abL ->]].
+  by exists e; rewrite // inE eL orbT.
+by exists (i, j, mask); [exact: mem_head | exists ab].
+Qed.
+
+Definition pairs_of (L : seq (nat * nat * nat)) : seq (nat * nat) := [seq e.1 | e <- L].
+
+Lemma edges_mem (G : seq (nat * nat)) (i j : 'I_n) : (val i, val j) \in G -> (i, j) \in edges n G.
+Proof. by move=> ijG; rewrite mem_pmap; apply/mapP; exists (val i, val j); rewrite //= !valK. Qed.
+
+Lemma core_rank_modp L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+  (core_rank p cs n L <= \rank (J (edges n (pairs_of L)) (normal n csF)))%N.
+Proof.
+move=> /allP lt; rewrite /core_rank; case e: push_all => [//|c x t l r]; case: ifP => // sx.
+set Z := eliminate _ _ _ _ _; case: ifP => // st; have /staircaseP [ltZ uZ _] := st.
+pose free := [seq k <- iota 0 (12 * n) | k \notin heads Z].
+have sizes : (size Z + size free = 12 * n)%N.
+  have := count_predC (mem (heads Z)) (iota 0 (12 * n)); rewrite size_iota -!size_filter => <-.
+  have -> : size Z = size [seq k <- iota 0 (12 * n) | k \in heads Z]; last by [].
+  rewrite -(size_map fst Z); apply/eqP; rewrite -uniq_size_uniq ?filter_uniq ?iota_uniq // => k.
+  by rewrite mem_filter mem_iota /= add0n; case: (boolP (k \in heads Z)) => // /(allP ltZ) ->.
+pose f (u : 'rV[Fp]_(n * (3 * 4))) : 'rV[Fp]_(size free) :=
+  \row_(k < size free) coord (vec_mx u : motion) (nth 0%N free k).
+have fl : linear f by move=> a u w; apply/rowP=> k; rewrite !mxE linearP /= coord_linear.
+set A := J _ _; suff : (n * (3 * 4) <= \rank A + size free)%N by lia.
+apply: (rank_by_coordinates (C := lin1_mx (Linear fl))) => u /eqP; rewrite J_ker => /allP uA.
+rewrite mul_rV_lin1 /= => /rowP u0.
+suff v0 : vec_mx u = 0 :> motion by rewrite -[u]vec_mxK v0 linear0.
+apply: coord0 => k _; apply: (echelon st) => [z zZ|{}k kZ].
+  have : vanishes (vec_mx u) (push_all p (all_rows p cs L) Leaf).
+    apply: vanishes_all => // y /all_rowsP [[[i j] mask] eL [[a b] abL ->]].
+    have /andP [/= iN jN] := lt _ eL.
+    have /andP [/= a4 b4] : (a < 4)%N && (b < 4)%N.
+      by apply: (allP (isT : all (fun ab => (ab.1 < 4)%N && (ab.2 < 4)%N) entries10) _ abL).
+    rewrite (row_sound (Ordinal iN) (Ordinal jN) (Ordinal a4) (Ordinal b4)).
+    have eE : (Ordinal iN, Ordinal jN) \in edges n (pairs_of L) by apply/edges_mem/(map_f fst eL).
+    by rewrite (eqP (uA _ eE)) mxE.
+  rewrite e => -[e0 vl vr].
+  by apply: (eliminate_sound (solves_scaled sx e0) (vanishes_meld vl vr) _ zZ).
+case: (ltnP k (12 * n)) => kn.
+  have kf : k \in free by rewrite mem_filter kZ mem_iota.
+  have li : (index k free < size free)%N by rewrite index_mem.
+  by have := u0 (Ordinal li); rewrite !mxE /= nth_index.
+by rewrite /coord insubF // ltnNge leq_divRL // mulnC kn.
+Qed.
+
+(* Proposition 1.4 *)
+Theorem core_rank_sound L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+  attained (edges n (pairs_of L)) (core_rank p cs n L).
+Proof.
+move/core_rank_modp => h.
+pose cZ v k : int := (cs v k)%:Z.
+exists (normal n (fun v k => (cZ v k)%:~R)); apply: leq_trans h _.
+have e (R : comRingType) : normal n (fun v k => (cZ v k)%:~R : R) = map_mx intr (normal n cZ).
+  apply/row_matrixP=> v; rewrite -map_row !rowK.
+  rewrite (map_mxvec (intmul1_rmorphism R)); congr mxvec; apply/matrixP=> i k.
+  by rewrite !mxE /normal_entry; case: ifP => _; [case: (_ == _) | exact/esym/(rmorphN (intmul1_rmorphism R))].
+have -> : normal n csF = map_mx intr (normal n cZ).
+  by rewrite -e; apply/row_matrixP=> v; rewrite !rowK.
+rewrite e -(map_J (intmul1_rmorphism [comRingType of Fp])) -(map_J (intmul1_rmorphism rat_comRing)).
+exact: proposition_1_4.
+Qed.
+End Sound.

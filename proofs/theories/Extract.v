@@ -1,0 +1,19 @@
+(* The program as OCaml. Numbers become OCaml's ints: right as long as none reaches 2^62, which the readers see to (no
+   number above 2^30 comes in; the largest product is n first + second < 2^60). *)
+From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
+From mathcomp Require Import all_ssreflect.
+From Viewcert Require Import Statement Checker.
+
+Extract Inlined Constant muln => "(( * ) : int -> int -> int)".
+Extract Inlined Constant addn => "((+) : int -> int -> int)".
+Extract Inlined Constant subn => "(fun (a : int) (b : int) -> if a < b then 0 else a - b)".
+Extract Inlined Constant leq => "((<=) : int -> int -> bool)".
+Extract Inlined Constant eqn => "((=) : int -> int -> bool)".
+Extract Inlined Constant modn => "(fun (a : int) (b : int) -> if b = 0 then a else a mod b)".
+Extract Inlined Constant divn => "(fun (a : int) (b : int) -> if b = 0 then 0 else a / b)".
+Extraction "checker.ml" graph_ok verify.
+
+Print Assumptions verify_sound.
+Print Assumptions exact_rank.
+Print Assumptions has_full_rank.
+Print Assumptions lacks_full_rank.
