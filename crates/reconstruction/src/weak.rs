@@ -130,6 +130,7 @@ fn pairs_of(
     model: Model,
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
     for &(i, j) in graph.edges() {
@@ -139,7 +140,7 @@ fn pairs_of(
         }
     }
     let hanging: Vec<Pair> = weak.iter().map(|&(pair, ..)| pair).collect();
-    let contraction = Contraction::new(graph, options.question.model());
+    let contraction = Contraction::new(graph, model);
     let candidates = used(&contraction).into_iter();
     let candidates = candidates.filter(|pair| hanging.binary_search(pair).is_err());
     // What is in no body now is in none with fewer pairs.
@@ -147,11 +148,7 @@ fn pairs_of(
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
     let mut candidates = left_out::not_cleared(graph, in_bodies, options)?;
     if !candidates.is_empty() {
-        candidates = not_cleared(
-            &thinned(graph, options.question.model()),
-            candidates,
-            options,
-        )?;
+        candidates = not_cleared(&thinned(graph, model), candidates, options)?;
     }
     candidates.extend(loose);
     candidates.sort_unstable();
@@ -212,6 +209,7 @@ fn not_cleared(
     candidates: Vec<Pair>,
     options: &Options,
 ) -> Result<Vec<Pair>, VerdictError> {
+    let model = options.question.model();
     let mut left = Vec::new();
     let mut sets = vec![candidates];
     while let Some(set) = sets.pop() {
@@ -220,7 +218,7 @@ fn not_cleared(
         }
         check(graph, options)?;
         let rest = outside_bodies(
-            &Contraction::new(&without(graph, &set), options.question.model()),
+            &Contraction::new(&without(graph, &set), model),
             graph.nodes(),
             &set,
         );
@@ -271,8 +269,9 @@ fn decided(
     mut candidates: Vec<Pair>,
     options: &Options,
 ) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let contraction = loop {
-        let contraction = Contraction::new(&without(graph, &candidates), options.question.model());
+        let contraction = Contraction::new(&without(graph, &candidates), model);
         let rest = outside_bodies(&contraction, graph.nodes(), &candidates);
         if rest.len() == candidates.len() {
             break contraction;
@@ -363,6 +362,7 @@ impl Search<'_> {
 
 /// The weak images of a component with three nodes or more, increasing.
 fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
     if n < 4 {
@@ -378,16 +378,10 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
             None => open.push(v),
         }
     }
-    if is_one_body(
-        &Contraction::new(graph, options.question.model()),
-        graph.nodes(),
-    ) {
-        open = falling_apart(&thinned(graph, options.question.model()), open, |rest| {
+    if is_one_body(&Contraction::new(graph, model), graph.nodes()) {
+        open = falling_apart(&thinned(graph, model), open, |rest| {
             check(graph, options)?;
-            let whole = is_one_body(
-                &Contraction::new(rest, options.question.model()),
-                rest.nodes(),
-            );
+            let whole = is_one_body(&Contraction::new(rest, model), rest.nodes());
             Ok((!whole).then_some(Strength::Proof))
         })?
         .into_iter()
