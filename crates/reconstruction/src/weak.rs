@@ -139,7 +139,7 @@ fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength
         }
     }
     let hanging: Vec<Pair> = weak.iter().map(|&(pair, ..)| pair).collect();
-    let contraction = Contraction::new(graph, options.question.model());
+    let contraction = Contraction::new(graph, model);
     let candidates = used(&contraction).into_iter();
     let candidates = candidates.filter(|pair| hanging.binary_search(pair).is_err());
     // What is in no body now is in none with fewer pairs.
@@ -259,6 +259,7 @@ fn decided(
 
 /// The weak images of a component with three nodes or more, increasing.
 fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
     if n < 4 {
