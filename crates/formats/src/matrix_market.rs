@@ -13,12 +13,14 @@ use std::io::{BufRead, BufReader, Read};
 use crate::edge_list::fields::is_number;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
-use crate::sparse6::ISOLATED_LIMIT;
 use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
 /// What every file begins with; upper and lower case are the same.
 pub const HEADER: &str = "%%MatrixMarket";
+
+/// Nodes without pairs that a file may promise.
+const ISOLATED_LIMIT: u64 = 1 << 24;
 
 /// The longest line that is read.
 const LINE_LIMIT: u64 = 1 << 20;
