@@ -638,14 +638,10 @@ INCREASING = ("edges", "bodies", "split", "added", "freed", "plus", "minus", "ab
 
 def repair(document, rng):
     """Makes what a checker computes agree with what is stated: order, counting, hubs, then the claim."""
-    for container, key in places(document):
-        if key in INCREASING and type(container[key]) is list:
-            sort_if_possible(container[key])
-    if "solutions" in document:
-        claim = {"at_least": 1, "at_most": None, **check.stated(None)}
-        document["claim"].setdefault("solutions", claim).pop("value", None)
-    else:
-        document["claim"].pop("solutions", None)
+    try:
+        put_in_order(document)
+    except (LookupError, TypeError, AttributeError):
+        return  # what would be put in order is not there any more
     for _ in range(12):
         try:
             document["claim"] = check.Check(copy_of(document)).evidence_claim
@@ -655,6 +651,18 @@ def repair(document, rng):
                 return
         except Exception:
             return
+
+
+def put_in_order(document):
+    """Lists that have to be increasing, and a claim about solutions where there is evidence for it."""
+    for container, key in places(document):
+        if key in INCREASING and type(container[key]) is list:
+            sort_if_possible(container[key])
+    if "solutions" in document:
+        claim = {"at_least": 1, "at_most": None, **check.stated(None)}
+        document["claim"].setdefault("solutions", claim).pop("value", None)
+    else:
+        document["claim"].pop("solutions", None)
 
 
 def repair_count(document, reason):

@@ -19,6 +19,7 @@ sys.path.insert(0, HERE)
 
 import agree  # noqa: E402
 import check  # noqa: E402
+import grow  # noqa: E402
 import make  # noqa: E402
 
 GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
@@ -1528,6 +1529,24 @@ class Comparison(unittest.TestCase):
         self.assertEqual(out.getvalue(), "")
         self.assertGreater(comparison.count["accepted"], 10)
         self.assertGreater(comparison.count["texts"] - comparison.count["accepted"], 50)
+
+    def test_grown_certificates(self):
+        rng = random.Random(4)
+        with open(os.path.join(HERE, "..", "tests", "solutions", "outside.json"), encoding="utf-8") as file:
+            base = json.load(file)
+        for document, known in ((grow.nested_parts(rng), 1), (grow.grown_from(base, rng), 2)):
+            done = check.check(json.dumps(document).encode())
+            self.assertEqual(done.claim["solutions"]["at_most"], known)
+            self.assertIsNone(grow.untrue(document, known))
+            self.assertIn("there are 3 solutions", grow.untrue(document, 3))
+        self.assertGreaterEqual(grow.nesting(grow.nested_parts(rng)["solutions"]), 2)
+
+    def test_a_second_brute_force(self):
+        """From the formula of the paper: a triangle, the 4-cycle, and a graph with two solutions."""
+        rng = random.Random(5)
+        for edges, n, rank in (([(0, 1), (0, 2), (1, 2)], 3, 18), (SQUARE, 4, 28), (check.read_graph6("HBQkcP_").edges, 9, 84)):
+            self.assertEqual(agree.full_camera_rank(n, edges, rng), rank)
+            self.assertEqual(agree.generic_rank(range(n), edges, "projective", rng), rank)
 
     def test_a_false_claim_and_a_disagreement_are_reported(self):
         document = by_hand()

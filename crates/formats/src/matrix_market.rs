@@ -18,10 +18,10 @@ use crate::read_as::Parsed;
 /// What every file begins with; upper and lower case are the same.
 pub const HEADER: &str = "%%MatrixMarket";
 
-/// The longest line that is read.
 /// What it is called in reports.
 const FORMAT: &str = "MatrixMarket matrix";
 
+/// The longest line that is read.
 const LINE_LIMIT: u64 = 1 << 20;
 
 /// Whether these are the first bytes of a MatrixMarket file.

@@ -14,8 +14,9 @@ use viewcert::graph::{Graph, GraphError};
 /// The optional header; it stands on the same line as the first graph, or before it.
 pub const HEADER: &str = ">>sparse6<<";
 
-/// Nodes without pairs that a line may promise: a few characters can promise 2^36.
-pub(super) const ISOLATED_LIMIT: u64 = 1 << 24;
+/// Nodes without pairs that a line may promise with each of its characters, so that what reading it
+/// costs is paid for by its length: ten characters could promise 2^36.
+const ISOLATED_PER_CHARACTER: u64 = 1 << 10;
 
 /// Why a line is not sparse6.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -40,8 +41,11 @@ pub enum Sparse6Error {
     /// A pair of a node with itself.
     #[error("sparse6: node {0} is paired with itself")]
     SelfLoop(u32),
-    /// More nodes than a graph can hold, or than the line has edges for.
-    #[error("sparse6: {nodes} nodes are too many")]
+    /// More nodes than a graph can hold, or than the line has edges and characters for.
+    #[error(
+        "sparse6: {nodes} nodes are too many for a line of this length, which may have 1024 nodes \
+         without pairs for each character"
+    )]
     TooLarge {
         /// Number of nodes promised.
         nodes: u64,
@@ -81,7 +85,8 @@ pub fn decode(line: &[u8], previous: Option<&Graph>) -> Result<(Graph, usize), S
             let too_large = Sparse6Error::TooLarge { nodes };
             let count = u32::try_from(nodes).map_err(|_| too_large.clone())?;
             let pairs = pairs(count, body)?;
-            if nodes > ISOLATED_LIMIT + 2 * pairs.len() as u64 {
+            let isolated = ISOLATED_PER_CHARACTER * line.len() as u64;
+            if nodes > isolated + 2 * pairs.len() as u64 {
                 return Err(too_large);
             }
             simple(count, pairs)
@@ -212,6 +217,12 @@ mod tests {
         for (line, error) in bad {
             assert_eq!(decode(line, None), Err(error), "{}", line.escape_ascii());
         }
+        // 16,777,215 nodes in nine characters, and 5,120 and one more in five.
+        let promised = |line: &[u8]| decode(line, None).map(|(graph, _)| graph.nodes());
+        let too_large = |nodes| Err(Sparse6Error::TooLarge { nodes });
+        assert_eq!(promised(b":~~??~~~~"), too_large((1 << 24) - 1));
+        assert_eq!(promised(b":~@O?"), Ok(5120));
+        assert_eq!(promised(b":~@O@"), too_large(5121));
         // Two nodes: (1, 1) is not there, (0, 0) is a loop.
         assert_eq!(decode(b":A?", None), Err(Sparse6Error::SelfLoop(0)));
     }

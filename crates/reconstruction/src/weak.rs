@@ -130,6 +130,7 @@ type Pair = (u32, u32);
 
 /// The weak pairs of a component with three nodes or more, increasing.
 fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
     for &(i, j) in graph.edges() {
@@ -275,11 +276,8 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
             None => open.push(v),
         }
     }
-    if is_one_body(
-        &Contraction::new(graph, options.question.model()),
-        graph.nodes(),
-    ) {
-        let thin = thinned(graph, options.question.model());
+    if is_one_body(&Contraction::new(graph, model), graph.nodes()) {
+        let thin = thinned(graph, model);
         let mut sorted = sorted_images(&thin, open, options)?;
         if thin.edges().len() < graph.edges().len() {
             // What falls apart with fewer pairs need not with all.

@@ -11,7 +11,6 @@
 
 use crate::error::Problem;
 use crate::read_as::{Parsed, ReadAs};
-use crate::sparse6::ISOLATED_LIMIT;
 use viewcert::graph::{Graph, GraphError, Labels};
 use viewcert::wording::counted;
 
@@ -20,6 +19,8 @@ mod list;
 
 pub(super) use list::{List, are_pairs};
 
+/// Nodes without pairs that a file may promise.
+const ISOLATED_LIMIT: u64 = 1 << 24;
 /// What is smaller beside the largest entry may be an error of rounding.
 const ROUNDING: f64 = 1e-12;
 /// More entries than any graph has pairs, twice.
