@@ -1,6 +1,7 @@
 //! The formulations side by side, as a table, as JSON, and as the bars of a chart.
 
 use super::bars::{Chart, Group};
+use super::json::{GraphLine, write_line};
 use super::{counted, size};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -114,7 +115,7 @@ fn rank_cells(line: &Line) -> String {
 
 #[derive(Serialize)]
 struct Json<'a> {
-    graph: JsonGraph<'a>,
+    graph: GraphLine<'a>,
     notes: &'a [String],
     draw: u64,
     agree: Option<bool>,
@@ -127,13 +128,6 @@ struct Json<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     affine_f: Option<usize>,
     formulations: Vec<JsonLine>,
-}
-
-#[derive(Serialize)]
-struct JsonGraph<'a> {
-    name: &'a str,
-    nodes: usize,
-    edges: usize,
 }
 
 #[derive(Serialize)]
@@ -192,11 +186,7 @@ impl From<&Line> for JsonLine {
 /// Those of the writer.
 pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
     let line = Json {
-        graph: JsonGraph {
-            name: &input.name,
-            nodes: input.graph.nodes(),
-            edges: input.graph.edges().len(),
-        },
+        graph: GraphLine::of(input),
         notes: &input.notes,
         draw: found.draw,
         agree: match found.outcome(&input.graph) {
@@ -211,8 +201,7 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }
 
 /// Rows and columns as a chart, as in the paper's figure of the sizes.
