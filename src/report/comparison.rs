@@ -30,6 +30,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
     }
     let pairs = counted(edges, "pair");
     match found.affine_f {
+        _ if found.computed() == 0 => {}
         Some(held) => writeln!(
             out,
             "  checks      F by its minors is that of the left null vectors on {held} of {pairs}"
@@ -185,6 +186,7 @@ impl From<&Line> for JsonLine {
 /// # Errors
 /// Those of the writer.
 pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
+    let is_checked = found.affine_f.is_none() && found.computed() > 0;
     let line = Json {
         graph: GraphLine::of(input),
         notes: &input.notes,
@@ -196,8 +198,8 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         },
         computed: found.computed(),
         excess: found.excess(),
-        kernel_is_f: found.affine_f.is_none().then_some(found.kernel_is_f),
-        implicit_identity: found.affine_f.is_none().then_some(found.identity),
+        kernel_is_f: is_checked.then_some(found.kernel_is_f),
+        implicit_identity: is_checked.then_some(found.identity),
         affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
