@@ -634,7 +634,7 @@
     if (isTable(value)) {
       objectsTable(section, title, value);
     } else if (isObject(value)) {
-      const plain = Object.entries(value).filter(([, inner]) => !isTable(inner));
+      const plain = Object.entries(value).filter(([, inner]) => !isTable(inner) && !isEmpty(inner));
       section.append(html("dl", { class: "pairs" }, plain.flatMap(([name, inner]) =>
         [html("dt", {}, named(name)), html("dd", {}, told(name, inner))])));
       for (const [name, inner] of Object.entries(value)) {
