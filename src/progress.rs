@@ -21,6 +21,7 @@ pub(super) struct Progress {
 pub(super) type Told = Box<dyn Fn(u64) + Send + Sync>;
 
 struct Plain {
+    what: &'static str,
     start: Instant,
     last: Instant,
     done: u64,
@@ -28,20 +29,21 @@ struct Plain {
 }
 
 impl Progress {
-    /// Starts at nothing out of `total`, if that is known.
-    pub(super) fn new(total: Option<u64>) -> Self {
+    /// Starts at nothing out of `total`, if that is known, of `what`: "candidates".
+    pub(super) fn new(what: &'static str, total: Option<u64>) -> Self {
         if std::io::stderr().is_terminal() {
             let bar = match total {
                 Some(total) => ProgressBar::new(total),
                 None => ProgressBar::no_length(),
             };
             let template = match total {
-                Some(_) => "{wide_bar} {pos}/{len} {per_sec} {eta} left",
-                None => "{spinner} {pos} {per_sec} {elapsed}",
+                Some(_) => "{wide_bar} {pos}/{len} {msg} {per_sec} {eta} left",
+                None => "{spinner} {pos} {msg} {per_sec} {elapsed}",
             };
             if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style);
             }
+            bar.set_message(what);
             return Self {
                 bar,
                 plain: None,
@@ -52,6 +54,7 @@ impl Progress {
         Self {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             plain: Some(Mutex::new(Plain {
+                what,
                 start: now,
                 last: now,
                 done: 0,
@@ -87,18 +90,19 @@ impl Progress {
         plain.last = Instant::now();
         let seconds = plain.start.elapsed().as_secs_f64();
         let rate = plain.done as f64 / seconds;
-        let of = match plain.total {
+        let (of, left) = match plain.total {
             Some(total) => {
                 let left = total.saturating_sub(plain.done) as f64 / rate;
-                format!(" of {total}, {left:.0} s left")
+                (format!(" of {total}"), format!(", {left:.0} s left"))
             }
-            None => String::new(),
+            None => Default::default(),
         };
         // Progress is not worth failing for.
         let _ = writeln!(
             std::io::stderr(),
-            "verify: {}{of}, {rate:.0} a second",
-            plain.done
+            "verify: {}{of} {}{left}, {rate:.0} a second",
+            plain.done,
+            plain.what
         );
     }
 

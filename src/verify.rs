@@ -1,7 +1,7 @@
 //! `verify GRAPH...`: decide, report, certify.
 
 use super::act;
-use super::act::ActArguments;
+use super::act::{ActArguments, Acted};
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::displacements::DisplacementArguments;
@@ -13,6 +13,7 @@ use super::plane::{Asked, Scope};
 use super::{GOOD, NOT, atomic, certificates, running, witness};
 use crate::report;
 use crate::report::Report;
+use crate::report::many::{self, Table};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -105,6 +106,13 @@ pub(super) struct VerifyArguments {
     /// Print one JSON object a graph.
     #[arg(long)]
     json: bool,
+    /// Print a line a graph and a summary (csv: without it; latex: as a table).
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "text", conflicts_with_all = [
+        "json", "components", "planar", "tracks", "witness", "write_graph", "html", "svg", "weak",
+        "suggest", "explain", "sweep", "margin", "export"
+    ])]
+    table: Option<many::Format>,
     /// List the members of every component.
     #[arg(long)]
     components: bool,
@@ -330,6 +338,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     }
     let files = [arguments.certificate.as_deref(), witness.1, html.1, svg.1];
     let mut out = atomic::text(&files);
+    let mut table = arguments
+        .table
+        .map(|format| Table::begin(&mut out, format, &arguments.graphs))
+        .transpose()
+        .context("standard output")?;
     let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
         arguments.act.check_input(input)?;
@@ -350,6 +363,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
             options: &options,
             target: target.as_mut(),
             shapes: &mut shapes,
+            table: table.as_mut(),
         };
         Ok(if decide(work, input, start, out)? {
             GOOD
@@ -362,6 +376,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         ..arguments.input.read_options()
     };
     let code = input::for_each(&read, &arguments.graphs, &too_many, &mut out, each)?;
+    if let Some(table) = table {
+        table.end(&mut out).context("standard output")?;
+        out.flush().context("standard output")?;
+    }
     Ok(ExitCode::from(code))
 }
 
@@ -372,6 +390,7 @@ struct Work<'a> {
     target: Option<&'a mut Target>,
     /// Joints of the graphs before.
     shapes: &'a mut Shapes,
+    table: Option<&'a mut Table>,
 }
 
 /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
@@ -382,6 +401,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         options,
         target,
         shapes,
+        table,
     } = work;
     let decided = verdict::decide(&input.graph, options);
     running::hide();
@@ -402,10 +422,15 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         .map(|path| witness::write(path, input, &verdict, options.seed))
         .transpose()?;
     let time = start.elapsed();
-    let watch = running::watch();
-    let acted = arguments
-        .act
-        .act(input, &verdict, options.seed, shapes, watch);
+    let acted = match table {
+        // A row says nothing of joints.
+        Some(_) => Ok(Acted::default()),
+        None => {
+            let watch = running::watch();
+            let act = &arguments.act;
+            act.act(input, &verdict, options.seed, shapes, watch)
+        }
+    };
     running::hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
@@ -418,7 +443,9 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         scope: &scope,
     };
     arguments.pages.write(&report)?;
-    if arguments.json {
+    if let Some(table) = table {
+        table.row(out, &report)?;
+    } else if arguments.json {
         report::json::write(out, &report)?;
     } else {
         report::text::write(out, &report)?;

@@ -461,12 +461,11 @@ fn the_variable_and_the_format_can_be_said() {
                 &two,
             ]);
             let json = &run.json()[0];
-            let graph = if command == "compare" {
-                &json["graph"]
-            } else {
-                json
-            };
-            assert_eq!(graph["edges"], pairs, "{command}: {}{}", run.out, run.err);
+            assert_eq!(
+                json["graph"]["edges"], pairs,
+                "{command}: {}{}",
+                run.out, run.err
+            );
         }
         assert_eq!(verify(&[command, "--variable", "none", &two]).code, 2);
         let run = verify(&[command, "--format", "graph6", &two]);

@@ -302,7 +302,11 @@ fn a_merge_names_what_is_wrong() {
     // The right one does not continue the foreign one.
     let mixed = shard(out, "2/3").output().unwrap();
     assert_eq!(mixed.status.code(), Some(2));
-    assert!(text(&mixed.stderr).contains("another run"));
+    let said = text(&mixed.stderr);
+    assert!(
+        said.contains("another run: --seed is 2 there and 1 here; give"),
+        "{said}"
+    );
     fs::remove_dir_all(out.join("shard-2-of-3")).unwrap();
     good(&shard(out, "2/3").output().unwrap());
     good(&verify(&["catalog", "merge", out.to_str().unwrap()]));
@@ -784,7 +788,11 @@ fn blocks_of_verdicts() {
     refused("holds block 0");
     let other = blocks(out, "1/1").args(["--seed", "2"]).output().unwrap();
     assert_eq!(other.status.code(), Some(2));
-    assert!(text(&other.stderr).contains("another run"));
+    let said = text(&other.stderr);
+    assert!(
+        said.contains("another run: --seed is 1 there and 2 here; give"),
+        "{said}"
+    );
     fs::remove_file(path(1)).unwrap();
     let other = tempfile::tempdir().unwrap();
     let run = blocks(other.path(), "2/14").args(["--seed", "2"]).output();

@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{Run, data, verify, verify_with};
+use common::schema::{mutilations_are_refused, schema, valid};
+use common::{data, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,65 +19,6 @@ fn samples() -> Option<PathBuf> {
         return None;
     }
     Some(folder)
-}
-
-fn schema() -> jsonschema::Validator {
-    let schema = include_str!("../docs/report.schema.json");
-    let schema: Value = serde_json::from_str(schema).unwrap();
-    assert!(jsonschema::meta::is_valid(&schema));
-    jsonschema::validator_for(&schema).unwrap()
-}
-
-/// Holds every line of a run against the schema; there has to be one.
-fn valid(schema: &jsonschema::Validator, run: &Run) -> Vec<Value> {
-    assert!(run.code <= 1, "{}", run.err);
-    let lines = run.json();
-    assert!(!lines.is_empty());
-    for line in &lines {
-        let found: Vec<String> = schema.iter_errors(line).map(|e| e.to_string()).collect();
-        assert!(found.is_empty(), "{found:?}: {line}");
-    }
-    lines
-}
-
-/// Places of all objects and leaves in a value, as JSON pointers.
-fn places(value: &Value, at: &str, found: &mut Vec<String>) {
-    match value {
-        Value::Object(members) => {
-            found.push(at.to_owned());
-            for (name, member) in members {
-                places(member, &format!("{at}/{name}"), found);
-            }
-        }
-        Value::Array(items) => {
-            for (k, item) in items.iter().enumerate() {
-                places(item, &format!("{at}/{k}"), found);
-            }
-        }
-        _ => found.push(at.to_owned()),
-    }
-}
-
-/// A member more in any object, another type in any leaf, and the lack of a member are refused.
-fn mutilations_are_refused(schema: &jsonschema::Validator, line: &Value, required: &[&str]) {
-    let mut found = Vec::new();
-    places(line, "", &mut found);
-    assert!(found.len() > 20);
-    for place in found {
-        let mut other = line.clone();
-        match other.pointer_mut(&place).unwrap() {
-            Value::Object(members) => {
-                members.insert("surplus".into(), Value::Null);
-            }
-            leaf => *leaf = json!({"another": "type"}),
-        }
-        assert!(!schema.is_valid(&other), "{place}: {other}");
-    }
-    for name in required {
-        let mut other = line.clone();
-        assert!(other.as_object_mut().unwrap().remove(*name).is_some());
-        assert!(!schema.is_valid(&other), "without {name}");
-    }
 }
 
 /// Two groups of four images, all pairs in each, and a pair between them.

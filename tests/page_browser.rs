@@ -405,14 +405,19 @@ fn cameras_and_points_have_a_page() {
     // The best suggestion, as the JSON has it.
     let first = &rows(&opened, "part-suggestions")[0];
     let best = &report["suggestions"][0];
-    let pair = format!("{}, {}", best["pairs"][0][0], best["pairs"][0][1]).replace('"', "");
+    let pair = format!("{} – {}", best["pairs"][0][0], best["pairs"][0][1]).replace('"', "");
     assert!(first.contains(&pair), "{first:?}");
     assert!(
         first.iter().any(|cell| cell.contains("merged")),
         "{first:?}"
     );
-    let margins = rows(&opened, "part-margin-components");
+    let margins = rows(&opened, "part-margin");
     assert_eq!(margins.len(), 2);
+    assert!(margins[0][1].contains(" whole, "), "{margins:?}");
+    assert!(
+        !opened.contains("e+") && !opened.contains("single_pairs</"),
+        "{opened}"
+    );
     // Every camera, with what it sees.
     let cameras = rows(&opened, "cameras");
     let seen: Vec<(&str, &str)> = cameras.iter().map(|row| (&*row[0], &*row[1])).collect();

@@ -40,7 +40,9 @@ fn json_has_the_documented_members() {
     for member in [
         "graph",
         "notes",
+        "program",
         "verdict",
+        "because",
         "strength",
         "error_log2",
         "rank",

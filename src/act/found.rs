@@ -13,6 +13,9 @@ pub(crate) struct Acted {
     /// Whether there is no component larger than a pair: joints are of little use to people then.
     #[serde(skip)]
     pub(super) single_pairs_only: bool,
+    /// Whether one component holds everything: nothing is to be joined.
+    #[serde(skip)]
+    pub(super) is_whole: bool,
     /// Whether the graph is one of cameras and points.
     #[serde(skip)]
     pub(super) of_tracks: bool,

@@ -257,6 +257,11 @@ impl<'a> Task<'a> {
             joints_complete: found.complete,
             of_tracks: self.input.cameras.is_some(),
             single_pairs_only: self.parts.parts.is_empty(),
+            is_whole: self
+                .verdict
+                .components
+                .iter()
+                .any(|component| component.node_count() == graph.nodes()),
             ..Acted::default()
         };
         Ok((acted, found.joints))

@@ -17,14 +17,15 @@ const BAR: usize = 40;
 pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
     joints(out, acted)?;
     if let Some(found) = &acted.weak {
-        weak(out, found)?;
+        weak(out, found, acted.single_pairs_only)?;
     }
     if let Some(found) = &acted.suggestions {
-        writeln!(
-            out,
-            "  suggested   {}",
-            some(found.len(), "proved: these would join components")
-        )?;
+        let joined = "proved: these would join components";
+        let count = match acted.is_whole {
+            true => "nothing is to be joined: one component holds all images".to_owned(),
+            false => some(found.len(), joined),
+        };
+        writeln!(out, "  suggested   {count}")?;
         suggestions(out, found)?;
     }
     if let Some(found) = &acted.explain {
@@ -109,11 +110,17 @@ fn list(numbers: &[impl ToString]) -> String {
     numbers.join(", ")
 }
 
-fn weak(out: &mut impl Write, found: &Weak) -> io::Result<()> {
+fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Result<()> {
     let what = format!(
         "without any one of these {} a component falls apart",
         found.of
     );
+    if single_pairs_only {
+        return writeln!(
+            out,
+            "  weak        nothing to fall apart: no component is more than a pair"
+        );
+    }
     writeln!(out, "  weak        {}", some(found.items.len(), &what))?;
     for item in found.items.iter().take(SHOWN) {
         let name = item.what.join(" ");

@@ -1,7 +1,8 @@
 //! Exact and float side by side.
 
+use crate::report::json::{GraphLine, write_line};
 use crate::report::read::ReadLine;
-use crate::report::{counted, size};
+use crate::report::{counted, size, text};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -105,7 +106,7 @@ pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     writeln!(
         out,
         "  exact       {} ({}), components {}, {:.3} s",
-        exact.value.name(),
+        text::value(exact.value, exact.model),
         exact.value_claim().strength.name(),
         exact.components.len(),
         audit.exact_time.as_secs_f64()
@@ -165,9 +166,7 @@ fn in_doubles(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
 
 #[derive(Serialize)]
 struct Json<'a> {
-    graph: &'a str,
-    nodes: usize,
-    edges: usize,
+    graph: GraphLine<'a>,
     read: ReadLine<'a>,
     notes: &'a [String],
     exact: Side,
@@ -217,9 +216,7 @@ struct Float {
 pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let outcome = &audit.outcome;
     let line = Json {
-        graph: &audit.input.name,
-        nodes: audit.input.graph.nodes(),
-        edges: audit.input.graph.edges().len(),
+        graph: GraphLine::new(audit.input, audit.exact),
         read: ReadLine::from(&audit.input.read),
         notes: &audit.input.notes,
         exact: Side {
@@ -252,6 +249,5 @@ pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
             starts: method.starts,
         }),
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }

@@ -1,5 +1,7 @@
 //! Rulings on claims.
 
+use crate::report::json::{GraphLine, write_line};
+use crate::report::text;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -51,7 +53,7 @@ pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
         out,
         "  {}: {} ({}), components {}, rank {}",
         input.name,
-        exact.value.name(),
+        text::value(exact.value, exact.model),
         exact.value_claim().strength.name(),
         exact.components.len(),
         exact.rank
@@ -72,7 +74,7 @@ struct Json<'a> {
     line: usize,
     ruling: &'static str,
     reason: String,
-    graph: &'a str,
+    graph: GraphLine<'a>,
     verdict: &'static str,
     strength: &'static str,
     components: usize,
@@ -94,7 +96,7 @@ pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
             other => word(other),
         },
         reason: reasons(&ruled.ruling),
-        graph: &input.name,
+        graph: GraphLine::new(input, exact),
         verdict: exact.value.name(),
         strength: exact.value_claim().strength.name(),
         components: exact.components.len(),
@@ -104,6 +106,5 @@ pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
             .as_ref()
             .map(|path| path.display().to_string()),
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }

@@ -2,6 +2,7 @@
 
 use super::super::{BAD_INPUT, GOOD, running};
 use super::BATCH;
+use crate::report::json::write_line;
 use crate::report::values::Values;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -116,6 +117,5 @@ fn json(out: &mut impl Write, nodes: usize, row: &Row) -> std::io::Result<()> {
             serde_json::Value::Object(counts.collect()),
         );
     }
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }

@@ -287,7 +287,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for nodes in sizes {
         let start = Instant::now();
         let source = Source::new(arguments, nodes)?;
-        let progress = Progress::new(own_share(arguments.shard, &source)?);
+        let progress = Progress::new("candidates", own_share(arguments.shard, &source)?);
         let (found, bad) = mine_all(arguments, &source, &options, list.as_mut(), progress)?;
         bad_lines += bad;
         rows.push(table::Row {

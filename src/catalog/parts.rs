@@ -13,6 +13,7 @@ use super::source::Source;
 use crate::report::values::Values;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::VecDeque;
 use std::fs;
@@ -246,6 +247,37 @@ fn digest(graphs: &[Graph]) -> String {
     viewcert::certificate::hex(&hash.finalize())
 }
 
+/// Where two runs differ, in words: "the seed is 2 there and 1 here".
+pub(super) fn differences(there: &impl Serialize, here: &impl Serialize) -> String {
+    let [there, here] = [serde_json::to_value(there), serde_json::to_value(here)]
+        .map(|run| run.expect("numbers and words"));
+    let words = |value: &Value| match value {
+        Value::String(word) => word.clone(),
+        Value::Bool(true) => "on".into(),
+        Value::Bool(false) => "off".into(),
+        other => other.to_string(),
+    };
+    let members = there.as_object().into_iter().flatten();
+    let differing = members.filter(|(name, value)| *value != &here[name.as_str()]);
+    let differing: Vec<String> = differing
+        .map(|(name, value)| {
+            let option = match name.as_str() {
+                "program" => "the version of the program",
+                "source" => "what is decided",
+                "kernels" => "the number of kernels",
+                "part" | "kernels_per_block" => "--part",
+                "prime" => "--prime",
+                "seed" => "--seed",
+                "solvable_only" => "--solvable-only",
+                other => other,
+            };
+            let (there, here) = (words(value), words(&here[name.as_str()]));
+            format!("{option} is {there} there and {here} here")
+        })
+        .collect();
+    differing.join(", ")
+}
+
 /// The counts and the digest of a part of the given run.
 pub(super) fn read_part(path: &Path, run: &Run) -> Result<(Summary, String)> {
     let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
@@ -262,8 +294,9 @@ pub(super) fn read_part(path: &Path, run: &Run) -> Result<(Summary, String)> {
     };
     ensure!(
         found == *run,
-        "{}: a part of another run ({found:?})",
-        path.display()
+        "{}: a part of another run: {}; give the same options, or name another folder",
+        path.display(),
+        differences(&found, run)
     );
     Ok((end.summary, end.candidates_sha256))
 }

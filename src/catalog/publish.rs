@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
         folder.display()
     );
-    let progress = Progress::new(None);
+    let progress = Progress::new("candidates", None);
     let mut drawings = Vec::new();
     let mut counts: Vec<(usize, Counts)> = Vec::new();
     let mut files = Files {

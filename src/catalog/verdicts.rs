@@ -9,7 +9,7 @@
 use super::super::progress::Progress;
 use super::super::{GOOD, atomic};
 use super::Arguments;
-use super::parts::PROGRAM;
+use super::parts::{self, PROGRAM};
 use super::source::Source;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
@@ -116,7 +116,7 @@ fn of_size(
     }
     let own = (0..run.blocks()).filter(|&block| arguments.shard.has_turn(block as u64));
     let kernels = own.clone().map(|block| run.kernels_of(block).len() as u64);
-    let progress = Progress::new(Some(kernels.sum()));
+    let progress = Progress::new("kernels", Some(kernels.sum()));
     let mut whole = Tally::default();
     for block in own {
         let path = arguments.out.as_ref().map(|folder| path(folder, block));
@@ -124,9 +124,9 @@ fn of_size(
             let found = read(path)?;
             ensure!(
                 found.run == *run && found.block == block,
-                "{}: a block of another run ({:?}); name another folder",
+                "{}: a block of another run: {}; give the same options, or name another folder",
                 path.display(),
-                found.run
+                parts::differences(&found.run, run)
             );
             whole.add(found.tally);
             continue;
@@ -198,8 +198,9 @@ pub(super) fn write_merged(out: &mut impl Write, folder: &Path) -> Result<()> {
         let run = first.get_or_insert_with(|| block.run.clone());
         ensure!(
             block.run == *run,
-            "{}: belongs to another run than the first block",
-            path.display()
+            "{}: belongs to another run than the first block: {}",
+            path.display(),
+            parts::differences(&block.run, run)
         );
         ensure!(
             path == self::path(folder, block.block) && block.block < run.blocks(),

@@ -24,7 +24,8 @@ pub(super) struct Arguments {
     #[arg(value_parser = clap::value_parser!(u32).range(2..=40))]
     nodes: u32,
     /// Probability of a pair, as in 0.05 or 5%; may be repeated or listed with commas.
-    #[arg(long, value_name = "D", required = true, value_delimiter = ',')]
+    #[arg(long, value_name = "D", value_delimiter = ',')]
+    #[arg(default_value = "5%,10%,20%,30%,40%,50%,60%,70%")]
     density: Vec<Density>,
     /// How many graphs at each density.
     #[arg(long, value_name = "COUNT", default_value_t = 1000)]
@@ -82,7 +83,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let mut columns = Vec::new();
     let mut rows = Vec::new();
     let samples = u64::from(arguments.samples);
-    let progress = Progress::new(Some(samples * arguments.density.len() as u64));
+    let progress = Progress::new("graphs", Some(samples * arguments.density.len() as u64));
     for density in &arguments.density {
         let keep = csv.is_some().then_some(&mut rows);
         columns.push(at_density(arguments, density, &options, &progress, keep)?);

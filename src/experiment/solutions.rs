@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for nodes in arguments.nodes.clone() {
         let start = Instant::now();
         let graphs = source.graphs(nodes)?;
-        let progress = Progress::new(Some(graphs.len() as u64));
+        let progress = Progress::new("graphs", Some(graphs.len() as u64));
         let found = tally(&graphs, &options, |more| progress.done(more))?;
         progress.finish();
         writeln!(

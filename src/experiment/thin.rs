@@ -99,7 +99,7 @@ fn of_graph(arguments: &Arguments, input: &NamedGraph) -> Result<Vec<Row>, Verdi
         .seed(arguments.seed)
         .question(Projective::with_solutions(CountSolutions::Full))
         .watch(running::watch());
-    let progress = Progress::new(Some(u64::from(arguments.pieces)));
+    let progress = Progress::new("pieces", Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)
         .into_par_iter()
         .map(|sample| {

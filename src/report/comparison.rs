@@ -1,6 +1,7 @@
 //! The formulations side by side, as a table, as JSON, and as the bars of a chart.
 
 use super::bars::{Chart, Group};
+use super::json::{GraphLine, write_line};
 use super::read::ReadLine;
 use super::{counted, size};
 use serde::Serialize;
@@ -31,6 +32,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
     }
     let pairs = counted(edges, "pair");
     match found.affine_f {
+        _ if found.computed() == 0 => {}
         Some(held) => writeln!(
             out,
             "  checks      F by its minors is that of the left null vectors on {held} of {pairs}"
@@ -116,7 +118,7 @@ fn rank_cells(line: &Line) -> String {
 
 #[derive(Serialize)]
 struct Json<'a> {
-    graph: JsonGraph<'a>,
+    graph: GraphLine<'a>,
     read: ReadLine<'a>,
     notes: &'a [String],
     draw: u64,
@@ -130,13 +132,6 @@ struct Json<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     affine_f: Option<usize>,
     formulations: Vec<JsonLine>,
-}
-
-#[derive(Serialize)]
-struct JsonGraph<'a> {
-    name: &'a str,
-    nodes: usize,
-    edges: usize,
 }
 
 #[derive(Serialize)]
@@ -194,12 +189,9 @@ impl From<&Line> for JsonLine {
 /// # Errors
 /// Those of the writer.
 pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io::Result<()> {
+    let is_checked = found.affine_f.is_none() && found.computed() > 0;
     let line = Json {
-        graph: JsonGraph {
-            name: &input.name,
-            nodes: input.graph.nodes(),
-            edges: input.graph.edges().len(),
-        },
+        graph: GraphLine::of(input),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
         draw: found.draw,
@@ -210,13 +202,12 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &Comparison) -> io:
         },
         computed: found.computed(),
         excess: found.excess(),
-        kernel_is_f: found.affine_f.is_none().then_some(found.kernel_is_f),
-        implicit_identity: found.affine_f.is_none().then_some(found.identity),
+        kernel_is_f: is_checked.then_some(found.kernel_is_f),
+        implicit_identity: is_checked.then_some(found.identity),
         affine_f: found.affine_f,
         formulations: found.lines.iter().map(JsonLine::from).collect(),
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }
 
 /// Rows and columns as a chart, as in the paper's figure of the sizes.

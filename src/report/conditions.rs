@@ -1,5 +1,6 @@
 //! The conditions of the literature and the grounds on which they are decided.
 
+use super::json::{GraphLine, write_line};
 use super::read::ReadLine;
 use super::{counted, size};
 use serde::Serialize;
@@ -151,9 +152,7 @@ pub fn text(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
 
 #[derive(Serialize)]
 struct Json<'a> {
-    graph: &'a str,
-    nodes: usize,
-    edges: usize,
+    graph: GraphLine<'a>,
     read: ReadLine<'a>,
     notes: &'a [String],
     result: &'static str,
@@ -190,14 +189,11 @@ pub fn json(out: &mut impl Write, input: &NamedGraph, found: &[Condition]) -> io
         })
         .collect();
     let line = Json {
-        graph: &input.name,
-        nodes: input.graph.nodes(),
-        edges: input.graph.edges().len(),
+        graph: GraphLine::of(input),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
         result: conclusion(found),
         conditions,
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }

@@ -2,8 +2,11 @@
 //!
 //! An edge lies in one component and has its colour. A node may lie in several, a *hinge*: it is
 //! drawn as a disc cut into their colours. Components that are single pairs are grey, unless there
-//! are no others: they join larger ones. Graphs too large for that are drawn component by
-//! component.
+//! are no others: they join larger ones. Few nodes have their names beside them. Of graphs too large
+//! for that with one large component some nodes are drawn, each in the place of those near it
+//! ([`sample`]); others are drawn component by component.
+
+mod sample;
 
 use super::counted;
 use super::force_layout::{Link, layout};
@@ -168,6 +171,12 @@ impl<'a> Picture<'a> {
         graph.nodes() <= MOST_NODES && graph.edges().len() <= MOST_EDGES
     }
 
+    /// Whether one component has half of the cameras, in a graph of cameras alone.
+    fn has_large_component(&self) -> bool {
+        let largest = self.sizes.first().map_or(0, |size| size.cameras);
+        self.input.cameras.is_none() && 2 * largest >= self.cameras()
+    }
+
     /// How many components have more than one edge; they come first.
     pub fn larger(&self) -> usize {
         self.sizes.partition_point(|size| size.edges > 1)
@@ -214,10 +223,12 @@ fn shared(components_of: &Lists, i: u32, j: u32) -> Option<u32> {
     few.iter().copied().find(|k| many.binary_search(k).is_ok())
 }
 
-/// Draws the graph: node by node, or component by component.
+/// Draws the graph: node by node, some nodes of it, or component by component.
 pub fn draw(picture: &Picture) -> Drawn {
     if picture.is_detailed() {
         draw_nodes(picture)
+    } else if picture.has_large_component() {
+        draw_sample(picture)
     } else {
         draw_components(picture)
     }
@@ -271,6 +282,20 @@ pub struct Drawn {
     size: [f64; 2],
 }
 
+impl Drawn {
+    /// Adds a line of words below.
+    fn note(&mut self, words: &str) {
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            self.body,
+            r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">{words}</text>"##,
+            self.size[1] + 6.0
+        );
+        let [width, height] = self.size;
+        self.size = [width.max(LEAST_WIDTH / 2.0), height + 16.0];
+    }
+}
+
 /// Radius of a node in pixels.
 fn radius_for(nodes: usize) -> f64 {
     match nodes {
@@ -291,44 +316,91 @@ fn line_for(edges: usize) -> (f64, f64) {
 }
 
 fn draw_nodes(picture: &Picture) -> Drawn {
-    let graph = &picture.input.graph;
-    let radius = radius_for(graph.nodes());
-    let links: Vec<Link> = (0..)
-        .zip(graph.edges())
-        .map(|(k, &ends)| Link {
-            ends,
-            length: match picture.mark(picture.of_edge(k)) {
+    let edges = picture.input.graph.edges();
+    let lines = edges.iter().zip(&picture.of_edge);
+    let lines = lines.map(|(&ends, &component)| sample::Line { ends, component });
+    let nodes: Vec<u32> = picture.nodes().collect();
+    draw_some(picture, &nodes, &lines.collect::<Vec<_>>())
+}
+
+fn draw_sample(picture: &Picture) -> Drawn {
+    let (nodes, lines) = sample::sample(picture);
+    let mut drawn = draw_some(picture, &nodes, &lines);
+    let (all, some) = (picture.input.graph.nodes(), nodes.len());
+    let note = format!("drawn: {some} of {all} cameras, each for those near it");
+    drawn.note(&note);
+    drawn
+}
+
+/// Draws some nodes, given increasing, with the lines between them.
+fn draw_some(picture: &Picture, nodes: &[u32], lines: &[sample::Line]) -> Drawn {
+    let radius = radius_for(nodes.len());
+    let place = |v: u32| nodes.binary_search(&v).expect("a node that is drawn");
+    let links: Vec<Link> = lines
+        .iter()
+        .map(|line| Link {
+            ends: (place(line.ends.0) as u32, place(line.ends.1) as u32),
+            length: match picture.mark(line.component as usize) {
                 Mark::Pair => 70.0,
                 _ => 38.0,
             },
         })
         .collect();
-    let radii: Vec<f64> = picture
-        .nodes()
-        .map(|v| radius_of(picture, v, radius))
+    let radii: Vec<f64> = nodes
+        .iter()
+        .map(|&v| radius_of(picture, v, radius))
         .collect();
     let found = layout(&radii, &links);
+    let labels = Names::new(picture, nodes);
     // As many pixels as it takes, but no wider than a page.
-    let inner = WIDTH - 2.0 * MARGIN;
-    let scale = (inner / found.size[0]).min(1.5);
+    let sides = MARGIN + labels.room;
+    let scale = ((WIDTH - 2.0 * sides) / found.size[0]).min(1.5);
     let points: Vec<[f64; 2]> = found
         .points
         .iter()
-        .map(|point| point.map(|x| MARGIN + scale * x))
+        .map(|[x, y]| [sides + scale * x, MARGIN + labels.high() + scale * y])
         .collect();
     let mut body = String::new();
+    write_lines(&mut body, picture, lines, |v| points[place(v)]);
+    let mut order: Vec<usize> = (0..nodes.len()).collect();
+    order.sort_by_key(|&k| picture.components_of(nodes[k]).len());
+    for k in order {
+        let (v, [x, y]) = (nodes[k], points[k]);
+        let _ = writeln!(
+            body,
+            r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
+            escaped(&picture.input.labels.label(v)),
+            node_symbol(picture, v, radius)
+        );
+    }
+    labels.write(&mut body, &points, &links, &radii);
+    let [width, height] = found.size.map(|x| scale * x);
+    Drawn {
+        body,
+        size: [width + 2.0 * sides, height + 2.0 * (MARGIN + labels.high())],
+    }
+}
+
+/// A path for every component.
+fn write_lines(
+    body: &mut String,
+    picture: &Picture,
+    lines: &[sample::Line],
+    point: impl Fn(u32) -> [f64; 2],
+) {
     // The largest are drawn first, single pairs last: they must not be lost.
-    let mut lines = vec![String::new(); picture.sizes.len()];
-    for (k, &(i, j)) in graph.edges().iter().enumerate() {
-        let path = &mut lines[picture.of_edge(k)];
-        let ([a, b], [c, d]) = (points[i as usize], points[j as usize]);
+    let mut paths: BTreeMap<u32, (String, usize)> = BTreeMap::new();
+    for &sample::Line { ends, component } in lines {
+        let ([a, b], [c, d]) = (point(ends.0), point(ends.1));
+        let (path, count) = paths.entry(component).or_default();
+        *count += 1;
         // Writing to a string does not fail.
         let _ = write!(path, "M{a:.1} {b:.1}L{c:.1} {d:.1}");
     }
     let single = picture.sizes.len() - picture.larger();
-    for (component, path) in lines.iter().enumerate() {
-        let mark = picture.mark(component);
-        let (width, opacity) = line_for(picture.sizes[component].edges.max(match mark {
+    for (component, (path, count)) in paths {
+        let mark = picture.mark(component as usize);
+        let (width, opacity) = line_for(count.max(match mark {
             Mark::Pair => single,
             _ => 0,
         }));
@@ -339,20 +411,95 @@ fn draw_nodes(picture: &Picture) -> Drawn {
             dashes(mark)
         );
     }
-    let mut order: Vec<u32> = picture.nodes().collect();
-    order.sort_by_key(|&v| picture.components_of(v).len());
-    for v in order {
-        let [x, y] = points[v as usize];
-        let _ = writeln!(
-            body,
-            r#"<g data-node="{v}" transform="translate({x:.1} {y:.1})"><title>{}</title>{}</g>"#,
-            escaped(&picture.input.labels.label(v)),
-            node_symbol(picture, v, radius)
-        );
+}
+
+/// The names beside the nodes, if these are few.
+struct Names {
+    /// One for each node, or none at all.
+    text: Vec<String>,
+    /// The room that they take on either side.
+    room: f64,
+}
+
+impl Names {
+    const MOST: usize = 40;
+    const MOST_LETTERS: usize = 20;
+    const SIZE: f64 = 11.0;
+
+    fn new(picture: &Picture, nodes: &[u32]) -> Self {
+        if nodes.len() > Self::MOST || picture.input.cameras.is_some() {
+            return Self {
+                text: Vec::new(),
+                room: 0.0,
+            };
+        }
+        let name = |&v: &u32| Self::shortened(&picture.input.labels.label(v));
+        let text: Vec<String> = nodes.iter().map(name).collect();
+        let letters = text.iter().map(|name| name.chars().count()).max();
+        Self {
+            room: 0.6 * Self::SIZE * letters.unwrap_or(0) as f64 + 8.0,
+            text,
+        }
     }
-    Drawn {
-        body,
-        size: found.size.map(|x| scale * x + 2.0 * MARGIN),
+
+    /// The end of a long name tells most.
+    fn shortened(name: &str) -> String {
+        let letters = name.chars().count();
+        match letters.checked_sub(Self::MOST_LETTERS) {
+            None | Some(0) => name.to_owned(),
+            Some(more) => {
+                let end: String = name.chars().skip(more + 1).collect();
+                format!("\u{2026}{end}")
+            }
+        }
+    }
+
+    /// The room above and below.
+    fn high(&self) -> f64 {
+        if self.text.is_empty() {
+            0.0
+        } else {
+            Self::SIZE
+        }
+    }
+
+    /// Writes each on the side of its node that is away from the neighbours.
+    fn write(&self, body: &mut String, points: &[[f64; 2]], links: &[Link], radii: &[f64]) {
+        let mut away = vec![[0.0, 0.0]; points.len()];
+        for link in links {
+            let (i, j) = (link.ends.0 as usize, link.ends.1 as usize);
+            let apart = [points[i][0] - points[j][0], points[i][1] - points[j][1]];
+            let length = apart[0].hypot(apart[1]).max(1.0);
+            for axis in 0..2 {
+                away[i][axis] += apart[axis] / length;
+                away[j][axis] -= apart[axis] / length;
+            }
+        }
+        for (k, name) in self.text.iter().enumerate() {
+            let ([x, y], [dx, dy]) = (points[k], away[k]);
+            let length = dx.hypot(dy);
+            // In the middle of its neighbours a name stands on the right.
+            let [dx, dy] = if length < 0.2 {
+                [1.0, 0.0]
+            } else {
+                [dx / length, dy / length]
+            };
+            let anchor = match dx {
+                _ if dx > 0.4 => "start",
+                _ if dx < -0.4 => "end",
+                _ => "middle",
+            };
+            let far = radii[k] * 1.5 + 4.0;
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                body,
+                r##"<text x="{:.1}" y="{:.1}" font-size="{}" text-anchor="{anchor}" class="ink-text name" fill="#444">{}</text>"##,
+                x + far * dx,
+                y + (far + 3.0) * dy + 0.35 * Self::SIZE,
+                Self::SIZE,
+                escaped(name)
+            );
+        }
     }
 }
 
@@ -511,19 +658,18 @@ fn draw_components(picture: &Picture) -> Drawn {
         write_disc(&mut body, picture, k, at, scale * radius);
     }
     discs.write_hinges(&mut body, &places);
-    let mut size = found.size.map(|x| scale * x + 2.0 * MARGIN);
+    let mut drawn = Drawn {
+        body,
+        size: found.size.map(|x| scale * x + 2.0 * MARGIN),
+    };
     let hidden = picture.sizes.len() - discs.count - discs.joined.values().sum::<usize>();
     if hidden > 0 {
-        let what = counted(hidden, "smaller component");
-        // Writing to a string does not fail.
-        let _ = writeln!(
-            body,
-            r##"<text x="{MARGIN}" y="{:.1}" font-size="12" class="ink-text" fill="#444">not drawn: {what}</text>"##,
-            size[1] + 6.0
-        );
-        size = [size[0].max(LEAST_WIDTH / 2.0), size[1] + 16.0];
+        drawn.note(&format!(
+            "not drawn: {}",
+            counted(hidden, "smaller component")
+        ));
     }
-    Drawn { body, size }
+    drawn
 }
 
 /// Components as discs, and what joins them.

@@ -3,6 +3,7 @@
 use super::Report;
 use super::database::DatabaseLine;
 use super::read::ReadLine;
+use super::text;
 use super::tracks;
 use super::tracks::TrackLine;
 use crate::act::Acted;
@@ -11,7 +12,37 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
+use viewcert::graph::sha256;
 use viewcert_formats::NamedGraph;
+
+/// Which program wrote a line.
+#[derive(Serialize)]
+struct Program {
+    name: &'static str,
+    version: &'static str,
+}
+
+/// A line with its program.
+#[derive(Serialize)]
+struct Signed<'a, T> {
+    program: Program,
+    #[serde(flatten)]
+    line: &'a T,
+}
+
+/// Writes an object as one line of JSON, with the program and its version: every `--json` is of
+/// such lines. Their schema is docs/report.schema.json.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn write_line(out: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
+    let program = Program {
+        name: "verify",
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    serde_json::to_writer(&mut *out, &Signed { program, line })?;
+    out.write_all(b"\n")
+}
 
 #[derive(Serialize)]
 struct Line<'a> {
@@ -42,7 +73,7 @@ struct Line<'a> {
 
 /// Which graph it is.
 #[derive(Serialize)]
-pub(super) struct GraphLine<'a> {
+pub(crate) struct GraphLine<'a> {
     name: &'a str,
     nodes: usize,
     edges: usize,
@@ -50,12 +81,22 @@ pub(super) struct GraphLine<'a> {
 }
 
 impl<'a> GraphLine<'a> {
-    pub(super) fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
+    /// With the hash of a verdict on it.
+    pub(crate) fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
+        Self::with_hash(input, &verdict.sha256)
+    }
+
+    /// Where there is no verdict. O(n + m) for the hash.
+    pub(super) fn of(input: &'a NamedGraph) -> Self {
+        Self::with_hash(input, &sha256(&input.graph))
+    }
+
+    fn with_hash(input: &'a NamedGraph, hash: &[u8; 32]) -> Self {
         Self {
             name: &input.name,
             nodes: input.graph.nodes(),
             edges: input.graph.edges().len(),
-            sha256: hex(&verdict.sha256),
+            sha256: hex(hash),
         }
     }
 }
@@ -93,6 +134,7 @@ pub(super) struct AnswerLine {
     verdict: &'static str,
     strength: &'static str,
     error_log2: Option<i64>,
+    because: String,
     solutions: Option<SolutionsLine>,
     rank: usize,
     rank_required: usize,
@@ -102,12 +144,17 @@ pub(super) struct AnswerLine {
 }
 
 impl AnswerLine {
-    pub(super) fn new(verdict: &Verdict, components: Vec<ComponentLine>) -> Self {
+    pub(super) fn new(
+        input: &NamedGraph,
+        verdict: &Verdict,
+        components: Vec<ComponentLine>,
+    ) -> Self {
         let strength = verdict.value_claim().strength;
         Self {
             verdict: verdict.value.name(),
             strength: strength.name(),
             error_log2: strength.error_log2(),
+            because: text::reason(input, verdict),
             solutions: verdict.solutions.as_ref().map(SolutionsLine::from),
             rank: verdict.rank,
             rank_required: verdict.required,
@@ -120,7 +167,7 @@ impl AnswerLine {
 
 impl From<&Report<'_>> for AnswerLine {
     fn from(report: &Report) -> Self {
-        Self::new(report.verdict, components(report))
+        Self::new(report.input, report.verdict, components(report))
     }
 }
 
@@ -195,8 +242,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         seconds: report.time.as_secs_f64(),
         acted: report.acted,
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }
 
 /// The components; of a camera-point graph with cameras and points, and behind them every camera

@@ -10,6 +10,7 @@ pub mod force_layout;
 pub mod graph_picture;
 pub mod json;
 pub mod layout;
+pub mod many;
 pub mod models;
 pub mod overview;
 pub mod page;

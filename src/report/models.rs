@@ -1,6 +1,6 @@
 //! Every camera model side by side, for people and for programs.
 
-use super::json::{AnswerLine, ComponentLine, GraphLine, parts};
+use super::json::{AnswerLine, ComponentLine, GraphLine, parts, write_line};
 use super::read::ReadLine;
 use super::{size_with_parts, text};
 use serde::Serialize;
@@ -98,7 +98,7 @@ pub fn text(
     for verdict in verdicts {
         let (rank, required) = (verdict.rank, verdict.required);
         let components = super::counted(verdict.components.len(), "component");
-        let answer = verdict.value.name();
+        let answer = text::value(verdict.value, verdict.model);
         let claims = [
             verdict.value_claim().strength,
             verdict.rank_claim().strength,
@@ -148,12 +148,12 @@ struct ModelLine {
     answer: AnswerLine,
 }
 
-impl From<&Verdict> for ModelLine {
-    fn from(verdict: &Verdict) -> Self {
+impl ModelLine {
+    fn new(input: &NamedGraph, verdict: &Verdict) -> Self {
         let sizes = verdict.components.iter().map(ComponentLine::from);
         Self {
             model: verdict.model.name(),
-            answer: AnswerLine::new(verdict, sizes.collect()),
+            answer: AnswerLine::new(input, verdict, sizes.collect()),
         }
     }
 }
@@ -195,9 +195,11 @@ pub fn json(
         parts: parts(&verdicts[0]),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
-        models: verdicts.iter().map(ModelLine::from).collect(),
+        models: verdicts
+            .iter()
+            .map(|verdict| ModelLine::new(input, verdict))
+            .collect(),
         changes: changes.collect(),
     };
-    serde_json::to_writer(&mut *out, &line)?;
-    out.write_all(b"\n")
+    write_line(out, &line)
 }

@@ -5,7 +5,7 @@
 //! seen of COLMAP's mappers.
 
 use super::database::DatabaseLine;
-use super::json::AnswerLine;
+use super::json::{AnswerLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, size_of, text, tracks};
@@ -366,8 +366,7 @@ impl Overview<'_> {
             next: &self.next,
             seconds: self.time.as_secs_f64(),
         };
-        serde_json::to_writer(&mut *out, &line)?;
-        out.write_all(b"\n")
+        write_line(out, &line)
     }
 }
 

@@ -6,6 +6,7 @@ use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
 use viewcert::decide::{Bound, Value, Verdict};
 use viewcert::geometry::model::Model;
+use viewcert_formats::NamedGraph;
 
 /// How many components are shown with their sizes.
 const SHOWN: usize = 8;
@@ -39,7 +40,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         )?;
     }
     writeln!(out, "  verdict     {}", answer(report))?;
-    writeln!(out, "  because     {}", reason(report))?;
+    writeln!(out, "  because     {}", reason(input, verdict))?;
     for condition in report.scope.conditions() {
         writeln!(out, "  condition   {condition}")?;
     }
@@ -85,32 +86,38 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
     Ok(())
 }
 
+/// A verdict in two or three words, as in the glossary.
+pub(crate) fn value(value: Value, model: Model) -> &'static str {
+    match (value, model) {
+        (Value::Solvable, _) => "solvable",
+        (Value::FiniteSolvable, _) => "finite solvable",
+        (Value::NotFiniteSolvable, Model::Projective) => "not finite solvable",
+        (Value::NotFiniteSolvable, Model::Calibrated | Model::Affine) => "not solvable",
+    }
+}
+
 /// The verdict and how strong it is.
 pub(super) fn answer(report: &Report) -> String {
     let verdict = report.verdict;
     let known = verdict.solutions.as_ref();
     let known = known.filter(|count| count.at_least > 1 || count.at_most.is_some());
-    let finite = match known {
-        Some(count) => format!("finite solvable: {count}"),
-        None => "finite solvable: finitely many sets of cameras".into(),
+    let means = match (verdict.value, report.input.cameras) {
+        (Value::NotFiniteSolvable, None) => "infinitely many sets of cameras".into(),
+        (Value::NotFiniteSolvable, Some(_)) => {
+            "infinitely many positions of the cameras and points".into()
+        }
+        (_, Some(_)) => "the positions of all cameras and points are unique".into(),
+        (Value::Solvable, None) => "the cameras are unique".into(),
+        (Value::FiniteSolvable, None) => match known {
+            Some(count) => count.to_string(),
+            None => "finitely many sets of cameras".into(),
+        },
     };
-    let value = match (verdict.value, verdict.model) {
-        (Value::NotFiniteSolvable, _) if report.input.cameras.is_some() => {
-            "not solvable: infinitely many positions of the cameras and points"
-        }
-        _ if report.input.cameras.is_some() => {
-            "solvable: the positions of all cameras and points are unique"
-        }
-        (Value::Solvable, _) => "solvable: the cameras are unique",
-        (Value::FiniteSolvable, _) => &finite,
-        (Value::NotFiniteSolvable, Model::Projective) => {
-            "not finite solvable: infinitely many sets of cameras"
-        }
-        (Value::NotFiniteSolvable, Model::Calibrated | Model::Affine) => {
-            "not solvable: infinitely many sets of cameras"
-        }
-    };
-    format!("{value} ({})", strength(verdict.value_claim().strength))
+    format!(
+        "{}: {means} ({})",
+        value(verdict.value, verdict.model),
+        strength(verdict.value_claim().strength)
+    )
 }
 
 /// The strength of a claim in words.
@@ -122,10 +129,9 @@ pub(super) fn strength(strength: Strength) -> String {
 }
 
 /// What the verdict rests on, in a line.
-pub(super) fn reason(report: &Report) -> String {
-    let verdict = report.verdict;
-    let nodes = report.input.graph.nodes();
-    let (members, single) = match report.input.cameras {
+pub(super) fn reason(input: &NamedGraph, verdict: &Verdict) -> String {
+    let nodes = input.graph.nodes();
+    let (members, single) = match input.cameras {
         None => ("cameras", "single cameras"),
         Some(_) => ("cameras and points", "single cameras or points"),
     };
@@ -150,7 +156,7 @@ pub(super) fn reason(report: &Report) -> String {
                 format!("known parts and pairs merge into one body with all {nodes} cameras")
             }
             0 => "a single pair determines its two cameras".into(),
-            1 => match report.input.cameras {
+            1 => match input.cameras {
                 None if verdict.contraction.bodies[0].add.is_empty() => {
                     format!("one body of {nodes} cameras around a K_{{2,3}}")
                 }
@@ -190,7 +196,7 @@ pub(super) fn reason(report: &Report) -> String {
             let more = more.unwrap_or("counting allows");
             format!("{more} rank {covered} at most")
         }
-        Strength::Proof => match report.input.cameras {
+        Strength::Proof => match input.cameras {
             None if !verdict.known_parts.is_empty() => {
                 "some cameras have no pairs and are in no known part".into()
             }

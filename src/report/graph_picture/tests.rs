@@ -92,6 +92,63 @@ fn large_graphs_are_drawn_by_components() {
     });
 }
 
+/// Names stand beside the nodes of a small graph, their ends if they are long; not beside many.
+#[test]
+fn small_graphs_have_names() {
+    let input = named(7, &CHAIN);
+    with_picture(&input, |picture| {
+        let drawn = text(picture, true);
+        for name in 0..7 {
+            assert!(drawn.contains(&format!(">{name}</text>")), "{drawn}");
+        }
+        assert_eq!(drawn.matches("ink-text name").count(), 7);
+    });
+    assert_eq!(
+        Names::shortened("abcdefghijklmnopqrst"),
+        "abcdefghijklmnopqrst"
+    );
+    assert_eq!(
+        Names::shortened("abcdefghijklmnopqrstu"),
+        "\u{2026}cdefghijklmnopqrstu"
+    );
+    let path: Vec<(u32, u32)> = (0..50).map(|v| (v, v + 1)).collect();
+    with_picture(&named(51, &path), |picture| {
+        assert_eq!(text(picture, true).matches("ink-text name").count(), 0);
+    });
+}
+
+/// A sequence of 2,400 cameras, each paired with the next two, and one that hangs on: every fourth
+/// is drawn and joined to the next ones, and the pair that hangs on is there.
+#[test]
+fn of_a_large_component_some_nodes_are_drawn() {
+    let mut pairs: Vec<(u32, u32)> = (0..2400u32)
+        .flat_map(|v| [(v, v + 1), (v, v + 2)])
+        .filter(|&(_, w)| w < 2400)
+        .collect();
+    pairs.push((7, 2400));
+    let input = named(2401, &pairs);
+    with_picture(&input, |picture| {
+        assert!(!picture.is_detailed());
+        let (nodes, lines) = sample::sample(picture);
+        assert!(nodes.len() <= 600 && nodes.len() > 400, "{}", nodes.len());
+        let pair = sample::Line {
+            ends: (7, 2400),
+            component: 1,
+        };
+        assert!(lines.contains(&pair));
+        let first = lines.iter().filter(|line| line.component == 0);
+        assert!(first.clone().all(|line| line.ends.1 - line.ends.0 <= 15));
+        assert!(first.count() >= nodes.len() - 2);
+        let drawn = text(picture, true);
+        assert_eq!(drawn.matches("<g data-node=").count(), nodes.len());
+        let note = format!(
+            "drawn: {} of 2401 cameras, each for those near it",
+            nodes.len()
+        );
+        assert!(drawn.contains(&note));
+    });
+}
+
 /// Colours repeat after six, shapes tell them apart.
 #[test]
 fn marks_are_different() {

@@ -11,7 +11,7 @@ mod adjacency;
 
 use super::graph_picture::{Drawn, Picture, document};
 use super::svg::{COLOURS, escaped};
-use super::{Report, json, text};
+use super::{Report, json};
 use adjacency::Adjacency;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use serde::Serialize;
@@ -31,8 +31,6 @@ const ADJACENCY_FROM: usize = 100;
 struct Drawing<'a> {
     /// The program's version.
     version: &'static str,
-    /// What the verdict rests on, in a line.
-    because: String,
     /// Names of the cameras, in the order of the nodes.
     names: Vec<Cow<'a, str>>,
     /// How many edges each of them has.
@@ -108,7 +106,6 @@ fn drawing<'a>(
     let edges = graph.edges().iter().flat_map(|&(i, j)| [i, j]);
     Drawing {
         version: env!("CARGO_PKG_VERSION"),
-        because: text::reason(report),
         names: (0..cameras as u32)
             .map(|v| report.input.labels.label(v))
             .collect(),

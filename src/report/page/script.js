@@ -149,7 +149,7 @@
       html("p", { class: "answer", "data-verdict": report.verdict }, answer),
       html("p", {}, meaning),
       html("p", { class: "soft" },
-        `This is ${strengthWords(report.strength, report.error_log2)}. It rests on this: ${drawing.because}.`),
+        `This is ${strengthWords(report.strength, report.error_log2)}. It rests on this: ${report.because}.`),
     );
   };
 
@@ -184,8 +184,8 @@
       `of ${grouped(report.rank_required)}; ${strengthWords(report.rank_strength)}`);
     add("model", report.model, "/model");
     const time = report.seconds < 1
-      ? `${(1000 * report.seconds).toPrecision(2)} ms`
-      : `${report.seconds.toPrecision(3)} s`;
+      ? `${(1000 * report.seconds).toFixed(report.seconds < 0.01 ? 1 : 0)} ms`
+      : `${report.seconds.toFixed(report.seconds < 10 ? 1 : 0)} s`;
     add("time", time, "/seconds");
     add("SHA-256 of the graph", report.graph.sha256, "/graph/sha256", null, true);
     find("#summary").append(facts);
@@ -573,14 +573,57 @@
     }
     return String(value);
   };
-  const named = (name) => name.replaceAll("_", " ");
+  const HEADS = {
+    between: "components",
+    how: "how they touch",
+    images: "images",
+    through: "by way of",
+    crossing: "pairs and paths across",
+    freedom: "free",
+    meaning: "what is free",
+    joins: "joins components",
+    single_pairs: "single pairs",
+    gain: "images gained",
+    min_inliers: "least number of inliers",
+    min_views: "least number of views",
+    images_without_pair: "images without pairs",
+    pairs_used: "pairs used",
+    pairs_inside: "pairs within components",
+    pairs_outside: "pairs in no larger component",
+    unused: "pairs that were not used",
+    reaches: "leads to components",
+    configs: "kinds of two-view geometry",
+    cameras_without_point: "cameras that see no track",
+    inconsistent: "inconsistent tracks",
+    short: "tracks that are too short",
+    rank_required: "rank of a solvable graph",
+    shared_images: "images in several components",
+    outside: "images in none",
+  };
+  const named = (name) => HEADS[name] ?? name.replaceAll("_", " ");
+  // What a member says, in words.
+  const told = (member, value) => {
+    if (member === "strength" || member === "verdict") return VALUES[value] ?? words(value);
+    const isList = Array.isArray(value) && value.every(Array.isArray);
+    if (isList) return value.map((images) => images.join(" – ")).join(", ");
+    return words(value);
+  };
+  const VALUES = {
+    proof: "proved",
+    "error-bound": "with an error bound",
+    "finite-solvable": "finite solvable",
+    "not-finite-solvable": report.model in APART ? "not solvable" : "not finite solvable",
+  };
+  const isEmpty = (value) =>
+    value === null || value === undefined || (Array.isArray(value) && value.every(isEmpty));
   const objectsTable = (section, caption, list) => {
-    const members = [...new Set(list.flatMap((item) => Object.keys(item)))];
+    const members = [...new Set(list.flatMap((item) => Object.keys(item)))]
+      .filter((member) => !list.every((item) => isEmpty(item[member])));
     table(section, caption, members.map((member) => ({
       title: named(member),
       number: list.every((item) => typeof (item[member] ?? 0) === "number"),
-      value: (item) => (typeof item[member] === "number" ? item[member] : words(item[member])),
-      show: (item) => words(item[member]),
+      value: (item) => (typeof item[member] === "number" ? item[member] : told(member, item[member])),
+      show: (item) => told(member, item[member]),
     })), list);
   };
   const isObject = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
@@ -591,9 +634,9 @@
     if (isTable(value)) {
       objectsTable(section, title, value);
     } else if (isObject(value)) {
-      const plain = Object.entries(value).filter(([, inner]) => !isTable(inner));
+      const plain = Object.entries(value).filter(([, inner]) => !isTable(inner) && !isEmpty(inner));
       section.append(html("dl", { class: "pairs" }, plain.flatMap(([name, inner]) =>
-        [html("dt", {}, named(name)), html("dd", {}, words(inner))])));
+        [html("dt", {}, named(name)), html("dd", {}, told(name, inner))])));
       for (const [name, inner] of Object.entries(value)) {
         if (isTable(inner)) section.append(part(`${id}-${name}`, named(name), inner, 3));
       }
@@ -623,7 +666,7 @@
     }
   };
 
-  const SHOWN = new Set(["graph", "notes", "model", "verdict", "strength", "error_log2", "rank",
+  const SHOWN = new Set(["program", "because", "graph", "notes", "model", "verdict", "strength", "error_log2", "rank",
     "rank_required", "rank_strength", "components", "components_strength", "mode", "seconds", "joints",
     "joints_complete", "solutions"]);
   const TITLES = {
@@ -639,12 +682,42 @@
     explain: "Explanation",
     sweep: "Components by threshold",
   };
+  // What components hang on: a sentence, and the list.
+  const weakPart = (id, { of, items, single_pairs: single }) => {
+    const section = html("section", { id }, html("h2", {}, TITLES.weak));
+    const rest = single > 0
+      ? ` Not among them: ${counted(single, `single ${edgeWord}`)}, on which no larger component rests.` : "";
+    const said = items.length > 0 ? `Without any one of these ${of} a component falls apart.` : `No ${of} are weak.`;
+    if (items.length > 0) objectsTable(section, said + rest, items);
+    else section.append(html("p", {}, said + rest));
+    return section;
+  };
+  // How often components stay whole, and how much of them together, by how much is missing.
+  const marginPart = (id, margin) => {
+    const section = html("section", { id }, html("h2", {}, TITLES.margin));
+    const caption = `In how many of ${margin.draws} draws a component stays whole, and how many percent of it stay ` +
+      `together on average, if so many percent of the ${margin.of} are missing (seed ${margin.seed}).`;
+    table(section, caption, [
+      { title: "component", number: true, value: (row) => row.component, show: (row) => componentButton(row.component - 1) },
+      ...margin.missing.map((missing, k) => ({
+        title: `${missing} %`,
+        number: true,
+        value: (row) => row.whole[k],
+        show: (row) => `${row.whole[k]} whole, ${Math.round(row.together[k])} % together`,
+      })),
+    ], margin.components);
+    return section;
+  };
+  const partOf = (name, value) => {
+    const id = `part-${name}`;
+    if (name === "weak" && Array.isArray(value.items)) return weakPart(id, value);
+    if (name === "margin" && Array.isArray(value.missing)) return marginPart(id, value);
+    return part(id, TITLES[name] ?? named(name), value);
+  };
   const showFurther = () => {
     for (const [name, value] of Object.entries(report)) {
       const empty = value === null || (Array.isArray(value) && value.length === 0);
-      if (!SHOWN.has(name) && !empty) {
-        find("#further").append(part(`part-${name}`, TITLES[name] ?? named(name), value));
-      }
+      if (!SHOWN.has(name) && !empty) find("#further").append(partOf(name, value));
     }
   };
 

@@ -320,7 +320,7 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 28] = [
+const REPORTED: [&str; 30] = [
     "graph",
     "parts",
     "notes",
@@ -335,6 +335,8 @@ const REPORTED: [&str; 28] = [
     "rank",
     "rank_required",
     "rank_strength",
+    "program",
+    "because",
     "components",
     "components_strength",
     "conditions",

@@ -86,7 +86,7 @@ impl FloatVerdict {
         }
     }
 
-    /// The name in reports.
+    /// The name in JSON output.
     pub fn name(self) -> &'static str {
         match self {
             Self::Solvable => "finite-solvable",
@@ -98,7 +98,11 @@ impl FloatVerdict {
 
 impl fmt::Display for FloatVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        f.pad(match self {
+            Self::Solvable => "finite solvable",
+            Self::NotSolvable => "not finite solvable",
+            Self::Undecided => "undecided",
+        })
     }
 }
 

@@ -47,6 +47,11 @@ impl Limits<'static> {
 }
 
 impl Limits<'_> {
+    /// Whether a matrix of this size is too large.
+    fn exclude(&self, (rows, columns): (usize, usize)) -> bool {
+        rows.saturating_mul(columns) > self.entries
+    }
+
     /// Whether a matrix that counts for so many entries is eliminated; if that takes long, it is
     /// announced.
     fn admit(&self, entries: usize, name: &str, size: (usize, usize)) -> bool {
@@ -128,6 +133,17 @@ pub enum Outcome {
 }
 
 impl Comparison {
+    /// Of a graph of which no matrix is eliminated: no cameras are drawn, and nothing is checked.
+    fn sizes(lines: Vec<Line>) -> Self {
+        Self {
+            lines,
+            kernel_is_f: 0,
+            identity: 0,
+            affine_f: None,
+            draw: 0,
+        }
+    }
+
     /// The kernel beyond the trivial one that all formulations found; `None` if they
     /// differ, or none of them ran.
     pub fn excess(&self) -> Option<usize> {
@@ -150,7 +166,8 @@ impl Comparison {
         };
         let computed = self.computed();
         match self.excess() {
-            None if computed > 0 => Outcome::Disagree,
+            _ if computed == 0 => Outcome::NotCompared,
+            None => Outcome::Disagree,
             _ if !checked => Outcome::Disagree,
             Some(excess) if computed > 1 => Outcome::Agree(excess),
             _ => Outcome::NotCompared,
@@ -259,6 +276,18 @@ fn compare<F: RankField>(
     }
     let mut key = key(graph, seed);
     let formulations = all::<F>();
+    let lines = |cameras: &[_], key: &_| {
+        let in_one = formulations.iter();
+        let in_one = in_one.map(|one| line(*one, field, graph, cameras, limits));
+        in_one
+            .chain([plane_flow(field, graph, cameras, key, limits)])
+            .collect()
+    };
+    let sizes = formulations.iter().map(|one| one.size(graph));
+    let mut sizes = sizes.chain([rigidity_size(graph)]);
+    if sizes.all(|size| limits.exclude(size)) {
+        return Ok(Comparison::sizes(lines(&[], &key)));
+    }
     for _ in 0..ATTEMPTS {
         let (cameras, draw) = draw(&key)?;
         key.draw = draw + 1;
@@ -267,13 +296,8 @@ fn compare<F: RankField>(
             .all(|formulation| formulation.admits(field, graph, &cameras));
         if admitted && plane_ranks::admits(field, &cameras) {
             let (kernel_is_f, identity) = checks(field, graph, &cameras);
-            let in_one = formulations
-                .iter()
-                .map(|formulation| line(*formulation, field, graph, &cameras, limits));
             return Ok(Comparison {
-                lines: in_one
-                    .chain([plane_flow(field, graph, &cameras, &key, limits)])
-                    .collect(),
+                lines: lines(&cameras, &key),
                 kernel_is_f,
                 identity,
                 affine_f: None,

@@ -58,6 +58,16 @@ fn compare<F: RankField>(
     if graph.edges().is_empty() {
         return Err(CompareError::NoPairs);
     }
+    let lines = |cameras: &[_]| {
+        vec![
+            published(field, graph, cameras, limits),
+            directions(field, graph, cameras, limits),
+        ]
+    };
+    let mut sizes = [affine::size(graph), directions_size(graph)].into_iter();
+    if sizes.all(|size| limits.exclude(size)) {
+        return Ok(Comparison::sizes(lines(&[])));
+    }
     let mut key = key(graph, seed);
     for _ in 0..ATTEMPTS {
         let (cameras, draw) = draw(&key)?;
@@ -65,10 +75,7 @@ fn compare<F: RankField>(
         let cameras: Vec<AffineCamera<F::Elem>> = cameras.into_iter().map(upper).collect();
         if affine::admits(field, graph, &cameras) {
             return Ok(Comparison {
-                lines: vec![
-                    published(field, graph, &cameras, limits),
-                    directions(field, graph, &cameras, limits),
-                ],
+                lines: lines(&cameras),
                 kernel_is_f: 0,
                 identity: 0,
                 affine_f: Some(held(field, graph, &cameras)),

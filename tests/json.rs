@@ -1,0 +1,140 @@
+//! What every command prints with `--json` keeps to docs/report.schema.json, each to its own
+//! definition there.
+
+mod common;
+
+use common::schema::{mutilations_are_refused, schema, valid};
+use common::{Run, geng, verify, verify_with};
+use serde_json::{Value, json};
+
+/// The schema of one command alone.
+fn of_command(definition: &str) -> jsonschema::Validator {
+    let all: Value = serde_json::from_str(include_str!("../docs/report.schema.json")).unwrap();
+    let known = all["oneOf"].as_array().unwrap();
+    let reference = format!("#/$defs/{definition}");
+    assert!(
+        known.contains(&json!({ "$ref": reference })),
+        "{definition}"
+    );
+    let one = json!({ "$ref": reference, "$defs": all["$defs"] });
+    jsonschema::validator_for(&one).unwrap()
+}
+
+/// Holds a run against the schema of its command, and that against changes of its first line.
+fn keeps_to(definition: &str, run: &Run, required: &[&str]) -> Vec<Value> {
+    valid(&schema(), run);
+    let own = of_command(definition);
+    let lines = valid(&own, run);
+    let version = env!("CARGO_PKG_VERSION");
+    for line in &lines {
+        assert_eq!(
+            line["program"],
+            json!({ "name": "verify", "version": version })
+        );
+    }
+    mutilations_are_refused(&own, &lines[0], required);
+    lines
+}
+
+const GRAPHS: [&str; 3] = ["house.txt", "psi.txt", "minimal.g6"];
+
+/// The square, by a line of graph6 and by its pairs.
+const SQUARE: &[u8] = b"0 1\n1 2\n2 3\n0 3\n";
+
+#[test]
+fn of_graphs() {
+    let commands: [(&str, &str, &[&str], &[&str]); 5] = [
+        (
+            "report",
+            "",
+            &["--components"],
+            &["program", "graph", "because", "verdict"],
+        ),
+        ("overview", "overview", &[], &["program", "name", "follows"]),
+        ("models", "models", &[], &["program", "graph", "models"]),
+        (
+            "comparison",
+            "compare",
+            &[],
+            &["program", "graph", "agree", "formulations"],
+        ),
+        (
+            "conditions",
+            "conditions",
+            &[],
+            &["program", "graph", "result"],
+        ),
+    ];
+    for (definition, command, more, required) in commands {
+        for graph in GRAPHS {
+            let path = format!("examples/{graph}");
+            let command = (!command.is_empty()).then_some(command);
+            let words: Vec<&str> = command.into_iter().chain(["--json", &path]).collect();
+            let lines = keeps_to(definition, &verify(&[&words, more].concat()), required);
+            for line in lines.iter().filter(|_| definition != "overview") {
+                let named = line["graph"]["name"].as_str().unwrap();
+                assert!(named.starts_with(path.as_str()), "{named}");
+                assert_eq!(line["graph"]["sha256"].as_str().map(str::len), Some(64));
+            }
+        }
+    }
+    for options in [
+        &["--rational"][..],
+        &["--model", "affine"],
+        &["--limit", "1"],
+    ] {
+        let words = [&["compare", "--json", "-"], options].concat();
+        keeps_to("comparison", &verify_with(SQUARE, &words), &["notes"]);
+    }
+}
+
+#[test]
+fn of_audits() {
+    let run = verify_with(SQUARE, &["audit", "--json", "-"]);
+    let line = keeps_to("audit", &run, &["program", "graph", "exact", "float"]).remove(0);
+    assert_eq!(line["exact"]["verdict"], "not-finite-solvable");
+    let run = verify(&["audit", "--json", "--draws", "2", "examples/minimal.g6"]);
+    keeps_to("audit", &run, &["agree"]);
+    let folder = tempfile::tempdir().unwrap();
+    let claims = folder.path().join("claims.csv");
+    std::fs::write(&claims, "graph,verdict\nC~,solvable\nCl,solvable\n").unwrap();
+    let run = verify(&["audit", "--json", "--claims", claims.to_str().unwrap()]);
+    let lines = keeps_to("ruling", &run, &["program", "graph", "ruling"]);
+    let rulings: Vec<&Value> = lines.iter().map(|line| &line["ruling"]).collect();
+    assert_eq!(rulings, ["confirmed", "refuted"]);
+    assert_eq!(lines[1]["graph"]["nodes"], 4);
+}
+
+#[test]
+fn of_a_census() {
+    // The connected graphs with three nodes; geng knows those with five.
+    let lists = [Some("Bw\nBo\n".to_owned()), geng(5, 6)];
+    for list in lists.into_iter().flatten() {
+        let run = verify_with(list.as_bytes(), &["catalog", "census", "--json", "-"]);
+        keeps_to("census", &run, &["program", "nodes", "projective"]);
+    }
+}
+
+/// The words of the text, and no identifiers.
+#[test]
+fn because_says_what_the_text_says() {
+    for graph in GRAPHS {
+        let path = format!("examples/{graph}");
+        for model in ["projective", "calibrated", "affine"] {
+            let options = [path.as_str(), "--model", model];
+            let text = verify(&options).out;
+            let reasons = text
+                .lines()
+                .filter_map(|line| line.strip_prefix("  because     "));
+            let lines = verify(&[&options[..], &["--json"]].concat()).json();
+            let because: Vec<&str> = lines
+                .iter()
+                .map(|l| l["because"].as_str().unwrap())
+                .collect();
+            assert_eq!(reasons.collect::<Vec<_>>(), because);
+            assert!(!text.contains("finite-solvable"), "{text}");
+        }
+        let text = verify(&["models", &path]).out;
+        assert!(!text.contains("finite-solvable"), "{text}");
+    }
+}
