@@ -307,6 +307,11 @@ fn certificates_and_both_checkers() {
         (cycle(5), "0 1\n2 3\n"),
         (cycle(6), "0 1\n2 3\n4 5\n"),
         (cycle(9), "0\n3\n6\n"),
+        // Vectors: parallel ones, equal ones, three in a row, one the sum of others.
+        (cycle(4), "0 1 2 0 0\n3 2 1 0 0\n"),
+        (cycle(4), "0 1 1 0 0\n3 2 1 0 0\n"),
+        (cycle(7), "0 0 0 0\n1 1 0 0\n2 2 0 0\n4 5 1 0 0\n"),
+        (cycle(6), "0 1 1 1 0\n2 3 -1 0 0\n4 5 0 -1 0\n"),
         ("0 1\n1 2\n2 0\n3 4\n4 5\n5 3\n".to_owned(), "0\n4\n"),
         (
             "0 1\n1 2\n2 3\n3 0\n3 4\n4 5\n5 6\n6 7\n7 3\n".to_owned(),
@@ -421,8 +426,8 @@ fn the_checker_agrees_on_random_graphs() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let mut below = |limit: u32| random.next_u32() % limit;
     let options = Options::default().model(Model::Calibrated);
-    let (mut solvable, mut classes) = (0, 0);
-    for _ in 0..2000 {
+    let (mut solvable, mut classes, mut vectors) = (0, 0, 0);
+    for round in 0..4000 {
         let nodes = 4 + below(14);
         let mut pairs = |count: u32| -> Vec<(u32, u32)> {
             let pairs = (0..count).map(|_| (below(nodes), below(nodes)));
@@ -431,7 +436,21 @@ fn the_checker_agrees_on_random_graphs() {
         let edges = pairs(nodes + nodes / 3);
         let rigs = pairs(1 + nodes / 3);
         let graph = Graph::new(nodes, edges).unwrap();
-        let known = Displacements::new(nodes, rigs).unwrap();
+        let mut known = Displacements::new(nodes, rigs.iter().copied()).unwrap();
+        // Every other time with vectors: few different ones, unless they would put two cameras at
+        // one place.
+        if round % 2 == 1 {
+            let mut place = || [below(3), below(2), below(2)].map(i64::from);
+            let places: Vec<[i64; 3]> = (0..nodes).map(|_| place()).collect();
+            let vector = |&(u, v): &(u32, u32)| {
+                let [from, to] = [u, v].map(|node| places[node as usize]);
+                let number = |k: usize| (to[k] - from[k]).to_string().parse().unwrap();
+                (u, v, [0, 1, 2].map(number))
+            };
+            let given = Displacements::with_vectors(nodes, rigs.iter().map(vector));
+            vectors += usize::from(given.is_ok());
+            known = given.unwrap_or(known);
+        }
         let verdict = decide(&graph, &options.clone().displacements(known)).unwrap();
         let text = verdict.certificate(&graph).compact().to_string();
         let verified = viewcert_check::check(text.as_bytes(), None);
@@ -444,6 +463,7 @@ fn the_checker_agrees_on_random_graphs() {
         classes += usize::from(text.contains("\"kind\":\"classes\""));
     }
     assert!(solvable > 100 && classes > 20, "{solvable} {classes}");
+    assert!(vectors > 500, "{vectors}");
 }
 
 /// A ring of two rigs and three pairs, which is rigid by its rank alone; a third rig touches it

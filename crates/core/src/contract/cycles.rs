@@ -212,7 +212,9 @@ impl Structure {
 
     /// Whether shared nodes, three or four, are in general position.
     fn is_general<const K: usize>(&self, at: [u32; K]) -> bool {
-        self.general.holds(&at.map(|v| self.names[v as usize]))
+        let General(placed) = &self.general;
+        let names = || at.map(|v| self.names[v as usize]);
+        placed.is_none() || self.general.holds(&names())
     }
 
     fn size(&self, member: u32) -> usize {

@@ -157,10 +157,8 @@ impl Displacements {
             all.push(from_first(group, &mut hanging)?);
         }
         vectors::reduce(&mut all)?;
-        Ok(Self {
-            vectors: Some(all),
-            ..known
-        })
+        let vectors = Some(all).filter(|all| !all.is_empty());
+        Ok(Self { vectors, ..known })
     }
 
     /// The groups.
@@ -285,6 +283,7 @@ mod tests {
         assert_eq!(given(&[(0, 1, x), (5, 1, x)]), same);
         let long = ["1e29", "1e-29", "0"];
         assert_eq!(given(&[(0, 1, long)]), Err(VectorError::TooLong));
+        assert_eq!(given(&[]), Ok(Displacements::default()));
         let out = VectorError::Pair(GraphError::SelfLoop(3));
         assert_eq!(given(&[(3, 3, x)]), Err(out));
     }
