@@ -59,7 +59,10 @@ pub(super) fn known(head: &[u8]) -> Option<Problem> {
         let graph = member("graph")
             .is_some_and(|value| value.starts_with('"') || value.starts_with("{\"name\":"));
         let notes = member("notes").is_some_and(|value| value.starts_with('['));
-        return if graph && notes {
+        let named = text.starts_with("{\"name\":") && member("verdict").is_some();
+        let report = notes && (graph || named)
+            || member("program").is_some_and(|value| value.starts_with("\"viewcert"));
+        return if report {
             own("a report", REPORT)
         } else {
             None
@@ -99,6 +102,7 @@ mod tests {
             "{\"nodes\": [{\"id\": 1}], \"links\": [], \"graph\": {}}",
             "{\"format\": \"another\", \"notes\": []}",
             "{\"graph\": {\"nodes\": 3}, \"notes\": []}",
+            "{\"name\":\"mine\",\"notes\":[],\"nodes\":[],\"links\":[]}",
             "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>",
             "<!DOCTYPE html><html></html>",
             "graph6 verdict\n",

@@ -189,7 +189,7 @@ fn members(tokens: &mut Tokens, collected: &mut Collected) -> Result<(), Problem
             (None, "node") => node(tokens, collected)?,
             (None, "edge") => edge(tokens, collected)?,
             (None, _) => skip(tokens)?,
-            (Some(value), "directed") if value == Token::Number("1") => collected.directed(),
+            (Some(Token::Number("1")), "directed") => collected.directed(),
             (Some(_), _) => {}
         }
     }

@@ -24,7 +24,7 @@ const FEWEST: usize = 4;
 pub(super) fn may_be(size: u32) -> bool {
     [3, 4]
         .iter()
-        .any(|side| size % side == 0 && size / side > 1)
+        .any(|&side| size.is_multiple_of(side) && size > side)
 }
 
 /// A square block of `N` rows, and where it is, in blocks.

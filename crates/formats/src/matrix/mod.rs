@@ -280,7 +280,7 @@ impl Matrix {
                 advice: "choose the pairs: write a matrix with 1 for a pair and 0 for none",
             });
         }
-        if smallest < ROUNDING * largest {
+        if !integers && smallest < ROUNDING * largest {
             return Err(Problem::Doubtful {
                 what: "some entries are so small beside others that they may be rounding errors, and \
                        no pairs",

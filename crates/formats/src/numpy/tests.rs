@@ -409,11 +409,10 @@ proptest! {
         if let Some(end) = end {
             bytes.truncate(end.index(bytes.len()));
         }
-        for found in [read(&bytes), read_archive(&bytes, None), read_archive(&bytes, Some("A"))] {
-            if let Ok(Parsed { graph, .. }) = found {
-                prop_assert!(graph.edges().is_sorted_by(|a, b| a < b));
-                prop_assert!(graph.edges().iter().all(|&(i, j)| i < j && (j as usize) < graph.nodes()));
-            }
+        let found = [read(&bytes), read_archive(&bytes, None), read_archive(&bytes, Some("A"))];
+        for Parsed { graph, .. } in found.into_iter().flatten() {
+            prop_assert!(graph.edges().is_sorted_by(|a, b| a < b));
+            prop_assert!(graph.edges().iter().all(|&(i, j)| i < j && (j as usize) < graph.nodes()));
         }
     }
 }
