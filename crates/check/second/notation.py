@@ -65,21 +65,9 @@ def parse(data):
         )
     except json.JSONDecodeError as error:
         raise Reject(f"not JSON: {error}") from None
-    if "\\" in text:
-        refuse_half_surrogates(document)
+    escaped = json.dumps(document, ensure_ascii=False) if "\\" in text else ""
+    need(not re.search("[\ud800-\udfff]", escaped), "an escape is half of a surrogate pair")
     return document
-
-
-def refuse_half_surrogates(value):
-    if type(value) is str:
-        need(not re.search("[\ud800-\udfff]", value), "an escape is half of a surrogate pair")
-    elif type(value) is list:
-        for item in value:
-            refuse_half_surrogates(item)
-    elif type(value) is dict:
-        for name, item in value.items():
-            refuse_half_surrogates(name)
-            refuse_half_surrogates(item)
 
 
 def members(value, names, where):

@@ -21,6 +21,9 @@ pub(crate) struct Echelon<'f> {
     pub determinant: u64,
 }
 
+/// Numbers with where they stand.
+type Entries = Vec<(usize, u64)>;
+
 /// No row.
 const NONE: usize = usize::MAX;
 
@@ -152,10 +155,7 @@ impl<'f> Echelon<'f> {
 
     /// What is left of a row once multiples of the rows of U are subtracted, so that it vanishes at
     /// their pivots: its entries by columns, increasing.
-    pub fn residue(
-        &mut self,
-        entries: impl IntoIterator<Item = (usize, u64)>,
-    ) -> Checked<Vec<(usize, u64)>> {
+    pub fn residue(&mut self, entries: impl IntoIterator<Item = (usize, u64)>) -> Checked<Entries> {
         Ok(self.reduced(entries)?.0)
     }
 
@@ -163,7 +163,7 @@ impl<'f> Echelon<'f> {
     fn reduced(
         &mut self,
         entries: impl IntoIterator<Item = (usize, u64)>,
-    ) -> Checked<(Vec<(usize, u64)>, Vec<(usize, u64)>)> {
+    ) -> Checked<(Entries, Entries)> {
         let field = self.field;
         for (column, value) in entries {
             let product = [value, field.one];
