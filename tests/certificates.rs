@@ -645,6 +645,30 @@ fn certificates_of_published_graphs_verify() {
 }
 
 /// The checker's crate does not know the prover's.
+/// What says how a graph is read is refused where no graph is named.
+#[test]
+fn check_ignores_no_option() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("house.json");
+    let path = path.to_str().unwrap();
+    let made = verify(&["examples/house.txt", "--certificate", path]);
+    assert_eq!(made.code, 1, "{}", made.err);
+    assert_eq!(verify(&["check", path]).code, 0);
+    for option in [
+        &["--format", "edges"][..],
+        &["--variable", "A"],
+        &["--min-inliers", "3"],
+        &["--pipeline", "global"],
+        &["--tracks"],
+    ] {
+        let run = verify(&[&["check", path], option].concat());
+        assert_eq!(run.code, 2, "{option:?}: {}", run.out);
+        assert!(run.err.contains("name the graph as well"), "{}", run.err);
+    }
+    let with_graph = ["check", path, "examples/house.txt", "--format", "edges"];
+    assert_eq!(verify(&with_graph).code, 0);
+}
+
 #[test]
 fn the_checker_does_not_depend_on_the_prover() {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/Cargo.toml");

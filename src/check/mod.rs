@@ -48,9 +48,24 @@ pub(super) struct CheckArguments {
     displacements: Option<PathBuf>,
 }
 
+impl CheckArguments {
+    /// Whether an option is given that is about the reading of the graph.
+    fn says_how_to_read(&self) -> bool {
+        let read = self.input.read_options();
+        let format = read.format.is_some() || read.variable.is_some();
+        let pairs = read.pipeline.is_some() || read.min_inliers.is_some();
+        format || pairs || self.tracks.options().is_some()
+    }
+}
+
 /// Checks one certificate, or all of a file or folder.
 pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     let path = &arguments.certificate;
+    ensure!(
+        arguments.graph.is_some() || !arguments.says_how_to_read(),
+        "--format, --variable, --pipeline, --min-inliers and --tracks say how a graph is read: name the \
+         graph as well, or leave them out"
+    );
     if path.is_dir() || is_list(path) {
         ensure!(
             arguments.graph.is_none(),
