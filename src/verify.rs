@@ -240,13 +240,13 @@ impl VerifyArguments {
     /// graph, has no use for it.
     fn question(&self, model: Model, known: Known) -> Question {
         let counting = !self.no_counting;
-        match (model, known) {
-            (Model::Calibrated, known) => Question::Calibrated(Calibrated {
+        match model {
+            Model::Calibrated => Question::Calibrated(Calibrated {
                 method: self.method(known),
                 counting,
             }),
-            (Model::Affine, known) => Question::Affine(self.method(known.into_parts())),
-            (Model::Projective, known) => Question::Projective(Projective {
+            Model::Affine => Question::Affine(self.method(known.into_parts())),
+            Model::Projective => Question::Projective(Projective {
                 method: self.method(ProjectiveBodies {
                     known_parts: known.into_parts(),
                     solutions: self.count_solutions(),

@@ -147,11 +147,8 @@ fn pairs_of(
         candidates.partition(|pair| contraction.loose.binary_search(pair).is_ok());
     let mut candidates = left_out::not_cleared(graph, in_bodies, options)?;
     if !candidates.is_empty() {
-        candidates = not_cleared(
-            &thinned(graph, options.question.model()),
-            candidates,
-            options,
-        )?;
+        let thinned = thinned(graph, options.question.model());
+        candidates = not_cleared(&thinned, candidates, options)?;
     }
     candidates.extend(loose);
     candidates.sort_unstable();
@@ -212,6 +209,7 @@ fn not_cleared(
     candidates: Vec<Pair>,
     options: &Options,
 ) -> Result<Vec<Pair>, VerdictError> {
+    let model = options.question.model();
     let mut left = Vec::new();
     let mut sets = vec![candidates];
     while let Some(set) = sets.pop() {
@@ -220,7 +218,7 @@ fn not_cleared(
         }
         check(graph, options)?;
         let rest = outside_bodies(
-            &Contraction::new(&without(graph, &set), options.question.model()),
+            &Contraction::new(&without(graph, &set), model),
             graph.nodes(),
             &set,
         );
@@ -363,6 +361,7 @@ impl Search<'_> {
 
 /// The weak images of a component with three nodes or more, increasing.
 fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
+    let model = options.question.model();
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
     if n < 4 {
@@ -378,16 +377,10 @@ fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength
             None => open.push(v),
         }
     }
-    if is_one_body(
-        &Contraction::new(graph, options.question.model()),
-        graph.nodes(),
-    ) {
-        open = falling_apart(&thinned(graph, options.question.model()), open, |rest| {
+    if is_one_body(&Contraction::new(graph, model), graph.nodes()) {
+        open = falling_apart(&thinned(graph, model), open, |rest| {
             check(graph, options)?;
-            let whole = is_one_body(
-                &Contraction::new(rest, options.question.model()),
-                rest.nodes(),
-            );
+            let whole = is_one_body(&Contraction::new(rest, model), rest.nodes());
             Ok((!whole).then_some(Strength::Proof))
         })?
         .into_iter()
