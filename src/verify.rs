@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
-use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value};
+use viewcert::decide::{Arithmetic, CountSolutions, Options, Prime, Value, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
@@ -28,6 +28,9 @@ use viewcert_reconstruction::Shapes;
 
 /// The option that names the file for the graph.
 const WRITE_GRAPH: &str = "--write-graph";
+
+/// The option that names the file for the proof.
+const PROOF: &str = "--proof";
 
 /// Options of the verifier.
 #[derive(Args)]
@@ -104,6 +107,9 @@ pub(super) struct VerifyArguments {
     /// Embed graphs of any size in their certificates.
     #[arg(long, requires = "certificate")]
     embed_graph: bool,
+    /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
+    #[arg(long, value_name = "FILE")]
+    proof: Option<PathBuf>,
     #[command(flatten)]
     pages: PageArguments,
     /// Print one JSON object a graph.
@@ -261,9 +267,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     let inputs = inputs.chain(known.clone());
     let witness = (witness::OPTION, arguments.witness.as_deref());
-    atomic::ensure_apart(&[written, witness, html, svg], inputs)?;
+    let proof = (PROOF, arguments.proof.as_deref());
+    atomic::ensure_apart(&[written, proof, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-    let outputs = [certificate, written, witness, html, svg];
+    let outputs = [certificate, written, proof, witness, html, svg];
     arguments.act.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
@@ -275,10 +282,12 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if single.is_some() {
         atomic::ensure_apart(&outputs, known)?;
     }
-    let too_many = |what: &str| match (&single, written) {
-        (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
-        (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
-        (None, (_, None)) => {
+    let too_many = |what: &str| match (&single, written, proof) {
+        (Some((option, file)), ..) => Some(certificates::too_many(option, file, what)),
+        (None, (option, Some(file)), _) | (None, _, (option, Some(file))) => {
+            Some(certificates::too_many(option, file, what))
+        }
+        (None, (_, None), (_, None)) => {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
@@ -297,6 +306,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let files = [
         arguments.certificate.as_deref(),
         written.1,
+        proof.1,
         witness.1,
         html.1,
         svg.1,
@@ -368,6 +378,10 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
+    let proof = arguments.proof.as_deref();
+    let proved = proof
+        .map(|path| write_proof(path, input, &verdict))
+        .transpose()?;
     let written = arguments.write_graph.as_deref();
     let unpaired = written.map(|path| write_graph(path, input)).transpose()?;
     let witness = arguments.witness.as_deref();
@@ -398,6 +412,13 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         act::write(out, &acted)?;
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
+        }
+        if let Some((path, [lower, upper])) = proof.zip(proved) {
+            let path = path.display();
+            writeln!(
+                out,
+                "  proof       {path} (rank {lower} at least, {upper} at most)"
+            )?;
         }
         if let Some((path, unpaired)) = written.zip(unpaired) {
             let how = match unpaired {
@@ -430,6 +451,16 @@ fn asked_scope(arguments: &VerifyArguments) -> Asked {
         planar: arguments.planar,
         focal: matches!(arguments.model, Some(ModelName::Focal)),
     }
+}
+
+/// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
+/// none for this verdict.
+fn write_proof(path: &Path, input: &NamedGraph, verdict: &Verdict) -> Result<[usize; 2]> {
+    let proof = verdict
+        .proof(&input.graph)
+        .with_context(|| format!("{}: {PROOF}: no explicit proof", input.name))?;
+    atomic::write(path, |out| write!(out, "{proof}"))?;
+    Ok([proof.lower(), proof.upper()])
 }
 
 /// Writes a graph as pairs of node numbers, and nodes without pairs on lines of their own; returns

@@ -43,6 +43,7 @@ pub mod decide;
 pub mod geometry;
 pub mod graph;
 pub mod linalg;
+pub mod proof;
 pub mod solutions;
 pub mod sparsity;
 pub mod watch;
