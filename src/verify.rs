@@ -23,12 +23,15 @@ use std::time::Instant;
 use viewcert::decide as verdict;
 use viewcert::decide::{
     Arithmetic, Calibrated, CountSolutions, Known, Method, Options, Prime, Projective,
-    ProjectiveBodies, Question, Value,
+    ProjectiveBodies, Question, Value, Verdict,
 };
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
 use viewcert_reconstruction::Shapes;
+
+/// The option that names the file for the proof.
+const PROOF: &str = "--proof";
 
 /// Options of the verifier.
 #[derive(Args)]
@@ -101,6 +104,9 @@ pub(super) struct VerifyArguments {
     /// Embed graphs of any size in their certificates.
     #[arg(long, requires = "certificate")]
     embed_graph: bool,
+    /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
+    #[arg(long, value_name = "FILE")]
+    proof: Option<PathBuf>,
     #[command(flatten)]
     pages: PageArguments,
     /// Print one JSON object a graph.
@@ -109,7 +115,7 @@ pub(super) struct VerifyArguments {
     /// Print a line a graph and a summary (csv: without it; latex: as a table).
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "text", conflicts_with_all = [
-        "json", "components", "planar", "tracks", "witness", "write_graph", "html", "svg", "weak",
+        "json", "components", "planar", "tracks", "witness", "html", "svg", "weak",
         "suggest", "explain", "sweep", "margin", "export"
     ])]
     table: Option<many::Format>,
@@ -304,9 +310,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     let inputs = inputs.chain(known.clone());
     let witness = (witness::OPTION, arguments.witness.as_deref());
-    atomic::ensure_apart(&[witness, html, svg], inputs)?;
+    let proof = (PROOF, arguments.proof.as_deref());
+    atomic::ensure_apart(&[proof, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
-    let outputs = [certificate, witness, html, svg];
+    let outputs = [certificate, proof, witness, html, svg];
     arguments.act.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
@@ -318,9 +325,10 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if single.is_some() {
         atomic::ensure_apart(&outputs, known)?;
     }
-    let too_many = |what: &str| match &single {
-        Some((option, file)) => Some(certificates::too_many(option, file, what)),
-        None => {
+    let too_many = |what: &str| match (&single, proof) {
+        (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
+        (None, (option, Some(file))) => Some(certificates::too_many(option, file, what)),
+        (None, (_, None)) => {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
             let act = arguments.act.too_many(what);
@@ -336,7 +344,13 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
-    let files = [arguments.certificate.as_deref(), witness.1, html.1, svg.1];
+    let files = [
+        arguments.certificate.as_deref(),
+        proof.1,
+        witness.1,
+        html.1,
+        svg.1,
+    ];
     let mut out = atomic::text(&files);
     let mut table = arguments
         .table
@@ -417,6 +431,10 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     let certificate = target
         .map(|target| target.write(input, &verdict))
         .transpose()?;
+    let proof = arguments.proof.as_deref();
+    let proved = proof
+        .map(|path| write_proof(path, input, &verdict))
+        .transpose()?;
     let witness = arguments.witness.as_deref();
     let shown = witness
         .map(|path| witness::write(path, input, &verdict, options.seed))
@@ -453,6 +471,13 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }
+        if let Some((path, [lower, upper])) = proof.zip(proved) {
+            let path = path.display();
+            writeln!(
+                out,
+                "  proof       {path} (rank {lower} at least, {upper} at most)"
+            )?;
+        }
         if let Some((path, witness::Found::Written)) = witness.zip(shown.as_ref()) {
             writeln!(out, "  witness     {}", path.display())?;
         }
@@ -477,4 +502,14 @@ fn asked_scope(arguments: &VerifyArguments) -> Asked {
         planar: arguments.planar,
         focal: matches!(arguments.model, Some(ModelName::Focal)),
     }
+}
+
+/// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
+/// none for this verdict.
+fn write_proof(path: &Path, input: &NamedGraph, verdict: &Verdict) -> Result<[usize; 2]> {
+    let proof = verdict
+        .proof(&input.graph)
+        .with_context(|| format!("{}: {PROOF}: no explicit proof", input.name))?;
+    atomic::write(path, |out| write!(out, "{proof}"))?;
+    Ok([proof.lower(), proof.upper()])
 }

@@ -44,6 +44,7 @@ pub mod geometry;
 pub mod graph;
 pub mod linalg;
 mod named;
+pub mod proof;
 pub mod solutions;
 pub mod sparsity;
 pub mod watch;

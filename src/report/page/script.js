@@ -666,7 +666,7 @@
     }
   };
 
-  const SHOWN = new Set(["program", "because", "graph", "notes", "model", "verdict", "strength", "error_log2", "rank",
+  const SHOWN = new Set(["program", "because", "graph", "read", "notes", "model", "verdict", "strength", "error_log2", "rank",
     "rank_required", "rank_strength", "components", "components_strength", "mode", "seconds", "joints",
     "joints_complete", "solutions"]);
   const TITLES = {

@@ -320,8 +320,9 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 30] = [
+const REPORTED: [&str; 31] = [
     "graph",
+    "read",
     "parts",
     "notes",
     "database",

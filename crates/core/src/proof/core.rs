@@ -1,0 +1,215 @@
+//! Rows of J_P at centres modulo 65521 that are independent, in an order of nodes with little
+//! fill.
+
+use crate::graph::Graph;
+use std::collections::BTreeSet;
+
+/// The prime of the checker.
+const PRIME: u64 = 65521;
+
+/// Camera sets that are tried.
+const TRIES: u64 = 20;
+
+/// Entries of the symmetric 4 x 4 matrix of an equation, in the order of the bits of a mask.
+const ENTRIES: [(usize, usize); 10] = [
+    (0, 0),
+    (0, 1),
+    (0, 2),
+    (0, 3),
+    (1, 1),
+    (1, 2),
+    (1, 3),
+    (2, 2),
+    (2, 3),
+    (3, 3),
+];
+
+/// A core with the rank that was asked for.
+pub(super) struct Eliminated {
+    /// Its nodes in the order of elimination, with their centres.
+    pub(super) order: Vec<(u32, [u32; 3])>,
+    /// For every edge of the graph the rows that are used.
+    pub(super) masks: Vec<u32>,
+}
+
+/// Looks for centres at which the rank is `rank`, and for so many independent rows there. `None` if
+/// some centres fail.
+pub(super) fn eliminate(graph: &Graph, rank: usize) -> Option<Eliminated> {
+    let order = order(graph);
+    let mut place = vec![0; graph.nodes()];
+    for (k, &v) in order.iter().enumerate() {
+        place[v as usize] = k;
+    }
+    (0..TRIES).find_map(|seed| {
+        let mut state = seed;
+        let centres: Vec<[u64; 3]> = order
+            .iter()
+            .map(|_| [(); 3].map(|()| next(&mut state)))
+            .collect();
+        let masks = independent(graph, &place, &centres, rank)?;
+        let small = |c: &[u64; 3]| c.map(|x| x as u32);
+        let order = order
+            .iter()
+            .copied()
+            .zip(centres.iter().map(small))
+            .collect();
+        Some(Eliminated { order, masks })
+    })
+}
+
+/// A residue; SplitMix64. Nothing depends on how centres are chosen.
+fn next(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) % PRIME
+}
+
+/// Nodes of smallest degree first, neighbours of those that are gone joined.
+fn order(graph: &Graph) -> Vec<u32> {
+    let mut around: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); graph.nodes()];
+    for &(i, j) in graph.edges() {
+        around[i as usize].insert(j);
+        around[j as usize].insert(i);
+    }
+    let mut left: BTreeSet<(usize, u32)> = (0..)
+        .zip(&around)
+        .map(|(v, near)| (near.len(), v))
+        .collect();
+    let mut order = Vec::with_capacity(graph.nodes());
+    while let Some((_, v)) = left.pop_first() {
+        order.push(v);
+        let near: Vec<u32> = std::mem::take(&mut around[v as usize])
+            .into_iter()
+            .collect();
+        for &w in &near {
+            let of_w = &mut around[w as usize];
+            left.remove(&(of_w.len(), w));
+            of_w.remove(&v);
+            of_w.extend(near.iter().filter(|&&x| x != w));
+            left.insert((of_w.len(), w));
+        }
+    }
+    order
+}
+
+/// A row: columns and entries, by increasing columns.
+type Row = Vec<(u32, u64)>;
+
+/// For every edge its rows that are independent of those before, if they are `rank` in all.
+fn independent(
+    graph: &Graph,
+    place: &[usize],
+    centres: &[[u64; 3]],
+    rank: usize,
+) -> Option<Vec<u32>> {
+    let mut pivots: Vec<Option<Row>> = vec![None; 12 * graph.nodes()];
+    let mut found = 0;
+    let mut masks = vec![0; graph.edges().len()];
+    let mut edges: Vec<usize> = (0..graph.edges().len()).collect();
+    let ends = |e: usize| {
+        let (i, j) = graph.edges()[e];
+        (place[i as usize], place[j as usize])
+    };
+    edges.sort_unstable_by_key(|&e| {
+        let (i, j) = ends(e);
+        std::cmp::Reverse(i.min(j))
+    });
+    for e in edges {
+        let (i, j) = ends(e);
+        for (bit, &(a, b)) in ENTRIES.iter().enumerate() {
+            let row = reduce(entry_row(i, j, centres[i], centres[j], a, b), &pivots);
+            if let Some(&(column, x)) = row.first() {
+                let scale = power(x, PRIME - 2);
+                let scaled = row
+                    .into_iter()
+                    .map(|(k, x)| (k, x * scale % PRIME))
+                    .collect();
+                pivots[column as usize] = Some(scaled);
+                masks[e] |= 1 << bit;
+                found += 1;
+            }
+        }
+    }
+    (found == rank).then_some(masks)
+}
+
+/// Entry (a, b) of the equation of nodes i, j at cameras [I | -c] (docs/theory.md, 2.1).
+fn entry_row(i: usize, j: usize, ci: [u64; 3], cj: [u64; 3], a: usize, b: usize) -> Row {
+    let d: [u64; 3] = std::array::from_fn(|k| (ci[k] + PRIME - cj[k]) % PRIME);
+    let minus = |x: u64| (PRIME - x) % PRIME;
+    let f = [
+        [0, d[2], minus(d[1])],
+        [minus(d[2]), 0, d[0]],
+        [d[1], minus(d[0]), 0],
+    ];
+    let m = |a: usize, h: usize| match f.get(a) {
+        Some(row) => row[h],
+        None => minus((0..3).map(|k| cj[k] * f[k][h] % PRIME).sum::<u64>() % PRIME),
+    };
+    let column = |v: usize, h: usize, b: usize| (12 * v + 4 * h + b) as u32;
+    let mut row: Row = (0..3)
+        .flat_map(|h| {
+            let (x, y) = (m(a, h), m(b, h));
+            [
+                (column(i, h, b), x),
+                (column(i, h, a), y),
+                (column(j, h, b), minus(x)),
+                (column(j, h, a), minus(y)),
+            ]
+        })
+        .collect();
+    row.sort_unstable_by_key(|&(k, _)| k);
+    row.dedup_by(|next, before| {
+        let same = next.0 == before.0;
+        if same {
+            before.1 = (before.1 + next.1) % PRIME;
+        }
+        same
+    });
+    row.retain(|&(_, x)| x != 0);
+    row
+}
+
+/// What is left of a row after elimination by pivots, whose first entries are 1.
+fn reduce(mut row: Row, pivots: &[Option<Row>]) -> Row {
+    while let Some(&(column, x)) = row.first()
+        && let Some(pivot) = &pivots[column as usize]
+    {
+        row = sum(&row[1..], &pivot[1..], PRIME - x);
+    }
+    row
+}
+
+/// One row and a multiple of another.
+fn sum(one: &[(u32, u64)], other: &[(u32, u64)], scale: u64) -> Row {
+    let mut sum = Row::with_capacity(one.len() + other.len());
+    let (mut s, mut t) = (0, 0);
+    while let (Some(&(k, x)), Some(&(l, y))) = (one.get(s), other.get(t)) {
+        let (column, value) = match k.cmp(&l) {
+            std::cmp::Ordering::Less => (k, x),
+            std::cmp::Ordering::Greater => (l, y * scale % PRIME),
+            std::cmp::Ordering::Equal => (k, (x + y * scale) % PRIME),
+        };
+        s += usize::from(k <= l);
+        t += usize::from(l <= k);
+        if value != 0 {
+            sum.push((column, value));
+        }
+    }
+    sum.extend(&one[s..]);
+    sum.extend(other[t..].iter().map(|&(l, y)| (l, y * scale % PRIME)));
+    sum
+}
+
+fn power(mut x: u64, mut k: u64) -> u64 {
+    let mut y = 1;
+    while k > 0 {
+        if k % 2 == 1 {
+            y = y * x % PRIME;
+        }
+        x = x * x % PRIME;
+        k /= 2;
+    }
+    y
+}
