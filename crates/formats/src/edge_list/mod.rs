@@ -723,13 +723,12 @@ impl Collector {
                 for (label, &node) in &names.nodes {
                     texts[node as usize] = label;
                 }
-                let text = |node: u32| texts[node as usize];
-                let text = &text;
-                let ends: [fn(&(u32, u32)) -> u32; 2] = [|pair| pair.0, |pair| pair.1];
-                heads::look_unlike(
-                    labels,
-                    ends.map(|end| self.pairs.iter().map(move |pair| text(end(pair)))),
-                )
+                let texts = &texts;
+                let column = |second| {
+                    let end = move |pair: &(u32, u32)| if second { pair.1 } else { pair.0 };
+                    self.pairs.iter().map(move |pair| texts[end(pair) as usize])
+                };
+                heads::look_unlike(labels, [false, true].map(column))
             }
             None if self.pairs.is_empty() => {
                 heads::look_unlike(labels, [(); 2].map(|()| std::iter::empty()))
