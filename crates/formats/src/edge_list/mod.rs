@@ -35,7 +35,7 @@ mod poses;
 
 use decimal::Decimal;
 use doubts::Doubts;
-use fields::{Field, integer};
+use fields::{Field, integer, is_number};
 use layout::{Layout, ListOptions};
 use nodes::{Index, number_integers};
 use plain::{Plain, further_numbers, ignored, line_end};
@@ -736,6 +736,11 @@ impl Collector {
             None => true,
         };
         let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
+        // A weight stands in a line with a pair.
+        let weighed = first.names[2..]
+            .iter()
+            .any(|name| is_number(name.as_bytes()));
+        let unlike = unlike && (!weighed || heads::is_pair(labels[0], labels[1]));
         let is_head = match first.head {
             Head::No => false,
             Head::Perhaps => {
@@ -781,7 +786,8 @@ impl Collector {
             return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
         }
         let shown = first.shown();
-        if first.head != Head::Sure && !asked && !self.heads_pairs(first) {
+        let told = asked || first.head == Head::Sure || self.reading == Reading::Lenient;
+        if !told && !self.heads_pairs(first) {
             return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
         }
         Ok(format!("the first line is a head: {shown}"))

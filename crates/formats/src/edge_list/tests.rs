@@ -167,6 +167,7 @@ fn heads() {
         (b"left right\ntop bottom\n", 4),
         (b"hub a.jpg\nb.jpg c.jpg\n", 4),
         (b"a.jpg b.jpg 5\nb.jpg c.jpg 7\n", 3),
+        (b"hub roof 5\n1 2 7\n", 4),
     ] {
         for reading in [Reading::Strict, Reading::Lenient] {
             let (edges, labels, notes) = listed(text, reading);
