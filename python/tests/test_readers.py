@@ -119,3 +119,19 @@ def test_opening_a_database_changes_nothing(data: pathlib.Path) -> None:
     before = sorted((path.name, path.stat().st_mtime_ns) for path in folder.iterdir())
     viewcert.from_database(folder / "synthetic_exhaustive.db")
     assert sorted((path.name, path.stat().st_mtime_ns) for path in folder.iterdir()) == before
+
+
+def test_options_of_lists(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("k,query,db,score\n0,a.jpg,b.jpg,0.7\n1,b.jpg,c.jpg,0.2\n2,c.jpg,c.jpg,0.9\n")
+    graph = viewcert.read(path, columns=["query", "db"], skip_loops=True)
+    assert graph.nodes == ["a.jpg", "b.jpg", "c.jpg"]
+    assert graph.read_as.startswith("edge list, names in columns 2 and 3 (query, db)")
+    heavy = viewcert.read(path, columns=[2, 3, 4], min_weight="0.5", skip_loops=True)
+    assert heavy.nodes == ["a.jpg", "b.jpg"]
+    with pytest.raises(viewcert.InputError, match="skip-loops"):
+        viewcert.read(path, columns=["query", "db"])
+    with pytest.raises(viewcert.InputError, match="min_weight=0.5: give an integer"):
+        viewcert.read(path, min_weight=0.5)  # type: ignore[arg-type]
+    with pytest.raises(viewcert.InputError, match="expected the two columns"):
+        viewcert.read(path, columns=["query"])

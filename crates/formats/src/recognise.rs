@@ -370,7 +370,7 @@ const DIMACS_ADVICE: &str =
     "write the two nodes of every edge: awk '/^[ea] / { print $2, $3 }' FILE";
 
 /// Edges of DIMACS, with or without the line that counts them.
-fn is_dimacs<'a>(lines: &mut dyn Iterator<Item = &'a str>) -> bool {
+fn is_dimacs(lines: &mut dyn Iterator<Item = &str>) -> bool {
     let mut edges = 0;
     for line in lines {
         let mut words = line.split_whitespace();

@@ -52,6 +52,9 @@ impl Doubts {
 
     /// What could have been a head is the first pair.
     pub(super) fn one_more(&mut self) {
+        // Its labels are no numbers.
+        self.no_bits = true;
+        self.third(None, None);
         if let Some(Some(pairs)) = &mut self.hash {
             *pairs += 1;
         }
@@ -113,6 +116,9 @@ impl Doubts {
         first: &First,
     ) -> Option<Problem> {
         let doubt = |what, advice| Some(Problem::Doubtful { what, advice });
+        if pairs.is_empty() {
+            return None;
+        }
         let plain = !self.has_head && !self.has_quotes;
         if plain && first.columns == 2 && counts(pairs, names, first) {
             return doubt(COUNTS, COUNTS_ADVICE);

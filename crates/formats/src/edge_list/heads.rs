@@ -39,9 +39,8 @@ const PERHAPS: [[&str; 2]; 18] = [
 ];
 
 /// Marks that tell the two ends apart, before or behind a word that both have.
-const MARKS: [[&str; 2]; 14] = [
+const MARKS: [[&str; 2]; 13] = [
     ["1", "2"],
-    ["0", "1"],
     ["a", "b"],
     ["i", "j"],
     ["l", "r"],
@@ -201,21 +200,25 @@ pub(super) fn is_pair(first: &str, second: &str) -> bool {
     {
         return true;
     }
-    // A word for cameras, and marks before or behind it.
-    MARKS.iter().any(|[one, two]| {
-        let word = |name: &str, mark: &str| {
-            let rest = name.strip_suffix(mark).or_else(|| name.strip_prefix(mark));
-            rest.filter(|rest| CAMERAS.contains(rest))
-                .map(str::to_owned)
-        };
-        let first = word(first, one);
-        first.is_some() && first == word(second, two)
-    })
+    MARKS.iter().any(|marks| are_marked(first, second, *marks))
+}
+
+/// Whether these are one word for cameras with the two marks before or behind it.
+fn are_marked(first: &str, second: &str, [one, two]: [&str; 2]) -> bool {
+    let word = |name: &str, mark: &str| {
+        let rest = name.strip_suffix(mark).or_else(|| name.strip_prefix(mark));
+        rest.filter(|rest| CAMERAS.contains(rest))
+            .map(str::to_owned)
+    };
+    let first = word(first, one);
+    first.is_some() && first == word(second, two)
 }
 
 /// Whether these may be such names.
 pub(super) fn may_be_pair(first: &str, second: &str) -> bool {
-    is_pair(first, second) || PERHAPS.contains(&[&*plain(first), &*plain(second)])
+    let plain = [&*plain(first), &*plain(second)];
+    // `image0` may well be an image.
+    is_pair(first, second) || PERHAPS.contains(&plain) || are_marked(plain[0], plain[1], ["0", "1"])
 }
 
 /// Whether a column of this name holds no cameras.

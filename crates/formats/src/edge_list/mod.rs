@@ -35,7 +35,7 @@ mod poses;
 
 use decimal::Decimal;
 use doubts::Doubts;
-use fields::{Field, integer};
+use fields::{Field, integer, is_number};
 use layout::{Layout, ListOptions};
 use nodes::{Index, number_integers};
 use plain::{Plain, further_numbers, ignored, line_end};
@@ -723,13 +723,12 @@ impl Collector {
                 for (label, &node) in &names.nodes {
                     texts[node as usize] = label;
                 }
-                let text = |node: u32| texts[node as usize];
-                let text = &text;
-                let ends: [fn(&(u32, u32)) -> u32; 2] = [|pair| pair.0, |pair| pair.1];
-                heads::look_unlike(
-                    labels,
-                    ends.map(|end| self.pairs.iter().map(move |pair| text(end(pair)))),
-                )
+                let texts = &texts;
+                let column = |second| {
+                    let end = move |pair: &(u32, u32)| if second { pair.1 } else { pair.0 };
+                    self.pairs.iter().map(move |pair| texts[end(pair) as usize])
+                };
+                heads::look_unlike(labels, [false, true].map(column))
             }
             None if self.pairs.is_empty() => {
                 heads::look_unlike(labels, [(); 2].map(|()| std::iter::empty()))
@@ -737,6 +736,11 @@ impl Collector {
             None => true,
         };
         let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
+        // A weight stands in a line with a pair.
+        let weighed = first.names[2..]
+            .iter()
+            .any(|name| is_number(name.as_bytes()));
+        let unlike = unlike && (!weighed || heads::is_pair(labels[0], labels[1]));
         let is_head = match first.head {
             Head::No => false,
             Head::Perhaps => {
@@ -782,7 +786,8 @@ impl Collector {
             return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
         }
         let shown = first.shown();
-        if first.head != Head::Sure && !asked && !self.heads_pairs(first) {
+        let told = asked || first.head == Head::Sure || self.reading == Reading::Lenient;
+        if !told && !self.heads_pairs(first) {
             return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
         }
         Ok(format!("the first line is a head: {shown}"))

@@ -166,6 +166,8 @@ fn heads() {
         (b"a b\nc d\n", 4),
         (b"left right\ntop bottom\n", 4),
         (b"hub a.jpg\nb.jpg c.jpg\n", 4),
+        (b"a.jpg b.jpg 5\nb.jpg c.jpg 7\n", 3),
+        (b"hub roof 5\n1 2 7\n", 4),
     ] {
         for reading in [Reading::Strict, Reading::Lenient] {
             let (edges, labels, notes) = listed(text, reading);
@@ -194,6 +196,13 @@ fn heads() {
     }
     let (edges, ..) = listed(b"source target\n", Reading::Lenient);
     assert_eq!(edges.len(), 1);
+    for alone in ["a.jpg b.jpg", "a.jpg,b.jpg,74", "node_0 node_1", "a b"] {
+        assert!(
+            strict(alone.as_bytes()).is_ok(),
+            "{}",
+            refusal(alone.as_bytes())
+        );
+    }
 }
 
 /// A table is cut as its first lines show, or as the user says.
@@ -349,6 +358,11 @@ fn tables() {
         let (_, read) = table(text, "", "", true).unwrap();
         assert!(read.contains("pair a camera with itself"), "{read}");
     }
+    assert!(
+        table("5 5\n", "", "", true)
+            .unwrap_err()
+            .contains("the graph is empty")
+    );
     for bad in ["", "a", "a,a", "1,", "0,1", "a,b,c,d"] {
         assert!(bad.parse::<layout::Columns>().is_err(), "{bad}");
     }
