@@ -19,7 +19,8 @@ use viewcert_formats::NamedGraph;
 #[derive(Args)]
 pub(super) struct ModelsArguments {
     /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, also compressed by gzip, and COLMAP's databases; `-` is standard input.
+    /// matrices, NumPy, GraphML, GML and more, also compressed, and COLMAP's databases; `-` is
+    /// standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,
     #[command(flatten)]

@@ -36,9 +36,9 @@ const PROOF: &str = "--proof";
 /// Options of the verifier.
 #[derive(Args)]
 pub(super) struct VerifyArguments {
-    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), MatrixMarket and MATLAB 5
-    /// matrices, also compressed by gzip, and COLMAP's databases; with --tracks also models;
-    /// `-` is standard input.
+    /// Graphs: edge lists, graph6 and sparse6 (a graph a line), matrices of MatrixMarket, MATLAB and
+    /// NumPy, GraphML, GML, GEXF, DOT and more, also compressed (gzip, bzip2, xz, Zstandard), and
+    /// COLMAP's databases; with --tracks also models; `-` is standard input.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,
     /// Compute modulo a prime, 5 <= P < 2^62 [default: 2305843009213693951 = 2^61 - 1, and

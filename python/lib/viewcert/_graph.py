@@ -308,9 +308,9 @@ def read(
     ----------
     path : str or path
         An edge list, graph6, sparse6, a MatrixMarket or MATLAB matrix, GraphML, DOT, g2o,
-        node-link JSON, a COLMAP database; also compressed by gzip. With `tracks` a database, a
-        model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM, or OpenMVG's
-        matches.
+        node-link JSON, GML, GEXF, NumPy, a COLMAP database; also compressed. With `tracks` a
+        database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
+        or OpenMVG's matches.
     format : str, optional
         The format, as ``verify --format`` names it, of files that do not show it.
     variable : str, optional
