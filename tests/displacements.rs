@@ -6,8 +6,7 @@ use common::{Run, cycle, first_checker, second_checker, verify, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 use viewcert::graph::Displacements;
 use viewcert::{Graph, Model, Options, decide};
 

@@ -8,8 +8,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 use viewcert::decide::{CountSolutions, Options, Verdict, decide};
 use viewcert::{Graph, KnownParts, Model};
 
