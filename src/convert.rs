@@ -162,3 +162,16 @@ fn lines_of_parts(parts: &KnownParts) -> Result<String> {
     };
     Ok(parts.iter().map(line).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_reaches_into_another_line() {
+        assert_eq!(
+            on_one_line("left \u{e9}\n0 2\r"),
+            "left \u{e9}\\u{a}0 2\\u{d}"
+        );
+    }
+}

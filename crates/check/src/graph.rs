@@ -1,7 +1,8 @@
 //! Graphs: their canonical form and hash, and the graph6 format (section 2 of the specification).
-//! `file` reads the files that hold one, or known parts.
+//! `file` reads the files that hold one, `parts` those of known parts.
 
 mod file;
+mod parts;
 
 use crate::document::{GraphName, Pair};
 use crate::rejection::{Checked, Failure, Unreadable, ensure};

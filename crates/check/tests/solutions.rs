@@ -708,6 +708,19 @@ fn s17_and_s18_points() {
         "U.points: the points are not independent on the inner exponents",
     );
     let mut points = value_at("two", "U/points/points");
+    let mut third = points[1].clone();
+    third["values"] = json!(["12345"]);
+    points.as_array_mut().unwrap().push(third);
+    refused(
+        "two",
+        &[
+            ("U/points/minors", json!([])),
+            ("U/points/bounds", json!([1])),
+            ("U/points/points", points),
+        ],
+        "U.points.points[2]: there are more points than exponents",
+    );
+    let mut points = value_at("two", "U/points/points");
     points.as_array_mut().unwrap().pop();
     refused(
         "two",
