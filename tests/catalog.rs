@@ -800,3 +800,24 @@ fn blocks_of_verdicts() {
     fs::copy(other.path().join("block-000001.json"), path(1)).unwrap();
     refused("another run");
 }
+
+/// As many as Groebner bases find (docs/catalog.md), under the table, and only if they are asked for.
+#[test]
+fn numbers_of_solutions_under_the_table() {
+    let plain = good(&verify(&["catalog", "--nodes", "8-9"]));
+    assert!(!plain.contains("solutions"), "{plain}");
+    let counted = good(&verify(&["catalog", "--nodes", "8-9", "--solutions"]));
+    let last = counted.lines().skip(3).collect::<Vec<_>>();
+    assert_eq!(
+        last,
+        [
+            "8 nodes, 11 edges, biconnected: solutions: graphs  1: 36",
+            "9 nodes, 12 edges, biconnected: solutions: graphs  1: 17, 2: 10",
+        ]
+    );
+    let header = counted.lines().next().unwrap();
+    assert!(
+        header.contains("contract") && !header.contains("unique"),
+        "{header}"
+    );
+}

@@ -230,7 +230,7 @@ fn what_is_supposed_is_reported() {
     assert_eq!(line["model"], "calibrated");
     // By Python's hashlib, from the page: the groups 0 1 and 2 3.
     let hash = "2eaec72a74890accb2edf31caf4b2e9e8351715092f824e37a10c1317e13c424";
-    let known = serde_json::json!({"groups": 2, "cameras": 4, "sha256": hash});
+    let known = serde_json::json!({"groups": 2, "cameras": 4, "vectors": false, "sha256": hash});
     assert_eq!(line["displacements"], known);
     let schema = serde_json::from_str(include_str!("../docs/report.schema.json")).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();

@@ -284,9 +284,9 @@ fn special(nodes: std::ops::Range<usize>, most: usize) -> impl Strategy<Value = 
                 problem.group = (0..problem.nodes).map(|v| v / 2).collect();
             }
             let mut taken = BTreeSet::new();
-            for v in 0..problem.nodes {
+            for (v, drawn) in places.iter().take(problem.nodes).enumerate() {
                 let mut place = [0; 3];
-                place[..dimension].copy_from_slice(&places[v][..dimension]);
+                place[..dimension].copy_from_slice(&drawn[..dimension]);
                 while !taken.insert((problem.group[v], place)) {
                     place[0] += 1;
                 }
