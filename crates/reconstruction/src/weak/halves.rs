@@ -17,7 +17,7 @@ use viewcert::{Graph, Model};
 /// A condensation with more nodes than the first number, and the second for each item, has a core:
 /// what contraction cannot look into is left open.
 const MOST_NODES: usize = 32;
-const NODES_EACH: usize = 16;
+const NODES_EACH: usize = 8;
 
 /// Halves of so many are worth a thread of their own.
 const SHARE: usize = 1 << 10;
