@@ -128,6 +128,19 @@ fn the_pairs_of_a_joint_are_weak() {
     assert_eq!(line["weak"]["single_pairs"], 1);
 }
 
+/// Where there is nothing to do, that is said.
+#[test]
+fn nothing_to_join_and_nothing_to_fall_apart() {
+    let said = text(&complete(&WEST), &["--suggest"]);
+    assert!(
+        said.contains("suggested   nothing is to be joined"),
+        "{said}"
+    );
+    let said = text("a b\nb c\n", &["--weak", "--suggest"]);
+    assert!(said.contains("weak        nothing to fall apart"), "{said}");
+    assert!(said.contains("suggested   1 (proved"), "{said}");
+}
+
 /// What is suggested is matched, and decided.
 #[test]
 fn suggestions_join_what_they_say() {

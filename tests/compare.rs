@@ -188,7 +188,9 @@ fn sizes_are_printed_whatever_they_are() {
     assert_eq!(run.code, 0, "{}", run.err);
     assert!(run.out.starts_with("<svg"), "{}", run.out);
     let line: serde_json::Value = serde_json::from_str(&run.err).unwrap();
-    assert!(line["formulations"][0]["matrices"][0]["rows"].as_u64() > Some(1 << 20));
+    // 10 sum d_v^2 - 19m + 15, with 39,999 nodes of degree 2 and two of degree 1.
+    let rows = 10 * (4 * 39_999 + 2) - 19 * 40_000 + 15;
+    assert_eq!(line["formulations"][0]["matrices"][0]["rows"], rows);
     assert!(line["formulations"][0]["rank"].is_null());
     let run = verify_with(path.as_bytes(), &["compare", "--model", "affine", "-"]);
     assert_eq!(run.code, 0, "{}", run.err);

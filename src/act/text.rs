@@ -22,7 +22,7 @@ pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
     if let Some(found) = &acted.suggestions {
         let joined = "proved: these would join components";
         let count = match acted.is_whole {
-            true => "nothing is to be joined: one component holds all images".to_owned(),
+            true => "nothing is to be joined: one component holds everything".to_owned(),
             false => some(found.len(), joined),
         };
         writeln!(out, "  suggested   {count}")?;

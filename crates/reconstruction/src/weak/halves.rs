@@ -14,10 +14,10 @@ use viewcert::contract::Contraction;
 use viewcert::decide::{Options, VerdictError};
 use viewcert::{Graph, Model};
 
-/// A graph with more nodes than the first number, and the second for each item, has a core: what
-/// contraction cannot look into is left open.
+/// A condensation with more nodes than the first number, and the second for each item, has a core:
+/// what contraction cannot look into is left open.
 const MOST_NODES: usize = 32;
-const NODES_EACH: usize = 16;
+const NODES_EACH: usize = 8;
 
 /// Halves of so many are worth a thread of their own.
 const SHARE: usize = 1 << 10;
@@ -97,10 +97,6 @@ fn sort_named<T: Item>(
         return Ok(sorted);
     }
     check(graph, options)?;
-    if graph.nodes() > MOST_NODES + NODES_EACH * items.len() {
-        sorted.open.extend(items.iter().map(|item| item.name));
-        return Ok(sorted);
-    }
     let here: Vec<T> = items.iter().map(|item| item.here).collect();
     let gone = T::pairs(graph, &here);
     let contraction = Contraction::new(&without(graph, &gone), options.question.model());
@@ -119,6 +115,10 @@ fn sort_named<T: Item>(
         }
         _ => {
             let small = condensed(graph, &contraction, &rest);
+            if small.nodes.len() > MOST_NODES + NODES_EACH * rest.len() {
+                sorted.open.extend(rest.iter().map(|item| item.name));
+                return Ok(sorted);
+            }
             let half = |odd: usize| -> Vec<Named<T>> {
                 let of_half = rest.iter().skip(odd).step_by(2);
                 let moved = of_half.map(|item| Named {

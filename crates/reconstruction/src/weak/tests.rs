@@ -2,9 +2,12 @@ use super::*;
 use crate::samples::{clusters, graphs, options, sequences, together, tracks, verdict};
 use std::collections::BTreeSet;
 
+/// Pairs and images, each with its component.
+type Places = (Vec<(Pair, usize)>, Vec<(u32, usize)>);
+
 /// The weak pairs and images, and what pairs and images are weak by leaving out each in turn, each
 /// with its component.
-fn found_and_expected(graph: &Graph, model: Model) -> [(Vec<(Pair, usize)>, Vec<(u32, usize)>); 2] {
+fn found_and_expected(graph: &Graph, model: Model) -> [Places; 2] {
     let verdict = verdict(graph, model);
     let parts = Parts::new(graph, &verdict);
     let pairs = weak_pairs(graph, &parts, &options(model)).unwrap();
