@@ -6,14 +6,14 @@
 use std::fmt::Write as _;
 use std::io::BufRead;
 use std::path::PathBuf;
-use viewcert::decide::CountSolutions;
+use viewcert::decide::{CountSolutions, Projective};
 use viewcert::graph::graph6;
 use viewcert::{Options, decide};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args_os().nth(1).ok_or("which folder?")?;
     let folder = PathBuf::from(folder);
-    let options = Options::default().solutions(CountSolutions::Off);
+    let options = Options::default().question(Projective::with_solutions(CountSolutions::Off));
     let mut list = String::new();
     for (k, line) in std::io::stdin().lock().lines().enumerate() {
         let line = line?;
