@@ -17,7 +17,7 @@ use crate::report::many::{self, Table};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
