@@ -320,9 +320,10 @@ struct ReportedComponent {
 }
 
 /// The members of a line of `verify --json`; see `report::json`.
-const REPORTED: [&str; 28] = [
+const REPORTED: [&str; 29] = [
     "graph",
     "parts",
+    "read",
     "notes",
     "database",
     "tracks",
