@@ -236,7 +236,9 @@ pub(super) fn is_weight(name: &str) -> bool {
 /// The first two columns, in this order, whose names are those of a pair, or may be if it is `sure`
 /// that these are names of columns.
 pub(super) fn pair_among(names: &[&str], sure: bool) -> Option<[usize; 2]> {
-    let columns = 0..names.len();
+    // Wider tables are none that people make lists of pairs in.
+    const MOST: usize = 64;
+    let columns = 0..names.len().min(MOST);
     columns
         .clone()
         .flat_map(|first| columns.clone().map(move |second| [first, second]))

@@ -322,8 +322,8 @@ struct ReportedComponent {
 /// The members of a line of `verify --json`; see `report::json`.
 const REPORTED: [&str; 31] = [
     "graph",
-    "read",
     "parts",
+    "read",
     "notes",
     "database",
     "tracks",
