@@ -33,7 +33,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let file = |end: &str| folder.join(format!("{k}.{end}"));
         std::fs::write(file("txt"), pairs)?;
         std::fs::write(file("proof"), proof.to_string())?;
-        writeln!(list, "{} {}", file("txt").display(), file("proof").display())?;
+        writeln!(
+            list,
+            "{} {}",
+            file("txt").display(),
+            file("proof").display()
+        )?;
     }
     std::fs::write(folder.join("list"), list)?;
     Ok(())

@@ -174,3 +174,6 @@ impl Members {
         nodes
     }
 }
+
+#[cfg(test)]
+mod tests;
