@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Checker.
+From Viewcert Require Import Statement Generic Counting Rigid Checker Sanity.
 
 Extract Inlined Constant muln => "(( * ) : int -> int -> int)".
 Extract Inlined Constant addn => "((+) : int -> int -> int)".
@@ -17,3 +17,18 @@ Print Assumptions verify_sound.
 Print Assumptions exact_rank.
 Print Assumptions has_full_rank.
 Print Assumptions lacks_full_rank.
+Print Assumptions lemma_1_1.
+Print Assumptions proposition_1_4.
+Print Assumptions theorem_4_1.
+Print Assumptions theorem_5_1.
+Print Assumptions theorem_5_9.
+Print Assumptions corollary_5_11.
+Print Assumptions separation.
+Print Assumptions epipolar.
+Print Assumptions derivative.
+Print Assumptions edges_all.
+Print Assumptions one_rank.
+Print Assumptions largest.
+Print Assumptions pair.
+Print Assumptions triangle.
+Print Assumptions four_cycle.

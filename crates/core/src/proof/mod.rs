@@ -177,3 +177,6 @@ impl Members {
         nodes
     }
 }
+
+#[cfg(test)]
+mod tests;

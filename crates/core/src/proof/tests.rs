@@ -1,0 +1,74 @@
+use super::Unproved;
+use crate::decide::{CountSolutions, decide};
+use crate::graph::{KnownParts, graph6};
+use crate::{Graph, Model, Options};
+
+fn proof_of(graph: &Graph, options: Options) -> Result<super::Proof, Unproved> {
+    let options = options.solutions(CountSolutions::Off);
+    let verdict = decide(graph, &options).unwrap();
+    verdict.proof(graph)
+}
+
+/// The text of docs/proof.md, by hand.
+#[test]
+fn a_triangle_is_three_nodes_joined() {
+    let graph = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
+    let proof = proof_of(&graph, Options::default()).unwrap();
+    let text = proof.to_string();
+    assert!(text.starts_with(
+        "viewcert proof 1\ngraph 3 3\nclaim 18 18\nbody 3 0 0\nfree 0\none 1 0 0\ntwo 2 "
+    ));
+    assert!(text.ends_with("\nend\n"));
+    assert_eq!(text.lines().count(), 8);
+}
+
+/// 11 * 9 - 15 = 84 is what twelve single edges count; the hub takes one off (theory, Example 5.6).
+#[test]
+fn what_has_no_proof_yet_is_refused_by_name() {
+    let gamma = [
+        (0, 2),
+        (0, 3),
+        (0, 5),
+        (1, 4),
+        (1, 5),
+        (1, 6),
+        (1, 7),
+        (1, 8),
+        (2, 4),
+        (2, 6),
+        (3, 7),
+        (3, 8),
+    ];
+    let gamma = Graph::new(9, gamma).unwrap();
+    assert_eq!(
+        proof_of(&gamma, Options::default()).unwrap_err(),
+        Unproved::UpperBound
+    );
+    let pair = Graph::new(2, [(0, 1)]).unwrap();
+    let affine = Options::default().model(Model::Affine);
+    assert_eq!(proof_of(&pair, affine).unwrap_err(), Unproved::Model);
+    let known = KnownParts::new(2, [vec![0, 1]]).unwrap();
+    let known = Options::default().known_parts(known);
+    assert_eq!(proof_of(&pair, known).unwrap_err(), Unproved::Known);
+    assert_eq!(
+        proof_of(&Graph::new(1, []).unwrap(), Options::default()).unwrap_err(),
+        Unproved::OneNode
+    );
+}
+
+/// Without counting, a refutation has an error bound.
+#[test]
+fn an_error_bound_is_no_proof() {
+    let cycle = Graph::new(4, [(0, 1), (1, 2), (2, 3), (0, 3)]).unwrap();
+    let proof = proof_of(&cycle, Options::default().counting(false));
+    assert!(proof.is_err());
+}
+
+/// A graph with two solutions (theory, section 10) has no body but its edges: all of it is a core.
+#[test]
+fn a_core_is_written_with_its_centres() {
+    let graph = graph6::decode(b"HBQkcP_").unwrap();
+    let proof = proof_of(&graph, Options::default()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (84, 84));
+    assert!(proof.to_string().contains("\nbody 9 9 12\n"));
+}
