@@ -1,0 +1,49 @@
+//! `verify --proof`: what is written, and what is refused, through the binary.
+
+use std::process::{Command, Output, Stdio};
+
+const HUB: &str = "0 2\n0 3\n0 5\n1 4\n1 5\n1 6\n1 7\n1 8\n2 4\n2 6\n3 7\n3 8\n";
+
+fn verify(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
+    let run = command.args(arguments).stdin(Stdio::null()).output();
+    run.unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// The proof of docs/proof.md, but for the lower bound, which the 4-cycle reaches: 4 * 7 = 28.
+#[test]
+fn a_refutation_is_written_with_its_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, proof] = ["graph.txt", "proof"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, "0 1\n1 2\n2 3\n0 3\n").unwrap();
+    let run = verify(&[graph.to_str().unwrap(), "--proof", proof.to_str().unwrap()]);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(text(&run.stdout).contains("(rank 28 at least, 28 at most)"));
+    let written = std::fs::read_to_string(proof).unwrap();
+    assert!(written.starts_with("viewcert proof 1\ngraph 4 4\nclaim 28 28\n"));
+}
+
+/// Bad usage, a message that says what is missing, and no file.
+#[test]
+fn what_has_no_proof_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, proof] = ["graph.txt", "proof"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, HUB).unwrap();
+    let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
+    for (more, why) in [
+        (&[][..], "by a hub"),
+        (&["--model", "calibrated"], "projective model"),
+        (&[graph], "2 graphs"),
+    ] {
+        let run = verify(&[&[graph, "--proof", file], more].concat());
+        assert_eq!(run.status.code(), Some(2), "{}", text(&run.stderr));
+        assert!(text(&run.stderr).contains(why), "{}", text(&run.stderr));
+        assert!(!proof.exists());
+    }
+    let run = verify(&[graph, "--proof", graph]);
+    assert_eq!(run.status.code(), Some(2));
+}
