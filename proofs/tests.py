@@ -149,11 +149,14 @@ def by_hand(program):
         assert got == code and says in out + err, (name, got, out, err)
         assert (code == 0) == ("VERIFIED" in out), (name, out)
 
+    # what is trusted stands in the README as it is
+    assert (HERE / "program" / "graph.ml").read_text() in (HERE / "README.md").read_text()
     t, c = text_of(TRIANGLE), text_of(CYCLE)
     case("triangle", 0, t, TRIANGLE_PROOF, "the generic rank of J is 18 = 11 n - 15: full rank")
     case("4-cycle", 0, c, CYCLE_PROOF, "the generic rank of J is 28")
     case("bow", 0, text_of(BOW), BOW_PROOF, "the generic rank of J is 43")
     refuted = "viewcert proof 1\ngraph 4 4\nclaim 0 28\nend\n"
+    case("names in comments", 0, "# 0 left.jpg\n#\n" + t + "# 3 4\n", TRIANGLE_PROOF)
     case("upper bound alone", 0, c, refuted, "not of full rank")
     # every condition, broken
     case("more than is shown", 1, t, TRIANGLE_PROOF.replace("claim 18", "claim 19"))
@@ -173,7 +176,9 @@ def by_hand(program):
         "leading zero": "0 01\n", "sign": "0 -1\n", "plus": "0 +1\n", "hex": "0 0x1\n", "underscore": "0 1_0\n",
         "three": "0 1 2\n", "comma": "0,1\n", "blank line": "0 1\n\n0 2\n", "no line end": "0 1", "tab": "0\t1\n",
         "return": "0 1\r\n", "two blanks": "0  1\n", "large": "0 1073741825\n", "huge": "0 " + "9" * 40 + "\n",
-        "wraps": f"0 {2**64 + 1}\n", "comment": "# 0 1\n", "nul": "0 1\0\n", "letters": "a b\n",
+        "wraps": f"0 {2**64 + 1}\n", "comment": "# 0 1\n",
+        "comment behind a pair": "0 1 # 2\n", "comment without end": t + "# 3", "blank before a comment": " # 3\n" + t,
+        "nul": "0 1\0\n", "letters": "a b\n",
     }.items():  # fmt: skip
         case(name, 2, graph, TRIANGLE_PROOF)
     for name, proof in {

@@ -1,7 +1,8 @@
 (* The reader of graphs: this file is trusted, the reader of proofs is not.
 
-   One pair of nodes "i j" on each line, or one node "i" that has no pair. Nodes are the numbers 0 .. n-1; each of them
-   occurs. Numbers are decimal without leading zeros, at most 2^30; one blank separates, a line feed ends each line. *)
+   One pair of nodes "i j" on each line, or one node "i" that has no pair, or a comment, which begins with "#". Nodes are
+   the numbers 0 .. n-1; each of them occurs. Numbers are decimal without leading zeros, at most 2^30; one blank
+   separates, a line feed ends each line. *)
 
 exception Unreadable of string
 
@@ -31,7 +32,13 @@ let read path =
     go at 0 0
   in
   let rec lines at =
-    if at < String.length text then begin
+    if at < String.length text && text.[at] = '#' then begin
+      incr line;
+      match String.index_from_opt text at '\n' with
+      | Some last -> lines (last + 1)
+      | None -> fail "end of line expected"
+    end
+    else if at < String.length text then begin
       let i, at = number at in
       seen := i :: !seen;
       let at =

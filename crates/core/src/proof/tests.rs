@@ -1,10 +1,10 @@
 use super::Unproved;
-use crate::decide::{CountSolutions, decide};
+use crate::decide::{Projective, Question, decide};
 use crate::graph::{KnownParts, graph6};
 use crate::{Graph, Model, Options};
 
-fn proof_of(graph: &Graph, options: Options) -> Result<super::Proof, Unproved> {
-    let options = options.solutions(CountSolutions::Off);
+fn proof_of(graph: &Graph, question: Question) -> Result<super::Proof, Unproved> {
+    let options = Options::default().question(question);
     let verdict = decide(graph, &options).unwrap();
     verdict.proof(graph)
 }
@@ -13,7 +13,7 @@ fn proof_of(graph: &Graph, options: Options) -> Result<super::Proof, Unproved> {
 #[test]
 fn a_triangle_is_three_nodes_joined() {
     let graph = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
-    let proof = proof_of(&graph, Options::default()).unwrap();
+    let proof = proof_of(&graph, Question::default()).unwrap();
     let text = proof.to_string();
     assert!(text.starts_with(
         "viewcert proof 1\ngraph 3 3\nclaim 18 18\nbody 3 0 0\nfree 0\none 1 0 0\ntwo 2 "
@@ -41,17 +41,19 @@ fn what_has_no_proof_yet_is_refused_by_name() {
     ];
     let gamma = Graph::new(9, gamma).unwrap();
     assert_eq!(
-        proof_of(&gamma, Options::default()).unwrap_err(),
+        proof_of(&gamma, Question::default()).unwrap_err(),
         Unproved::UpperBound
     );
     let pair = Graph::new(2, [(0, 1)]).unwrap();
-    let affine = Options::default().model(Model::Affine);
-    assert_eq!(proof_of(&pair, affine).unwrap_err(), Unproved::Model);
+    assert_eq!(
+        proof_of(&pair, Model::Affine.into()).unwrap_err(),
+        Unproved::Model
+    );
     let known = KnownParts::new(2, [vec![0, 1]]).unwrap();
-    let known = Options::default().known_parts(known);
+    let known = Question::with_parts(Model::Projective, known);
     assert_eq!(proof_of(&pair, known).unwrap_err(), Unproved::Known);
     assert_eq!(
-        proof_of(&Graph::new(1, []).unwrap(), Options::default()).unwrap_err(),
+        proof_of(&Graph::new(1, []).unwrap(), Question::default()).unwrap_err(),
         Unproved::OneNode
     );
 }
@@ -60,7 +62,13 @@ fn what_has_no_proof_yet_is_refused_by_name() {
 #[test]
 fn an_error_bound_is_no_proof() {
     let cycle = Graph::new(4, [(0, 1), (1, 2), (2, 3), (0, 3)]).unwrap();
-    let proof = proof_of(&cycle, Options::default().counting(false));
+    let proof = proof_of(
+        &cycle,
+        Question::from(Projective {
+            counting: false,
+            ..Projective::default()
+        }),
+    );
     assert!(proof.is_err());
 }
 
@@ -68,7 +76,7 @@ fn an_error_bound_is_no_proof() {
 #[test]
 fn a_core_is_written_with_its_centres() {
     let graph = graph6::decode(b"HBQkcP_").unwrap();
-    let proof = proof_of(&graph, Options::default()).unwrap();
+    let proof = proof_of(&graph, Question::default()).unwrap();
     assert_eq!((proof.lower(), proof.upper()), (84, 84));
     assert!(proof.to_string().contains("\nbody 9 9 12\n"));
 }
