@@ -169,7 +169,7 @@ fn nothing_is_made_of_another_kind_of_input() {
         "arrays.npz",
         "settings.json",
         "empty.txt",
-        "list.txt.zst",
+        "graph.pickle",
         "cut.graphml",
     ];
     let mut inputs: Vec<String> = kinds

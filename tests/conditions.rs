@@ -109,10 +109,10 @@ fn what_does_not_apply_says_why() {
 fn the_format_can_be_said() {
     let output = conditions(b"Cl\n", &["--json", "--format", "graph6"]);
     assert_eq!(output.code, 1);
-    assert_eq!(output.json()[0]["edges"], 4);
+    assert_eq!(output.json()[0]["graph"]["edges"], 4);
     let output = conditions(b"Cl\n", &["--json", "--format", "edge-list"]);
     assert_eq!(output.code, 0);
-    assert_eq!(output.json()[0]["nodes"], 1);
+    assert_eq!(output.json()[0]["graph"]["nodes"], 1);
 }
 
 /// A ring of 30,000 cameras in a moment: what looks at the whole graph for every node of it takes

@@ -179,7 +179,8 @@ fn a_wrong_file_is_a_short_message() {
     assert_eq!(run.code, 2);
     assert_eq!(run.err.lines().count(), 11, "{}", run.err);
     assert!(
-        run.err.ends_with("verify: -: ... and 490 more\n"),
+        run.err
+            .ends_with("verify: -: 490 more lines cannot be read either\n"),
         "{}",
         run.err
     );

@@ -253,7 +253,7 @@ fn a_hostile_name_does_not_run() {
     ];
     let pairs: String = names
         .iter()
-        .map(|name| format!("\"{name}\" plain.jpg\n"))
+        .map(|name| format!("\"{name}\" plain\n"))
         .collect();
     let page = Page::of(pairs.as_bytes(), &["-"]);
     let labels = page.report()["components"].to_string();

@@ -222,13 +222,22 @@ DRAW, FLOW = b"viewcert draw 2\n", b"viewcert flow 2\n"
 def draw_centres(graph_hash, core_hash, n, p, seed, draw, coordinates=3, places=None):
     """Section 4: centres modulo p (with two coordinates plane points), or None if the draw is void."""
     stream = Stream(DRAW, graph_hash, core_hash, seed, draw)
+    if places is None:
+        points = tuple(tuple(stream.below(p) for _ in range(coordinates)) for _ in range(n))
+    else:
+        points = placed_centres(stream, p, places)
+    return points if distinct(points) else None
+
+
+def placed_centres(stream, p, places):
+    """Section 4: centres modulo p of which some lie at given vectors from earlier ones."""
     points = []
-    for place in places or [None] * n:
+    for place in places:
         if place is None:
-            points.append(tuple(stream.below(p) for _ in range(coordinates)))
+            points.append(tuple(stream.below(p) for _ in range(3)))
         else:
             points.append(tuple((c + v) % p for c, v in zip(points[place[0]], place[1])))
-    return tuple(points) if distinct(points) else None
+    return tuple(points)
 
 
 @functools.lru_cache(maxsize=64)
@@ -298,25 +307,32 @@ class Core:
             shared = sorted(number[node] for node in check.nodes(member) if node in number)
             need(len(shared) >= 2, f"{where}: body {member} has less than two nodes of the core")
             chain = list(zip(shared, shared[1:]))
-            if not check.is_scaled([member]):
-                for triangle in zip(shared, shared[1:], shared[2:]):
-                    check.need_independent([self.nodes[k] for k in triangle], f"{where}: body {member}")
-            elif check.vectors is None:
-                self.scales.append(chain[0])
+            if check.vectors is not None:
+                chain = self.chain_with_vectors(check, member, shared, f"{where}: body {member}")
             else:
-                self.scales += chain
-            if check.vectors is None or not check.is_scaled([member]):
+                self.scales += [chain[0]] if check.is_scaled([member]) else []
                 chain += zip(shared, shared[2:])
             for edge in chain:
                 need(edge not in self.owner, f"{where}: a core edge arises twice")
                 self.owner[edge] = member
-        self.places = check.places(self.nodes)
+        self.places = None if check.vectors is None else check.places(self.nodes)
         self.edges = tuple(sorted(self.owner))
         self.m = len(self.edges)
         form = b"viewcert core 2\n" + struct.pack("<QQ", self.n, self.m)
         form += struct.pack(f"<{self.n}I", *self.nodes)
         form += struct.pack(f"<{2 * self.m}I", *itertools.chain.from_iterable(self.edges))
         self.hash = hashlib.sha256(form).digest()
+
+    def chain_with_vectors(self, check, member, shared, where):
+        """Section 6, with given vectors: the chain of a scaled body is a path, and all of it is scaled; the triangles of
+        any other are independent."""
+        chain = list(zip(shared, shared[1:]))
+        if check.is_scaled([member]):
+            self.scales += chain
+            return chain
+        for triangle in zip(shared, shared[1:], shared[2:]):
+            check.need_independent([self.nodes[k] for k in triangle], where)
+        return chain + list(zip(shared, shared[2:]))
 
 
 # Section 7: matrices -------------------------------------------------------------------------------------------------
@@ -716,7 +732,7 @@ class Check:
 
     def vertex(self, node):
         """Section 3: the first node of the group of a node, and the vector from there."""
-        return (self.vectors or {}).get(node, (node, (0, 0, 0)))
+        return self.vectors.get(node, (node, (0, 0, 0)))
 
     def places(self, nodes):
         """Section 4: for each node the place of the first one of its group among these, and the vector from there, or
@@ -729,13 +745,25 @@ class Check:
         return tuple(places)
 
     def need_independent(self, nodes, where):
-        """Section 3: nodes, four at most, are independent."""
-        if self.vectors is not None:
-            p = 2**61 - 1
-            vectors = [place[1] for place in self.places(nodes) if place]
-            rows = [{k: entry % p for k, entry in enumerate(vector) if entry % p} for vector in vectors]
-            independent = len(rows) < 2 or len(find_pivots(rows, p)) == len(rows)
-            need(independent, f"{where}: the nodes {nodes} are not independent")
+        """Section 3: nodes, four at most, are independent, as all are in general position."""
+        independent = self.vectors is None or self.are_independent(nodes)
+        need(independent, f"{where}: the nodes {nodes} are not independent")
+
+    def are_independent(self, nodes):
+        """Section 3: whether given vectors show that nodes are independent."""
+        p = 2**61 - 1
+        vectors = [place[1] for place in self.places(nodes) if place]
+        rows = [{k: entry % p for k, entry in enumerate(vector) if entry % p} for vector in vectors]
+        return len(rows) < 2 or len(find_pivots(rows, p)) == len(rows)
+
+    def group_rank(self, nodes):
+        """Section 7: with given vectors the rank of what is known within groups between some nodes."""
+        return 3 * (len(nodes) - len({self.vertex(node)[0] for node in nodes}))
+
+    def block_with_vectors(self, inside):
+        """Section 7, a block: what it contributes where vectors are given."""
+        vertices = {self.vertex(node)[0] for node in self.union(inside)}
+        return 3 * len(vertices) - 4 + int(self.is_scaled(inside) or not self.agrees(inside))
 
     def agrees(self, group):
         """Section 7: whether there are eta for the vertices of a block."""
@@ -820,45 +848,50 @@ class Check:
                 self.need_independent([v, a, b], f"{where}: add")
                 body.add(v)
             for step in a_list(merge, f"{where}: merge"):
-                others, at = members(step, "with at", f"{where}: merge")
-                at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
-                size = len(a_list(others, f"{where}: with"))
-                need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
-                need(size != 3 or self.model == "calibrated", f"{where}: a cycle of four is no body in the {self.model} model")
-                need(size != 5 or self.model == "projective", f"{where}: six bodies are merged in the projective model only")
-                single = size == len(at) == 1
-                need(single or len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
-                both = scaled and self.is_scaled(others)
-                need(not single or both, f"{where}: only scaled bodies are merged at one node")
-                scaled = scaled or self.is_scaled(others)
-                need(distinct(at), f"{where}: the nodes of at are not different")
-                if len(at) in (3, 4):
-                    self.need_independent(at, f"{where}: merge")
-                need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
-                unique = unique and all(map(self.is_unique, others))
-                others = [self.body_or_edge(other, where) for other in others]
-                if size == 1:
-                    shared = all(node in body and node in others[0] for node in at)
-                elif size == 2:
-                    (x, y), (a, b, c) = others, at
-                    shared = a in body and a in x and b in body and b in y and c in x and c in y
-                elif size == 3:
-                    (x, y, z), (a, b, c, d) = others, at
-                    shared = a in body and a in x and b in x and b in y
-                    shared = shared and c in y and c in z and d in z and d in body
-                else:
-                    # Theorem 10.3: a is joined to u, v, w by the body, x and z, and these to b by t, y and s.
-                    (t, x, y, z, s), (a, b, u, v, w) = others, at
-                    shared = {a, u} <= set(body) and {u, b} <= set(t) and {a, v} <= set(x)
-                    shared = shared and {v, b} <= set(y) and {a, w} <= set(z) and {w, b} <= set(s)
-                need(shared, f"{where}: the nodes of at are not shared as a merge demands")
-                body.update(*others)
+                scaled, unique = self.check_merge(step, body, scaled, unique, where)
             self.bodies.append(frozenset(body))
             self.final.add(k)
             if scaled:
                 self.scaled.add(k)
             if not unique:
                 self.rigid_only.add(k)
+
+    def check_merge(self, step, body, scaled, unique, where):
+        """Section 5, a merge: the body takes in others; whether it is scaled then, and unique."""
+        others, at = members(step, "with at", f"{where}: merge")
+        at = [an_int(node, f"{where}: at") for node in a_list(at, f"{where}: at")]
+        size = len(a_list(others, f"{where}: with"))
+        need(size in (1, 2, 3, 5), f"{where}: with holds one, two, three or five")
+        need(size != 3 or self.model == "calibrated", f"{where}: a cycle of four is no body in the {self.model} model")
+        need(size != 5 or self.model == "projective", f"{where}: six bodies are merged in the projective model only")
+        single = size == len(at) == 1
+        need(single or len(at) == (5 if size == 5 else size + 1), f"{where}: the length of at is wrong")
+        both = scaled and self.is_scaled(others)
+        need(not single or both, f"{where}: only scaled bodies are merged at one node")
+        scaled = scaled or self.is_scaled(others)
+        need(distinct(at), f"{where}: the nodes of at are not different")
+        if len(at) in (3, 4):
+            self.need_independent(at, f"{where}: merge")
+        need(size != 2 or not same(others[0], others[1]), f"{where}: merged with the same twice")
+        unique = unique and all(map(self.is_unique, others))
+        others = [self.body_or_edge(other, where) for other in others]
+        if size == 1:
+            shared = all(node in body and node in others[0] for node in at)
+        elif size == 2:
+            (x, y), (a, b, c) = others, at
+            shared = a in body and a in x and b in body and b in y and c in x and c in y
+        elif size == 3:
+            (x, y, z), (a, b, c, d) = others, at
+            shared = a in body and a in x and b in x and b in y
+            shared = shared and c in y and c in z and d in z and d in body
+        else:
+            # Theorem 10.3: a is joined to u, v, w by the body, x and z, and these to b by t, y and s.
+            (t, x, y, z, s), (a, b, u, v, w) = others, at
+            shared = {a, u} <= set(body) and {u, b} <= set(t) and {a, v} <= set(x)
+            shared = shared and {v, b} <= set(y) and {a, w} <= set(z) and {w, b} <= set(s)
+        need(shared, f"{where}: the nodes of at are not shared as a merge demands")
+        body.update(*others)
+        return scaled, unique
 
     def body_by_rank(self, value, where):
         """Section 5: earlier bodies and edges, which are not consumed, of whose core the rank is full."""
@@ -1164,8 +1197,8 @@ class Check:
         value, group = self.with_added(value, group, where)
         _, blocks, bound = members(value, "kind blocks bound", where)
         nodes = self.union(group)
-        # What is known within groups is there first; without vectors no two nodes have one vertex.
-        groups, total = [], 3 * (len(nodes) - len({self.vertex(node)[0] for node in nodes}))
+        # What is known within groups by vectors is there first.
+        groups, total = [], 0 if self.vectors is None else self.group_rank(nodes)
         for k, block in enumerate(a_list(blocks, f"{where}: blocks")):
             at = f"{where}: block {k}"
             inside, takes = self.check_block(block, group, at)
@@ -1199,9 +1232,7 @@ class Check:
         inside = self.read_group(bodies, edges, where)
         need(all(member in group for member in inside), f"{where}: a member is not one of the piece")
         total = self.required(len(self.union(inside)), self.is_scaled(inside))
-        if self.vectors is not None:
-            vertices = {self.vertex(node)[0] for node in self.union(inside)}
-            total = 3 * len(vertices) - 4 + int(self.is_scaled(inside) or not self.agrees(inside))
+        total = total if self.vectors is None else self.block_with_vectors(inside)
         need(len(a_list(hubs, f"{where}: hubs")) <= 1, f"{where}: more than one hub")
         for hub in hubs:
             total -= self.check_hub(hub, inside, f"{where}: hub")

@@ -291,12 +291,12 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
     }
 }
 
-/// Whether a file may be meant as a certificate: an object in JSON that says its format, or what it
+/// Whether a file may be meant as a certificate: an object in JSON that says it is one, or what it
 /// claims. What is not is neither verified nor rejected.
 pub fn is_certificate(text: &[u8]) -> bool {
     let text = text.trim_ascii_start();
     let has = |member: &[u8]| text.windows(member.len()).any(|word| word == member);
-    text.starts_with(b"{") && (has(b"\"format\"") || has(b"\"claim\""))
+    text.starts_with(b"{") && (has(b"\"viewcert certificate\"") || has(b"\"claim\""))
 }
 
 /// Why there is no answer about a file that is no certificate; `swapped` if the graph's file is one.

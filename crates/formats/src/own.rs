@@ -55,12 +55,8 @@ pub(super) fn known(head: &[u8]) -> Option<Problem> {
                 return own(what, advice);
             }
         }
-        // All reports say which graph they are about, and what was noted in reading it.
-        let graph = member("graph")
-            .is_some_and(|value| value.starts_with('"') || value.starts_with("{\"name\":"));
-        let notes = member("notes").is_some_and(|value| value.starts_with('['));
-        let named = text.starts_with("{\"name\":") && member("verdict").is_some();
-        let report = notes && (graph || named)
+        // All reports begin with the program.
+        let report = text.starts_with("{\"program\":{\"name\":\"verify\"")
             || member("program").is_some_and(|value| value.starts_with("\"viewcert"));
         return if report {
             own("a report", REPORT)
@@ -82,9 +78,11 @@ pub(super) fn known(head: &[u8]) -> Option<Problem> {
     }
     // A report for people: the graph's name, and lines of a word and what it is.
     let mut lines = text.lines().skip(1);
+    let read = lines.next();
     let is = |line: Option<&str>, word: &str| line.is_some_and(|line| line.starts_with(word));
-    let report =
-        is(lines.next(), "  graph       ") && lines.any(|line| is(Some(line), "  verdict     "));
+    let report = is(read, "  read as     ")
+        && is(lines.next(), "  graph       ")
+        && lines.any(|line| is(Some(line), "  verdict     "));
     if report {
         own("a report", REPORT)
     } else {
