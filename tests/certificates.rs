@@ -570,7 +570,7 @@ fn truncations_repetitions_and_other_graphs() {
     );
     assert_eq!(verify(&["check", &certificate, "no such file"]).code, 2);
     assert_eq!(verify(&["check", "no such file"]).code, 2);
-    assert_eq!(verify(&["check", &write("bad.txt", "1 1"), &own]).code, 1);
+    assert_eq!(verify(&["check", &write("bad.txt", "1 1"), &own]).code, 2);
     assert_eq!(
         verify(&["check", &certificate, &write("loop.txt", "1 1")]).code,
         2

@@ -55,6 +55,7 @@ def program() -> Program:
 
 
 def untimed(answer: dict[str, Any]) -> dict[str, Any]:
-    """An answer without the time that it took."""
+    """An answer without the time that it took, and without where its graph came from: memory or a file."""
     assert answer.pop("seconds") >= 0
+    answer.pop("read", None)
     return answer

@@ -44,15 +44,19 @@ def rank_of(rows):
     return rank
 
 
-def generic_rank(nodes, edges, model, rng, vectors=()):
+def generic_rank(nodes, edges, model, rng, vectors=(), given=None):
     """The rank at random centres, twice: of J_P by (2.1) of the theory, of N, or four times that of R.
 
-    Between the pairs of `vectors` the whole displacement is known (calibrated model).
+    Between the pairs of `vectors` the whole displacement is known (calibrated model). Of the nodes in `given` the centres
+    lie at a vector from that of another node.
     """
     place = {node: k for k, node in enumerate(sorted(nodes))}
     best = 0
     for _ in range(2):
         centre = {node: [rng.randrange(PRIME) for _ in range(3)] for node in nodes}
+        for node, (first, vector) in (given or {}).items():
+            start = centre.setdefault(first, [rng.randrange(PRIME) for _ in range(3)])
+            centre[node] = [(a + b) % PRIME for a, b in zip(start, vector)]
         rows = []
         for i, j in edges:
             x, y, z = ((a - b) % PRIME for a, b in zip(centre[i], centre[j]))
@@ -161,9 +165,9 @@ def required(n, model, scaled=False):
 class Truth:
     """What is true of a graph: the rank, whether it contracts to one body, and its components (up to 9 nodes)."""
 
-    def __init__(self, n, edges, model, vectors):
+    def __init__(self, n, edges, model, vectors, given=None):
         rng = random.Random(n)
-        self.rank = generic_rank(range(n), edges, model, rng, vectors)
+        self.rank = generic_rank(range(n), edges, model, rng, vectors, given)
         self.other_rank = full_camera_rank(n, edges, rng) if model == "projective" and n <= 12 else self.rank
         self.required = required(n, model, bool(vectors))
         self.solvable = n == 1 or self.contracts(n, edges)
@@ -180,7 +184,7 @@ class Truth:
                     full = required(size, model, bool(known))
                     enough = per_edge * len(inside) + 3 * len(known) >= full
                     if enough and not any(nodes <= other for other in rigid):
-                        if generic_rank(nodes, inside, model, rng, known) == full:
+                        if generic_rank(nodes, inside, model, rng, known, given) == full:
                             rigid.append(nodes)
             self.components = len(rigid)
 
@@ -246,9 +250,12 @@ def contradiction(document):
     edges = sorted(edges)
     groups = document.get("displacements", [])
     vectors = [pair for group in groups for pair in itertools.combinations(group, 2)]
-    key = (n, tuple(edges), model, tuple(vectors))
+    given = {}
+    for group, others in zip(groups, document.get("vectors", [])):
+        given.update((node, (group[0], tuple(map(int, vector)))) for node, vector in zip(group[1:], others))
+    key = (n, tuple(edges), model, tuple(vectors), tuple(given.items()))
     if key not in TRUTHS:
-        TRUTHS[key] = Truth(n, edges, model, vectors)
+        TRUTHS[key] = Truth(n, edges, model, vectors, given)
     return TRUTHS[key].contradicts(document["claim"])
 
 

@@ -396,8 +396,7 @@ impl Collector {
             return Ok(());
         }
         self.doubts.quotes(labels.iter().any(|field| field.quoted));
-        let [a, b] = self.nodes(names)?;
-        self.pair(a, b)
+        self.named(names)
     }
 
     /// Whether the pair of a line weighs less than is asked for.
@@ -451,8 +450,7 @@ impl Collector {
                     return Ok(());
                 }
                 self.lines_with_more += u64::from(!further.is_empty());
-                let [a, b] = self.nodes([&*first.text(text), &*second.text(text)])?;
-                self.pair(a, b)
+                self.named([&*first.text(text), &*second.text(text)])
             }
         }
     }
@@ -474,8 +472,7 @@ impl Collector {
                         column: at + 3,
                     });
                 }
-                let [a, b] = self.nodes([&*first.text(text), &*second.text(text)])?;
-                self.pair(a, b)
+                self.named([&*first.text(text), &*second.text(text)])
             }
             _ => fault(Problem::OtherColumns {
                 found,
@@ -552,8 +549,7 @@ impl Collector {
             let third = further.first().and_then(|field| field.integer(text));
             self.doubts.third(ends.map(|(a, b)| [a, b]), third);
         }
-        let [a, b] = self.nodes([&*texts[0], &*texts[1]])?;
-        self.pair(a, b)
+        self.named([&*texts[0], &*texts[1]])
     }
 
     /// The two labels as ends of a pair, in the meaning that `pairs` has then.
@@ -576,14 +572,29 @@ impl Collector {
         }
     }
 
+    /// A pair of labels. One with itself that is left out is no camera by that.
+    fn named(&mut self, labels: [&str; 2]) -> Result<(), Fault> {
+        if self.skip_loops && labels[0] == labels[1] {
+            self.loops += 1;
+            return Ok(());
+        }
+        let [a, b] = self.nodes(labels)?;
+        self.pair(a, b)
+    }
+
     #[inline]
     fn pair(&mut self, a: u32, b: u32) -> Result<(), Fault> {
-        // A first line like `5 5` may be counts, which only the end of the text tells.
         if a == b && self.skip_loops {
             self.loops += 1;
             return Ok(());
         }
-        if a == b && !(self.pairs.is_empty() && self.reading == Reading::Strict) {
+        // A first line like `5 5` may be counts, which only the end of the text tells.
+        let is_first = || {
+            self.first
+                .as_ref()
+                .is_none_or(|first| first.line == self.line)
+        };
+        if a == b && !(self.reading == Reading::Strict && self.pairs.is_empty() && is_first()) {
             return Err(self.self_loop(self.line, a));
         }
         self.pairs.push((a, b));
@@ -760,11 +771,11 @@ impl Collector {
             self.light += 1;
             return Ok(None);
         }
-        let [a, b] = self.nodes(labels)?;
-        if a == b && self.skip_loops {
+        if self.skip_loops && labels[0] == labels[1] {
             self.loops += 1;
             return Ok(None);
         }
+        let [a, b] = self.nodes(labels)?;
         if a == b {
             return Err(self.self_loop(first.line, a));
         }
