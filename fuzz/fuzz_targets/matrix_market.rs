@@ -4,10 +4,10 @@
 use std::io::Write;
 
 use libfuzzer_sys::fuzz_target;
-use viewcert_formats::matrix_market;
+use viewcert_formats::{Parsed, matrix_market};
 
 fuzz_target!(|data: &[u8]| {
-    let Ok((graph, ..)) = matrix_market::read(data) else {
+    let Ok(Parsed { graph, .. }) = matrix_market::read(data) else {
         return;
     };
     assert!(graph.edges().is_sorted_by(|a, b| a < b));
@@ -18,7 +18,7 @@ fuzz_target!(|data: &[u8]| {
     for (i, j) in graph.edges() {
         writeln!(text, "{} {}", j + 1, i + 1).unwrap();
     }
-    let (again, _, notes) = matrix_market::read(&text[..]).expect("own text is read");
+    let Parsed { graph: again, notes, .. } = matrix_market::read(&text[..]).expect("own text is read");
     assert_eq!(again, graph);
     assert!(notes.is_empty());
 });

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use viewcert_formats::numpy;
+use viewcert_formats::{Parsed, numpy};
 
 fuzz_target!(|data: &[u8]| {
     let read = [
@@ -11,7 +11,7 @@ fuzz_target!(|data: &[u8]| {
         numpy::read_archive(data, None),
         numpy::read_archive(data, Some("data")),
     ];
-    for (graph, labels, _) in read.into_iter().flatten() {
+    for Parsed { graph, labels, .. } in read.into_iter().flatten() {
         assert!(graph.edges().is_sorted_by(|a, b| a < b));
         let nodes = graph.nodes() as u32;
         assert!(graph.edges().iter().all(|&(i, j)| i < j && j < nodes));

@@ -5,7 +5,7 @@
 //! and column, counted from 1, and its value unless only the pattern is given. Of the format `array`
 //! all values, column by column. Of a symmetric or skew-symmetric matrix one triangle is enough.
 //!
-//! What makes a graph of a matrix is in [`matrix`](crate::matrix); nodes are numbered as rows.
+//! What makes a graph of a matrix is in `matrix`; nodes are numbered as rows.
 
 use std::io::{BufRead, BufReader, Read};
 

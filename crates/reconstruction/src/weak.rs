@@ -3,7 +3,7 @@
 //! A pair of a component is weak if the component is not finite solvable without it: then it falls
 //! apart. Most pairs are shown not to be weak by contraction (docs/theory.md, section 4): what no
 //! merge uses can go. The others are left out together, then in halves of halves, each on a
-//! condensation of the graph without all others of its half ([`halves`]). What that leaves open is
+//! condensation of the graph without all others of its half (`halves`). What that leaves open is
 //! decided, one decision for a set of pairs where that is enough.
 
 mod decisions;

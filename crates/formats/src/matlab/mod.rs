@@ -8,7 +8,7 @@
 //! read, sparse and full matrices of every real numeric class, and every
 //! integer type in which MATLAB stores numbers compactly.
 //!
-//! What makes a graph of a matrix is in [`matrix`](crate::matrix); nodes are numbered as rows.
+//! What makes a graph of a matrix is in `matrix`; nodes are numbered as rows.
 //!
 //! No length in a file is believed before the bytes are there: memory grows
 //! with what has been read, and deflated data can hold at most 1032 times

@@ -4,7 +4,7 @@
 //! entries as they lie in memory, in either order of bytes. An archive of SciPy's `save_npz` holds
 //! the parts of one sparse matrix.
 //!
-//! A square matrix is an adjacency ([`matrix`](crate::matrix)); two columns, or two rows, of integers
+//! A square matrix is an adjacency (`matrix`); two columns, or two rows, of integers
 //! or of names are pairs. Nodes of a matrix are numbered as rows, from 0.
 //!
 //! No length in a file is believed before the bytes are there: memory grows with what has been read.
