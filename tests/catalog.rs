@@ -620,7 +620,7 @@ fn the_reason_of_a_rejection_is_escaped() {
     let bad = folder.path().join("bad.json");
     fs::write(
         &bad,
-        "{\"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1, \"format\": 1}",
+        "{\"\\u001b[2J\\nVERIFIED solvable\\u202e\": 1, \"claim\": 1}",
     )
     .unwrap();
     for path in [bad.as_path(), folder.path()] {
