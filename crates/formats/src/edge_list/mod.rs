@@ -584,10 +584,6 @@ impl Collector {
 
     #[inline]
     fn pair(&mut self, a: u32, b: u32) -> Result<(), Fault> {
-        if a == b && self.skip_loops {
-            self.loops += 1;
-            return Ok(());
-        }
         // A first line like `5 5` may be counts, which only the end of the text tells.
         let is_first = || {
             self.first
