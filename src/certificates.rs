@@ -1,6 +1,6 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
-use super::{atomic, manifest};
+use super::manifest;
 use anyhow::{Result, bail, ensure};
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use viewcert::Certificate;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Outputs;
+use viewcert_session::outputs;
 
 /// The option that names the target.
 pub(super) const OPTION: &str = "--certificate";
@@ -38,7 +40,7 @@ impl Target {
             );
         }
         let inputs = inputs.iter().map(PathBuf::as_path);
-        atomic::ensure_apart(&[("--certificate", Some(path))], inputs)?;
+        outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
         Ok(Self {
             path: path.to_owned(),
             folder,
@@ -53,7 +55,12 @@ impl Target {
     }
 
     /// Writes the certificate of one graph and returns the path.
-    pub(super) fn write(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<PathBuf> {
+    pub(super) fn write(
+        &mut self,
+        outputs: &Outputs,
+        input: &NamedGraph,
+        verdict: &Verdict,
+    ) -> Result<PathBuf> {
         let path = if self.folder {
             self.place(&input.name)?
         } else if self.taken.insert(String::new()) {
@@ -61,7 +68,7 @@ impl Target {
         } else {
             bail!("{}", too_many(OPTION, &self.path, "several graphs"));
         };
-        atomic::write(&path, |out| {
+        outputs.write(&path, |out| {
             certificate(input, verdict)
                 .embed_graph(self.embed)
                 .write_to(out)

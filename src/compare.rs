@@ -2,7 +2,6 @@
 
 use super::bounds::BoundArguments;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic};
 use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
@@ -11,6 +10,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::outputs;
 use viewcert_studies::formulation::compare;
 use viewcert_studies::formulation::compare::{
     CompareError, Comparison, Limits, MAX_RATIONALS, MAX_RESIDUES, Outcome,
@@ -61,12 +63,12 @@ enum CameraName {
 }
 
 /// Compares on every graph in turn; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &CompareArguments) -> Result<ExitCode> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
-    let mut out = atomic::text(&[arguments.svg.as_deref()]);
+    outputs::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
+    let mut out = outputs::text(&[arguments.svg.as_deref()]);
     let mut svg = arguments.svg.as_deref();
     let each = |out: &mut _, input: &NamedGraph, _| {
         let found = compare(arguments, &field, input).with_context(|| input.name.clone())?;
@@ -77,7 +79,9 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
         }
         if let Some(path) = svg.take() {
             let picture = bars::draw(&comparison::sizes(input, &found));
-            atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
+            session
+                .outputs()
+                .write(path, |out| out.write_all(picture.as_bytes()))?;
         }
         Ok(match found.outcome(&input.graph) {
             Outcome::Agree(_) | Outcome::NotCompared => GOOD,
@@ -86,7 +90,7 @@ pub(super) fn run(arguments: &CompareArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
+        .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 

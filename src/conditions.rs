@@ -1,7 +1,6 @@
 //! `verify conditions GRAPH...`: what the literature's conditions say.
 
 use super::input::InputArguments;
-use super::{GOOD, NOT};
 use crate::report::conditions as report;
 use anyhow::Result;
 use clap::Args;
@@ -9,6 +8,8 @@ use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
 use viewcert_studies::conditions;
 
 /// Options of the conditions.
@@ -26,7 +27,7 @@ pub(super) struct ConditionArguments {
 }
 
 /// Decides the conditions on every graph in turn; a bad one does not stop the others.
-pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ConditionArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let each = |out: &mut _, input: &NamedGraph, _| {
         let found = conditions::decide(&input.graph);
@@ -40,6 +41,6 @@ pub(super) fn run(arguments: &ConditionArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &|_| None, &mut out, each)?;
+        .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

@@ -3,7 +3,6 @@
 
 use super::input::{InputArguments, TrackArguments};
 use super::parts::PartArguments;
-use super::{GOOD, TOO_LARGE, atomic};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
@@ -13,6 +12,9 @@ use std::process::ExitCode;
 use viewcert::KnownParts;
 use viewcert::graph::graph6;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, TOO_LARGE};
+use viewcert_session::outputs;
 
 /// Longest graph6 line that is written, in bytes: what checkers read without being asked for more.
 const LONGEST: u64 = 1 << 31;
@@ -46,7 +48,7 @@ enum To {
 }
 
 /// Reads the graph and writes it.
-pub(super) fn run(arguments: &ConvertArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<ExitCode> {
     let (path, parts) = (&arguments.graph, arguments.parts.path());
     ensure!(
         parts.is_none() || arguments.to == To::Pairs,
@@ -55,7 +57,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<ExitCode> {
     arguments.parts.check(std::slice::from_ref(path))?;
     let output = arguments.output.as_deref();
     let inputs = [Some(&**path), parts];
-    atomic::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
+    outputs::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
     let options = ReadOptions {
         tracks: arguments.tracks.options(),
         ..arguments.input.read_options()
@@ -99,7 +101,9 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<ExitCode> {
         }
     };
     let output = output.unwrap_or(Path::new("-"));
-    atomic::write(output, |out| out.write_all(text.as_bytes()))?;
+    session
+        .outputs()
+        .write(output, |out| out.write_all(text.as_bytes()))?;
     Ok(ExitCode::from(GOOD))
 }
 

@@ -10,8 +10,8 @@ use crate::check::checker;
 use crate::plane::{Asked, Scope};
 use crate::report::graph_picture::{Drawn, Picture, document, draw};
 use crate::report::{Report, json, page, text};
-use crate::{act, atomic, certificates};
-use anyhow::{Error, Result};
+use crate::{act, certificates};
+use anyhow::Result;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use viewcert::Verdict;
@@ -19,6 +19,7 @@ use viewcert::watch::Watch;
 use viewcert_check::Certificate;
 use viewcert_formats::{NamedGraph, ReadOptions};
 use viewcert_reconstruction::Shapes;
+use viewcert_session::Outputs;
 
 pub use crate::act::Weak;
 pub use crate::catalog::{Part, Size, merged};
@@ -73,7 +74,14 @@ impl Questions {
         };
         let scope = Scope::new(input, verdict, asked, &watch)?;
         let mut shapes = Shapes::default();
-        let acted = arguments.act(input, verdict, seed, &mut shapes, watch)?;
+        let acted = arguments.act(
+            &Outputs::default(),
+            input,
+            verdict,
+            seed,
+            &mut shapes,
+            watch,
+        )?;
         Ok(Found { acted, scope })
     }
 }
@@ -165,14 +173,6 @@ pub fn picture(input: &NamedGraph, verdict: &Verdict) -> String {
     document(&picture, &drawn, true)
 }
 
-/// Writes a file whole or not at all.
-///
-/// # Errors
-/// If the folder is not writable, or the disk is full; the file is then as it was before.
-pub fn save(path: &Path, bytes: &[u8]) -> Result<()> {
-    atomic::write(path, |out| out.write_all(bytes))
-}
-
 /// The graph in a file that a certificate is about, of several the one with its hash.
 ///
 /// # Errors
@@ -183,15 +183,4 @@ pub fn graph_to_check(
     options: ReadOptions,
 ) -> Result<viewcert_check::Graph> {
     checker::graph_at(certificate, path, checker::Known::default(), &options)
-}
-
-/// The memory that the program takes at most, in bytes, if nothing else is said; `None` where that
-/// of the machine is not known.
-pub fn default_memory_limit() -> Option<u64> {
-    crate::running::default_memory_limit()
-}
-
-/// Whether an error means that something is too large, for the method or for the limits.
-pub fn is_too_large(error: &Error) -> bool {
-    crate::exit_code(error) == crate::TOO_LARGE
 }

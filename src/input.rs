@@ -1,6 +1,5 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use super::{GOOD, ends_run, exit_code, running};
 use crate::report::counted;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
@@ -13,6 +12,8 @@ use viewcert_formats::{
     Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
     read_graphs,
 };
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, ends_run};
 
 /// What the graphs' files are, for those that do not show it.
 #[derive(Args)]
@@ -151,12 +152,13 @@ impl InputArguments {
     /// or a signal has ended the run.
     pub(super) fn for_each<W: Write>(
         &self,
+        session: &Session,
         paths: &[PathBuf],
         too_many: &dyn Fn(&str) -> Option<String>,
         out: &mut W,
         each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
-        for_each(&self.read_options(), paths, too_many, out, each)
+        for_each(session, &self.read_options(), paths, too_many, out, each)
     }
 
     /// The options of the readers.
@@ -203,6 +205,7 @@ impl InputArguments {
 /// # Errors
 /// As there.
 pub(super) fn for_each<W: Write>(
+    session: &Session,
     options: &ReadOptions,
     paths: &[PathBuf],
     too_many: &dyn Fn(&str) -> Option<String>,
@@ -210,7 +213,7 @@ pub(super) fn for_each<W: Write>(
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
     let read = |out: &mut W, _: &Path, input: Read, start| each(out, &input?, start);
-    for_each_read(options, paths, too_many, out, read)
+    for_each_read(session, options, paths, too_many, out, read)
 }
 
 /// A graph, or why there is none.
@@ -222,6 +225,7 @@ pub(super) type Read = Result<NamedGraph, ReadError>;
 /// # Errors
 /// As there.
 pub(super) fn for_each_read<W: Write>(
+    session: &Session,
     options: &ReadOptions,
     paths: &[PathBuf],
     too_many: &dyn Fn(&str) -> Option<String>,
@@ -232,7 +236,7 @@ pub(super) fn for_each_read<W: Write>(
     for path in paths {
         let mut bad = 0;
         let mut start = Instant::now();
-        running::reading(path);
+        session.reading(path);
         let mut graphs = read_graphs(path, options).peekable();
         while let Some(input) = graphs.next() {
             if let Some(reason) = too_many(&format!("several in {}", path.display()))
@@ -240,11 +244,11 @@ pub(super) fn for_each_read<W: Write>(
             {
                 bail!(reason);
             }
-            running::hide();
+            session.hide();
             bad += usize::from(input.is_err());
             let shown = input.is_ok() || bad <= MOST_ERRORS;
             if let Ok(input) = &input {
-                running::doing(format!("working on {}", input.name));
+                session.doing(format!("working on {}", input.name));
             }
             code = code.max(match each(out, path, input, start) {
                 Ok(code) => code,
@@ -253,11 +257,11 @@ pub(super) fn for_each_read<W: Write>(
                     if shown {
                         writeln!(std::io::stderr(), "verify: {error:#}")?;
                     }
-                    exit_code(&error)
+                    session.exit_code(&error)
                 }
             });
             out.flush().context("standard output")?;
-            running::reading(path);
+            session.reading(path);
             start = Instant::now();
         }
         if bad > MOST_ERRORS {

@@ -4,7 +4,6 @@
 //! same, byte for byte.
 
 mod act;
-mod atomic;
 mod audit;
 mod bounds;
 mod catalog;
@@ -17,6 +16,7 @@ mod displacements;
 mod experiment;
 pub mod front;
 mod input;
+mod limits;
 mod man;
 mod manifest;
 mod models;
@@ -24,19 +24,14 @@ mod overview;
 mod pages;
 mod parts;
 mod plane;
-mod progress;
 mod report;
-mod running;
 mod verify;
 mod witness;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
-use viewcert::decide::VerdictError;
-use viewcert::watch::{Reason, Stopped};
-use viewcert_formats::ReadError;
-use viewcert_studies::audit::AuditError;
+use viewcert_session::Session;
 
 /// Exact, certified solvability of viewing graphs.
 ///
@@ -59,7 +54,7 @@ struct CommandLine {
     #[command(flatten)]
     verify: verify::VerifyArguments,
     #[command(flatten)]
-    limits: running::LimitArguments,
+    limits: limits::LimitArguments,
 }
 
 #[derive(Subcommand)]
@@ -94,33 +89,37 @@ enum Command {
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
     let arguments = CommandLine::parse();
-    let done = running::begin(&arguments.limits).and_then(|()| match arguments.command {
-        Some(Command::Overview(arguments)) => overview::run(&arguments),
-        Some(Command::Check(arguments)) => check::run(&arguments),
-        Some(Command::Convert(arguments)) => convert::run(&arguments),
-        Some(Command::Catalog(arguments)) => catalog::run(&arguments),
-        Some(Command::Experiment(arguments)) => experiment::run(&arguments),
-        Some(Command::Audit(arguments)) => audit::run(&arguments),
-        Some(Command::Compare(arguments)) => compare::run(&arguments),
-        Some(Command::Models(arguments)) => models::run(&arguments),
-        Some(Command::Conditions(arguments)) => conditions::run(&arguments),
-        Some(Command::Completions(arguments)) => man::completions(&arguments),
-        Some(Command::Manpage(arguments)) => man::manpage(&arguments),
-        None => no_command(&arguments.verify).and_then(|()| verify::run(&arguments.verify)),
+    let limits = arguments.limits.limits();
+    let done = Session::begin(&limits).map_err(|error| (Session::default(), error));
+    let done = done.and_then(|session| {
+        let done = run(&session, &arguments);
+        session.hide();
+        done.map_err(|error| (session, error))
     });
-    running::hide();
-    match done {
-        Ok(code) => code,
-        Err(error) if atomic::is_broken_pipe(&error) => ExitCode::from(BROKEN_PIPE),
-        Err(error) => {
-            if running::first_to_say() {
-                // Nothing is left to tell if standard error is gone as well.
-                let _ = std::io::Write::write_fmt(
-                    &mut std::io::stderr(),
-                    format_args!("verify: {error:#}\n"),
-                );
-            }
-            ExitCode::from(exit_code(&error))
+    done.unwrap_or_else(|(session, error)| {
+        session.say_end(&error);
+        ExitCode::from(session.exit_code(&error))
+    })
+}
+
+fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
+    match &arguments.command {
+        Some(Command::Overview(arguments)) => overview::run(session, arguments),
+        Some(Command::Check(arguments)) => check::run(arguments),
+        Some(Command::Convert(arguments)) => convert::run(session, arguments),
+        Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
+        Some(Command::Experiment(arguments)) => experiment::run(session, arguments),
+        Some(Command::Audit(arguments)) => audit::run(session, arguments),
+        Some(Command::Compare(arguments)) => compare::run(session, arguments),
+        Some(Command::Models(arguments)) => models::run(session, arguments),
+        Some(Command::Conditions(arguments)) => conditions::run(session, arguments),
+        Some(Command::Completions(arguments)) => {
+            man::completions(CommandLine::command(), arguments)
+        }
+        Some(Command::Manpage(arguments)) => man::manpage(CommandLine::command(), arguments),
+        None => {
+            no_command(&arguments.verify)?;
+            verify::run(session, &arguments.verify)
         }
     }
 }
@@ -143,50 +142,3 @@ fn no_command(arguments: &verify::VerifyArguments) -> Result<()> {
         meant.unwrap_or_else(or)
     )
 }
-
-/// Why work was stopped, if that is what an error says.
-fn stopped(error: &anyhow::Error) -> Option<&Stopped> {
-    error
-        .chain()
-        .find_map(|cause| match cause.downcast_ref::<VerdictError>() {
-            Some(VerdictError::Stopped(stopped)) => Some(stopped),
-            _ => cause.downcast_ref(),
-        })
-}
-
-/// Whether an error ends the whole run: not that of a graph, but of the time, by a signal, or since
-/// nobody reads on.
-fn ends_run(error: &anyhow::Error) -> bool {
-    atomic::is_broken_pipe(error)
-        || stopped(error).is_some_and(|stopped| !matches!(stopped.reason, Reason::TooLarge { .. }))
-}
-
-/// The exit code for an error.
-fn exit_code(error: &anyhow::Error) -> u8 {
-    if let Some(stopped) = stopped(error) {
-        return running::stopped(&stopped.reason);
-    }
-    let too_large = error.chain().any(|cause| {
-        matches!(cause.downcast_ref(), Some(VerdictError::TooLarge { .. }))
-            || matches!(cause.downcast_ref(), Some(AuditError::TooLarge { .. }))
-            || matches!(cause.downcast_ref::<ReadError>(), Some(error) if error.problem.is_size())
-    });
-    if too_large { TOO_LARGE } else { BAD_INPUT }
-}
-
-// The table of exit codes; the help above and the README say the same.
-
-/// All good.
-const GOOD: u8 = 0;
-/// Not solvable, or refuted.
-const NOT: u8 = 1;
-/// Bad usage or input.
-const BAD_INPUT: u8 = 2;
-/// Too large for the method, or for the limits of time and memory.
-const TOO_LARGE: u8 = 3;
-/// Stopped by SIGINT: 128 and its number, as shells have it.
-const INTERRUPTED: u8 = 130;
-/// Nobody reads on: what shells show for programs that a pipe has ended, 128 + SIGPIPE.
-const BROKEN_PIPE: u8 = 141;
-/// Stopped by SIGTERM.
-const TERMINATED: u8 = 143;

@@ -1,12 +1,12 @@
 //! `verify completions SHELL` and `verify manpage`: what a package of the program installs beside
 //! it. Hidden from the help: nobody needs them twice.
 
-use super::{CommandLine, GOOD};
 use anyhow::{Context, Result};
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 use std::io::Write;
 use std::process::ExitCode;
+use viewcert_session::exit::GOOD;
 
 /// Options of the completions.
 #[derive(Args)]
@@ -24,8 +24,10 @@ pub(super) struct ManpageArguments {
 }
 
 /// Prints the completion script of a shell.
-pub(super) fn completions(arguments: &CompletionArguments) -> Result<ExitCode> {
-    let mut command = CommandLine::command();
+pub(super) fn completions(
+    mut command: clap::Command,
+    arguments: &CompletionArguments,
+) -> Result<ExitCode> {
     let name = command.get_name().to_owned();
     // By way of a buffer: the generator panics where its output fails.
     let mut script = Vec::new();
@@ -34,8 +36,10 @@ pub(super) fn completions(arguments: &CompletionArguments) -> Result<ExitCode> {
 }
 
 /// Prints a manual page in roff.
-pub(super) fn manpage(arguments: &ManpageArguments) -> Result<ExitCode> {
-    let mut command = CommandLine::command();
+pub(super) fn manpage(
+    mut command: clap::Command,
+    arguments: &ManpageArguments,
+) -> Result<ExitCode> {
     command.build();
     let mut of = &command;
     for word in &arguments.command {

@@ -2,7 +2,6 @@
 
 use super::input::InputArguments;
 use super::parts::PartArguments;
-use super::{GOOD, NOT, running};
 use crate::report::models as report;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -14,6 +13,8 @@ use viewcert::KnownParts;
 use viewcert::decide::{Options, Question, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
 
 /// Options of the comparison of models.
 #[derive(Args)]
@@ -40,7 +41,7 @@ pub(super) struct ModelsArguments {
 const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     arguments.parts.check(&arguments.graphs)?;
     let too_many = |what: &str| arguments.parts.too_many(what);
@@ -56,8 +57,8 @@ pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
         let decided = |model: Model| -> Result<Verdict> {
             let question = Question::with_parts(model, parts.clone());
             let options = Options::default().question(question).seed(arguments.seed);
-            let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
-            running::hide();
+            let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
+            session.hide();
             verdict.with_context(|| format!("{}, {model} model", input.name))
         };
         let verdicts: Vec<Verdict> = ORDER.into_iter().map(decided).collect::<Result<_>>()?;
@@ -75,6 +76,6 @@ pub(super) fn run(arguments: &ModelsArguments) -> Result<ExitCode> {
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
+        .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }

@@ -7,7 +7,6 @@
 use super::act::{self, Acted, shell};
 use super::input::{self, InputArguments, Read};
 use super::plane::Scope;
-use super::{GOOD, NOT, atomic, running};
 use crate::report::Report;
 use crate::report::overview::{Next, Overview, Wanted};
 use anyhow::{Context, Result, anyhow, bail, ensure};
@@ -22,6 +21,9 @@ use viewcert::wording::counted;
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
 use viewcert_formats::{NamedGraph, ReadOptions, TrackOptions, read_graphs};
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::outputs;
 
 /// Options of the overview.
 #[derive(Args)]
@@ -48,19 +50,31 @@ struct Source {
 }
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &OverviewArguments) -> Result<ExitCode> {
-    let mut out = atomic::text(&[]);
+pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<ExitCode> {
+    let mut out = outputs::text(&[]);
     let each = |out: &mut _, path: &Path, read: Read, start| {
-        let source = source(arguments, path, read)?;
-        overview(arguments, path, &source, start, out)
+        let source = source(session, arguments, path, read)?;
+        overview(session, arguments, path, &source, start, out)
     };
     let options = arguments.input.read_options();
-    let code = input::for_each_read(&options, &arguments.inputs, &|_| None, &mut out, each)?;
+    let code = input::for_each_read(
+        session,
+        &options,
+        &arguments.inputs,
+        &|_| None,
+        &mut out,
+        each,
+    )?;
     Ok(ExitCode::from(code))
 }
 
 /// Reads the tracks that belong to what was read.
-fn source(arguments: &OverviewArguments, path: &Path, read: Read) -> Result<Source> {
+fn source(
+    session: &Session,
+    arguments: &OverviewArguments,
+    path: &Path,
+    read: Read,
+) -> Result<Source> {
     let pairs = match read {
         Ok(pairs) => pairs,
         Err(error) if error.problem.holds_tracks() => {
@@ -70,7 +84,8 @@ fn source(arguments: &OverviewArguments, path: &Path, read: Read) -> Result<Sour
                 error.file,
                 error.problem
             );
-            let tracks = read_tracks(arguments, path)?.map_err(|reason| anyhow!(reason))?;
+            let tracks =
+                read_tracks(session, arguments, path)?.map_err(|reason| anyhow!(reason))?;
             return Ok(Source {
                 pairs: None,
                 tracks: Ok(tracks),
@@ -81,7 +96,7 @@ fn source(arguments: &OverviewArguments, path: &Path, read: Read) -> Result<Sour
     let tracks = match &pairs.database {
         None => Err("this input has pairs alone".to_owned()),
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
-        Some(_) => read_tracks(arguments, path)?,
+        Some(_) => read_tracks(session, arguments, path)?,
     };
     if let Ok(tracks) = &tracks {
         ensure!(
@@ -98,7 +113,11 @@ fn source(arguments: &OverviewArguments, path: &Path, read: Read) -> Result<Sour
 }
 
 /// The cameras and points of a file, or why there are none in a database that has pairs.
-fn read_tracks(arguments: &OverviewArguments, path: &Path) -> Result<Result<NamedGraph, String>> {
+fn read_tracks(
+    session: &Session,
+    arguments: &OverviewArguments,
+    path: &Path,
+) -> Result<Result<NamedGraph, String>> {
     let default = TrackOptions::default();
     let options = ReadOptions {
         tracks: Some(TrackOptions {
@@ -106,9 +125,9 @@ fn read_tracks(arguments: &OverviewArguments, path: &Path) -> Result<Result<Name
         }),
         ..arguments.input.read_options()
     };
-    running::reading(path);
+    session.reading(path);
     let read = read_graphs(path, &options).next();
-    running::hide();
+    session.hide();
     match read {
         None => bail!("{}: no graph", path.display()),
         Some(Ok(tracks)) => Ok(Ok(tracks)),
@@ -123,6 +142,7 @@ fn read_tracks(arguments: &OverviewArguments, path: &Path) -> Result<Result<Name
 
 /// Decides everything about one input that has been read since `start`, and reports.
 fn overview(
+    session: &Session,
     arguments: &OverviewArguments,
     path: &Path,
     source: &Source,
@@ -131,8 +151,8 @@ fn overview(
 ) -> Result<u8> {
     let decided = |input: &NamedGraph, model: Model| {
         let options = Options::default().model(model);
-        let verdict = decide(&input.graph, &options.watch(running::shown_watch()));
-        running::hide();
+        let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
+        session.hide();
         verdict.with_context(|| input.name.clone())
     };
     let pairs = source.pairs.as_ref().map(|input| -> Result<_> {
@@ -151,8 +171,8 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    let joints = act::joints(input, verdict, Options::default().seed);
-    running::hide();
+    let joints = act::joints(input, verdict, Options::default().seed, session.watch());
+    session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let no_joints = Acted::default();
     let any_scope = Scope::default();

@@ -1,6 +1,5 @@
 //! `--html` and `--svg`: one graph as a page and as a picture, each in a file of its own.
 
-use super::{atomic, running};
 use crate::report::Report;
 use crate::report::graph_picture::{self, Picture};
 use crate::report::page;
@@ -8,6 +7,7 @@ use anyhow::Result;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use viewcert_session::Session;
 
 /// Where the page and the picture go.
 #[derive(Args)]
@@ -48,19 +48,23 @@ impl PageArguments {
     ///
     /// # Errors
     /// Those of the files.
-    pub(super) fn write(&self, report: &Report) -> Result<()> {
+    pub(super) fn write(&self, session: &Session, report: &Report) -> Result<()> {
         if self.html.is_none() && self.svg.is_none() {
             return Ok(());
         }
-        running::doing(format!("drawing {}", report.input.name));
+        session.doing(format!("drawing {}", report.input.name));
         let picture = Picture::new(report.input, report.verdict);
         let drawn = graph_picture::draw(&picture);
         if let Some(path) = &self.svg {
             let text = graph_picture::document(&picture, &drawn, true);
-            atomic::write(path, |out| out.write_all(text.as_bytes()))?;
+            session
+                .outputs()
+                .write(path, |out| out.write_all(text.as_bytes()))?;
         }
         if let Some(path) = &self.html {
-            atomic::write(path, |out| page::write(out, report, &picture, &drawn))?;
+            session
+                .outputs()
+                .write(path, |out| page::write(out, report, &picture, &drawn))?;
         }
         Ok(())
     }

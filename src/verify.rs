@@ -10,7 +10,7 @@ use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
 use super::parts::{self, PartArguments};
 use super::plane::{Asked, Scope};
-use super::{GOOD, NOT, atomic, certificates, running, witness};
+use super::{certificates, witness};
 use crate::report;
 use crate::report::Report;
 use crate::report::many::{self, Table};
@@ -29,6 +29,9 @@ use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
 use viewcert_formats::{NamedGraph, ReadOptions};
 use viewcert_reconstruction::Shapes;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::{Outputs, outputs};
 
 /// The option that names the file for the proof.
 const PROOF: &str = "--proof";
@@ -220,7 +223,7 @@ impl VerifyArguments {
         ]
     }
 
-    fn options(&self) -> Result<Options> {
+    fn options(&self, session: &Session) -> Result<Options> {
         let model = self.model()?;
         ensure!(
             !self.rational || matches!(model, Model::Projective),
@@ -248,7 +251,7 @@ impl VerifyArguments {
             .question(self.question(model, Known::default()))
             .prime(prime)
             .seed(self.seed)
-            .watch(running::shown_watch()))
+            .watch(session.shown_watch()))
     }
 
     /// The question in a model. What is known was refused by name where the model, or the whole
@@ -301,9 +304,9 @@ impl VerifyArguments {
 }
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<ExitCode> {
     arguments.check_parts()?;
-    let options = arguments.options()?;
+    let options = arguments.options(session)?;
     let [html, svg] = arguments.pages.outputs();
     let known = arguments.parts.path().into_iter();
     let known = known.chain(arguments.displacements.path());
@@ -311,7 +314,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let inputs = inputs.chain(known.clone());
     let witness = (witness::OPTION, arguments.witness.as_deref());
     let proof = (PROOF, arguments.proof.as_deref());
-    atomic::ensure_apart(&[proof, witness, html, svg], inputs)?;
+    outputs::ensure_apart(&[proof, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
     let outputs = [certificate, proof, witness, html, svg];
     arguments.act.check(&arguments.graphs, &outputs)?;
@@ -323,7 +326,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
     let single = target.as_ref().and_then(Target::single);
     // A folder of certificates is no file that could be the same.
     if single.is_some() {
-        atomic::ensure_apart(&outputs, known)?;
+        outputs::ensure_apart(&outputs, known)?;
     }
     let too_many = |what: &str| match (&single, proof) {
         (Some((option, file)), _) => Some(certificates::too_many(option, file, what)),
@@ -351,7 +354,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         html.1,
         svg.1,
     ];
-    let mut out = atomic::text(&files);
+    let mut out = outputs::text(&files);
     let mut table = arguments
         .table
         .map(|format| Table::begin(&mut out, format, &arguments.graphs))
@@ -373,6 +376,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         }
         let input = noted.as_ref().unwrap_or(input);
         let work = Work {
+            session,
             arguments,
             options: &options,
             target: target.as_mut(),
@@ -389,7 +393,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
         tracks: arguments.tracks.options(),
         ..arguments.input.read_options()
     };
-    let code = input::for_each(&read, &arguments.graphs, &too_many, &mut out, each)?;
+    let code = input::for_each(session, &read, &arguments.graphs, &too_many, &mut out, each)?;
     if let Some(table) = table {
         table.end(&mut out).context("standard output")?;
         out.flush().context("standard output")?;
@@ -399,6 +403,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Result<ExitCode> {
 
 /// What is to be done with every graph of a run.
 struct Work<'a> {
+    session: &'a Session,
     arguments: &'a VerifyArguments,
     options: &'a Options,
     target: Option<&'a mut Target>,
@@ -411,6 +416,7 @@ struct Work<'a> {
 /// determines the cameras; with `--planar` whether it does in the plane.
 fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) -> Result<bool> {
     let Work {
+        session,
         arguments,
         options,
         target,
@@ -418,38 +424,45 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         table,
     } = work;
     let decided = verdict::decide(&input.graph, options);
-    running::hide();
+    session.hide();
     let verdict = decided.with_context(|| input.name.clone())?;
     let scope = Scope::new(
         input,
         &verdict,
         asked_scope(arguments),
-        &running::shown_watch(),
+        &session.shown_watch(),
     );
-    running::hide();
+    session.hide();
     let scope = scope.with_context(|| input.name.clone())?;
     let certificate = target
-        .map(|target| target.write(input, &verdict))
+        .map(|target| target.write(session.outputs(), input, &verdict))
         .transpose()?;
     let proof = arguments.proof.as_deref();
     let proved = proof
-        .map(|path| write_proof(path, input, &verdict))
+        .map(|path| write_proof(session.outputs(), path, input, &verdict))
         .transpose()?;
     let witness = arguments.witness.as_deref();
     let shown = witness
-        .map(|path| witness::write(path, input, &verdict, options.seed))
+        .map(|path| witness::write(session.outputs(), path, input, &verdict, options.seed))
         .transpose()?;
     let time = start.elapsed();
     let acted = match table {
         // A row says nothing of joints.
         Some(_) => Ok(Acted::default()),
         None => {
-            let watch = running::watch();
+            let watch = session.watch();
             let act = &arguments.act;
-            act.act(input, &verdict, options.seed, shapes, watch)
+            act.act(
+                session.outputs(),
+                input,
+                &verdict,
+                options.seed,
+                shapes,
+                watch,
+            )
         }
     };
-    running::hide();
+    session.hide();
     let acted = acted.with_context(|| input.name.clone())?;
     let report = Report {
         input,
@@ -460,7 +473,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         acted: &acted,
         scope: &scope,
     };
-    arguments.pages.write(&report)?;
+    arguments.pages.write(session, &report)?;
     if let Some(table) = table {
         table.row(out, &report)?;
     } else if arguments.json {
@@ -506,10 +519,15 @@ fn asked_scope(arguments: &VerifyArguments) -> Asked {
 
 /// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
 /// none for this verdict.
-fn write_proof(path: &Path, input: &NamedGraph, verdict: &Verdict) -> Result<[usize; 2]> {
+fn write_proof(
+    outputs: &Outputs,
+    path: &Path,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<[usize; 2]> {
     let proof = verdict
         .proof(&input.graph)
         .with_context(|| format!("{}: {PROOF}: no explicit proof", input.name))?;
-    atomic::write(path, |out| write!(out, "{proof}"))?;
+    outputs.write(path, |out| write!(out, "{proof}"))?;
     Ok([proof.lower(), proof.upper()])
 }

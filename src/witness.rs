@@ -1,6 +1,5 @@
 //! `--witness FILE`: two families of cameras with the same fundamental matrices, to look at.
 
-use super::atomic;
 use anyhow::Result;
 use serde_json::to_string;
 use std::io::Write;
@@ -8,6 +7,7 @@ use std::path::Path;
 use viewcert::decide::Verdict;
 use viewcert::solutions::Witness;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Outputs;
 
 /// The option that names the file.
 pub(super) const OPTION: &str = "--witness";
@@ -25,6 +25,7 @@ pub(super) enum Found {
 /// # Errors
 /// If the file cannot be written.
 pub(super) fn write(
+    outputs: &Outputs,
     path: &Path,
     input: &NamedGraph,
     verdict: &Verdict,
@@ -43,7 +44,7 @@ pub(super) fn write(
     let Some(witness) = witness else {
         return Ok(Found::Nothing("no second solution is known"));
     };
-    atomic::write(path, |out| write_witness(out, input, &witness))?;
+    outputs.write(path, |out| write_witness(out, input, &witness))?;
     Ok(Found::Written)
 }
 

@@ -20,6 +20,7 @@ use viewcert::{
 use viewcert_cli::front;
 use viewcert_cli::front::{Answer, Questions, Weak};
 use viewcert_formats::{NamedGraph, NamedParts};
+use viewcert_session::Outputs;
 
 /// A graph and what was decided about it.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -423,7 +424,8 @@ impl Decided {
     /// Writes a file whole or not at all.
     #[staticmethod]
     fn write(path: PathBuf, bytes: &[u8]) -> PyResult<()> {
-        front::save(&path, bytes)
+        Outputs::default()
+            .write(&path, |out| out.write_all(bytes))
             .map_err(|error| pyo3::exceptions::PyOSError::new_err(format!("{error:#}")))
     }
 }

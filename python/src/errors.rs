@@ -5,7 +5,6 @@ use pyo3::exceptions::PyRuntimeError;
 use viewcert::VerdictError;
 use viewcert::watch::{Reason, Stopped};
 use viewcert_check::{Failure, Rejection, TooLarge as TooLargeToCheck};
-use viewcert_cli::front;
 use viewcert_formats::ReadError;
 
 pyo3::import_exception!(viewcert._errors, InputError);
@@ -46,7 +45,7 @@ fn of_stopping(stopped: &Stopped) -> PyErr {
 /// Any error of the program's parts.
 pub(crate) fn of_any(error: &anyhow::Error) -> PyErr {
     let message = format!("{error:#}");
-    if front::is_too_large(error) {
+    if viewcert_session::exit::is_too_large(error) {
         return TooLarge::new_err(message);
     }
     let undecided = error.chain().any(|cause| {

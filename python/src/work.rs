@@ -14,7 +14,6 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use viewcert::watch::{Limits, Observer, Stage, Watch};
-use viewcert_cli::front;
 
 /// Time between two looks for signals.
 const TICK: Duration = Duration::from_millis(50);
@@ -31,7 +30,7 @@ pub(crate) fn watch(seconds: Option<f64>, memory: Option<u64>) -> PyResult<Watch
     let time = time.map_err(|error| crate::errors::InputError::new_err(error.to_string()))?;
     Ok(Watch::new(Limits {
         deadline: time.and_then(|time| Instant::now().checked_add(time)),
-        memory: memory.or_else(front::default_memory_limit),
+        memory: memory.or_else(viewcert_session::default_memory_limit),
     }))
 }
 

@@ -1,6 +1,5 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
-use super::super::atomic;
 use super::found::{Export, Joint};
 use super::{Task, number};
 use anyhow::{Context, Result, bail, ensure};
@@ -8,6 +7,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use viewcert_session::Outputs;
 
 const COMPONENTS: &str = "components";
 const TABLES: [&str; 3] = ["components.tsv", "images.tsv", "joints.tsv"];
@@ -140,7 +140,12 @@ fn paths(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 ///
 /// # Errors
 /// If a name cannot be expressed, or the folder cannot be written.
-pub(super) fn write(folder: &Path, task: &Task, joints: &[Joint]) -> Result<Export> {
+pub(super) fn write(
+    outputs: &Outputs,
+    folder: &Path,
+    task: &Task,
+    joints: &[Joint],
+) -> Result<Export> {
     check(folder)?;
     let exported = exported(task);
     ensure_expressible(folder, task, &exported)?;
@@ -148,7 +153,7 @@ pub(super) fn write(folder: &Path, task: &Task, joints: &[Joint]) -> Result<Expo
         .last()
         .map_or(3, |last| number(last.component).to_string().len().max(3));
     let place = |component: usize| format!("{COMPONENTS}/{:0digits$}", number(component));
-    atomic::folder(folder, |new| {
+    outputs.folder(folder, |new| {
         fs::create_dir(new.join(COMPONENTS))?;
         for part in &exported {
             write_part(&new.join(place(part.component)), task, part)?;

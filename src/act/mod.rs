@@ -14,7 +14,6 @@ pub(crate) use found::Acted;
 pub(crate) use text::joints as write_joints;
 pub(super) use text::write;
 
-use super::running;
 use anyhow::{Context, Result, anyhow, ensure};
 use clap::{Args, ValueEnum};
 use found::Names;
@@ -27,6 +26,7 @@ use viewcert_reconstruction as reconstruction;
 use viewcert_reconstruction::margin::MISSING;
 use viewcert_reconstruction::suggest::Wanted;
 use viewcert_reconstruction::{Known, OtherPair, Parts, Shapes, Thinning};
+use viewcert_session::Outputs;
 
 /// Options about what to do.
 #[derive(Args, Default)]
@@ -149,6 +149,7 @@ impl ActArguments {
     /// Those of decisions and of the folder; an image that is not there; work that was stopped.
     pub(super) fn act(
         &self,
+        outputs: &Outputs,
         input: &NamedGraph,
         verdict: &Verdict,
         seed: u64,
@@ -187,7 +188,7 @@ impl ActArguments {
             acted.margin = Some(task.margin(draws, seed)?);
         }
         if let Some(folder) = &self.export {
-            acted.export = Some(export::write(folder, &task, &acted.joints)?);
+            acted.export = Some(export::write(outputs, folder, &task, &acted.joints)?);
         }
         Ok(acted)
     }
@@ -197,8 +198,13 @@ impl ActArguments {
 ///
 /// # Errors
 /// Those of a decision.
-pub(super) fn joints(input: &NamedGraph, verdict: &Verdict, seed: u64) -> Result<Acted> {
-    let task = Task::new(input, verdict, &[], seed, running::watch());
+pub(super) fn joints(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    seed: u64,
+    watch: Watch,
+) -> Result<Acted> {
+    let task = Task::new(input, verdict, &[], seed, watch);
     Ok(task.joints(&mut Shapes::default())?.0)
 }
 

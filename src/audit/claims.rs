@@ -1,7 +1,6 @@
 //! `--claims`: every row of a table, decided again.
 
 use super::super::certificates::{Target, too_many};
-use super::super::{GOOD, NOT, atomic, ends_run, exit_code};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use crate::report::counted;
@@ -13,11 +12,14 @@ use viewcert::decide;
 use viewcert::graph::graph6;
 use viewcert_formats::read::graphs;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT, ends_run};
+use viewcert_session::outputs;
 use viewcert_studies::audit::claims;
 use viewcert_studies::audit::claims::{Claim, Named, Row, Ruling};
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
-pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let at = |line: usize| format!("{}:{line}", path.display());
     let rows = claims::read_table(&text, &arguments.ignore)
@@ -28,18 +30,18 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
     {
         bail!(too_many(option, &file, &counted(rows.len(), "claim")));
     }
-    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     // Confirmed, refuted, not decidable, bad.
     let mut counts = [0; 4];
     let mut worst = GOOD;
     for (number, row) in (1..).zip(&rows) {
-        let ruled = match decide_again(arguments, (number, row), target.as_mut()) {
+        let ruled = match decide_again(session, arguments, (number, row), target.as_mut()) {
             Ok(ruled) => ruled,
             Err(error) if ends_run(&error) => return Err(error),
             Err(error) => {
                 writeln!(std::io::stderr(), "verify: {}: {error:#}", at(row.line))?;
                 counts[3] += 1;
-                worst = worst.max(exit_code(&error));
+                worst = worst.max(session.exit_code(&error));
                 continue;
             }
         };
@@ -72,17 +74,20 @@ pub(super) fn run(arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
 
 /// Rules on a row with its number; what is refuted is certified.
 fn decide_again(
+    session: &Session,
     arguments: &AuditArguments,
     (number, row): (usize, &Row),
     target: Option<&mut Target>,
 ) -> Result<Ruled> {
     let (claim, input) = claim(arguments, row)?;
-    let options = arguments.exact().model(claim.model);
+    let options = arguments.exact(session).model(claim.model);
     let exact = decide::decide(&input.graph, &options).with_context(|| input.name.clone())?;
     let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
     let ruling = claims::rule(&claim, nodes, edges, &exact);
     let certificate = match (&ruling, target) {
-        (Ruling::Refuted(_), Some(target)) => Some(target.write(&input, &exact)?),
+        (Ruling::Refuted(_), Some(target)) => {
+            Some(target.write(session.outputs(), &input, &exact)?)
+        }
         _ => None,
     };
     Ok(Ruled {
@@ -100,7 +105,7 @@ fn claim(arguments: &AuditArguments, row: &Row) -> Result<(Claim, NamedGraph)> {
     let claim = claims::claim(row)?;
     let read = |path: &Path| {
         let output = ("--certificate", arguments.certificate.as_deref());
-        atomic::ensure_apart(&[output], [path])?;
+        outputs::ensure_apart(&[output], [path])?;
         Ok::<_, anyhow::Error>(read_graphs(path, &ReadOptions::default()))
     };
     let folder = || {

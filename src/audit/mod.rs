@@ -7,9 +7,9 @@ mod rulings;
 mod sweep;
 
 use self::report::Audit;
+use super::certificates;
 use super::certificates::Target;
 use super::input::InputArguments;
-use super::{GOOD, NOT, atomic, certificates, running};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -20,6 +20,10 @@ use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::outputs;
 use viewcert_studies::audit;
 use viewcert_studies::audit::{
     AuditError, FloatVerdict, Method, Outcome, TOLERANCE, components, published, study,
@@ -111,10 +115,10 @@ impl AuditArguments {
         }
     }
 
-    fn exact(&self) -> decide::Options {
+    fn exact(&self, session: &Session) -> decide::Options {
         decide::Options::default()
             .seed(self.seed)
-            .watch(running::watch())
+            .watch(session.watch())
     }
 
     /// The target of the certificates of graphs in these files.
@@ -126,16 +130,16 @@ impl AuditArguments {
 }
 
 /// Audits every graph in turn, or every claim.
-pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitCode> {
     ensure!(
         arguments.tolerance.is_finite() && arguments.tolerance > 0.0,
         "--tolerance: take a positive number"
     );
     if let Some(path) = &arguments.claims {
-        return claims::run(arguments, path);
+        return claims::run(session, arguments, path);
     }
     if arguments.sweep_tolerance {
-        return sweep::run(arguments);
+        return sweep::run(session, arguments);
     }
     let mut target = arguments.target(&arguments.graphs)?;
     let single = target.as_ref().and_then(Target::single);
@@ -143,19 +147,20 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
         let (option, file) = single.as_ref()?;
         Some(certificates::too_many(option, file, what))
     };
-    let mut out = atomic::text(&[arguments.certificate.as_deref()]);
+    let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let agree = one(arguments, input, target.as_mut(), out)?;
+        let agree = one(session, arguments, input, target.as_mut(), out)?;
         Ok(if agree { GOOD } else { NOT })
     };
     let code = arguments
         .input
-        .for_each(&arguments.graphs, &too_many, &mut out, each)?;
+        .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
 /// Audits one graph; whether both sides agree.
 fn one(
+    session: &Session,
     arguments: &AuditArguments,
     input: &NamedGraph,
     target: Option<&mut Target>,
@@ -164,16 +169,21 @@ fn one(
     let name = || input.name.clone();
     let options = arguments.options();
     let start = Instant::now();
-    let exact = decide::decide(&input.graph, &arguments.exact()).with_context(name)?;
+    let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
     let exact_time = start.elapsed();
     let certificate = target
-        .map(|target| target.write(input, &exact))
+        .map(|target| target.write(session.outputs(), input, &exact))
         .transpose()?;
 
-    let (outcome, components, float_time) =
-        in_doubles(&input.graph, &options).with_context(name)?;
+    let (outcome, components, float_time) = in_doubles(&input.graph, &options)
+        .map_err(failed)
+        .with_context(name)?;
     let further = study::eigenvalues(&input.graph, &options, 1..arguments.draws);
-    let draws = [vec![outcome.eigenvalue], further.with_context(name)?].concat();
+    let draws = [
+        vec![outcome.eigenvalue],
+        further.map_err(failed).with_context(name)?,
+    ]
+    .concat();
     let solvable = exact.value != Value::NotFiniteSolvable;
     let right = if solvable {
         FloatVerdict::Solvable
@@ -187,7 +197,8 @@ fn one(
     // Where only the numbers of components differ, the method may be the reason, not rounding.
     let counts_differ = components.is_some_and(|count| count != exact.components.len());
     let method = if misjudged == 0 && counts_differ && !solvable {
-        published::study(&input.graph, exact.components.len(), options.seed).with_context(name)?
+        let study = published::study(&input.graph, exact.components.len(), options.seed);
+        study.with_context(name)?
     } else {
         None
     };
@@ -213,6 +224,14 @@ fn one(
         }
     }
     Ok(found.agrees)
+}
+
+/// Why doubles have no answer, as the session's exit codes know it.
+fn failed(error: AuditError) -> anyhow::Error {
+    match error {
+        AuditError::TooLarge { .. } => exit::TooLarge(error.to_string()).into(),
+        other => other.into(),
+    }
 }
 
 /// The float side at the first draw: the verdict, the number of components if there is one, and

@@ -1,7 +1,6 @@
 //! `--sweep-tolerance`: the errors of every tolerance, over all graphs and draws.
 
-use super::super::{GOOD, atomic};
-use super::AuditArguments;
+use super::{AuditArguments, failed};
 use crate::report::counted;
 use crate::report::curves;
 use crate::report::curves::Picture;
@@ -13,23 +12,29 @@ use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+use viewcert_session::outputs;
 use viewcert_studies::audit::study;
 use viewcert_studies::audit::study::{Errors, Populations};
 
 /// Sweeps over all graphs together.
-pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitCode> {
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    atomic::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
+    outputs::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut populations = Populations::default();
     let each = |_: &mut _, input: &NamedGraph, _| {
-        add(arguments, input, &mut populations)?;
+        add(session, arguments, input, &mut populations)?;
         Ok(GOOD)
     };
-    let code =
-        arguments
-            .input
-            .for_each(&arguments.graphs, &|_| None, &mut std::io::sink(), each)?;
-    let mut out = atomic::text(&[arguments.svg.as_deref()]);
+    let code = arguments.input.for_each(
+        session,
+        &arguments.graphs,
+        &|_| None,
+        &mut std::io::sink(),
+        each,
+    )?;
+    let mut out = outputs::text(&[arguments.svg.as_deref()]);
     write_table(&mut out, &populations, arguments.tolerance).context("standard output")?;
     if populations.undecided > 0 {
         writeln!(
@@ -40,7 +45,9 @@ pub(super) fn run(arguments: &AuditArguments) -> Result<ExitCode> {
     }
     if let Some(path) = &arguments.svg {
         let picture = curves::draw(&picture(populations, arguments.tolerance));
-        atomic::write(path, |out| out.write_all(picture.as_bytes()))?;
+        session
+            .outputs()
+            .write(path, |out| out.write_all(picture.as_bytes()))?;
     }
     Ok(ExitCode::from(code))
 }
@@ -101,16 +108,17 @@ fn picture(populations: Populations, mark: f64) -> Picture {
 }
 
 fn add(
+    session: &Session,
     arguments: &AuditArguments,
     input: &NamedGraph,
     populations: &mut Populations,
 ) -> Result<()> {
     let name = || input.name.clone();
-    let exact = decide::decide(&input.graph, &arguments.exact()).with_context(name)?;
+    let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
     let values = study::eigenvalues(&input.graph, &arguments.options(), 0..arguments.draws);
     populations.add(
         exact.value != Value::NotFiniteSolvable,
-        &values.with_context(name)?,
+        &values.map_err(failed).with_context(name)?,
     );
     Ok(())
 }

@@ -1,6 +1,5 @@
 //! `verify catalog census`: how many graphs of a list each camera model determines.
 
-use super::super::{BAD_INPUT, GOOD, running};
 use super::BATCH;
 use crate::report::json::write_line;
 use crate::report::values::Values;
@@ -12,6 +11,8 @@ use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
+use viewcert_session::Session;
+use viewcert_session::exit::{BAD_INPUT, GOOD};
 use viewcert_studies::catalog::census::{Census, MODELS, Row};
 
 /// What to count.
@@ -26,16 +27,16 @@ pub(super) struct Arguments {
 }
 
 /// Decides all graphs in every model, and prints the counts.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    let (census, bad_lines) = count(&arguments.from)?;
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+    let (census, bad_lines) = count(session, &arguments.from)?;
     write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
     Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
 }
 
 /// Decides all graphs of a file in every model. Lines that are no graphs are reported; how many
 /// there are is returned.
-pub(super) fn count(from: &Path) -> Result<(Census, usize)> {
-    let options = Options::default().watch(running::watch());
+pub(super) fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
+    let options = Options::default().watch(session.watch());
     let read = ReadOptions {
         format: Some(Format::Graph6),
         ..ReadOptions::default()

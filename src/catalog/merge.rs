@@ -1,6 +1,5 @@
 //! `verify catalog merge`: all shards of a run, once each.
 
-use super::super::GOOD;
 use super::parts::{DONE, Done, Shard, part_path, read_part};
 use super::verdicts;
 use crate::report::table;
@@ -11,6 +10,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_session::exit::GOOD;
 use viewcert_studies::catalog::mine::Summary;
 
 /// What to merge.

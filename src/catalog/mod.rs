@@ -7,8 +7,6 @@ mod publish;
 mod source;
 mod verdicts;
 
-use super::progress::{Progress, Told};
-use super::{BAD_INPUT, GOOD, running};
 use crate::report::values::Values;
 use crate::report::{counted, table};
 use anyhow::{Context, Result, bail};
@@ -27,6 +25,9 @@ use viewcert::decide::{CountSolutions, Options, Prime, Projective};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
+use viewcert_session::Session;
+use viewcert_session::exit::{BAD_INPUT, GOOD};
+use viewcert_session::{Progress, Told};
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::{Entry, Summary};
 use viewcert_studies::catalog::minimal::decide_minimal;
@@ -193,7 +194,14 @@ impl Size {
         let source = Source::new(&arguments, self.nodes)?;
         let options = self.options()?.watch(watch);
         let list: Option<&mut Values<std::io::Sink>> = None;
-        mine_all(&arguments, &source, &options, list, Progress::to(told))?;
+        mine_all(
+            &Session::default(),
+            &arguments,
+            &source,
+            &options,
+            list,
+            Progress::to(told),
+        )?;
         Ok(())
     }
 }
@@ -254,11 +262,11 @@ fn question(solutions: bool) -> Projective {
 const BATCH: usize = 4096;
 
 /// Decides the candidates and prints the table.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     match &arguments.command {
         Some(Command::Merge(arguments)) => return merge::run(arguments),
-        Some(Command::Census(arguments)) => return census::run(arguments),
-        Some(Command::Publish(arguments)) => return publish::run(arguments),
+        Some(Command::Census(arguments)) => return census::run(session, arguments),
+        Some(Command::Publish(arguments)) => return publish::run(session, arguments),
         None => (),
     }
     let field =
@@ -267,14 +275,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         .question(question(arguments.solutions))
         .prime(Prime::Fixed(field))
         .seed(arguments.seed)
-        .watch(running::watch());
+        .watch(session.watch());
     let sizes = arguments.nodes.clone().map_or(0..=0, |nodes| nodes.0);
     let several = sizes.clone().nth(1).is_some();
     if several && (arguments.edges.is_some() || arguments.out.is_some()) {
         bail!("--edges and --out go with a single number of nodes");
     }
     if arguments.verdicts {
-        return verdicts::run(arguments, sizes, &options);
+        return verdicts::run(session, arguments, sizes, &options);
     }
     let mut list = arguments
         .list
@@ -287,8 +295,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for nodes in sizes {
         let start = Instant::now();
         let source = Source::new(arguments, nodes)?;
-        let progress = Progress::new("candidates", own_share(arguments.shard, &source)?);
-        let (found, bad) = mine_all(arguments, &source, &options, list.as_mut(), progress)?;
+        let progress = session.progress("candidates", own_share(arguments.shard, &source)?);
+        let (found, bad) = mine_all(
+            session,
+            arguments,
+            &source,
+            &options,
+            list.as_mut(),
+            progress,
+        )?;
         bad_lines += bad;
         rows.push(table::Row {
             name: source.name(),
@@ -316,6 +331,7 @@ struct Found {
 
 /// Decides what a source gives; returns the counts, and the number of malformed graphs.
 fn mine_all(
+    session: &Session,
     arguments: &Arguments,
     source: &Source,
     options: &Options,
@@ -325,7 +341,12 @@ fn mine_all(
     let parts = match &arguments.out {
         Some(folder) => {
             let run = Run::new(arguments, source);
-            Some(Writer::open(folder, arguments.shard, run)?)
+            Some(Writer::open(
+                session.outputs(),
+                folder,
+                arguments.shard,
+                run,
+            )?)
         }
         None => None,
     };
@@ -386,7 +407,7 @@ struct Miner<'a, W: Write> {
     arguments: &'a Arguments,
     options: &'a Options,
     list: Option<&'a mut Values<W>>,
-    parts: Option<Writer>,
+    parts: Option<Writer<'a>>,
     progress: Progress,
     batch: Vec<Graph>,
     found: Found,

@@ -7,7 +7,6 @@
 //! is complete, a killed run leaves complete parts; the next one compares their
 //! description and digest and computes the rest. `done.json` says how many parts there are.
 
-use super::super::atomic;
 use super::Arguments;
 use super::source::Source;
 use crate::report::values::Values;
@@ -20,6 +19,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use viewcert::graph::{Graph, graph6};
+use viewcert_session::Outputs;
 use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 
 /// Candidates that go to the same shard together.
@@ -127,7 +127,8 @@ pub(super) struct Done {
 }
 
 /// Writes the parts of a shard.
-pub(super) struct Writer {
+pub(super) struct Writer<'a> {
+    outputs: &'a Outputs,
     folder: PathBuf,
     shard: Shard,
     run: Run,
@@ -136,12 +137,18 @@ pub(super) struct Writer {
     summary: Summary,
 }
 
-impl Writer {
+impl<'a> Writer<'a> {
     /// Makes the shard's folder if it is not there.
-    pub(super) fn open(folder: &Path, shard: Shard, run: Run) -> Result<Self> {
+    pub(super) fn open(
+        outputs: &'a Outputs,
+        folder: &Path,
+        shard: Shard,
+        run: Run,
+    ) -> Result<Self> {
         let folder = folder.join(shard.folder());
         fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
         Ok(Self {
+            outputs,
             folder,
             shard,
             run,
@@ -181,7 +188,7 @@ impl Writer {
             parts: self.parts,
             summary: self.summary,
         };
-        atomic::write(&self.folder.join(DONE), |out| {
+        self.outputs.write(&self.folder.join(DONE), |out| {
             serde_json::to_writer(&mut *out, &done)?;
             out.write_all(b"\n")
         })?;
@@ -207,7 +214,7 @@ impl Writer {
             let entries = decide(graphs)?;
             let mut summary = Summary::default();
             entries.iter().for_each(|entry| summary.count(entry));
-            atomic::write(&path, |mut out| {
+            self.outputs.write(&path, |mut out| {
                 serde_json::to_writer(&mut out, &self.run)?;
                 out.write_all(b"\n")?;
                 let mut table = Values::tabs(&mut out);

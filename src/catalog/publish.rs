@@ -5,8 +5,6 @@
 //! known of each, counts, a picture, a page, and a manifest of all these.
 
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
-use super::super::progress::Progress;
-use super::super::{GOOD, atomic, running};
 use super::census;
 use crate::report::catalog_page;
 use crate::report::catalog_page::Drawing;
@@ -25,6 +23,10 @@ use viewcert::decide::{
 };
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
+use viewcert::watch::Watch;
+use viewcert_session::Progress;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
 use viewcert_studies::catalog::candidates::to_graph;
 use viewcert_studies::catalog::canonical::canonical;
 use viewcert_studies::catalog::invariants::Invariants;
@@ -66,7 +68,7 @@ const DRAWN: usize = 8;
 /// How many graphs are certified in one go.
 const BATCH: usize = 1024;
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let folder = &arguments.folder;
     std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     // The only name among those of the catalog that anybody's folder may have.
@@ -76,10 +78,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         "{}: there is a README.md that is not of a catalog, and would be overwritten; name another folder",
         folder.display()
     );
-    let progress = Progress::new("candidates", None);
+    let progress = session.progress("candidates", None);
     let mut drawings = Vec::new();
     let mut counts: Vec<(usize, Counts)> = Vec::new();
     let mut files = Files {
+        session,
         folder,
         written: Vec::new(),
     };
@@ -98,7 +101,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     progress.finish();
     if let Some(from) = &arguments.census {
-        let (census, bad_lines) = census::count(from)?;
+        let (census, bad_lines) = census::count(session, from)?;
         ensure!(
             bad_lines == 0,
             "{}: not all lines are graphs",
@@ -125,6 +128,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 
 /// The files that have been written to the folder.
 struct Files<'a> {
+    session: &'a Session,
     folder: &'a Path,
     written: Vec<FileEntry>,
 }
@@ -138,12 +142,14 @@ impl Files<'_> {
         write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
     ) -> Result<()> {
         let mut sha256 = String::new();
-        atomic::write(&self.folder.join(name), |out| {
-            let mut out = Hashing::new(out);
-            write(&mut out)?;
-            sha256 = out.finish();
-            Ok(())
-        })?;
+        self.session
+            .outputs()
+            .write(&self.folder.join(name), |out| {
+                let mut out = Hashing::new(out);
+                write(&mut out)?;
+                sha256 = out.finish();
+                Ok(())
+            })?;
         self.written.push(FileEntry {
             file: name.into(),
             sha256,
@@ -155,17 +161,19 @@ impl Files<'_> {
     /// Writes the manifest.
     fn close(self) -> Result<()> {
         let manifest = Manifest::new(self.written);
-        atomic::write(&self.folder.join(manifest::NAME), |out| {
-            serde_json::to_writer_pretty(&mut *out, &manifest)?;
-            out.write_all(b"\n")
-        })
+        self.session
+            .outputs()
+            .write(&self.folder.join(manifest::NAME), |out| {
+                serde_json::to_writer_pretty(&mut *out, &manifest)?;
+                out.write_all(b"\n")
+            })
     }
 }
 
-fn options(solutions: CountSolutions) -> Options {
+fn options(solutions: CountSolutions, watch: Watch) -> Options {
     Options::default()
         .question(Projective::with_solutions(solutions))
-        .watch(running::watch())
+        .watch(watch)
 }
 
 /// What is counted of one size.
@@ -194,8 +202,8 @@ impl Counts {
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
 /// is decided anew modulo the default prime.
-fn decide_small(graph: &Graph) -> Result<Verdict, VerdictError> {
-    let options = options(CountSolutions::Full);
+fn decide_small(graph: &Graph, watch: &Watch) -> Result<Verdict, VerdictError> {
+    let options = options(CountSolutions::Full, watch.clone());
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
@@ -226,6 +234,7 @@ fn relabelled(graph: &Graph) -> Graph {
 /// Writes the certificates of one size: a file of finite-solvable graphs, and one of refuted
 /// ones.
 fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts, Vec<Drawing>)> {
+    let watch = out.session.watch();
     let mut counts = Counts::default();
     let mut drawings = Vec::new();
     let mut files: [Vec<u8>; 2] = Default::default();
@@ -233,7 +242,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
     for graphs in candidates(nodes)?.chunks(BATCH) {
         let verdicts: Vec<Verdict> = graphs
             .par_iter()
-            .map(decide_small)
+            .map(|graph| decide_small(graph, &watch))
             .collect::<Result<_, _>>()?;
         for (graph, verdict) in graphs.iter().zip(&verdicts) {
             let entry = Entry::new(graph, verdict);
@@ -279,10 +288,13 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
 /// Writes the finite-solvable graphs of one size, and their invariants in the same order, the
 /// number of solutions among them if these are to be counted.
 fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
-    let options = options(match count {
-        true => CountSolutions::Full,
-        false => CountSolutions::Off,
-    });
+    let options = options(
+        match count {
+            true => CountSolutions::Full,
+            false => CountSolutions::Off,
+        },
+        out.session.watch(),
+    );
     let mut counts = Counts::default();
     let mut found = Vec::new();
     let candidates = Candidates::new(nodes, least_edges(nodes), false)?;

@@ -6,8 +6,6 @@
 //! k modulo their number, and all shards write to one folder (or to several whose files are put
 //! together).
 
-use super::super::progress::Progress;
-use super::super::{GOOD, atomic};
 use super::Arguments;
 use super::parts::{self, PROGRAM};
 use super::source::Source;
@@ -21,6 +19,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+use viewcert_session::outputs;
 use viewcert_studies::catalog::Candidates;
 use viewcert_studies::catalog::verdicts::{Tally, tally};
 
@@ -70,11 +71,12 @@ struct Row {
 
 /// Counts all sizes, and prints a table or the finite-solvable graphs.
 pub(super) fn run(
+    session: &Session,
     arguments: &Arguments,
     sizes: RangeInclusive<usize>,
     options: &Options,
 ) -> Result<ExitCode> {
-    let mut out = atomic::text(&[]);
+    let mut out = outputs::text(&[]);
     let mut rows = Vec::new();
     for nodes in sizes {
         let start = Instant::now();
@@ -89,7 +91,7 @@ pub(super) fn run(
             kernels: candidates.kernels().map_or(0, <[_]>::len),
             kernels_per_block: arguments.part.unwrap_or(KERNELS),
         };
-        let tally = of_size(arguments, &run, candidates, options, &mut out)?;
+        let tally = of_size(session, arguments, &run, candidates, options, &mut out)?;
         rows.push(Row {
             name: run.source,
             tally,
@@ -105,6 +107,7 @@ pub(super) fn run(
 
 /// The counts of one size, or of a shard of it.
 fn of_size(
+    session: &Session,
     arguments: &Arguments,
     run: &Run,
     candidates: &Candidates,
@@ -116,7 +119,7 @@ fn of_size(
     }
     let own = (0..run.blocks()).filter(|&block| arguments.shard.has_turn(block as u64));
     let kernels = own.clone().map(|block| run.kernels_of(block).len() as u64);
-    let progress = Progress::new("kernels", Some(kernels.sum()));
+    let progress = session.progress("kernels", Some(kernels.sum()));
     let mut whole = Tally::default();
     for block in own {
         let path = arguments.out.as_ref().map(|folder| path(folder, block));
@@ -148,7 +151,7 @@ fn of_size(
                 block,
                 tally,
             };
-            atomic::write(&path, |out| {
+            session.outputs().write(&path, |out| {
                 serde_json::to_writer(&mut *out, &block)?;
                 out.write_all(b"\n")
             })?;

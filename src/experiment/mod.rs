@@ -8,6 +8,7 @@ use anyhow::Result;
 use clap::{Args, Subcommand};
 use std::ops::RangeInclusive;
 use std::process::ExitCode;
+use viewcert_session::Session;
 
 #[derive(Args)]
 pub(super) struct Arguments {
@@ -26,11 +27,11 @@ enum Command {
     Thin(thin::Arguments),
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     match &arguments.command {
-        Command::Random(arguments) => random::run(arguments),
-        Command::Solutions(arguments) => solutions::run(arguments),
-        Command::Thin(arguments) => thin::run(arguments),
+        Command::Random(arguments) => random::run(session, arguments),
+        Command::Solutions(arguments) => solutions::run(session, arguments),
+        Command::Thin(arguments) => thin::run(session, arguments),
     }
 }
 

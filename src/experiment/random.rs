@@ -1,7 +1,5 @@
 //! `verify experiment random`: connected random graphs, the paper's Table 2.
 
-use super::super::progress::Progress;
-use super::super::{GOOD, atomic, running};
 use crate::report::plot::{Point, plot};
 use crate::report::values::Values;
 use anyhow::{Context, Result, anyhow};
@@ -10,6 +8,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
+use viewcert_session::Progress;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+use viewcert_session::outputs;
 use viewcert_studies::catalog::mine;
 use viewcert_studies::catalog::mine::Entry;
 use viewcert_studies::catalog::random;
@@ -68,10 +70,10 @@ struct Published {
 const BATCH: u64 = 1024;
 
 /// Draws and decides graphs, and prints the table.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
     let inputs = arguments.compare.as_deref();
-    atomic::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
+    outputs::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
     let published = match &arguments.compare {
         Some(path) => read_table(path)?,
         None => Vec::new(),
@@ -79,11 +81,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     let options = Options::default()
         .question(Projective::with_solutions(CountSolutions::Off))
         .seed(arguments.seed)
-        .watch(running::watch());
+        .watch(session.watch());
     let mut columns = Vec::new();
     let mut rows = Vec::new();
     let samples = u64::from(arguments.samples);
-    let progress = Progress::new("graphs", Some(samples * arguments.density.len() as u64));
+    let progress = session.progress("graphs", Some(samples * arguments.density.len() as u64));
     for density in &arguments.density {
         let keep = csv.is_some().then_some(&mut rows);
         columns.push(at_density(arguments, density, &options, &progress, keep)?);
@@ -91,7 +93,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     progress.finish();
     columns.sort_by(|a, b| a.percent.total_cmp(&b.percent));
     if let Some(path) = csv {
-        atomic::write(path, |out| {
+        session.outputs().write(path, |out| {
             let mut table = Values::commas(out);
             table.row(GRAPH_COLUMNS)?;
             rows.iter().try_for_each(|row| table.row(row))?;
@@ -100,9 +102,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     }
     if let Some(path) = svg {
         let points: Vec<Point> = columns.iter().map(Column::point).collect();
-        atomic::write(path, |out| out.write_all(plot(&points).as_bytes()))?;
+        session
+            .outputs()
+            .write(path, |out| out.write_all(plot(&points).as_bytes()))?;
     }
-    let mut out = atomic::text(&[csv, svg]);
+    let mut out = outputs::text(&[csv, svg]);
     write_table(&mut out, &columns, &published).context("standard output")?;
     Ok(ExitCode::from(GOOD))
 }

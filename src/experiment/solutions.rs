@@ -1,7 +1,5 @@
 //! `verify experiment solutions`: how many solutions the graphs of a size have.
 
-use super::super::progress::Progress;
-use super::super::{GOOD, atomic, running};
 use super::sizes;
 use anyhow::{Context, Result};
 use clap::Args;
@@ -11,6 +9,9 @@ use std::ops::RangeInclusive;
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+use viewcert_session::outputs;
 use viewcert_studies::solutions::{Bounds, Source, Tally, tally};
 
 /// Options of the experiment on numbers of solutions.
@@ -29,15 +30,15 @@ pub(super) struct Arguments {
 
 /// Counts solutions, and lists what the graphs with each number of solutions have of equations
 /// beyond their unknowns, the first of them, and the graphs whose number is not known exactly.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let options = Options::default()
         .seed(arguments.seed)
-        .watch(running::watch());
+        .watch(session.watch());
     let source = match arguments.laman {
         true => Source::Laman,
         false => Source::FewestEdges,
     };
-    let mut out = atomic::text(&[]);
+    let mut out = outputs::text(&[]);
     writeln!(
         out,
         "nodes  fin_solv  solutions: graphs                      not exact  seconds"
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
     for nodes in arguments.nodes.clone() {
         let start = Instant::now();
         let graphs = source.graphs(nodes)?;
-        let progress = Progress::new("graphs", Some(graphs.len() as u64));
+        let progress = session.progress("graphs", Some(graphs.len() as u64));
         let found = tally(&graphs, &options, |more| progress.done(more))?;
         progress.finish();
         writeln!(

@@ -2,8 +2,6 @@
 //! how many solutions they have.
 
 use super::super::input::InputArguments;
-use super::super::progress::Progress;
-use super::super::{GOOD, atomic, running};
 use super::sizes;
 use crate::report::counted;
 use crate::report::values::Values;
@@ -19,6 +17,9 @@ use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
 use viewcert_formats::NamedGraph;
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+use viewcert_session::outputs;
 use viewcert_studies::catalog::random::generator;
 use viewcert_studies::thin::{draw_size, piece, thinned};
 
@@ -59,18 +60,18 @@ struct Row {
 }
 
 /// Thins pieces of all graphs, and prints a line for each and a summary.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let csv = arguments.csv.as_deref();
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
-    atomic::ensure_apart(&[("--csv", csv)], inputs)?;
-    let mut out = atomic::text(&[csv]);
+    outputs::ensure_apart(&[("--csv", csv)], inputs)?;
+    let mut out = outputs::text(&[csv]);
     writeln!(
         out,
         "nodes  pairs  thinned  solutions  seconds  piece  graph"
     )?;
     let mut all: Vec<(String, Row)> = Vec::new();
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let rows = of_graph(arguments, input).with_context(|| input.name.clone())?;
+        let rows = of_graph(session, arguments, input).with_context(|| input.name.clone())?;
         for row in rows {
             write_row(out, &input.name, &row)?;
             all.push((input.name.clone(), row));
@@ -78,11 +79,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
         Ok(GOOD)
     };
     let input = &arguments.input;
-    let code = input.for_each(&arguments.graphs, &|_| None, &mut out, each)?;
+    let code = input.for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
     write_summary(&mut out, &all)?;
     out.flush().context("standard output")?;
     if let Some(path) = csv {
-        atomic::write(path, |out| {
+        session.outputs().write(path, |out| {
             let mut table = Values::commas(out);
             table.row(COLUMNS)?;
             all.iter()
@@ -94,12 +95,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 }
 
 /// The pieces of a graph, in parallel.
-fn of_graph(arguments: &Arguments, input: &NamedGraph) -> Result<Vec<Row>, VerdictError> {
+fn of_graph(
+    session: &Session,
+    arguments: &Arguments,
+    input: &NamedGraph,
+) -> Result<Vec<Row>, VerdictError> {
     let options = Options::default()
         .seed(arguments.seed)
         .question(Projective::with_solutions(CountSolutions::Full))
-        .watch(running::watch());
-    let progress = Progress::new("pieces", Some(u64::from(arguments.pieces)));
+        .watch(session.watch());
+    let progress = session.progress("pieces", Some(u64::from(arguments.pieces)));
     let rows: Vec<Option<Row>> = (0..arguments.pieces)
         .into_par_iter()
         .map(|sample| {

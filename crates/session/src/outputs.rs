@@ -7,6 +7,7 @@
 //! Nothing but a file is ever replaced. A symbolic link stays and what it points at is
 //! written; an input is never an output.
 
+use crate::unpoisoned;
 use anyhow::{Context, Result, ensure};
 use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
@@ -14,26 +15,11 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
-/// The temporary files and folders that there are. They are made, and take their names, while this
-/// is locked.
-static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-
-fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
-    PENDING.lock().unwrap_or_else(|broken| broken.into_inner())
-}
-
-/// Removes all temporary files and folders: the program is about to end. While the result is kept
-/// no file takes its name any more.
-pub fn abandon() -> MutexGuard<'static, BTreeSet<PathBuf>> {
-    let mut pending = pending();
-    for path in std::mem::take(&mut *pending) {
-        // There is nobody left to tell.
-        let _ = match path.is_dir() {
-            true => fs::remove_dir_all(path),
-            false => fs::remove_file(path),
-        };
-    }
-    pending
+/// The outputs of a run: its temporary files and folders, which are made, and take their names, while
+/// this is locked.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    pending: Mutex<BTreeSet<PathBuf>>,
 }
 
 /// The name of standard output among outputs, and of standard input among inputs.
@@ -55,106 +41,124 @@ enum Place {
     File(PathBuf, Option<Permissions>),
 }
 
-/// Writes an output: a file through a temporary one beside it, which takes its name when
-/// everything has been written; anything else as it comes.
-///
-/// # Errors
-/// If the folder is not writable, the disk is full, or `write` fails; a file is then as it was
-/// before.
-pub(super) fn write(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<()> {
-    let attempt = || -> Result<()> {
-        match locate(path)? {
-            Place::Standard => through(io::stdout().lock(), write)?,
-            Place::Through(path) => through(File::options().write(true).open(path)?, write)?,
-            Place::File(path, permissions) => replace(&path, permissions, write)?,
+impl Outputs {
+    /// Writes an output: a file through a temporary one beside it, which takes its name when
+    /// everything has been written; anything else as it comes.
+    ///
+    /// # Errors
+    /// If the folder is not writable, the disk is full, or `write` fails; a file is then as it was
+    /// before.
+    pub fn write(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<()> {
+        let attempt = || -> Result<()> {
+            match locate(path)? {
+                Place::Standard => through(io::stdout().lock(), write)?,
+                Place::Through(path) => through(File::options().write(true).open(path)?, write)?,
+                Place::File(path, permissions) => self.replace(&path, permissions, write)?,
+            }
+            Ok(())
+        };
+        attempt().with_context(|| format!("{} was not written", path.display()))
+    }
+
+    /// Removes all temporary files and folders: the program is about to end. While the result is
+    /// kept no file takes its name any more.
+    pub(crate) fn abandon(&self) -> MutexGuard<'_, BTreeSet<PathBuf>> {
+        let mut pending = unpoisoned(&self.pending);
+        for path in std::mem::take(&mut *pending) {
+            // There is nobody left to tell.
+            let _ = match path.is_dir() {
+                true => fs::remove_dir_all(path),
+                false => fs::remove_file(path),
+            };
         }
+        pending
+    }
+
+    fn replace(
+        &self,
+        path: &Path,
+        permissions: Option<Permissions>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<()> {
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As for any new file: the process's mask takes off what it will.
+            builder.permissions(Permissions::from_mode(0o666));
+        }
+        let file = {
+            let mut pending = unpoisoned(&self.pending);
+            let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
+            pending.insert(file.path().to_owned());
+            file
+        };
+        let temporary = file.path().to_owned();
+        let written = || -> Result<_> {
+            let mut out = BufWriter::with_capacity(BUFFER, file);
+            write(&mut out)?;
+            let file = out.into_inner().map_err(|error| error.into_error())?;
+            if let Some(permissions) = permissions {
+                file.as_file().set_permissions(permissions)?;
+            }
+            Ok(file)
+        };
+        let written = written();
+        let mut pending = unpoisoned(&self.pending);
+        pending.remove(&temporary);
+        written?.persist(path)?;
         Ok(())
-    };
-    attempt().with_context(|| format!("{} was not written", path.display()))
+    }
+
+    /// Writes a folder: one beside it is filled by `fill` and takes its name when it is complete. What
+    /// was there goes then; the caller has made sure that nothing is lost.
+    ///
+    /// # Errors
+    /// If the folder around it is not writable, the disk is full, or `fill` fails; everything is then
+    /// as it was before.
+    pub fn folder(&self, path: &Path, fill: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
+        let attempt = || -> Result<()> {
+            let new = self.temporary_folder(path)?;
+            let filled = fill(&new);
+            let mut pending = unpoisoned(&self.pending);
+            if let Err(error) = filled.and_then(|()| exchange(&new, path)) {
+                // What was made is given up; the first error is the one to tell.
+                let _ = fs::remove_dir_all(&new);
+                pending.remove(&new);
+                return Err(error);
+            }
+            pending.remove(&new);
+            Ok(())
+        };
+        attempt().with_context(|| format!("{} was not written", path.display()))
+    }
+
+    /// A folder beside a path, which is removed if the program ends.
+    fn temporary_folder(&self, path: &Path) -> Result<PathBuf> {
+        let mut builder = tempfile::Builder::new();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            builder.permissions(Permissions::from_mode(0o777));
+        }
+        let mut pending = unpoisoned(&self.pending);
+        let new = builder
+            .prefix(".viewcert-")
+            .tempdir_in(folder_of(path))?
+            .keep();
+        pending.insert(new.clone());
+        Ok(new)
+    }
 }
 
 fn through(out: impl Write, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = BufWriter::with_capacity(BUFFER, out);
     write(&mut out)?;
     Ok(out.flush()?)
-}
-
-fn replace(
-    path: &Path,
-    permissions: Option<Permissions>,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<()> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As for any new file: the process's mask takes off what it will.
-        builder.permissions(Permissions::from_mode(0o666));
-    }
-    let file = {
-        let mut pending = pending();
-        let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
-        pending.insert(file.path().to_owned());
-        file
-    };
-    let temporary = file.path().to_owned();
-    let written = || -> Result<_> {
-        let mut out = BufWriter::with_capacity(BUFFER, file);
-        write(&mut out)?;
-        let file = out.into_inner().map_err(|error| error.into_error())?;
-        if let Some(permissions) = permissions {
-            file.as_file().set_permissions(permissions)?;
-        }
-        Ok(file)
-    };
-    let written = written();
-    let mut pending = pending();
-    pending.remove(&temporary);
-    written?.persist(path)?;
-    Ok(())
-}
-
-/// Writes a folder: one beside it is filled by `fill` and takes its name when it is complete. What
-/// was there goes then; the caller has made sure that nothing is lost.
-///
-/// # Errors
-/// If the folder around it is not writable, the disk is full, or `fill` fails; everything is then
-/// as it was before.
-pub(super) fn folder(path: &Path, fill: impl FnOnce(&Path) -> Result<()>) -> Result<()> {
-    let attempt = || -> Result<()> {
-        let new = temporary_folder(path)?;
-        let filled = fill(&new);
-        let mut pending = pending();
-        if let Err(error) = filled.and_then(|()| exchange(&new, path)) {
-            // What was made is given up; the first error is the one to tell.
-            let _ = fs::remove_dir_all(&new);
-            pending.remove(&new);
-            return Err(error);
-        }
-        pending.remove(&new);
-        Ok(())
-    };
-    attempt().with_context(|| format!("{} was not written", path.display()))
-}
-
-/// A folder beside a path, which is removed if the program ends.
-fn temporary_folder(path: &Path) -> Result<PathBuf> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(Permissions::from_mode(0o777));
-    }
-    let mut pending = pending();
-    let new = builder
-        .prefix(".viewcert-")
-        .tempdir_in(folder_of(path))?
-        .keep();
-    pending.insert(new.clone());
-    Ok(new)
 }
 
 /// Gives a folder another's name. If that fails the other is as it was.
@@ -215,7 +219,7 @@ fn is_of_a_process(link: &Path) -> bool {
 
 /// Whether an output is standard output: `-`, one of its names, or the file or pipe that it has
 /// been sent to.
-pub(super) fn is_standard(path: &Path) -> bool {
+pub fn is_standard(path: &Path) -> bool {
     let names = [STANDARD, "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
     if names.iter().any(|name| path == Path::new(name)) {
         return true;
@@ -226,7 +230,7 @@ pub(super) fn is_standard(path: &Path) -> bool {
 
 /// Where the text of a command goes: to standard output, unless one of its outputs goes there;
 /// then to standard error.
-pub(super) fn text(outputs: &[Option<&Path>]) -> BufWriter<Box<dyn Write>> {
+pub fn text(outputs: &[Option<&Path>]) -> BufWriter<Box<dyn Write>> {
     let taken = outputs.iter().flatten().any(|path| is_standard(path));
     BufWriter::new(if taken {
         Box::new(io::stderr())
@@ -240,7 +244,7 @@ pub(super) fn text(outputs: &[Option<&Path>]) -> BufWriter<Box<dyn Write>> {
 ///
 /// # Errors
 /// Which output is what.
-pub(super) fn ensure_apart<'a>(
+pub fn ensure_apart<'a>(
     outputs: &[(&str, Option<&Path>)],
     inputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<()> {
@@ -341,7 +345,7 @@ impl Identity {
 
 /// Whether an error says that nobody reads a pipe any more, as in `verify ... | head`. That is
 /// no reason for a message.
-pub(super) fn is_broken_pipe(error: &anyhow::Error) -> bool {
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         let kind = cause
             .downcast_ref::<io::Error>()
@@ -360,16 +364,17 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         let count = || std::fs::read_dir(folder.path()).unwrap().count();
-        let done = write(&path, |out| {
+        let outputs = Outputs::default();
+        let done = outputs.write(&path, |out| {
             out.write_all(b"half")?;
             assert_eq!(count(), 1);
-            drop(abandon());
+            drop(outputs.abandon());
             assert_eq!(count(), 0);
             Ok(())
         });
         assert!(done.is_err());
         assert_eq!(count(), 0);
-        write(&path, |out| out.write_all(b"whole")).unwrap();
+        outputs.write(&path, |out| out.write_all(b"whole")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"whole");
     }
 }

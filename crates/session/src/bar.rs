@@ -1,122 +1,10 @@
-//! Progress on standard error: of many graphs a bar on a terminal and plain lines elsewhere, of
-//! the work on one graph a bar on a terminal and nothing elsewhere.
+//! The bar of the work on one graph, on a terminal.
 
+use crate::unpoisoned;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{IsTerminal, Write};
 use std::sync::{Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 use viewcert::watch::{Observer, Stage};
-
-/// Time between plain lines; short runs print none.
-const INTERVAL: Duration = Duration::from_secs(10);
-
-/// Progress of a run.
-pub(super) struct Progress {
-    bar: ProgressBar,
-    plain: Option<Mutex<Plain>>,
-    told: Option<Told>,
-}
-
-/// Somebody who wants to know what has been done since the last call.
-pub(super) type Told = Box<dyn Fn(u64) + Send + Sync>;
-
-struct Plain {
-    what: &'static str,
-    start: Instant,
-    last: Instant,
-    done: u64,
-    total: Option<u64>,
-}
-
-impl Progress {
-    /// Starts at nothing out of `total`, if that is known, of `what`: "candidates".
-    pub(super) fn new(what: &'static str, total: Option<u64>) -> Self {
-        if std::io::stderr().is_terminal() {
-            let bar = match total {
-                Some(total) => ProgressBar::new(total),
-                None => ProgressBar::no_length(),
-            };
-            let template = match total {
-                Some(_) => "{wide_bar} {pos}/{len} {msg} {per_sec} {eta} left",
-                None => "{spinner} {pos} {msg} {per_sec} {elapsed}",
-            };
-            if let Ok(style) = ProgressStyle::with_template(template) {
-                bar.set_style(style);
-            }
-            bar.set_message(what);
-            return Self {
-                bar,
-                plain: None,
-                told: None,
-            };
-        }
-        let now = Instant::now();
-        Self {
-            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
-            plain: Some(Mutex::new(Plain {
-                what,
-                start: now,
-                last: now,
-                done: 0,
-                total,
-            })),
-            told: None,
-        }
-    }
-
-    /// Tells somebody, and prints nothing.
-    pub(super) fn to(told: Told) -> Self {
-        Self {
-            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
-            plain: None,
-            told: Some(told),
-        }
-    }
-
-    /// Counts what has been done since the last call.
-    pub(super) fn done(&self, more: u64) {
-        self.bar.inc(more);
-        if let Some(told) = &self.told {
-            told(more);
-        }
-        let Some(plain) = &self.plain else {
-            return;
-        };
-        let mut plain = plain.lock().unwrap_or_else(|broken| broken.into_inner());
-        plain.done += more;
-        if plain.last.elapsed() < INTERVAL {
-            return;
-        }
-        plain.last = Instant::now();
-        let seconds = plain.start.elapsed().as_secs_f64();
-        let rate = plain.done as f64 / seconds;
-        let (of, left) = match plain.total {
-            Some(total) => {
-                let left = total.saturating_sub(plain.done) as f64 / rate;
-                (format!(" of {total}"), format!(", {left:.0} s left"))
-            }
-            None => Default::default(),
-        };
-        // Progress is not worth failing for.
-        let _ = writeln!(
-            std::io::stderr(),
-            "verify: {}{of} {}{left}, {rate:.0} a second",
-            plain.done,
-            plain.what
-        );
-    }
-
-    /// Takes the bar away.
-    pub(super) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        self.finish();
-    }
-}
 
 /// What takes less time is not shown.
 const SHOWN_AFTER: Duration = Duration::from_secs(1);
@@ -129,7 +17,7 @@ const GUESSED_AFTER: Duration = Duration::from_millis(300);
 ///
 /// The library's threads only ever wait for `state`, which nobody holds while drawing.
 #[derive(Debug, Default)]
-pub(super) struct Bar {
+pub(crate) struct Bar {
     shown: Mutex<Option<Shown>>,
     state: Mutex<State>,
 }
@@ -166,26 +54,22 @@ struct Active {
 
 impl Bar {
     fn state(&self) -> MutexGuard<'_, State> {
-        self.state
-            .lock()
-            .unwrap_or_else(|broken| broken.into_inner())
+        unpoisoned(&self.state)
     }
 
     fn shown(&self) -> MutexGuard<'_, Option<Shown>> {
-        self.shown
-            .lock()
-            .unwrap_or_else(|broken| broken.into_inner())
+        unpoisoned(&self.shown)
     }
 
     /// From now on this is being done.
-    pub(super) fn say(&self, what: String) {
+    pub(crate) fn say(&self, what: String) {
         let mut state = self.state();
         state.saying = what;
         state.since = Some(Instant::now());
     }
 
     /// Draws what goes on now, if it has gone on for long.
-    pub(super) fn draw(&self) {
+    pub(crate) fn draw(&self) {
         let mut shown = self.shown();
         let (active, saying) = {
             let state = self.state();
@@ -222,7 +106,7 @@ impl Bar {
     }
 
     /// Takes the bar off the terminal until something else goes on for long.
-    pub(super) fn clear(&self) {
+    pub(crate) fn clear(&self) {
         let mut shown = self.shown();
         {
             let mut state = self.state();

@@ -1,0 +1,65 @@
+//! The table of exit codes; the help of the program and the README say the same.
+
+use crate::outputs::is_broken_pipe;
+use std::error::Error;
+use std::fmt;
+use viewcert::decide::VerdictError;
+use viewcert::watch::{Reason, Stopped};
+use viewcert_formats::ReadError;
+
+/// All good.
+pub const GOOD: u8 = 0;
+/// Not solvable, or refuted.
+pub const NOT: u8 = 1;
+/// Bad usage or input.
+pub const BAD_INPUT: u8 = 2;
+/// Too large for the method, or for the limits of time and memory.
+pub const TOO_LARGE: u8 = 3;
+/// Stopped by SIGINT: 128 and its number, as shells have it.
+pub const INTERRUPTED: u8 = 130;
+/// Nobody reads on: what shells show for programs that a pipe has ended, 128 + SIGPIPE.
+pub const BROKEN_PIPE: u8 = 141;
+/// Stopped by SIGTERM.
+pub const TERMINATED: u8 = 143;
+
+/// Why work was stopped, if that is what an error says.
+pub(crate) fn stopped(error: &anyhow::Error) -> Option<&Stopped> {
+    error
+        .chain()
+        .find_map(|cause| match cause.downcast_ref::<VerdictError>() {
+            Some(VerdictError::Stopped(stopped)) => Some(stopped),
+            _ => cause.downcast_ref(),
+        })
+}
+
+/// Whether an error ends the whole run: not that of a graph, but of the time, by a signal, or since
+/// nobody reads on.
+pub fn ends_run(error: &anyhow::Error) -> bool {
+    is_broken_pipe(error)
+        || stopped(error).is_some_and(|stopped| !matches!(stopped.reason, Reason::TooLarge { .. }))
+}
+
+/// Whether an error means that something is too large, for the method or for the limits of time and
+/// memory.
+pub fn is_too_large(error: &anyhow::Error) -> bool {
+    if let Some(stopped) = stopped(error) {
+        return stopped.reason != Reason::Interrupted;
+    }
+    error.chain().any(|cause| {
+        matches!(cause.downcast_ref(), Some(VerdictError::TooLarge { .. }))
+            || cause.is::<TooLarge>()
+            || matches!(cause.downcast_ref::<ReadError>(), Some(error) if error.problem.is_size())
+    })
+}
+
+/// Something that is too large, in the words of whoever found it so.
+#[derive(Clone, Debug)]
+pub struct TooLarge(pub String);
+
+impl fmt::Display for TooLarge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Error for TooLarge {}

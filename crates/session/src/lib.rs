@@ -1,0 +1,23 @@
+//! One run of a program: what may end it early, what shows that it goes on, where its outputs go, and
+//! with which code it ends.
+//!
+//! In: limits. Out: a [`Session`], which is passed to whatever does the work; nothing here is global.
+
+mod bar;
+pub mod exit;
+mod limits;
+pub mod outputs;
+mod progress;
+mod session;
+
+pub use limits::{MemoryLimit, RunLimits, TimeLimit, default_memory_limit};
+pub use outputs::Outputs;
+pub use progress::{Progress, Told};
+pub use session::Session;
+
+use std::sync::{Mutex, MutexGuard};
+
+/// What a mutex holds, also if a thread has panicked with it: counters and paths are whole at any time.
+fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(|broken| broken.into_inner())
+}
