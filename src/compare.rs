@@ -2,7 +2,6 @@
 
 use super::bounds::BoundArguments;
 use super::input::InputArguments;
-use crate::report::{bars, comparison};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -10,6 +9,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_formats::NamedGraph;
+use viewcert_report::{bars, comparison};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;

@@ -1,13 +1,13 @@
 //! `verify conditions GRAPH...`: what the literature's conditions say.
 
 use super::input::InputArguments;
-use crate::report::conditions as report;
 use anyhow::Result;
 use clap::Args;
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert_formats::NamedGraph;
+use viewcert_report::conditions as report;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_studies::conditions;

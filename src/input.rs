@@ -1,6 +1,5 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use crate::report::counted;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -12,6 +11,7 @@ use viewcert_formats::{
     Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
     read_graphs,
 };
+use viewcert_report::counted;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, ends_run};
 

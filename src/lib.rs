@@ -1,9 +1,8 @@
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 //!
-//! [`main`] is the program. [`front`] is what another front end takes from it, so that both say the
-//! same, byte for byte.
+//! [`main`] is the program.
 
-mod act;
+mod advice;
 mod audit;
 mod bounds;
 mod catalog;
@@ -14,7 +13,6 @@ mod conditions;
 mod convert;
 mod displacements;
 mod experiment;
-pub mod front;
 mod input;
 mod limits;
 mod man;
@@ -23,10 +21,10 @@ mod models;
 mod overview;
 mod pages;
 mod parts;
-mod plane;
-mod report;
 mod verify;
 mod witness;
+
+pub use catalog::{Part, Size, merged};
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};

@@ -2,7 +2,6 @@
 
 use super::input::InputArguments;
 use super::parts::PartArguments;
-use crate::report::models as report;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::borrow::Cow;
@@ -13,6 +12,7 @@ use viewcert::KnownParts;
 use viewcert::decide::{Options, Question, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
+use viewcert_report::models as report;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 

@@ -4,11 +4,7 @@
 //! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
 //! first; tracks are read again from the same file, since each is a graph of its own.
 
-use super::act::{self, Acted, shell};
 use super::input::{self, InputArguments, Read};
-use super::plane::Scope;
-use crate::report::Report;
-use crate::report::overview::{Next, Overview, Wanted};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
 use std::io::Write;
@@ -18,9 +14,14 @@ use std::time::{Duration, Instant};
 use viewcert::decide::{Options, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
+use viewcert_advice::export::shell;
+use viewcert_advice::{Advice, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
 use viewcert_formats::{NamedGraph, ReadOptions, TrackOptions, read_graphs};
+use viewcert_report::Report;
+use viewcert_report::assumptions::Scope;
+use viewcert_report::overview::{Next, Overview, Wanted};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
@@ -171,18 +172,18 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    let joints = act::joints(input, verdict, Options::default().seed, session.watch());
+    let joints = named_joints(input, verdict, Options::default().seed, session.watch());
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
-    let no_joints = Acted::default();
+    let no_joints = Advice::default();
     let any_scope = Scope::default();
-    let report = |input, verdict, acted| Report {
+    let report = |input, verdict, advice| Report {
         input,
         verdict,
         rational: false,
         list_components: false,
         time: Duration::ZERO,
-        acted,
+        advice,
         scope: &any_scope,
     };
     let mut found = Overview {

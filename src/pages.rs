@@ -1,12 +1,12 @@
 //! `--html` and `--svg`: one graph as a page and as a picture, each in a file of its own.
 
-use crate::report::Report;
-use crate::report::graph_picture::{self, Picture};
-use crate::report::page;
 use anyhow::Result;
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use viewcert_report::Report;
+use viewcert_report::graph_picture::{self, Picture};
+use viewcert_report::page;
 use viewcert_session::Session;
 
 /// Where the page and the picture go.

@@ -1,7 +1,6 @@
 //! `verify GRAPH...`: decide, report, certify.
 
-use super::act;
-use super::act::{ActArguments, Acted};
+use super::advice::AdviceArguments;
 use super::bounds::BoundArguments;
 use super::certificates::Target;
 use super::displacements::DisplacementArguments;
@@ -9,11 +8,7 @@ use super::input;
 use super::input::{InputArguments, TrackArguments};
 use super::pages::PageArguments;
 use super::parts::{self, PartArguments};
-use super::plane::{Asked, Scope};
 use super::{certificates, witness};
-use crate::report;
-use crate::report::Report;
-use crate::report::many::{self, Table};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -27,8 +22,13 @@ use viewcert::decide::{
 };
 use viewcert::geometry::model::Model;
 use viewcert::linalg::prime::PrimeField;
+use viewcert_advice::Shapes;
+use viewcert_advice::{Advice, Request};
 use viewcert_formats::{NamedGraph, ReadOptions};
-use viewcert_reconstruction::Shapes;
+use viewcert_report as report;
+use viewcert_report::Report;
+use viewcert_report::assumptions::{Asked, Scope};
+use viewcert_report::many::{Format, Table};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::{Outputs, outputs};
@@ -121,12 +121,12 @@ pub(super) struct VerifyArguments {
         "json", "components", "planar", "tracks", "witness", "html", "svg", "weak",
         "suggest", "explain", "sweep", "margin", "export"
     ])]
-    table: Option<many::Format>,
+    table: Option<TableName>,
     /// List the members of every component.
     #[arg(long)]
     components: bool,
     #[command(flatten)]
-    act: ActArguments,
+    advice: AdviceArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -139,6 +139,27 @@ enum ModelName {
     Affine,
     /// Unknown focal lengths, everything else known: each pair fixes both, and then as calibrated.
     Focal,
+}
+
+/// How a table is written.
+#[derive(Clone, Copy, ValueEnum)]
+enum TableName {
+    /// In columns, with a summary below.
+    Text,
+    /// Comma-separated values behind a head.
+    Csv,
+    /// A LaTeX table with the rules of booktabs.
+    Latex,
+}
+
+impl TableName {
+    fn format(self) -> Format {
+        match self {
+            Self::Text => Format::Text,
+            Self::Csv => Format::Csv,
+            Self::Latex => Format::Latex,
+        }
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -196,7 +217,8 @@ impl VerifyArguments {
             ),
         ];
         let asked = self
-            .act
+            .advice
+            .request()
             .asked_of_pairs()
             .map(|option| (true, option, "that weighs pairs alone"));
         let mut refused = others.into_iter().chain(asked).filter(|(given, ..)| *given);
@@ -219,7 +241,7 @@ impl VerifyArguments {
             ("--planar", self.planar),
             ("--no-contraction", self.no_contraction),
             (witness::OPTION, self.witness.is_some()),
-            self.act.asked(),
+            self.advice.request().asked(),
         ]
     }
 
@@ -308,6 +330,7 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
     arguments.check_parts()?;
     let options = arguments.options(session)?;
     let [html, svg] = arguments.pages.outputs();
+    let request = arguments.advice.request();
     let known = arguments.parts.path().into_iter();
     let known = known.chain(arguments.displacements.path());
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
@@ -317,7 +340,7 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
     outputs::ensure_apart(&[proof, witness, html, svg], inputs)?;
     let certificate = (certificates::OPTION, arguments.certificate.as_deref());
     let outputs = [certificate, proof, witness, html, svg];
-    arguments.act.check(&arguments.graphs, &outputs)?;
+    request.check(&arguments.graphs, &outputs)?;
     let mut target = arguments
         .certificate
         .as_deref()
@@ -334,7 +357,7 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
         (None, (_, None)) => {
             let (option, file) = witness;
             let witness = file.map(|file| certificates::too_many(option, file, what));
-            let act = arguments.act.too_many(what);
+            let act = request.too_many(what);
             let parts = arguments.parts.too_many(what);
             let displacements = arguments.displacements.too_many(what);
             witness
@@ -357,12 +380,12 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
     let mut out = outputs::text(&files);
     let mut table = arguments
         .table
-        .map(|format| Table::begin(&mut out, format, &arguments.graphs))
+        .map(|format| Table::begin(&mut out, format.format(), &arguments.graphs))
         .transpose()
         .context("standard output")?;
     let mut shapes = Shapes::default();
     let each = |out: &mut _, input: &NamedGraph, start| {
-        arguments.act.check_input(input)?;
+        request.check_input(input)?;
         let mut options = options.clone();
         let mut noted = None;
         let parts = arguments.parts.read(input)?;
@@ -378,6 +401,7 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
         let work = Work {
             session,
             arguments,
+            request: &request,
             options: &options,
             target: target.as_mut(),
             shapes: &mut shapes,
@@ -405,6 +429,7 @@ pub(super) fn run(session: &Session, arguments: &VerifyArguments) -> Result<Exit
 struct Work<'a> {
     session: &'a Session,
     arguments: &'a VerifyArguments,
+    request: &'a Request,
     options: &'a Options,
     target: Option<&'a mut Target>,
     /// Joints of the graphs before.
@@ -418,6 +443,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     let Work {
         session,
         arguments,
+        request,
         options,
         target,
         shapes,
@@ -446,13 +472,12 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         .map(|path| witness::write(session.outputs(), path, input, &verdict, options.seed))
         .transpose()?;
     let time = start.elapsed();
-    let acted = match table {
+    let advice = match table {
         // A row says nothing of joints.
-        Some(_) => Ok(Acted::default()),
+        Some(_) => Ok(Advice::default()),
         None => {
             let watch = session.watch();
-            let act = &arguments.act;
-            act.act(
+            request.advise(
                 session.outputs(),
                 input,
                 &verdict,
@@ -463,14 +488,14 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         }
     };
     session.hide();
-    let acted = acted.with_context(|| input.name.clone())?;
+    let advice = advice.with_context(|| input.name.clone())?;
     let report = Report {
         input,
         verdict: &verdict,
         rational: arguments.rational,
         list_components: arguments.components,
         time,
-        acted: &acted,
+        advice: &advice,
         scope: &scope,
     };
     arguments.pages.write(session, &report)?;
@@ -479,8 +504,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
     } else if arguments.json {
         report::json::write(out, &report)?;
     } else {
-        report::text::write(out, &report)?;
-        act::write(out, &acted)?;
+        report.write_text(out)?;
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use viewcert::watch::{Limits, Watch};
 use viewcert::{Graph, Options, VerdictError, decide};
-use viewcert_cli::front::{Part, Size, merged};
+use viewcert_cli::{Part, Size, merged};
 use viewcert_studies::catalog::mine::{COLUMNS, Entry};
 use viewcert_studies::catalog::minimal::decide_minimal;
 

@@ -4,15 +4,15 @@ use crate::decided::known_displacements;
 use crate::errors::{InputError, of_any, of_checking};
 use crate::graph::Graph;
 use crate::work;
+use anyhow::Context;
 use pyo3::prelude::*;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use viewcert::certificate::hex;
-use viewcert::graph::Displacements;
+use viewcert::graph::{Displacements, sha256};
 use viewcert::watch::Watch;
 use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
-use viewcert_cli::front;
-use viewcert_formats::{NamedGraph, ReadOptions};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 
 /// What a certificate proves.
 #[pyclass(frozen, get_all, module = "viewcert._native")]
@@ -90,6 +90,26 @@ enum Problem {
     File(anyhow::Error),
 }
 
+/// The graph in a file that a certificate is about, of several the one with its hash.
+///
+/// # Errors
+/// If the file cannot be read, or holds no graph.
+fn graph_in_file(certificate: &Certificate, path: &Path) -> anyhow::Result<viewcert_check::Graph> {
+    let (mut meant, mut first) = (None, None);
+    for input in read_graphs(path, &ReadOptions::default()) {
+        let input = input?;
+        if hex(&sha256(&input.graph)) == certificate.graph_sha256() {
+            meant = Some(input);
+            break;
+        }
+        first.get_or_insert(input);
+    }
+    let no_graph = || format!("{}: the file holds no graph", path.display());
+    let input = meant.or(first).with_context(no_graph)?;
+    let pairs = input.graph.edges().iter().copied();
+    Ok(viewcert_check::Graph::new(input.graph.nodes(), pairs)?)
+}
+
 /// Verifies a certificate.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // One a keyword.
@@ -141,7 +161,7 @@ pub(crate) fn check(
                 })
             }
             Given::File(path) => {
-                let graph = front::graph_to_check(&certificate, &path, ReadOptions::default());
+                let graph = graph_in_file(&certificate, &path);
                 Some(graph.map_err(Problem::File)?)
             }
         };

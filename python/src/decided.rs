@@ -17,9 +17,10 @@ use viewcert::{
     Arithmetic, Calibrated, CountSolutions, Known, Method, Model, Options, Prime, Projective,
     ProjectiveBodies, Question, Verdict,
 };
-use viewcert_cli::front;
-use viewcert_cli::front::{Answer, Questions, Weak};
+use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts};
+use viewcert_report::Report;
+use viewcert_report::assumptions::{self, Scope};
 use viewcert_session::Outputs;
 
 /// A graph and what was decided about it.
@@ -337,7 +338,8 @@ impl Decided {
         compact: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let written = py.detach(|| -> std::io::Result<Vec<u8>> {
-            let certificate = front::certificate(&self.input, &self.verdict);
+            let certificate = self.verdict.certificate(&self.input.graph);
+            let certificate = certificate.named(&self.input.name);
             let mut certificate = certificate.embed_graph(embed_graph);
             if compact {
                 certificate = certificate.compact();
@@ -377,13 +379,15 @@ impl Decided {
                 )));
             }
         };
-        let questions = Questions {
+        let request = Request {
             weak,
             suggest,
             explain,
             sweep,
             margin,
             export,
+        };
+        let asked = assumptions::Asked {
             planar: self.planar,
             focal: self.focal,
         };
@@ -391,21 +395,29 @@ impl Decided {
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
         let (seed, rational, time) = (self.seed, self.rational, self.time);
         let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
-        let answer = move || {
-            let found = questions.ask(&input, &verdict, seed, stop)?;
-            let answer = Answer {
+        let answer = move || -> anyhow::Result<Vec<u8>> {
+            request.check(&[], &[])?;
+            request.check_input(&input)?;
+            let scope = Scope::new(&input, &verdict, asked, &stop)?;
+            let outputs = Outputs::default();
+            let mut shapes = Shapes::default();
+            let advice = request.advise(&outputs, &input, &verdict, seed, &mut shapes, stop)?;
+            let report = Report {
                 input: &input,
                 verdict: &verdict,
-                found: &found,
                 rational,
                 list_components,
                 time,
+                advice: &advice,
+                scope: &scope,
             };
+            let mut text = Vec::new();
             match &kind[..] {
-                "json" => answer.json(),
-                "text" => answer.text().map(String::into_bytes),
-                _ => answer.page(),
+                "json" => return Ok(report.json()?),
+                "text" => report.write_text(&mut text)?,
+                _ => return Ok(report.page()?),
             }
+            Ok(text)
         };
         let answered = work::run(py, &watch, None, move || threads.install(answer))?;
         match answered {
@@ -418,7 +430,9 @@ impl Decided {
     fn picture(&self, py: Python<'_>) -> PyResult<String> {
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
         let watch = Watch::default();
-        work::run(py, &watch, None, move || front::picture(&input, &verdict))
+        work::run(py, &watch, None, move || {
+            viewcert_report::picture(&input, &verdict)
+        })
     }
 
     /// Writes a file whole or not at all.

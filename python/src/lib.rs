@@ -1,8 +1,8 @@
 //! `viewcert._native`: the libraries as Python sees them.
 //!
 //! In: arrays of pairs, paths, options. Out: graphs, verdicts and certificates as handles, numbers,
-//! bytes and arrays. Nothing is decided or formatted here, but by the libraries and by what the
-//! program shares ([`viewcert_cli::front`]); what a user sees is `lib/viewcert`, in Python. Work is
+//! bytes and arrays. Nothing is decided or formatted here, but by the libraries and the report
+//! crate; what a user sees is `lib/viewcert`, in Python. Work is
 //! done without the interpreter's lock, and can be interrupted (`work`).
 
 mod catalog;

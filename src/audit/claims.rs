@@ -3,7 +3,6 @@
 use super::super::certificates::{Target, too_many};
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
-use crate::report::counted;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -12,6 +11,7 @@ use viewcert::decide;
 use viewcert::graph::graph6;
 use viewcert_formats::read::graphs;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_report::counted;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::outputs;

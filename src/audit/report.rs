@@ -1,13 +1,13 @@
 //! Exact and float side by side.
 
-use crate::report::json::{GraphLine, write_line};
-use crate::report::read::ReadLine;
-use crate::report::{counted, size, text};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
+use viewcert_report::json::{GraphLine, write_line};
+use viewcert_report::read::ReadLine;
+use viewcert_report::{counted, size, text};
 use viewcert_studies::audit::published::Study;
 use viewcert_studies::audit::{FloatVerdict, Outcome};
 

@@ -1,12 +1,12 @@
 //! Rulings on claims.
 
-use crate::report::json::{GraphLine, write_line};
-use crate::report::text;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
+use viewcert_report::json::{GraphLine, write_line};
+use viewcert_report::text;
 use viewcert_studies::audit::claims::Ruling;
 
 /// The ruling on one row.

@@ -1,10 +1,6 @@
 //! `--sweep-tolerance`: the errors of every tolerance, over all graphs and draws.
 
 use super::{AuditArguments, failed};
-use crate::report::counted;
-use crate::report::curves;
-use crate::report::curves::Picture;
-use crate::report::values::Values;
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,6 +8,10 @@ use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert_formats::NamedGraph;
+use viewcert_report::counted;
+use viewcert_report::curves;
+use viewcert_report::curves::Picture;
+use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;

@@ -1,8 +1,6 @@
 //! `verify catalog census`: how many graphs of a list each camera model determines.
 
 use super::BATCH;
-use crate::report::json::write_line;
-use crate::report::values::Values;
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
@@ -11,6 +9,8 @@ use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
+use viewcert_report::json::write_line;
+use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::{BAD_INPUT, GOOD};
 use viewcert_studies::catalog::census::{Census, MODELS, Row};

@@ -2,7 +2,6 @@
 
 use super::parts::{DONE, Done, Shard, part_path, read_part};
 use super::verdicts;
-use crate::report::table;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -10,6 +9,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_report::table;
 use viewcert_session::exit::GOOD;
 use viewcert_studies::catalog::mine::Summary;
 

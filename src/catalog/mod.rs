@@ -7,8 +7,6 @@ mod publish;
 mod source;
 mod verdicts;
 
-use crate::report::values::Values;
-use crate::report::{counted, table};
 use anyhow::{Context, Result, bail};
 use clap::{Args, Subcommand};
 use parts::{Run, Shard, Writer};
@@ -25,6 +23,8 @@ use viewcert::decide::{CountSolutions, Options, Prime, Projective};
 use viewcert::graph::Graph;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert::watch::Watch;
+use viewcert_report::values::Values;
+use viewcert_report::{counted, table};
 use viewcert_session::Session;
 use viewcert_session::exit::{BAD_INPUT, GOOD};
 use viewcert_session::{Progress, Told};

@@ -9,7 +9,6 @@
 
 use super::Arguments;
 use super::source::Source;
-use crate::report::values::Values;
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -19,6 +18,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use viewcert::graph::{Graph, graph6};
+use viewcert_report::values::Values;
 use viewcert_session::Outputs;
 use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 

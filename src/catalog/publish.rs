@@ -6,9 +6,6 @@
 
 use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::census;
-use crate::report::catalog_page;
-use crate::report::catalog_page::Drawing;
-use crate::report::values::Values;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
@@ -24,6 +21,9 @@ use viewcert::decide::{
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
+use viewcert_report::catalog_page;
+use viewcert_report::catalog_page::Drawing;
+use viewcert_report::values::Values;
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;

@@ -2,11 +2,11 @@
 
 use super::super::manifest::{self, Contents, Manifest};
 use super::{is_list, printable};
-use crate::report::counted;
 use anyhow::{Context, Result, anyhow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use viewcert_report::counted;
 
 /// The files at or below a path.
 #[derive(Default)]

@@ -7,7 +7,6 @@ use self::folder::{Listing, name};
 use super::input::{InputArguments, TrackArguments};
 use super::manifest::Contents;
 use super::parts::PartArguments;
-use crate::report::counted;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use flate2::read::MultiGzDecoder;
@@ -21,6 +20,7 @@ use std::process::ExitCode;
 use viewcert_check::Failure;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_formats::ReadOptions;
+use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 
 /// Certificates that are read before they are checked together.

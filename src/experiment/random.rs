@@ -1,13 +1,13 @@
 //! `verify experiment random`: connected random graphs, the paper's Table 2.
 
-use crate::report::plot::{Point, plot};
-use crate::report::values::Values;
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
+use viewcert_report::plot::{Point, plot};
+use viewcert_report::values::Values;
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;

@@ -3,8 +3,6 @@
 
 use super::super::input::InputArguments;
 use super::sizes;
-use crate::report::counted;
-use crate::report::values::Values;
 use anyhow::{Context, Result};
 use clap::Args;
 use rayon::prelude::*;
@@ -17,6 +15,8 @@ use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
 use viewcert_formats::NamedGraph;
+use viewcert_report::counted;
+use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;

@@ -1,7 +1,7 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
-use super::found::{Export, Joint};
-use super::{Task, number};
+use crate::named::{Export, Joint};
+use crate::task::{Task, number};
 use anyhow::{Context, Result, bail, ensure};
 use std::collections::BTreeSet;
 use std::fs;
@@ -31,7 +31,7 @@ struct Exported {
 ///
 /// # Errors
 /// What is in the way.
-pub(super) fn check(folder: &Path) -> Result<()> {
+pub(crate) fn check(folder: &Path) -> Result<()> {
     let Ok(found) = fs::symlink_metadata(folder) else {
         return Ok(());
     };
@@ -53,7 +53,7 @@ pub(super) fn check(folder: &Path) -> Result<()> {
 ///
 /// # Errors
 /// Which of them is in it.
-pub(super) fn ensure_outside(
+pub(crate) fn ensure_outside(
     folder: &Path,
     inputs: &[PathBuf],
     outputs: &[(&str, Option<&Path>)],
@@ -140,7 +140,7 @@ fn paths(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 ///
 /// # Errors
 /// If a name cannot be expressed, or the folder cannot be written.
-pub(super) fn write(
+pub(crate) fn write(
     outputs: &Outputs,
     folder: &Path,
     task: &Task,
@@ -385,7 +385,7 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
 }
 
 /// A word for a POSIX shell.
-pub(crate) fn shell(word: &str) -> String {
+pub fn shell(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()

@@ -9,10 +9,11 @@ use super::json::{AnswerLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, size_of, text, tracks};
-use crate::act::{Acted, write_joints};
+use crate::advice::joints as write_joints;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
+use viewcert_advice::Advice;
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
@@ -37,7 +38,7 @@ pub struct Overview<'a> {
     /// Why there are no tracks, if there are none.
     pub no_tracks: Option<&'a str>,
     /// The joints of the parts of `tracks`, or of the calibrated pairs.
-    pub(crate) joints: &'a Acted,
+    pub joints: &'a Advice,
     /// The images that are to be determined.
     pub wanted: Wanted,
     /// Commands that lead on from here.
@@ -384,7 +385,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     no_tracks: Option<&'a str>,
     #[serde(flatten)]
-    joints: &'a Acted,
+    joints: &'a Advice,
     determined: bool,
     determined_by: &'static str,
     images: usize,

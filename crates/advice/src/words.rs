@@ -1,12 +1,12 @@
 //! What was found, in words.
 
-use super::found::Names;
+use crate::named::Names;
+use crate::{How, Why};
 use viewcert::Model;
 use viewcert::wording::counted;
-use viewcert_reconstruction::{How, Why};
 
 /// How two components touch; the first `cameras` nodes of a camera-point graph are cameras.
-pub(super) fn how(how: &How, cameras: Option<u32>) -> String {
+pub(crate) fn how(how: &How, cameras: Option<u32>) -> String {
     let mut words = Vec::new();
     match (how.shared, cameras) {
         (Some(_), None) => words.push("a shared image".to_owned()),
@@ -34,7 +34,7 @@ pub(super) fn how(how: &How, cameras: Option<u32>) -> String {
 }
 
 /// What a joint leaves free.
-pub(super) fn meaning(model: Model, freedom: usize) -> String {
+pub(crate) fn meaning(model: Model, freedom: usize) -> String {
     match (model, freedom) {
         (Model::Calibrated, 1) => "relative scale".to_owned(),
         (Model::Calibrated, 2) => "relative scale and one translation".to_owned(),
@@ -50,7 +50,7 @@ pub(super) fn meaning(model: Model, freedom: usize) -> String {
 }
 
 /// Why something is weak.
-pub(super) fn why(why: Why, names: &Names) -> String {
+pub(crate) fn why(why: Why, names: &Names) -> String {
     match why {
         Why::Hangs(image) => {
             format!("{} would have one {} left", names.of(image), names.edge())

@@ -6,13 +6,13 @@ use super::read::ReadLine;
 use super::text;
 use super::tracks;
 use super::tracks::TrackLine;
-use crate::act::Acted;
-use crate::plane::Planar;
+use crate::assumptions::Planar;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
 use viewcert::graph::sha256;
+use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
 /// Which program wrote a line.
@@ -35,7 +35,7 @@ struct Signed<'a, T> {
 ///
 /// # Errors
 /// Those of the writer.
-pub(crate) fn write_line(out: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
+pub fn write_line(out: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
     let program = Program {
         name: "verify",
         version: env!("CARGO_PKG_VERSION"),
@@ -68,12 +68,12 @@ struct Line<'a> {
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
-    acted: &'a Acted,
+    advice: &'a Advice,
 }
 
 /// Which graph it is.
 #[derive(Serialize)]
-pub(crate) struct GraphLine<'a> {
+pub struct GraphLine<'a> {
     name: &'a str,
     nodes: usize,
     edges: usize,
@@ -82,7 +82,7 @@ pub(crate) struct GraphLine<'a> {
 
 impl<'a> GraphLine<'a> {
     /// With the hash of a verdict on it.
-    pub(crate) fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
+    pub fn new(input: &'a NamedGraph, verdict: &Verdict) -> Self {
         Self::with_hash(input, &verdict.sha256)
     }
 
@@ -240,7 +240,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         planar: report.scope.planar(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
-        acted: report.acted,
+        advice: report.advice,
     };
     write_line(out, &line)
 }

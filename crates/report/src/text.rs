@@ -87,7 +87,7 @@ pub(super) fn write_components(out: &mut impl Write, report: &Report) -> io::Res
 }
 
 /// A verdict in two or three words, as in the glossary.
-pub(crate) fn value(value: Value, model: Model) -> &'static str {
+pub fn value(value: Value, model: Model) -> &'static str {
     match (value, model) {
         (Value::Solvable, _) => "solvable",
         (Value::FiniteSolvable, _) => "finite solvable",

@@ -2,7 +2,7 @@
 
 use super::text::{seconds, strength, value};
 use super::{Report, counted};
-use crate::report::values::Values;
+use crate::values::Values;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::time::Duration;
 use viewcert::decide::Value;
 
 /// How a table is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// In columns, with a summary below.
     Text,

@@ -1,8 +1,10 @@
 //! What was found, in a few lines for people.
 
-use super::found::{Acted, Enough, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak};
 use std::io::{self, Write};
 use viewcert::wording::counted;
+use viewcert_advice::named::{
+    Advice, Enough, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak,
+};
 
 /// How many joints, and weak pairs, are shown.
 const SHOWN: usize = 8;
@@ -14,30 +16,30 @@ const BAR: usize = 40;
 ///
 /// # Errors
 /// Those of the writer.
-pub(crate) fn write(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
-    joints(out, acted)?;
-    if let Some(found) = &acted.weak {
-        weak(out, found, acted.single_pairs_only)?;
+pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
+    joints(out, advice)?;
+    if let Some(found) = &advice.weak {
+        weak(out, found, advice.single_pairs_only)?;
     }
-    if let Some(found) = &acted.suggestions {
+    if let Some(found) = &advice.suggestions {
         let joined = "proved: these would join components";
-        let count = match acted.is_whole {
+        let count = match advice.is_whole {
             true => "nothing is to be joined: one component holds everything".to_owned(),
             false => some(found.len(), joined),
         };
         writeln!(out, "  suggested   {count}")?;
         suggestions(out, found)?;
     }
-    if let Some(found) = &acted.explain {
-        explain(out, found, acted.of_tracks)?;
+    if let Some(found) = &advice.explain {
+        explain(out, found, advice.of_tracks)?;
     }
-    if let Some(found) = &acted.sweep {
+    if let Some(found) = &advice.sweep {
         sweep(out, found)?;
     }
-    if let Some(found) = &acted.margin {
+    if let Some(found) = &advice.margin {
         margin(out, found)?;
     }
-    if let Some(found) = &acted.export {
+    if let Some(found) = &advice.export {
         export(out, found)?;
     }
     Ok(())
@@ -54,18 +56,18 @@ fn some(count: usize, what: &str) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub(crate) fn joints(out: &mut impl Write, acted: &Acted) -> io::Result<()> {
-    if acted.joints.is_empty() || acted.single_pairs_only {
+pub fn joints(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
+    if advice.joints.is_empty() || advice.single_pairs_only {
         return Ok(());
     }
-    let count = acted.joints.len();
-    let more = if acted.joints_complete {
+    let count = advice.joints.len();
+    let more = if advice.joints_complete {
         ""
     } else {
         " and more"
     };
     writeln!(out, "  joints      {count}{more}")?;
-    for joint in acted.joints.iter().take(SHOWN) {
+    for joint in advice.joints.iter().take(SHOWN) {
         let [one, other] = joint.between;
         writeln!(
             out,

@@ -1,9 +1,15 @@
 //! Reports: text for people, JSON for programs, tables and pictures.
 
+pub mod advice;
+pub mod assumptions;
+#[cfg(feature = "studies")]
 pub mod bars;
 pub mod catalog_page;
+#[cfg(feature = "studies")]
 pub mod comparison;
+#[cfg(feature = "studies")]
 pub mod conditions;
+#[cfg(feature = "studies")]
 pub mod curves;
 pub mod database;
 pub mod force_layout;
@@ -17,28 +23,31 @@ pub mod page;
 pub mod plot;
 pub mod read;
 pub mod svg;
+#[cfg(feature = "studies")]
 pub mod table;
 pub mod text;
 pub mod tracks;
 pub mod values;
 
-use crate::act::Acted;
-use crate::plane::Scope;
+use assumptions::Scope;
+use graph_picture::{Picture, document, draw};
+use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
+use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
 pub use viewcert::wording::counted;
 
 /// A graph's size: "5 cameras, 1 pair".
-pub(crate) fn size(graph: &Graph) -> String {
+pub fn size(graph: &Graph) -> String {
     let (cameras, pairs) = (graph.nodes(), graph.edges().len());
     format!("{}, {}", counted(cameras, "camera"), counted(pairs, "pair"))
 }
 
 /// The same of a graph as it was read, with points and observations if it has them.
-pub(crate) fn size_of(input: &NamedGraph) -> String {
+pub fn size_of(input: &NamedGraph) -> String {
     let Some(cameras) = input.cameras else {
         return size(&input.graph);
     };
@@ -52,7 +61,7 @@ pub(crate) fn size_of(input: &NamedGraph) -> String {
 }
 
 /// The same, with the known parts that were taken for given.
-pub(crate) fn size_with_parts(input: &NamedGraph, verdict: &Verdict) -> String {
+pub fn size_with_parts(input: &NamedGraph, verdict: &Verdict) -> String {
     let size = size_of(input);
     match verdict.known_parts.len() {
         0 => size,
@@ -74,9 +83,47 @@ pub struct Report<'a> {
     /// How long reading, deciding and certifying took.
     pub time: Duration,
     /// What to do about it.
-    pub(crate) acted: &'a Acted,
+    pub advice: &'a Advice,
     /// What the answer holds for, beyond generic cameras of the model.
-    pub(crate) scope: &'a Scope,
+    pub scope: &'a Scope,
+}
+
+impl Report<'_> {
+    /// The line of `verify --json`, with its line feed.
+    ///
+    /// # Errors
+    /// None that a graph can cause.
+    pub fn json(&self) -> io::Result<Vec<u8>> {
+        let mut out = Vec::new();
+        json::write(&mut out, self)?;
+        Ok(out)
+    }
+
+    /// The report for people.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
+        text::write(out, self)?;
+        advice::write(out, self.advice)
+    }
+
+    /// The page that needs nothing but itself.
+    ///
+    /// # Errors
+    /// As of [`json`](Self::json).
+    pub fn page(&self) -> io::Result<Vec<u8>> {
+        let mut out = Vec::new();
+        let picture = Picture::new(self.input, self.verdict);
+        page::write(&mut out, self, &picture, &draw(&picture))?;
+        Ok(out)
+    }
+}
+
+/// The picture of a graph with its components in colours, as SVG.
+pub fn picture(input: &NamedGraph, verdict: &Verdict) -> String {
+    let picture = Picture::new(input, verdict);
+    document(&picture, &draw(&picture), true)
 }
 
 #[cfg(test)]

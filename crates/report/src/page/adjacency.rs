@@ -3,7 +3,7 @@
 //! A component is a block on the diagonal, in its colour; what joins components stands outside
 //! the blocks. Of a camera-point graph the rows are cameras and the columns points.
 
-use crate::report::graph_picture::{Mark, Picture};
+use crate::graph_picture::{Mark, Picture};
 use serde::Serialize;
 use std::io;
 

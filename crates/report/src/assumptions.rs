@@ -27,7 +27,7 @@ const FOCAL: &str = "unknown focal lengths: decided as calibrated, because a pai
 
 /// The answer for centres that are generic in one plane. All of it is proved.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Planar {
+pub struct Planar {
     verdict: &'static str,
     rank: usize,
     rank_required: usize,
@@ -40,7 +40,7 @@ impl Planar {
     ///
     /// # Errors
     /// If the work was stopped.
-    pub(crate) fn new(graph: &Graph, verdict: &Verdict, watch: &Watch) -> Result<Self, Stopped> {
+    pub fn new(graph: &Graph, verdict: &Verdict, watch: &Watch) -> Result<Self, Stopped> {
         let (model, known) = (verdict.model, &verdict.known_parts);
         let plane = plane_rank_with_parts(graph, known, watch)?;
         let mut parts = UnionFind::new(graph.nodes());
@@ -68,12 +68,12 @@ impl Planar {
     }
 
     /// Whether no motion is left, beyond the trivial ones.
-    pub(crate) fn is_determined(&self) -> bool {
+    pub fn is_determined(&self) -> bool {
         self.rank == self.rank_required
     }
 
     /// The answer in words.
-    pub(crate) fn words(&self) -> String {
+    pub fn words(&self) -> String {
         let answer = if self.is_determined() {
             "solvable: the cameras are unique"
         } else {
@@ -104,16 +104,16 @@ const UNASKED: usize = 2000;
 
 /// What is asked about the scope of an answer.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Asked {
+pub struct Asked {
     /// Whether all centres lie in one plane.
-    pub(crate) planar: bool,
+    pub planar: bool,
     /// Whether focal lengths are unknown.
-    pub(crate) focal: bool,
+    pub focal: bool,
 }
 
 /// What an answer holds for, beyond generic cameras of the model.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Scope {
+pub struct Scope {
     conditions: Vec<String>,
     planar: Option<Planar>,
 }
@@ -124,7 +124,7 @@ impl Scope {
     ///
     /// # Errors
     /// If the work was stopped.
-    pub(crate) fn new(
+    pub fn new(
         input: &NamedGraph,
         verdict: &Verdict,
         asked: Asked,
@@ -168,12 +168,12 @@ impl Scope {
     }
 
     /// The conditions, in words.
-    pub(crate) fn conditions(&self) -> &[String] {
+    pub fn conditions(&self) -> &[String] {
         &self.conditions
     }
 
     /// The answer for centres in one plane, if it was asked for or is worse.
-    pub(crate) fn planar(&self) -> Option<&Planar> {
+    pub fn planar(&self) -> Option<&Planar> {
         self.planar.as_ref()
     }
 }

@@ -3,12 +3,16 @@
 //! In: a graph and its verdict. Out: joints between components, pairs and images that everything
 //! hangs on, pairs that would join components, margins. Every statement is decided exactly by
 //! [`viewcert`], or says how often a random experiment came out; cores are those of
-//! docs/theory.md, section 4.
+//! docs/theory.md, section 4. [`Request`] asks for several of these at once and answers in the user's
+//! names ([`named`]); [`export`] writes components as COLMAP takes them.
 
 pub mod explain;
+pub mod export;
 pub mod joints;
 pub mod margin;
+pub mod named;
 pub mod parts;
+pub mod request;
 pub mod suggest;
 pub mod sweep;
 pub mod weak;
@@ -16,13 +20,18 @@ pub mod weak;
 mod condensation;
 #[cfg(test)]
 mod samples;
+mod task;
+mod words;
 
 pub use explain::{Explanation, explain};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use margin::{Margin, Thinning, margin};
+pub use named::Advice;
 pub use parts::{Part, Parts};
+pub use request::{Request, Weak};
 pub use suggest::{SuggestedMatch, Suggestion, suggest, suggest_matches};
 pub use sweep::{Row, sweep};
+pub use task::named_joints;
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
 
 /// A pair of images that is known and is no edge of the graph.

@@ -1,0 +1,303 @@
+//! What was found, in the user's names: the members of `verify --json` (docs/reconstruction.md).
+//! Components are counted from 1 here, as in the text.
+
+use crate::margin::MISSING;
+use serde::Serialize;
+use viewcert_formats::NamedGraph;
+
+/// Everything that was found about one graph.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Advice {
+    /// Where components touch.
+    pub joints: Vec<Joint>,
+    /// Whether these are all.
+    pub joints_complete: bool,
+    /// Whether there is no component larger than a pair: joints are of little use to people then.
+    #[serde(skip)]
+    pub single_pairs_only: bool,
+    /// Whether one component holds everything: nothing is to be joined.
+    #[serde(skip)]
+    pub is_whole: bool,
+    /// Whether the graph is one of cameras and points.
+    #[serde(skip)]
+    pub of_tracks: bool,
+    /// What components hang on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weak: Option<Weak>,
+    /// Pairs that would join components.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub suggestions: Option<Vec<Suggestion>>,
+    /// One image.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub explain: Option<Explain>,
+    /// A row for each threshold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<Vec<SweepRow>>,
+    /// How much can be missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<Margin>,
+    /// What was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub export: Option<Export>,
+}
+
+impl Advice {
+    /// Of one component, or none: nothing to do.
+    pub(crate) fn whole() -> Self {
+        Self::without_joints(true)
+    }
+
+    /// Nothing was looked for; `complete` if there is nothing to find.
+    pub(crate) fn without_joints(complete: bool) -> Self {
+        Self {
+            joints_complete: complete,
+            ..Self::default()
+        }
+    }
+
+    /// Whether no two components touch, as far as joints were looked for.
+    pub fn has_no_joints(&self) -> bool {
+        self.joints.is_empty() && self.joints_complete
+    }
+}
+
+/// Two components that touch.
+#[derive(Clone, Debug, Serialize)]
+pub struct Joint {
+    /// The components.
+    pub between: [usize; 2],
+    /// How they touch, in words.
+    pub how: String,
+    /// The images (and points) where they touch.
+    pub images: Vec<String>,
+    /// The pairs.
+    pub pairs: Vec<[String; 2]>,
+    /// Paths from the one to the other through a third node.
+    pub through: Vec<[String; 3]>,
+    /// How many pairs, and paths through a third node, cross.
+    pub crossing: usize,
+    /// Of each of the pairs, if they are known.
+    pub inliers: Option<Vec<u32>>,
+    /// Degrees of freedom that are left between the two.
+    pub freedom: usize,
+    /// These in words.
+    pub meaning: String,
+    /// How strong the statement is: `proof` or `error-bound`.
+    pub strength: &'static str,
+}
+
+/// What components hang on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Weak {
+    /// `pairs` or `images`; in a camera-point graph `observations` or `cameras and points`.
+    pub of: &'static str,
+    /// What each of them is.
+    pub items: Vec<WeakItem>,
+    /// How many pairs are components by themselves; they are not among the items.
+    pub single_pairs: usize,
+}
+
+/// Something that a component hangs on.
+#[derive(Clone, Debug, Serialize)]
+pub struct WeakItem {
+    /// The two images of a pair, or one image.
+    #[serde(rename = "images")]
+    pub what: Vec<String>,
+    /// The component.
+    pub component: usize,
+    /// Why, in words.
+    pub why: String,
+    /// How strong the statement is: `proof` or `error-bound`.
+    pub strength: &'static str,
+}
+
+/// Pairs that would join components.
+#[derive(Clone, Debug, Serialize)]
+pub struct Suggestion {
+    /// The pairs.
+    pub pairs: Vec<[String; 2]>,
+    /// Verified matches of each pair, if they are known.
+    pub inliers: Option<Vec<u32>>,
+    /// Matches before verification of each pair, if they are known.
+    pub matches: Option<Vec<u32>>,
+    /// Components that become one.
+    pub joins: Vec<usize>,
+    /// How many single pairs become part of it as well.
+    pub single_pairs: usize,
+    /// How many images.
+    pub images: usize,
+    /// How many images the largest of the components gains.
+    pub gain: usize,
+    /// In a camera-point graph: how much has to come of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enough: Option<Enough>,
+}
+
+/// What is enough to join components of a camera-point graph.
+#[derive(Clone, Debug, Serialize)]
+pub struct Enough {
+    /// Points that images would have to see.
+    pub observations: Vec<Further>,
+    /// How many points of the one component have to become one with points of the other; null if
+    /// none can.
+    pub merged: Option<usize>,
+    /// Whether the two images are matched and used.
+    pub matched: bool,
+}
+
+/// Points of a component that an image would have to see.
+#[derive(Clone, Debug, Serialize)]
+pub struct Further {
+    /// The image.
+    pub image: String,
+    /// The component.
+    pub component: usize,
+    /// How many points.
+    pub points: usize,
+}
+
+/// One image.
+#[derive(Clone, Debug, Serialize)]
+pub struct Explain {
+    /// The image.
+    pub image: String,
+    /// Its components.
+    pub components: Vec<usize>,
+    /// How many of its pairs are in them.
+    pub pairs_inside: usize,
+    /// Its other pairs.
+    pub pairs_outside: Vec<Outside>,
+    /// Its pairs that are known and not used.
+    pub unused: Vec<Unused>,
+    /// Pairs of it that would join components.
+    pub suggestions: Vec<Suggestion>,
+}
+
+/// A pair in no larger component.
+#[derive(Clone, Debug, Serialize)]
+pub struct Outside {
+    /// The image.
+    pub image: String,
+    /// Its verified matches, if they are known.
+    pub inliers: Option<u32>,
+    /// The components of the other image.
+    pub reaches: Vec<usize>,
+}
+
+/// A pair that was not used.
+#[derive(Clone, Debug, Serialize)]
+pub struct Unused {
+    /// The image.
+    pub image: String,
+    /// Its verified matches.
+    pub inliers: u32,
+    /// Its matches before verification, if they are known.
+    pub matches: Option<u32>,
+}
+
+/// What a threshold gives.
+#[derive(Clone, Debug, Serialize)]
+pub struct SweepRow {
+    /// The least number of inliers.
+    pub threshold: u32,
+    /// How many pairs are left.
+    pub pairs: usize,
+    /// How many images.
+    pub images: usize,
+    /// The number of connected components.
+    pub connected: usize,
+    /// The number of components that are more than a pair.
+    pub components: usize,
+    /// How many pairs are components by themselves.
+    pub single_pairs: usize,
+    /// How many images the largest component has.
+    pub largest: usize,
+    /// The verdict.
+    pub verdict: &'static str,
+}
+
+/// Random thinnings.
+#[derive(Clone, Debug, Serialize)]
+pub struct Margin {
+    /// `pairs` or `tracks`.
+    pub of: &'static str,
+    /// How often, for each share.
+    pub draws: u32,
+    /// The seed of the draws.
+    pub seed: u64,
+    /// Percent left out.
+    pub missing: [u32; MISSING.len()],
+    /// What became of each component.
+    pub components: Vec<MarginOf>,
+}
+
+/// What random thinnings leave of a component.
+#[derive(Clone, Debug, Serialize)]
+pub struct MarginOf {
+    /// The component.
+    pub component: usize,
+    /// How many draws left it whole, for each of `missing`.
+    pub whole: [u32; MISSING.len()],
+    /// What percentage of its images stays in one component, on average and rounded down.
+    pub together: [u64; MISSING.len()],
+}
+
+/// What was written.
+#[derive(Clone, Debug, Serialize)]
+pub struct Export {
+    /// The folder.
+    pub folder: String,
+    /// How many components have a folder.
+    pub components: usize,
+    /// Images in several of these.
+    pub shared_images: Vec<String>,
+    /// Images in none of these.
+    pub outside: usize,
+    /// The next commands, for each component.
+    pub commands: Vec<Vec<String>>,
+}
+
+/// What the user calls nodes.
+pub(crate) struct Names<'a>(&'a NamedGraph);
+
+impl<'a> Names<'a> {
+    pub(crate) fn new(input: &'a NamedGraph) -> Self {
+        Self(input)
+    }
+
+    pub(crate) fn of(&self, node: u32) -> String {
+        self.0.labels.label(node).into_owned()
+    }
+
+    pub(crate) fn pair(&self, (a, b): (u32, u32)) -> [String; 2] {
+        [self.of(a), self.of(b)]
+    }
+
+    /// What an edge is.
+    pub(crate) fn edge(&self) -> &'static str {
+        match self.0.cameras {
+            None => "pair",
+            Some(_) => "observation",
+        }
+    }
+
+    /// The images: the cameras of a camera-point graph, else all nodes.
+    pub(crate) fn images(&self) -> std::ops::Range<u32> {
+        0..self.0.cameras.unwrap_or(self.0.graph.nodes() as u32)
+    }
+
+    /// The node of an image.
+    pub(crate) fn find(&self, image: &str) -> anyhow::Result<u32> {
+        let mut images = self.images();
+        let found = images.find(|&v| self.0.labels.label(v) == image);
+        found.ok_or_else(|| unknown(image, self.images().next().map(|v| self.of(v))))
+    }
+}
+
+/// An image that is not in the graph.
+fn unknown(image: &str, example: Option<String>) -> anyhow::Error {
+    let example = example.map_or(String::new(), |name| format!(", such as {name}"));
+    anyhow::anyhow!(
+        "--explain {image}: no image has this name; names are those of the input{example}"
+    )
+}

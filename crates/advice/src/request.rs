@@ -1,0 +1,155 @@
+//! What is asked about a verdict, and the answers to it.
+
+use crate::named::Advice;
+use crate::task::{Task, others};
+use crate::{OtherPair, Shapes, export};
+use anyhow::{Result, ensure};
+use std::path::{Path, PathBuf};
+use viewcert::Verdict;
+use viewcert::watch::Watch;
+use viewcert_formats::NamedGraph;
+use viewcert_session::Outputs;
+
+/// What is asked; joints are looked for in any case.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// What a component hangs on.
+    pub weak: Option<Weak>,
+    /// Pairs that would join components, so many at most; with tracks also how much has to come of it.
+    pub suggest: Option<u32>,
+    /// An image, by its label, to be explained.
+    pub explain: Option<String>,
+    /// Least numbers of inliers with which a database is decided again.
+    pub sweep: Vec<u32>,
+    /// How often pairs (or tracks) are left out at random.
+    pub margin: Option<u32>,
+    /// The folder that gets the components as COLMAP takes them.
+    pub export: Option<PathBuf>,
+}
+
+/// What a component may hang on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weak {
+    /// Pairs.
+    Pairs,
+    /// Images.
+    Images,
+}
+
+impl Request {
+    /// Refuses what can be refused before a graph is read.
+    ///
+    /// # Errors
+    /// A folder with something else in it, or with an input or another output.
+    pub fn check(&self, inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<()> {
+        let Some(folder) = self.export.as_deref() else {
+            return Ok(());
+        };
+        export::check(folder)?;
+        export::ensure_outside(folder, inputs, outputs)
+    }
+
+    /// Why there cannot be several graphs, if there cannot.
+    pub fn too_many(&self, what: &str) -> Option<String> {
+        let folder = self.export.as_ref()?.display();
+        Some(format!(
+            "--export {folder}: a folder holds the components of one graph, and there are {what}; \
+             run them one by one"
+        ))
+    }
+
+    /// The first option that weighs the pairs of a graph and nothing else, if there is one.
+    pub fn asked_of_pairs(&self) -> Option<&'static str> {
+        let asked = [
+            (self.weak.is_some(), "--weak"),
+            (self.suggest.is_some(), "--suggest"),
+            (self.explain.is_some(), "--explain"),
+            (!self.sweep.is_empty(), "--sweep"),
+            (self.margin.is_some(), "--margin"),
+        ];
+        let mut asked = asked.into_iter();
+        asked.find_map(|(asked, option)| asked.then_some(option))
+    }
+
+    /// Refuses what a graph has no answer to.
+    ///
+    /// # Errors
+    /// What is missing in it.
+    pub fn check_input(&self, input: &NamedGraph) -> Result<()> {
+        ensure!(
+            self.sweep.is_empty() || input.cameras.is_none(),
+            "--sweep decides graphs of pairs; leave out --tracks, or ask for tracks with each \
+             --min-inliers in turn"
+        );
+        ensure!(
+            self.sweep.is_empty() || input.matching.is_some(),
+            "--sweep needs the number of inliers of every pair, which only a COLMAP database has; \
+             leave it out, or name the database"
+        );
+        Ok(())
+    }
+
+    /// One of the options that is there, for whoever has no use for it; and whether there is one.
+    pub fn asked(&self) -> (&'static str, bool) {
+        let export = self.export.is_some().then_some("--export");
+        let asked = self.asked_of_pairs().or(export);
+        (asked.unwrap_or_default(), asked.is_some())
+    }
+
+    /// Whether more than the joints is asked for.
+    fn asks(&self) -> bool {
+        self.asked().1
+    }
+
+    /// Does what is asked for; joints are always looked for, but with known displacements, which
+    /// join components in ways of their own. What they leave free is kept in
+    /// `shapes` for the next graph of the same model.
+    ///
+    /// # Errors
+    /// Those of decisions and of the folder; an image that is not there; work that was stopped.
+    pub fn advise(
+        &self,
+        outputs: &Outputs,
+        input: &NamedGraph,
+        verdict: &Verdict,
+        seed: u64,
+        shapes: &mut Shapes,
+        watch: Watch,
+    ) -> Result<Advice> {
+        if let Some(option) = self.asked_of_pairs() {
+            ensure!(
+                verdict.known_parts.is_empty(),
+                "{option} weighs the pairs of a graph alone, and this verdict rests on known parts; \
+                 leave out one of the two"
+            );
+        }
+        if !verdict.displacements.is_empty() {
+            return Ok(Advice::without_joints(verdict.components.len() < 2));
+        }
+        if verdict.components.len() < 2 && !self.asks() {
+            return Ok(Advice::whole());
+        }
+        let others: Vec<OtherPair> = input.matching.iter().flat_map(others).collect();
+        let task = Task::new(input, verdict, &others, seed, watch);
+        let (mut advice, joints) = task.joints(shapes)?;
+        if let Some(what) = self.weak {
+            advice.weak = Some(task.weak(what)?);
+        }
+        if let Some(most) = self.suggest {
+            advice.suggestions = Some(task.suggest(&joints, most as usize, None)?);
+        }
+        if let Some(image) = &self.explain {
+            advice.explain = Some(task.explain(&joints, image)?);
+        }
+        if !self.sweep.is_empty() {
+            advice.sweep = Some(task.sweep(&self.sweep)?);
+        }
+        if let Some(draws) = self.margin {
+            advice.margin = Some(task.margin(draws, seed)?);
+        }
+        if let Some(folder) = &self.export {
+            advice.export = Some(export::write(outputs, folder, &task, &advice.joints)?);
+        }
+        Ok(advice)
+    }
+}

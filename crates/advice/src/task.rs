@@ -1,0 +1,347 @@
+//! One graph that advice is asked about: what the mathematics finds, in the user's names.
+
+use crate as advice;
+use crate::margin::MISSING;
+use crate::named::{self, Advice, Names};
+use crate::request::Weak;
+use crate::suggest::Wanted;
+use crate::{Known, OtherPair, Parts, Shapes, Thinning, words};
+use anyhow::{Context, Result};
+use viewcert::decide::{Options, Question};
+use viewcert::watch::Watch;
+use viewcert::{Strength, Verdict};
+use viewcert_formats::NamedGraph;
+
+/// The joints alone.
+///
+/// # Errors
+/// Those of a decision.
+pub fn named_joints(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    seed: u64,
+    watch: Watch,
+) -> Result<Advice> {
+    let task = Task::new(input, verdict, &[], seed, watch);
+    Ok(task.joints(&mut Shapes::default())?.0)
+}
+
+pub(crate) fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item = OtherPair> + '_ {
+    known.others.iter().map(|pair| OtherPair {
+        images: pair.images,
+        inliers: pair.inliers,
+        matches: pair.matches,
+        used: pair.used,
+    })
+}
+
+/// Most joints that are computed.
+const JOINTS: usize = 10_000;
+
+/// Most pairs without enough inliers that an image is explained with, and most suggestions.
+const EXPLAINED: usize = 5;
+
+/// A graph that something is done about.
+pub(crate) struct Task<'a> {
+    pub(crate) input: &'a NamedGraph,
+    pub(crate) verdict: &'a Verdict,
+    pub(crate) parts: Parts,
+    pub(crate) known: Known<'a>,
+    pub(crate) names: Names<'a>,
+    pub(crate) options: Options,
+}
+
+impl<'a> Task<'a> {
+    pub(crate) fn new(
+        input: &'a NamedGraph,
+        verdict: &'a Verdict,
+        others: &'a [OtherPair],
+        seed: u64,
+        watch: Watch,
+    ) -> Self {
+        Self {
+            input,
+            verdict,
+            parts: Parts::new(&input.graph, verdict),
+            known: Known {
+                inliers: input.matching.as_ref().map_or(&[], |known| &known.inliers),
+                others,
+            },
+            names: Names::new(input),
+            options: Options::default()
+                .question(Question::without_solutions(verdict.model))
+                .seed(seed)
+                .watch(watch),
+        }
+    }
+
+    /// The joints, in the user's names and as they were found.
+    pub(crate) fn joints(&self, shapes: &mut Shapes) -> Result<(Advice, Vec<advice::Joint>)> {
+        let (graph, parts) = (&self.input.graph, &self.parts);
+        let found = advice::joints(graph, self.verdict, parts, &self.options, JOINTS, shapes)
+            .context("joints")?;
+        let joints = found.joints.iter().map(|joint| self.joint(joint)).collect();
+        let named = Advice {
+            joints,
+            joints_complete: found.complete,
+            of_tracks: self.input.cameras.is_some(),
+            single_pairs_only: self.parts.parts.is_empty(),
+            is_whole: self
+                .verdict
+                .components
+                .iter()
+                .any(|component| component.node_count() == graph.nodes()),
+            ..Advice::default()
+        };
+        Ok((named, found.joints))
+    }
+
+    fn joint(&self, joint: &advice::Joint) -> named::Joint {
+        let how = &joint.how;
+        let inliers = |&(a, b): &(u32, u32)| {
+            let edge = self.input.graph.edge_number(a, b)?;
+            self.known.inliers.get(edge).copied()
+        };
+        let shared = how.shared.iter().copied();
+        let ends = how.pairs.iter().flat_map(|&(a, b)| [a, b]);
+        let through = how.through.iter().flat_map(|by| by.iter().copied());
+        let mut images: Vec<u32> = shared.chain(ends).chain(through).collect();
+        images.sort_unstable();
+        images.dedup();
+        let known: Option<Vec<u32>> = how.pairs.iter().map(inliers).collect();
+        named::Joint {
+            between: joint.components.map(number),
+            how: words::how(how, self.input.cameras),
+            images: images.into_iter().map(|v| self.names.of(v)).collect(),
+            pairs: how
+                .pairs
+                .iter()
+                .map(|&pair| self.names.pair(pair))
+                .collect(),
+            through: how
+                .through
+                .iter()
+                .map(|by| by.map(|v| self.names.of(v)))
+                .collect(),
+            crossing: how.pairs.len() + how.through.len(),
+            inliers: known.filter(|known| !known.is_empty()),
+            freedom: joint.freedom,
+            meaning: words::meaning(self.verdict.model, joint.freedom),
+            strength: joint.strength.name(),
+        }
+    }
+
+    pub(crate) fn weak(&self, what: Weak) -> Result<named::Weak> {
+        let graph = &self.input.graph;
+        let item = |what, component, why, strength: Strength| named::WeakItem {
+            what,
+            component: number(component),
+            why: words::why(why, &self.names),
+            strength: strength.name(),
+        };
+        let items = match what {
+            Weak::Pairs => advice::weak_pairs(graph, &self.parts, &self.options)
+                .context("--weak")?
+                .into_iter()
+                .map(|weak| {
+                    let (a, b) = weak.pair;
+                    let names = vec![self.names.of(a), self.names.of(b)];
+                    item(names, weak.component, weak.why, weak.strength)
+                })
+                .collect(),
+            Weak::Images => advice::weak_images(graph, &self.parts, &self.options)
+                .context("--weak=images")?
+                .into_iter()
+                .map(|weak| {
+                    let name = vec![self.names.of(weak.image)];
+                    item(name, weak.component, weak.why, weak.strength)
+                })
+                .collect(),
+        };
+        Ok(named::Weak {
+            of: match (what, self.input.cameras) {
+                (Weak::Pairs, None) => "pairs",
+                (Weak::Pairs, Some(_)) => "observations",
+                (Weak::Images, None) => "images",
+                (Weak::Images, Some(_)) => "cameras and points",
+            },
+            items,
+            single_pairs: self.parts.links.len(),
+        })
+    }
+
+    pub(crate) fn suggest(
+        &self,
+        joints: &[advice::Joint],
+        most: usize,
+        at: Option<u32>,
+    ) -> Result<Vec<named::Suggestion>> {
+        let wanted = Wanted { most, at };
+        if let Some(cameras) = self.input.cameras {
+            return self.suggest_matches(cameras, joints, wanted);
+        }
+        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let found = advice::suggest(graph, parts, joints, known, wanted, &self.options);
+        let named = found.context("--suggest")?.into_iter().map(|found| {
+            let (links, joins) = self.links_and_parts(&found.components);
+            let known = |pick: fn(OtherPair) -> Option<u32>| {
+                let all: Option<Vec<u32>> = found
+                    .pairs
+                    .iter()
+                    .map(|&(_, known)| known.and_then(pick))
+                    .collect();
+                all
+            };
+            named::Suggestion {
+                pairs: found
+                    .pairs
+                    .iter()
+                    .map(|&(pair, _)| self.names.pair(pair))
+                    .collect(),
+                inliers: known(|pair| Some(pair.inliers)),
+                matches: known(|pair| pair.matches),
+                joins,
+                single_pairs: links,
+                images: found.images,
+                gain: found.gain,
+                enough: None,
+            }
+        });
+        Ok(named.collect())
+    }
+
+    /// How many of some components are single pairs, and the numbers of the others.
+    fn links_and_parts(&self, components: &[usize]) -> (usize, Vec<usize>) {
+        let single = |component: usize| self.verdict.components[component].node_count() == 2;
+        let larger = components.iter().filter(|&&component| !single(component));
+        let larger: Vec<usize> = larger.copied().map(number).collect();
+        (components.len() - larger.len(), larger)
+    }
+
+    /// The same in a camera-point graph.
+    fn suggest_matches(
+        &self,
+        cameras: u32,
+        joints: &[advice::Joint],
+        wanted: Wanted,
+    ) -> Result<Vec<named::Suggestion>> {
+        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let options = &self.options;
+        let found = advice::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
+        let named = found.context("--suggest")?.into_iter().map(|found| {
+            let (links, joins) = self.links_and_parts(&found.components);
+            let known = found.known;
+            named::Suggestion {
+                pairs: vec![self.names.pair(found.cameras)],
+                inliers: known.map(|known| vec![known.inliers]),
+                matches: known.and_then(|known| Some(vec![known.matches?])),
+                joins,
+                single_pairs: links,
+                images: found.images,
+                gain: found.gain,
+                enough: Some(named::Enough {
+                    observations: self.further(&found.observations),
+                    merged: found.merged,
+                    matched: known.is_some_and(|known| known.used),
+                }),
+            }
+        });
+        Ok(named.collect())
+    }
+
+    /// Further observations, by the camera and the component whose points it would see.
+    fn further(&self, observations: &[(u32, u32)]) -> Vec<named::Further> {
+        let mut further: Vec<named::Further> = Vec::new();
+        for &(camera, point) in observations {
+            let part = self.parts.of(point)[0] as usize;
+            let component = number(self.parts.parts[part].component);
+            let image = self.names.of(camera);
+            let same = |one: &&mut named::Further| one.image == image && one.component == component;
+            match further.iter_mut().find(same) {
+                Some(one) => one.points += 1,
+                None => further.push(named::Further {
+                    image,
+                    component,
+                    points: 1,
+                }),
+            }
+        }
+        further
+    }
+
+    pub(crate) fn explain(&self, joints: &[advice::Joint], image: &str) -> Result<named::Explain> {
+        let node = self.names.find(image)?;
+        let (graph, parts) = (&self.input.graph, &self.parts);
+        let found = advice::explain(graph, parts, self.known, node, EXPLAINED);
+        let suggestions = self.suggest(joints, EXPLAINED, Some(node))?;
+        let other = |(a, b): (u32, u32)| self.names.of(a + b - node);
+        Ok(named::Explain {
+            image: image.to_owned(),
+            components: found.components.into_iter().map(number).collect(),
+            pairs_inside: found.inside,
+            pairs_outside: found
+                .links
+                .into_iter()
+                .map(|link| named::Outside {
+                    image: self.names.of(link.other),
+                    inliers: link.inliers,
+                    reaches: link.reaches.into_iter().map(number).collect(),
+                })
+                .collect(),
+            unused: found
+                .others
+                .into_iter()
+                .map(|pair| named::Unused {
+                    image: other(pair.images),
+                    inliers: pair.inliers,
+                    matches: pair.matches,
+                })
+                .collect(),
+            suggestions,
+        })
+    }
+
+    pub(crate) fn sweep(&self, thresholds: &[u32]) -> Result<Vec<named::SweepRow>> {
+        let graph = &self.input.graph;
+        let rows = advice::sweep(graph, self.known, thresholds, &self.options);
+        let rows = rows.context("--sweep")?;
+        let named = rows.into_iter().map(|row| named::SweepRow {
+            threshold: row.threshold,
+            pairs: row.pairs,
+            images: row.images,
+            connected: row.connected,
+            components: row.parts,
+            single_pairs: row.links,
+            largest: row.largest,
+            verdict: row.value.name(),
+        });
+        Ok(named.collect())
+    }
+
+    pub(crate) fn margin(&self, draws: u32, seed: u64) -> Result<named::Margin> {
+        let thinning = Thinning { draws, seed };
+        let (graph, cameras) = (&self.input.graph, self.input.cameras);
+        let found = advice::margin(graph, &self.parts, cameras, thinning, &self.options);
+        let parts = found.context("--margin")?.into_iter();
+        Ok(named::Margin {
+            of: if cameras.is_some() { "tracks" } else { "pairs" },
+            draws,
+            seed,
+            missing: MISSING,
+            components: parts
+                .map(|part| named::MarginOf {
+                    component: number(part.component),
+                    whole: part.whole,
+                    together: part
+                        .together
+                        .map(|sum| 100 * sum / (u64::from(draws) * part.images as u64)),
+                })
+                .collect(),
+        })
+    }
+}
+
+/// How people count components.
+pub(crate) fn number(component: usize) -> usize {
+    component + 1
+}
