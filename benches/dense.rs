@@ -1,5 +1,5 @@
 //! The rank of the paper's whole J_P by plain dense elimination modulo 2^61 - 1: what sparse
-//! elimination (`verify --no-contraction --prime`) and plane flows are compared with.
+//! elimination (`verify --method matrix --prime`) and plane flows are compared with.
 //!
 //! ```text
 //! cargo run --release --example dense -- GRAPH

@@ -5,9 +5,9 @@
 //! cargo run --release --example matrix -- residues|integers|rigidity GRAPH
 //! ```
 //!
-//! `residues`: J_P at general cameras modulo 2^61 - 1, as of `verify --no-contraction --prime`.
+//! `residues`: J_P at general cameras modulo 2^61 - 1, as of `verify --method matrix --prime`.
 //! `integers`: J_P at rational cameras, rows divided by their content, as of `verify
-//! --no-contraction --rational`. `rigidity`: N at the centres of the default mode, modulo
+//! --method matrix --rational`. `rigidity`: N at the centres of the default mode, modulo
 //! 2^61 - 1; these are those of the program where contraction leaves the graph as it is.
 //!
 //! The first line of the output is `ROWS COLS MODULUS`, the modulus being 0 for integers; then

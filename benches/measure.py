@@ -234,7 +234,7 @@ def rational(arguments, folder):
     head("graph", "rank", "num-bigint, s", "GMP, s", "peak, MiB", "determinant, bits",
          "fmpz_mat_rank, s", "prime mode, s", "nmod_mat_rank, s")
     for name, graph in [("10 cameras, 14 pairs", small), ("20 cameras, 60 pairs", large)]:
-        commands = [[program, *mode, "--no-contraction", graph]
+        commands = [[program, *mode, "--method", "matrix", graph]
                     for program, mode in [(VERIFY, ["--rational"]), (GMP, ["--rational"]),
                                           (VERIFY, ["--prime"])]
                     if program.exists()]
@@ -281,7 +281,7 @@ def cores(arguments, folder):
         show("plane flows modulo 2^61 - 1", [VERIFY, "--json", "--prime", graph], nodes > 1000)
         if nodes <= arguments.sparse:
             show("J_P, sparse elimination",
-                 [VERIFY, "--json", "--no-contraction", "--prime", graph], nodes > 200)
+                 [VERIFY, "--json", "--method", "matrix", "--prime", graph], nodes > 200)
         if nodes <= arguments.jacobian:
             show("J_P, dense elimination", [EXAMPLES / "dense", graph], nodes > 200)
         if nodes <= arguments.flint:
@@ -390,7 +390,7 @@ def readers(arguments, folder):
     head("", "wall clock, s", "CPU, s", "peak, MiB")
     commands = [("database, pairs", [VERIFY, database]),
                 ("database, pairs for global mapping", [VERIFY, "--pipeline", "global", database]),
-                ("list of pairs, exported", [VERIFY, "--export", export, pairs])]
+                ("list of pairs, exported", [VERIFY, "export", pairs, export])]
     for (name, _), figures in zip(commands, compare([command for _, command in commands], arguments.runs)):
         row(name, sec(figures.wall), sec(figures.cpu), mib(figures.peak))
 

@@ -14,7 +14,7 @@ was begun with iff s - 1 is in the ideal for all scales.
 A count at one point is no proof for generic centres: that is what the certificates are for. It is an independent
 computation of the same numbers.
 
-Graphs with several solutions are also written as explicit cameras (`verify --witness`), and checked by
+Graphs with several solutions are also written as explicit cameras (`verify witness`), and checked by
 crates/check/second/witness.py: the same fundamental matrices on all pairs, and not equivalent.
 
 Exit code 0 if all numbers agree and all witnesses are good, 1 if not.
@@ -117,7 +117,7 @@ def has_witness(verify, graph6):
     """Whether two explicit families of cameras are written, and pass the script that checks them."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "witness.json"
-        command = [verify, "-", "--format", "graph6", "--witness", str(path)]
+        command = [verify, "witness", "-", str(path), "--format", "graph6"]
         subprocess.run(command, input=graph6 + "\n", capture_output=True, text=True)
         checked = subprocess.run([sys.executable, WITNESS, path], capture_output=True, text=True)
         return checked.returncode == 0 and checked.stdout.startswith("VERIFIED")

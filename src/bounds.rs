@@ -1,17 +1,36 @@
-//! Bounds on the entries of rational cameras: options of the commands that have `--rational`.
+//! Bounds on the entries of rational cameras.
 
-use clap::Args;
+use std::str::FromStr;
 use viewcert::geometry::draw::{MAX_DENOMINATOR, MAX_NUMERATOR};
 
-/// Numerators and denominators of rational cameras.
-#[derive(Args)]
-pub(super) struct BoundArguments {
-    /// Bound on the numerators of rational cameras, at most 100.
-    #[arg(long, value_name = "A", default_value_t = 9, requires = "rational")]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=MAX_NUMERATOR))]
+/// Numerators and denominators of rational cameras, at most: `9,4`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Bounds {
     pub(super) numerator: u64,
-    /// Bound on the denominators of rational cameras, at most 12.
-    #[arg(long, value_name = "B", default_value_t = 4, requires = "rational")]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=MAX_DENOMINATOR))]
     pub(super) denominator: u64,
+}
+
+impl FromStr for Bounds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bounds = text.split_once(',').and_then(|(numerator, denominator)| {
+            Some(Self {
+                numerator: within(numerator, MAX_NUMERATOR)?,
+                denominator: within(denominator, MAX_DENOMINATOR)?,
+            })
+        });
+        bounds.ok_or_else(|| {
+            format!(
+                "two numbers, as in 9,4: the largest numerator, 1 to {MAX_NUMERATOR}, and the largest \
+                 denominator, 1 to {MAX_DENOMINATOR}"
+            )
+        })
+    }
+}
+
+fn within(text: &str, most: u64) -> Option<u64> {
+    text.parse()
+        .ok()
+        .filter(|number| (1..=most).contains(number))
 }

@@ -6,14 +6,13 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use viewcert::Certificate;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
 use viewcert_session::outputs;
 
 /// The option that names the target.
-pub(super) const OPTION: &str = "--certificate";
+const OPTION: &str = "--certificate";
 
 /// The target of `--certificate`.
 pub(super) struct Target {
@@ -24,34 +23,44 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// A folder if there is one of that name; a file otherwise. `inputs` are files with graphs, one
-    /// graph at least each.
+    /// A folder if there is one of that name; a file otherwise.
+    pub(super) fn new(path: &Path, embed: bool) -> Self {
+        Self {
+            path: path.to_owned(),
+            folder: path.is_dir(),
+            embed,
+            taken: BTreeSet::new(),
+        }
+    }
+
+    /// The same of files with graphs, one graph at least each, which the certificates go with.
     ///
     /// # Errors
     /// If a file is meant and there are several graphs, or it is one of the inputs.
-    pub(super) fn new(path: &Path, embed: bool, inputs: &[PathBuf]) -> Result<Self> {
-        let folder = path.is_dir();
-        if !folder {
+    pub(super) fn apart(path: &Path, inputs: &[PathBuf]) -> Result<Self> {
+        let target = Self::new(path, false);
+        if !target.folder {
             let count = inputs.len();
-            ensure!(
-                count <= 1,
-                "{}",
-                too_many(OPTION, path, &format!("{count} graphs"))
-            );
+            let many = Self::too_many(path, &format!("{count} graphs"));
+            ensure!(count <= 1, "{many}");
         }
         let inputs = inputs.iter().map(PathBuf::as_path);
-        outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
-        Ok(Self {
-            path: path.to_owned(),
-            folder,
-            embed,
-            taken: BTreeSet::new(),
-        })
+        outputs::ensure_apart(&[(OPTION, Some(path))], inputs)?;
+        Ok(target)
     }
 
-    /// The file, if there is room for the certificate of one graph only, behind its option.
-    pub(super) fn single(&self) -> Option<(&'static str, PathBuf)> {
-        (!self.folder).then(|| (OPTION, self.path.clone()))
+    /// Why a file cannot be the target for many graphs.
+    pub(super) fn too_many(file: &Path, what: &str) -> String {
+        format!(
+            "{OPTION} {}: a file holds the certificate of one graph, and there are {what}; name an \
+             existing folder",
+            file.display()
+        )
+    }
+
+    /// The file, if there is room for the certificate of one graph only.
+    pub(super) fn single(&self) -> Option<&Path> {
+        (!self.folder).then_some(&*self.path)
     }
 
     /// Writes the certificate of one graph and returns the path.
@@ -66,12 +75,11 @@ impl Target {
         } else if self.taken.insert(String::new()) {
             self.path.clone()
         } else {
-            bail!("{}", too_many(OPTION, &self.path, "several graphs"));
+            bail!("{}", Self::too_many(&self.path, "several graphs"));
         };
         outputs.write(&path, |out| {
-            certificate(input, verdict)
-                .embed_graph(self.embed)
-                .write_to(out)
+            let certificate = verdict.certificate(&input.graph).named(&input.name);
+            certificate.embed_graph(self.embed).write_to(out)
         })?;
         Ok(path)
     }
@@ -118,23 +126,6 @@ impl Target {
         self.taken.insert(name);
         Ok(path)
     }
-}
-
-/// The certificate of a graph as it was read.
-pub(super) fn certificate<'a>(input: &'a NamedGraph, verdict: &'a Verdict) -> Certificate<'a> {
-    verdict.certificate(&input.graph).named(&input.name)
-}
-
-/// Why a file cannot be the target of an option for many graphs.
-pub(super) fn too_many(option: &str, file: &Path, what: &str) -> String {
-    let (holds, remedy) = match option {
-        OPTION => ("the certificate of one graph", "name an existing folder"),
-        _ => ("one graph", "decide them one by one"),
-    };
-    format!(
-        "{option} {}: a file holds {holds}, and there are {what}; {remedy}",
-        file.display()
-    )
 }
 
 /// Whether nothing is lost if a certificate is written to a path: nothing is there, or a

@@ -1,6 +1,6 @@
 //! `verify compare GRAPH...`: every formulation side by side.
 
-use super::bounds::BoundArguments;
+use super::bounds::Bounds;
 use super::input::InputArguments;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
@@ -33,11 +33,11 @@ pub(super) struct CompareArguments {
     /// Modulo which prime, 5 <= P < 2^62.
     #[arg(long, value_name = "P", default_value_t = DEFAULT_PRIME, conflicts_with = "rational")]
     prime: u64,
-    /// Compute over the rationals, at cameras with small rational entries.
-    #[arg(long)]
-    rational: bool,
-    #[command(flatten)]
-    bounds: BoundArguments,
+    /// Compute over the rationals, at cameras whose entries are fractions with numerators up to A and
+    /// denominators up to B [default: 9,4].
+    #[arg(long, value_name = "A,B", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "9,4")]
+    rational: Option<Bounds>,
     /// Seed of the random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -112,8 +112,12 @@ fn compare(
         );
     };
     let [residues, rationals] = SILENT;
-    if arguments.rational {
-        let bounds = (arguments.bounds.numerator, arguments.bounds.denominator);
+    if let Some(Bounds {
+        numerator,
+        denominator,
+    }) = arguments.rational
+    {
+        let bounds = (numerator, denominator);
         let limits = Limits {
             entries: arguments.limit.unwrap_or(MAX_RATIONALS),
             silent: rationals,

@@ -1,17 +1,18 @@
 //! `verify convert GRAPH`: what was read, in node numbers, as both checkers read it
 //! (docs/certificate.md, section 2).
 
-use super::input::{InputArguments, TrackArguments};
-use super::parts::PartArguments;
+use super::given::{self, GivenArguments};
+use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::KnownParts;
+use viewcert::Known;
+use viewcert::certificate::hex;
 use viewcert::graph::graph6;
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_formats::{NamedGraph, read_graphs};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, TOO_LARGE};
 use viewcert_session::outputs;
@@ -32,10 +33,11 @@ pub(super) struct ConvertArguments {
     to: To,
     #[command(flatten)]
     input: InputArguments,
+    /// Write the graph of cameras and points, as for `verify GRAPH --tracks`.
+    #[arg(long)]
+    tracks: bool,
     #[command(flatten)]
-    tracks: TrackArguments,
-    #[command(flatten)]
-    parts: PartArguments,
+    given: GivenArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -49,25 +51,26 @@ enum To {
 
 /// Reads the graph and writes it.
 pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<ExitCode> {
-    let (path, parts) = (&arguments.graph, arguments.parts.path());
+    let (path, file) = (&arguments.graph, arguments.given.path());
     ensure!(
-        parts.is_none() || arguments.to == To::Pairs,
-        "--parts: graph6 holds no known parts; leave out --to graph6"
+        file.is_none() || arguments.to == To::Pairs,
+        "{}: graph6 holds nothing that is given; leave out --to graph6",
+        given::OPTION
     );
-    arguments.parts.check(std::slice::from_ref(path))?;
+    given::ensure_one_standard_input(file, std::slice::from_ref(path))?;
     let output = arguments.output.as_deref();
-    let inputs = [Some(&**path), parts];
+    let inputs = [Some(&**path), file];
     outputs::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
-    let options = ReadOptions {
-        tracks: arguments.tracks.options(),
-        ..arguments.input.read_options()
+    let options = match arguments.tracks {
+        true => arguments.input.of_tracks(),
+        false => arguments.input.of_pairs()?,
     };
     let mut graphs = read_graphs(path, &options);
     let name = path.display();
     let first = graphs.next();
     let first = first.with_context(|| format!("{name}: the file holds no graph"))??;
-    let known = arguments.parts.read(&first)?;
-    say_notes(known.as_ref().map_or(&first, |(noted, _)| noted))?;
+    let (noted, known) = given::read(file, &first)?;
+    say_notes(&noted)?;
     let text = match arguments.to {
         To::Pairs => {
             ensure!(
@@ -75,14 +78,23 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
                 "{name}: there are several graphs, and a file of pairs holds one; --to graph6 writes a \
                  line for each"
             );
-            match known {
-                Some((_, parts)) => lines_of_parts(&parts)?,
+            match file {
+                Some(file) => {
+                    let lines = lines_of(&known);
+                    ensure!(
+                        !lines.is_empty(),
+                        "{} {}: no part has two cameras, so that there is nothing to write",
+                        given::OPTION,
+                        file.display()
+                    );
+                    lines
+                }
                 None => pairs(&first),
             }
         }
         To::Graph6 => {
             let mut text = String::new();
-            for graph in std::iter::once(Ok(first)).chain(graphs) {
+            for graph in std::iter::once(Ok(noted.into_owned())).chain(graphs) {
                 let graph = graph?;
                 if !fits(&graph) {
                     writeln!(
@@ -154,17 +166,16 @@ fn on_one_line(name: &str) -> String {
     safe
 }
 
-/// A part on each line.
-fn lines_of_parts(parts: &KnownParts) -> Result<String> {
-    ensure!(
-        !parts.is_empty(),
-        "--parts: no set has two cameras, so that there is nothing to write"
-    );
+/// What is given, as both checkers read it: a part on each line, or the hash of displacements.
+fn lines_of(known: &Known) -> String {
     let line = |part: &[u32]| {
         let nodes: Vec<String> = part.iter().map(u32::to_string).collect();
-        nodes.join(" ") + "\n"
+        format!("part {}\n", nodes.join(" "))
     };
-    Ok(parts.iter().map(line).collect())
+    match known {
+        Known::Parts(parts) => parts.iter().map(line).collect(),
+        Known::Displacements(known) => format!("displacements {}\n", hex(&known.sha256())),
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! How graphs are read: the options that all commands with graphs share.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,28 +27,31 @@ pub(super) struct InputArguments {
     /// counts, names with numbers, an adjacency list, files of other programs) is refused, by name
     /// where it has one. `--format edges` reads the first two fields of every line all the same.
     /// The first line of every report says how the file was read.
-    #[arg(long, value_enum, help_heading = READING)]
+    #[arg(long, value_enum, help_heading = READING, hide = true)]
     format: Option<FormatName>,
     /// The columns of a table that hold the pairs, by name or by number, and perhaps that of the
     /// weights: img1,img2 or 2,3 or img1,img2,score.
-    #[arg(long, value_name = "A,B[,W]", help_heading = READING)]
+    #[arg(long, value_name = "A,B[,W]", help_heading = READING, hide = true)]
     columns: Option<Columns>,
     /// The least weight of a pair of a list: what weighs less is left out. Compared exactly.
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = READING)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = READING, hide = true)]
     min_weight: Option<Decimal>,
     /// Leave out pairs of a camera with itself, which are refused otherwise.
-    #[arg(long, help_heading = READING)]
+    #[arg(long, help_heading = READING, hide = true)]
     skip_loops: bool,
     /// Variable of a MATLAB file, or array of an .npz file [default: A, the only square matrix, or
     /// the only two columns of numbers of cameras].
-    #[arg(long, value_name = "NAME", help_heading = READING)]
+    #[arg(long, value_name = "NAME", help_heading = READING, hide = true)]
     variable: Option<String>,
     /// Which pairs of a COLMAP database count: those that this mapper takes [default: incremental].
-    #[arg(long, value_enum, help_heading = READING)]
+    #[arg(long, value_enum, help_heading = READING, hide = true)]
     pipeline: Option<PipelineName>,
     /// The least number of inliers of a pair of a COLMAP database [default: 15, as both mappers].
-    #[arg(long, value_name = "N", help_heading = READING)]
+    #[arg(long, value_name = "N", help_heading = READING, hide = true)]
     min_inliers: Option<u32>,
+    /// In how many images a track has to be seen to count [default: 3, as in global mapping].
+    #[arg(long, value_name = "N", help_heading = READING, hide = true)]
+    pub(super) min_views: Option<u32>,
 }
 
 /// The title of these options in the help.
@@ -114,31 +117,6 @@ enum FormatName {
     Dot,
 }
 
-/// Whether the graph is that of cameras and points.
-#[derive(Args)]
-pub(super) struct TrackArguments {
-    /// Decide the graph of cameras and points: are their positions determined by the tracks?
-    ///
-    /// Reads a COLMAP database (its inlier matches, joined to tracks) or model (the folder, or its
-    /// points3D file), Bundler's bundle.out, BAL, NVM, or OpenMVG's matches. Rotations are
-    /// taken for known, as global mapping has them: this implies --model calibrated.
-    #[arg(long)]
-    tracks: bool,
-    /// In how many images a track has to be seen to count [default: 3, as in global mapping].
-    #[arg(long, value_name = "N", requires = "tracks")]
-    min_views: Option<u32>,
-}
-
-impl TrackArguments {
-    /// Which tracks count, if tracks are asked for.
-    pub(super) fn options(&self) -> Option<TrackOptions> {
-        let default = TrackOptions::default();
-        self.tracks.then(|| TrackOptions {
-            min_views: self.min_views.unwrap_or(default.min_views),
-        })
-    }
-}
-
 impl InputArguments {
     /// Calls `each` for every graph of the files in turn, with the time at which reading it began,
     /// and flushes after it; a bad graph, or one with which `each` fails, is reported and does not
@@ -158,10 +136,42 @@ impl InputArguments {
         out: &mut W,
         each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
     ) -> Result<u8> {
-        for_each(session, &self.read_options(), paths, too_many, out, each)
+        for_each(session, &self.of_pairs()?, paths, too_many, out, each)
     }
 
-    /// The options of the readers.
+    /// How cameras and points are read.
+    pub(super) fn of_tracks(&self) -> ReadOptions {
+        let default = TrackOptions::default();
+        ReadOptions {
+            tracks: Some(TrackOptions {
+                min_views: self.min_views.unwrap_or(default.min_views),
+            }),
+            ..self.read_options()
+        }
+    }
+
+    /// How pairs are read.
+    ///
+    /// # Errors
+    /// An option that is about tracks.
+    pub(super) fn of_pairs(&self) -> Result<ReadOptions> {
+        ensure!(
+            self.min_views.is_none(),
+            "--min-views says which tracks count, and pairs are decided here; leave it out, or say --tracks \
+             where it can be said"
+        );
+        Ok(self.read_options())
+    }
+
+    /// Whether any option is given.
+    pub(super) fn says_anything(&self) -> bool {
+        let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
+        let file = self.format.is_some() || self.variable.is_some();
+        let database = self.pipeline.is_some() || self.min_inliers.is_some();
+        list || file || database || self.min_views.is_some()
+    }
+
+    /// The options of the readers, but for tracks.
     pub(super) fn read_options(&self) -> ReadOptions {
         ReadOptions {
             format: self.format.map(|format| match format {

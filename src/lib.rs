@@ -2,7 +2,7 @@
 //!
 //! [`main`] is the program.
 
-mod advice;
+mod advise;
 mod audit;
 mod bounds;
 mod catalog;
@@ -11,16 +11,20 @@ mod check;
 mod compare;
 mod conditions;
 mod convert;
-mod displacements;
+mod decisions;
+mod draw;
 mod experiment;
+mod export;
+mod given;
+mod help;
 mod input;
 mod limits;
 mod man;
 mod manifest;
 mod models;
 mod overview;
-mod pages;
-mod parts;
+mod plan;
+mod question;
 mod verify;
 mod witness;
 
@@ -33,19 +37,13 @@ use viewcert_session::Session;
 
 /// Exact, certified solvability of viewing graphs.
 ///
-/// For every graph: is the set of cameras that its fundamental matrices determine unique,
-/// finite, or infinite, and which maximal parts of it are determined?
-///
-/// Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and
-/// compare: all agree; conditions: no necessary one fails; overview: all images with a pair are
-/// determined; models: solvable in every model), 1 some are not (check:
-/// rejected; audit and compare: a disagreement, a refuted claim), 2 bad usage or input, 3 too
-/// large for the method or for the limits of time and memory (compare: nothing could be
-/// compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143 terminated. Of several
-/// graphs the largest code counts.
+/// Does my viewing graph determine the cameras?              verify GRAPH
+/// What do the matches of my photographs determine?          verify overview DATABASE
+/// Does this certificate prove what it claims?               verify check CERTIFICATE [GRAPH]
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
-#[command(subcommand_negates_reqs = true)]
+#[command(subcommand_negates_reqs = true, disable_help_subcommand = true)]
+#[command(verbatim_doc_comment, after_help = LITERATURE, after_long_help = AFTER)]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
@@ -55,27 +53,74 @@ struct CommandLine {
     limits: limits::LimitArguments,
 }
 
+/// The commands that the list of commands leaves out; a test holds them against it.
+const LITERATURE: &str = "\
+Commands of the literature:
+  models      Decide every camera model side by side, and say what changes between them
+  conditions  Check the necessary and sufficient conditions of the literature
+  compare     Compare the formulations of the literature: sizes, ranks, time
+  audit       Hold floating point, or claims of others, against the exact verdict
+  catalog     Enumerate candidates and decide them all
+  experiment  Repeat an experiment of the paper
+
+How files are read: `verify help input`. What else can be known: `verify help given`.";
+
+/// The same with the exit codes.
+const AFTER: &str = "\
+Commands of the literature:
+  models      Decide every camera model side by side, and say what changes between them
+  conditions  Check the necessary and sufficient conditions of the literature
+  compare     Compare the formulations of the literature: sizes, ranks, time
+  audit       Hold floating point, or claims of others, against the exact verdict
+  catalog     Enumerate candidates and decide them all
+  experiment  Repeat an experiment of the paper
+
+How files are read: `verify help input`. What else can be known: `verify help given`.
+
+Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and compare: all
+agree; conditions: no necessary one fails; overview: all images with a pair are determined; models:
+solvable in every model), 1 some are not (check: rejected; audit and compare: a disagreement, a
+refuted claim), 2 bad usage or input, 3 too large for the method or for the limits of time and memory
+(compare: nothing could be compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
+terminated. Of several graphs the largest code counts.";
+
 #[derive(Subcommand)]
 enum Command {
     /// Say on one screen what the pairs and tracks of a database determine, and what follows.
     Overview(overview::OverviewArguments),
+    /// Say what to do about an answer: what it hangs on, what to match, what an image needs.
+    Advise(advise::AdviseArguments),
+    /// Write the components to a folder, as COLMAP takes them.
+    Export(export::ExportArguments),
+    /// Draw a graph with its components: a page, a picture.
+    Draw(draw::DrawArguments),
+    /// Write two sets of cameras that have the same fundamental matrices.
+    Witness(witness::WitnessArguments),
     /// Verify a certificate with the independent checker.
     Check(check::CheckArguments),
-    /// Write what both checkers read: a graph as pairs of node numbers or as graph6, or with
-    /// --parts its known parts.
+    /// Write what both checkers read: a graph as pairs of node numbers or as graph6, or what is given
+    /// besides.
     Convert(convert::ConvertArguments),
     /// Enumerate candidates and decide them all.
+    #[command(hide = true)]
     Catalog(Box<catalog::Arguments>),
     /// Repeat an experiment of the paper.
+    #[command(hide = true)]
     Experiment(experiment::Arguments),
     /// Hold floating point, or claims of others, against the exact verdict.
+    #[command(hide = true)]
     Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
+    #[command(hide = true)]
     Compare(compare::CompareArguments),
     /// Decide every camera model side by side, and say what changes between them.
+    #[command(hide = true)]
     Models(models::ModelsArguments),
     /// Check the necessary and sufficient conditions of the literature.
+    #[command(hide = true)]
     Conditions(conditions::ConditionArguments),
+    /// Explain a command, how files are read (input), or what else can be known (given).
+    Help(help::HelpArguments),
     /// Print the completion script of a shell.
     #[command(hide = true)]
     Completions(man::CompletionArguments),
@@ -103,6 +148,11 @@ pub fn main() -> ExitCode {
 fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
     match &arguments.command {
         Some(Command::Overview(arguments)) => overview::run(session, arguments),
+        Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Draw(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Witness(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Help(arguments)) => help::run(CommandLine::command(), arguments),
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
@@ -117,7 +167,7 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Manpage(arguments)) => man::manpage(CommandLine::command(), arguments),
         None => {
             no_command(&arguments.verify)?;
-            verify::run(session, &arguments.verify)
+            decisions::run(session, &arguments.verify.plan()?)
         }
     }
 }
@@ -139,4 +189,27 @@ fn no_command(arguments: &verify::VerifyArguments) -> Result<()> {
         "{word}: no such file and no such command{}",
         meant.unwrap_or_else(or)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The commands that the list leaves out stand under a heading of their own, in the same words.
+    #[test]
+    fn every_command_is_in_the_help() {
+        let program = CommandLine::command();
+        for command in program.get_subcommands().filter(|one| one.is_hide_set()) {
+            let (name, about) = (command.get_name(), command.get_about().unwrap());
+            if ["completions", "manpage"].contains(&name) {
+                continue;
+            }
+            let line = format!("  {name:<11} {about}\n");
+            assert!(
+                LITERATURE.contains(&line) && AFTER.contains(&line),
+                "{line}"
+            );
+        }
+        assert!(AFTER.starts_with(LITERATURE));
+    }
 }

@@ -1,15 +1,13 @@
 //! `verify models GRAPH...`: every camera model side by side.
 
+use super::given::{self, GivenArguments};
 use super::input::InputArguments;
-use super::parts::PartArguments;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use std::borrow::Cow;
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use viewcert::KnownParts;
-use viewcert::decide::{Options, Question, Value, Verdict, decide};
+use viewcert::decide::{Draft, Options, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 use viewcert_report::models as report;
@@ -27,7 +25,7 @@ pub(super) struct ModelsArguments {
     #[command(flatten)]
     input: InputArguments,
     #[command(flatten)]
-    parts: PartArguments,
+    given: GivenArguments,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -43,19 +41,27 @@ const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
-    arguments.parts.check(&arguments.graphs)?;
-    let too_many = |what: &str| arguments.parts.too_many(what);
+    let given = arguments.given.path();
+    given::ensure_one_standard_input(given, &arguments.graphs)?;
+    let too_many = |what: &str| {
+        let path = given?.display();
+        Some(format!(
+            "{} {path}: this is about one graph, and there are {what}; run the program on each",
+            given::OPTION
+        ))
+    };
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }
     let each = |out: &mut _, input: &NamedGraph, _| {
-        let known = arguments.parts.read(input)?;
-        let (input, parts) = known.map_or((Cow::Borrowed(input), KnownParts::default()), |known| {
-            (Cow::Owned(known.0), known.1)
-        });
+        let (input, known) = given::read(given, input)?;
         let input = &*input;
         let decided = |model: Model| -> Result<Verdict> {
-            let question = Question::with_parts(model, parts.clone());
+            let draft = Draft {
+                known: known.clone(),
+                ..Draft::new(model)
+            };
+            let question = draft.question().context(given::OPTION)?;
             let options = Options::default().question(question).seed(arguments.seed);
             let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
             session.hide();

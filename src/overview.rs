@@ -18,7 +18,7 @@ use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
-use viewcert_formats::{NamedGraph, ReadOptions, TrackOptions, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Next, Overview, Wanted};
@@ -34,9 +34,6 @@ pub(super) struct OverviewArguments {
     inputs: Vec<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
-    /// In how many images a track has to be seen to count [default: 3, as in global mapping].
-    #[arg(long, value_name = "N")]
-    min_views: Option<u32>,
     /// Print one JSON object an input.
     #[arg(long)]
     json: bool,
@@ -119,13 +116,7 @@ fn read_tracks(
     arguments: &OverviewArguments,
     path: &Path,
 ) -> Result<Result<NamedGraph, String>> {
-    let default = TrackOptions::default();
-    let options = ReadOptions {
-        tracks: Some(TrackOptions {
-            min_views: arguments.min_views.unwrap_or(default.min_views),
-        }),
-        ..arguments.input.read_options()
-    };
+    let options = arguments.input.of_tracks();
     session.reading(path);
     let read = read_graphs(path, &options).next();
     session.hide();
@@ -227,7 +218,7 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
             .and_then(|input| input.database.as_ref())
             .and_then(|facts| other_mapper(facts)),
     );
-    if arguments.min_views.is_some() && source.tracks.is_err() {
+    if arguments.input.min_views.is_some() && source.tracks.is_err() {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }
     notes
@@ -264,20 +255,21 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         true => " --tracks",
         false => " --model calibrated",
     };
-    let min_views = arguments.min_views.filter(|_| with_tracks);
+    let min_views = arguments.input.min_views.filter(|_| with_tracks);
     let min_views = min_views.map_or(String::new(), |count| format!(" --min-views {count}"));
     let read = options_of(&arguments.input.read_options());
     let file = shell(&path.display().to_string());
-    let command = |graph: &str, what: &str, purpose: &'static str| Next {
-        command: format!("verify {file}{graph}{read}{what}"),
+    let command = |verb: &str, graph: &str, what: &str, purpose: &'static str| Next {
+        command: format!("verify {verb} {file}{graph}{read}{what}"),
         purpose,
     };
+    let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
     let decided = format!("{graph}{min_views}");
     let margin = match with_tracks {
         true => "how many tracks can be missing before parts fall apart",
         false => "how many pairs can be missing before parts fall apart",
     };
-    let margin = command(&decided, " --margin", margin);
+    let margin = advise(&decided, " --margin", margin);
     if found.determined() {
         return vec![margin];
     }
@@ -286,13 +278,14 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
     let single = found.name == path.display().to_string();
     if single && found.has_parts() {
         next.push(command(
-            &decided,
-            " --export DIR",
+            "export",
+            &format!(" DIR{decided}"),
+            "",
             "the images of every part, as lists for the mappers",
         ));
     }
     if found.has_parts() {
-        next.push(command(
+        next.push(advise(
             &decided,
             " --suggest",
             match with_tracks {
@@ -302,14 +295,14 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         ));
     }
     if with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
-        next.push(command(
+        next.push(advise(
             " --model calibrated",
             " --suggest",
             "pairs to match that would join parts of the pairs",
         ));
     }
     if let Some(image) = found.outside().filter(|_| single) {
-        next.push(command(
+        next.push(advise(
             &decided,
             &format!(" --explain {}", shell(&image)),
             "an image outside the largest part, and what it would need",

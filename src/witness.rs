@@ -1,16 +1,59 @@
-//! `--witness FILE`: two families of cameras with the same fundamental matrices, to look at.
+//! `verify witness GRAPH FILE`: two families of cameras with the same fundamental matrices, to look
+//! at.
 
+use super::input::InputArguments;
+use super::plan::{Form, Plan};
 use anyhow::Result;
+use clap::Args;
 use serde_json::to_string;
 use std::io::Write;
-use std::path::Path;
-use viewcert::decide::Verdict;
+use std::path::{Path, PathBuf};
+use viewcert::decide::{CountSolutions, Verdict};
+use viewcert::geometry::model::Model;
 use viewcert::solutions::Witness;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
 
-/// The option that names the file.
-pub(super) const OPTION: &str = "--witness";
+/// Of what, and where to.
+#[derive(Args)]
+pub(super) struct WitnessArguments {
+    /// The graph, in whatever `verify` reads.
+    graph: PathBuf,
+    /// The file for two sets of cameras modulo a prime that have the same fundamental matrices, if a
+    /// second solution is known (`-`: standard output, and the report to standard error).
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Count solutions whatever it takes.
+    #[arg(long)]
+    full: bool,
+    /// Seed of all random cameras.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    input: InputArguments,
+}
+
+impl WitnessArguments {
+    /// The plan.
+    ///
+    /// # Errors
+    /// By name, what does not go together.
+    pub(super) fn plan(&self) -> Result<Plan> {
+        let graphs = std::slice::from_ref(&self.graph);
+        let mut plan = Plan::new(graphs, self.input.of_pairs()?, Model::Projective, self.seed);
+        if self.full {
+            plan.draft.solutions = CountSolutions::Full;
+        }
+        if self.json {
+            plan.form = Form::Json;
+        }
+        plan.products.witness = Some(self.file.clone());
+        plan.checked()
+    }
+}
 
 /// What came of it.
 pub(super) enum Found {

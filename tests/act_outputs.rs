@@ -1,4 +1,4 @@
-//! What `--html`, `--svg` and `--export` do to what is there already, and that
+//! What `draw` and `export` do to what is there already, and that
 //! nothing is left where nothing can be made.
 
 #![cfg(unix)]
@@ -12,7 +12,8 @@ use std::os::unix::fs::{FileTypeExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const FILES: [&str; 2] = ["--html", "--svg"];
+/// Endings of the files that are drawn.
+const KINDS: [&str; 2] = ["html", "svg"];
 
 /// A folder with a graph in it.
 struct Place {
@@ -34,8 +35,12 @@ impl Place {
         self.path(name).to_str().unwrap().to_owned()
     }
 
-    fn run(&self, option: &str, name: &str) -> Run {
-        verify(&[&self.at("graph.txt"), option, &self.at(name)])
+    fn draw(&self, name: &str) -> Run {
+        verify(&["draw", &self.at("graph.txt"), &self.at(name)])
+    }
+
+    fn export(&self, name: &str) -> Run {
+        verify(&["export", &self.at("graph.txt"), &self.at(name)])
     }
 
     /// Everything in the folder: what it is, and what it holds.
@@ -71,25 +76,29 @@ fn refused(run: &Run, why: &str) {
     assert!(run.err.contains(why), "{}", run.err);
 }
 
-/// Every option that writes a file writes the same through a device, a pipe and a link, which stay.
+/// Pages and pictures are the same through a device, a pipe and a link, which stay.
 #[test]
 fn what_is_no_regular_file_stays() {
-    for option in FILES {
+    for kind in KINDS {
         let place = Place::new();
-        assert_eq!(place.run(option, "plain").code, 1);
-        let whole = fs::read(place.path("plain")).unwrap();
-        assert!(whole.len() >= 20, "{option}");
+        let named = |name: &str| format!("{name}.{kind}");
+        assert_eq!(place.draw(&named("plain")).code, 1);
+        let whole = fs::read(place.path(&named("plain"))).unwrap();
+        assert!(whole.len() >= 20, "{kind}");
 
-        let run = verify(&[&place.at("graph.txt"), option, "/dev/null"]);
+        for device in ["null", "full"] {
+            symlink(format!("/dev/{device}"), place.path(&named(device))).unwrap();
+        }
+        let run = place.draw(&named("null"));
         assert_eq!(run.code, 1, "{}", run.err);
         let null = fs::metadata("/dev/null").unwrap();
         assert!(null.file_type().is_char_device());
         refused(
-            &verify(&[&place.at("graph.txt"), option, "/dev/full"]),
-            "/dev/full was not written: No space left",
+            &place.draw(&named("full")),
+            "was not written: No space left",
         );
 
-        let pipe = place.at("pipe");
+        let pipe = place.at(&named("pipe"));
         assert!(
             Command::new("mkfifo")
                 .arg(&pipe)
@@ -101,17 +110,18 @@ fn what_is_no_regular_file_stays() {
             let pipe = pipe.clone();
             std::thread::spawn(move || fs::read(pipe).unwrap())
         };
-        assert_eq!(place.run(option, "pipe").code, 1);
-        assert!(alike(&reader.join().unwrap(), &whole), "{option}");
+        assert_eq!(place.draw(&named("pipe")).code, 1);
+        assert!(alike(&reader.join().unwrap(), &whole), "{kind}");
         assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
 
         fs::write(place.path("target"), "old").unwrap();
         for (link, to) in [("link", "target"), ("dangling", "new")] {
-            symlink(to, place.path(link)).unwrap();
-            assert_eq!(place.run(option, link).code, 1);
-            assert!(fs::symlink_metadata(place.path(link)).unwrap().is_symlink());
+            symlink(to, place.path(&named(link))).unwrap();
+            assert_eq!(place.draw(&named(link)).code, 1);
+            let link = place.path(&named(link));
+            assert!(fs::symlink_metadata(link).unwrap().is_symlink());
             let written = fs::read(place.path(to)).unwrap();
-            assert!(alike(&written, &whole), "{option} {link}");
+            assert!(alike(&written, &whole), "{kind} {to}");
         }
     }
 }
@@ -126,22 +136,31 @@ fn what_cannot_be_an_output_is_as_it_was() {
     symlink("folder", place.path("to-folder")).unwrap();
     symlink("graph.txt", place.path("to-graph")).unwrap();
     symlink("loop", place.path("loop")).unwrap();
-    fs::hard_link(place.path("graph.txt"), place.path("same-graph")).unwrap();
+    for kind in KINDS {
+        let named = |name: &str| place.path(&format!("{name}.{kind}"));
+        for target in ["folder", "graph.txt"] {
+            symlink(target, named(target)).unwrap();
+        }
+        symlink(format!("loop.{kind}"), named("loop")).unwrap();
+        fs::hard_link(place.path("graph.txt"), named("same-graph")).unwrap();
+    }
     let before = place.state();
-    for option in FILES {
+    for kind in KINDS {
         for (name, why) in [
             ("folder", "was not written: is a directory"),
-            ("to-folder", "was not written: is a directory"),
             ("missing/file", "was not written"),
             ("loop", "was not written: too many symbolic links"),
             ("graph.txt", "this is the input"),
-            ("to-graph", "this is the input"),
             ("same-graph", "this is the input"),
         ] {
-            refused(&place.run(option, name), why);
-            assert_eq!(place.state(), before, "{option} {name}");
+            refused(&place.draw(&format!("{name}.{kind}")), why);
+            assert_eq!(place.state(), before, "{name}.{kind}");
         }
     }
+    refused(
+        &place.draw("graph.txt"),
+        "the name of a file says what is drawn",
+    );
     for (name, why) in [
         ("graph.txt", "this is not a folder"),
         ("to-folder", "this is not a folder"),
@@ -150,10 +169,10 @@ fn what_cannot_be_an_output_is_as_it_was() {
         ("missing/folder", "was not written"),
         ("", "which no export has written"),
     ] {
-        refused(&place.run("--export", name), why);
-        assert_eq!(place.state(), before, "--export {name}");
+        refused(&place.export(name), why);
+        assert_eq!(place.state(), before, "{name}");
     }
-    let run = verify(&[&place.at("graph.txt"), "--export", "/dev/null"]);
+    let run = verify(&["export", &place.at("graph.txt"), "/dev/null"]);
     refused(&run, "this is not a folder");
 }
 
@@ -183,9 +202,15 @@ fn nothing_is_made_of_another_kind_of_input() {
     ]);
     let before = place.state();
     for input in &inputs {
-        for option in [&FILES[..], &["--export", "--certificate"]].concat() {
-            let run = verify(&[input, option, &place.at("out")]);
-            assert_eq!((run.code, run.out.as_str()), (2, ""), "{input} {option}");
+        let out = place.at("out");
+        for asked in [
+            ["draw", input, &place.at("out.html")],
+            ["draw", input, &place.at("out.svg")],
+            ["export", input, &out],
+            [input, "--certificate", &out],
+        ] {
+            let run = verify(&asked);
+            assert_eq!((run.code, run.out.as_str()), (2, ""), "{asked:?}");
             assert!(run.err.contains(input.as_str()), "{}", run.err);
         }
         let run = verify(&["overview", input]);
@@ -206,17 +231,13 @@ fn limits_leave_nothing() {
     let before = place.state();
     let large = place.at("large.txt");
     for limit in [["--time-limit", "1ms"], ["--memory-limit", "4M"]] {
-        for option in [&FILES[..], &["--export"]].concat() {
-            let out = place.at("out");
-            let asked = [&large[..], option, &out[..]];
+        for (command, name) in [("draw", "out.html"), ("draw", "out.svg"), ("export", "out")] {
+            let out = place.at(name);
+            let asked = [command, &large[..], &out[..]];
             let run = verify(&[&asked[..], &limit].concat());
-            assert_eq!(
-                (run.code, run.out.as_str()),
-                (3, ""),
-                "{option} {}",
-                run.err
-            );
-            assert_eq!(place.state(), before, "{option}");
+            let found = (run.code, run.out.as_str());
+            assert_eq!(found, (3, ""), "{command} {}", run.err);
+            assert_eq!(place.state(), before, "{command}");
         }
         let asked = ["overview", &large[..]];
         let run = verify(&[&asked[..], &limit].concat());

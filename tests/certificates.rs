@@ -36,7 +36,7 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         (
             "full rank by a minor",
             "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n".into(),
-            vec!["--no-contraction"],
+            vec!["--method", "matrix"],
         ),
         ("full rank over Q", EIGHT.into(), vec!["--rational"]),
         ("deficient over Q", cycle(4), vec!["--rational"]),
@@ -45,11 +45,11 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
         ("nested classes", PSI.into(), vec![]),
         ("two parts that overlap", OVERLAP.into(), vec![]),
         ("pairs that are implied", ADDED.into(), vec![]),
-        ("draws", PSI.into(), vec!["--no-counting"]),
+        ("draws", PSI.into(), vec!["--method", "ranks"]),
         (
             "draws of the whole graph",
             cycle(4),
-            vec!["--no-counting", "--no-contraction"],
+            vec!["--method", "matrix"],
         ),
         (
             "body in a piece",
@@ -519,12 +519,12 @@ fn overstated_and_understated_claims() {
         });
     }
     // An error bound is not a proof.
-    tampered(&cycle(5), &["--no-counting"], |value| {
+    tampered(&cycle(5), &["--method", "ranks"], |value| {
         value["claim"]["verdict"]["strength"] = json!("proof");
         value["claim"]["verdict"]["error_log2"] = json!(null);
     });
     // Finite is not unique without evidence for it; with evidence, or as a body, it is.
-    tampered(EIGHT, &["--no-solutions"], |value| {
+    tampered(EIGHT, &["--solutions=off"], |value| {
         value["claim"]["verdict"]["value"] = json!("solvable");
     });
     for unique in [EIGHT, "0 2\n0 3\n0 4\n1 2\n1 3\n1 4\n"] {

@@ -99,14 +99,14 @@ fn bad_input_is_said_and_the_rest_goes_on() {
     let done = verify(&["compare", "--prime", "91", &square]);
     assert_eq!(done.code, 2);
     // Bounds that are out of range are refused whatever they are used for.
-    for bounds in [
-        ["--numerator", "0"],
-        ["--numerator", "101"],
-        ["--denominator", "13"],
-    ] {
-        let done = verify(&[&["compare", "--rational", &square], &bounds[..]].concat());
-        assert_eq!(done.code, 2, "{bounds:?}");
-        assert!(done.err.contains(" is not in 1..="), "{}", done.err);
+    for bounds in ["0,4", "101,4", "9,13", "9", "9,", "9,4,1"] {
+        let done = verify(&["compare", &format!("--rational={bounds}"), &square]);
+        assert_eq!(done.code, 2, "{bounds}");
+        assert!(
+            done.err.contains("the largest numerator, 1 to 100"),
+            "{}",
+            done.err
+        );
     }
 }
 

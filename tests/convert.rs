@@ -112,14 +112,17 @@ fn what_cannot_be_converted() {
     );
     assert!(!Path::new(&out).exists());
     let parts = at("parts.txt");
-    std::fs::write(&parts, "c a\n").unwrap();
-    assert_eq!(verify(&["convert", &graph, "--parts", &parts]).out, "0 2\n");
-    let graph6 = ["convert", &graph, "--parts", &parts, "--to", "graph6"];
-    refused(&verify(&graph6), "graph6 holds no known parts");
-    std::fs::write(&parts, "c\n").unwrap();
+    std::fs::write(&parts, "part c a\n").unwrap();
+    assert_eq!(
+        verify(&["convert", &graph, "--given", &parts]).out,
+        "part 0 2\n"
+    );
+    let graph6 = ["convert", &graph, "--given", &parts, "--to", "graph6"];
+    refused(&verify(&graph6), "graph6 holds nothing that is given");
+    std::fs::write(&parts, "part c\n").unwrap();
     refused(
-        &verify(&["convert", &graph, "--parts", &parts]),
-        "no set has two cameras",
+        &verify(&["convert", &graph, "--given", &parts]),
+        "no part has two cameras",
     );
     // A long path is no short graph6 line.
     let path: String = (0..200_000).map(|k| format!("{k} {}\n", k + 1)).collect();

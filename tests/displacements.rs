@@ -30,15 +30,49 @@ impl File {
     }
 }
 
+/// What is given, for lines of two cameras or one and perhaps three numbers.
+fn given(text: &str) -> String {
+    let line = |line: &str| {
+        let fields = line.split('#').next().unwrap().split([' ', '\t', ',']);
+        match fields.filter(|field| !field.is_empty()).count() {
+            0 => format!("{line}\n"),
+            1 | 4 => format!("position {line}\n"),
+            _ => format!("displacement {line}\n"),
+        }
+    };
+    text.lines().map(line).collect()
+}
+
 fn decided(pairs: &str, known: &str, more: &[&str]) -> Run {
-    let file = File::new("known.txt", known);
-    let own = ["-", "--model", "calibrated", "--displacements", file.text()];
+    let file = File::new("known.txt", &given(known));
+    let own = ["-", "--model", "calibrated", "--given", file.text()];
     verify_with(pairs.as_bytes(), &[&own[..], more].concat())
 }
 
 fn line(pairs: &str, known: &str) -> (i32, Value) {
     let run = decided(pairs, known, &["--json", "--components"]);
     (run.code, run.json().remove(0))
+}
+
+/// The line of an answer that is proved, and is this one.
+fn proved(pairs: &str, known: &str, code: i32, ranks: [u64; 2], components: usize) -> Value {
+    let (found, line) = line(pairs, known);
+    let told = format!("{pairs:?} {known:?} {line}");
+    assert_eq!(found, code, "{told}");
+    assert_eq!(
+        [line["rank"].as_u64(), line["rank_required"].as_u64()],
+        ranks.map(Some),
+        "{told}"
+    );
+    assert_eq!(
+        line["components"].as_array().unwrap().len(),
+        components,
+        "{told}"
+    );
+    for strength in ["strength", "rank_strength", "components_strength"] {
+        assert_eq!(line[strength], "proof", "{told}");
+    }
+    line
 }
 
 /// Three scalars for each vector, two for each pair; 3 n - 3 in all.
@@ -70,22 +104,8 @@ fn answers_by_hand() {
             );
             continue;
         }
-        let (found, line) = line(pairs, known);
+        let line = proved(pairs, known, code, ranks, components);
         let told = format!("{pairs:?} {known:?} {line}");
-        assert_eq!(found, code, "{told}");
-        assert_eq!(
-            [line["rank"].as_u64(), line["rank_required"].as_u64()],
-            ranks.map(Some),
-            "{told}"
-        );
-        assert_eq!(
-            line["components"].as_array().unwrap().len(),
-            components,
-            "{told}"
-        );
-        for strength in ["strength", "rank_strength", "components_strength"] {
-            assert_eq!(line[strength], "proof", "{told}");
-        }
         assert_eq!(line["joints_complete"], components < 2, "{told}");
     }
 }
@@ -117,22 +137,8 @@ fn answers_for_given_vectors() {
             1,
         ),
     ] {
-        let (found, line) = line(pairs, known);
+        let line = proved(pairs, known, code, ranks, components);
         let told = format!("{pairs:?} {known:?} {line}");
-        assert_eq!(found, code, "{told}");
-        assert_eq!(
-            [line["rank"].as_u64(), line["rank_required"].as_u64()],
-            ranks.map(Some),
-            "{told}"
-        );
-        assert_eq!(
-            line["components"].as_array().unwrap().len(),
-            components,
-            "{told}"
-        );
-        for strength in ["strength", "rank_strength", "components_strength"] {
-            assert_eq!(line[strength], "proof", "{told}");
-        }
         assert_eq!(line["displacements"]["vectors"], true, "{told}");
         let condition = line["conditions"][0].as_str().unwrap();
         assert!(
@@ -154,7 +160,7 @@ fn wrong_vectors_are_named() {
     for (known, wanted) in [
         (
             "0 1 1 0 0\n2 3\n",
-            "known.txt:2: the line has 2 fields, and an earlier one has 5; ",
+            "known.txt:2: some lines have vectors, and others have none; ",
         ),
         (
             "0 1 1 0 0\n1 2 1 0 0\n\n2 0 -2 0 1e-6\n",
@@ -178,10 +184,10 @@ fn certificates_bind_the_vectors() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write("pairs.txt", "0 2\n1 3\n");
-    write("equal.txt", "0 1 2 0 0\n2 3 2 0 0\n");
-    write("metres.txt", "3 2 -0.002 0 0\n1 0 -2e-3 0 0\n");
-    write("longer.txt", "0 1 2 0 0\n2 3 3 0 0\n");
-    write("none.txt", "0 1\n2 3\n");
+    write("equal.txt", &given("0 1 2 0 0\n2 3 2 0 0\n"));
+    write("metres.txt", &given("3 2 -0.002 0 0\n1 0 -2e-3 0 0\n"));
+    write("longer.txt", &given("0 1 2 0 0\n2 3 3 0 0\n"));
+    write("none.txt", &given("0 1\n2 3\n"));
     let run = |arguments: &[&str]| {
         let run = Command::new(env!("CARGO_BIN_EXE_verify"));
         let output = { run }
@@ -194,7 +200,7 @@ fn certificates_bind_the_vectors() {
             String::from_utf8_lossy(&output.stdout).into_owned(),
         )
     };
-    let decide = ["pairs.txt", "--model", "calibrated", "--displacements"];
+    let decide = ["pairs.txt", "--model", "calibrated", "--given"];
     let (code, _) = run(&[&decide[..], &["equal.txt", "--certificate", "equal.json"]].concat());
     assert_eq!(code, Some(1));
     for (file, expected) in [
@@ -203,7 +209,7 @@ fn certificates_bind_the_vectors() {
         ("longer.txt", 1),
         ("none.txt", 1),
     ] {
-        let (code, out) = run(&["check", "equal.json", "pairs.txt", "--displacements", file]);
+        let (code, out) = run(&["check", "equal.json", "pairs.txt", "--given", file]);
         assert_eq!(code, Some(expected), "{file}: {out}");
     }
 }
@@ -250,51 +256,56 @@ fn what_is_supposed_is_reported() {
 
 #[test]
 fn what_knows_nothing_of_displacements_refuses_by_name() {
-    for (more, other) in [
-        (&["--planar"][..], "--planar"),
-        (&["--no-contraction"], "--no-contraction"),
-        (&["--witness", "w.json"], "--witness"),
-        (&["--weak"], "--weak"),
-        (&["--suggest"], "--suggest"),
-        (&["--explain", "0"], "--explain"),
-        (&["--sweep", "20"], "--sweep"),
-        (&["--margin"], "--margin"),
-        (&["--export", "out"], "--export"),
-        (&["--tracks"], "--tracks"),
+    for (more, why) in [
+        (&["--planar"][..], "--planar: in a plane nothing is proved"),
+        (
+            &["--method", "matrix"],
+            "the matrix of the whole graph has none",
+        ),
+        (&["--tracks"], "tracks are decided by themselves"),
+        (
+            &["--proof", "p.txt"],
+            "explicit proofs are written in the projective",
+        ),
+        (
+            &["--solutions=full"],
+            "the calibrated model has one or infinitely many",
+        ),
+        (
+            &["--rational"],
+            "the calibrated model is decided modulo primes alone",
+        ),
     ] {
         let run = decided(&cycle(4), "0 1\n", more);
-        assert_eq!((run.code, run.out.as_str()), (2, ""), "{other}");
-        let wanted = format!("--displacements: {other} knows nothing of displacements");
-        assert!(run.err.contains(&wanted), "{}", run.err);
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{more:?}");
+        assert!(run.err.contains(why), "{}", run.err);
     }
-    let file = File::new("known.txt", "0 1\n");
+    let file = File::new("known.txt", "displacement 0 1\n");
+    let export = [
+        "export",
+        "-",
+        "out",
+        "--model",
+        "calibrated",
+        "--given",
+        file.text(),
+    ];
+    let run = verify_with(cycle(4).as_bytes(), &export);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("in ways of their own"), "{}", run.err);
     for model in [&[][..], &["--model", "projective"], &["--model", "affine"]] {
-        let own = ["-", "--displacements", file.text()];
+        let own = ["-", "--given", file.text()];
         let run = verify_with(cycle(4).as_bytes(), &[&own[..], model].concat());
         assert_eq!(run.code, 2);
-        assert!(
-            run.err.contains("between calibrated cameras only"),
-            "{}",
-            run.err
-        );
+        assert!(run.err.contains("model has no distances"), "{}", run.err);
     }
-    let focal = ["-", "--displacements", file.text(), "--model", "focal"];
+    let focal = ["-", "--given", file.text(), "--model", "focal"];
     assert_eq!(verify_with(cycle(4).as_bytes(), &focal).code, 0);
     // Those of one graph.
     let two = File::new("two.g6", "Cl\nCl\n");
-    let run = verify(&[
-        two.text(),
-        "--model",
-        "calibrated",
-        "--displacements",
-        file.text(),
-    ]);
+    let run = verify(&[two.text(), "--model", "calibrated", "--given", file.text()]);
     assert_eq!(run.code, 2);
-    assert!(
-        run.err.contains("the displacements are those of one graph"),
-        "{}",
-        run.err
-    );
+    assert!(run.err.contains("this is about one graph"), "{}", run.err);
 }
 
 /// Certificates are verified by both checkers, for the displacements that were supposed and no
@@ -322,15 +333,15 @@ fn certificates_and_both_checkers() {
         let graph = File::new("graph.txt", &pairs);
         let folder = graph.folder.path();
         let (own, other) = (folder.join("known.txt"), folder.join("other.txt"));
-        std::fs::write(&own, known).unwrap();
-        std::fs::write(&other, "0 2\n").unwrap();
+        std::fs::write(&own, given(known)).unwrap();
+        std::fs::write(&other, "displacement 0 2\n").unwrap();
         let certificate = folder.join("certificate.json");
         let [own, other, certificate] = [&own, &other, &certificate].map(|p| p.to_str().unwrap());
         let run = verify(&[
             graph.text(),
             "--model",
             "calibrated",
-            "--displacements",
+            "--given",
             own,
             "--certificate",
             certificate,
@@ -344,30 +355,37 @@ fn certificates_and_both_checkers() {
         let hash = checked.out.trim_end().rsplit(' ').next().unwrap();
         for arguments in [
             &[certificate][..],
-            &[certificate, graph.text(), "--displacements", own],
+            &[certificate, graph.text(), "--given", own],
         ] {
             let checked = verify(&[&["check"], arguments].concat());
             assert_eq!(checked.code, 0, "{}", checked.out);
             let said = "VERIFIED displacements: supposed to be known";
             assert!(checked.out.contains(said), "{}", checked.out);
         }
-        let checked = verify(&["check", certificate, graph.text(), "--displacements", other]);
+        let checked = verify(&["check", certificate, graph.text(), "--given", other]);
         assert_eq!(checked.code, 1);
         let wanted = "REJECTED: displacements: others are supposed to be known: ";
         assert!(checked.out.starts_with(wanted), "{}", checked.out);
         let plain = graph.text();
         let converted = folder.join("pairs.txt").to_str().unwrap().to_owned();
         assert_eq!(verify(&["convert", plain, "-o", &converted]).code, 0);
-        let zeros = "0".repeat(64);
+        let file = |name: &str, hash: &str| {
+            let path = folder.join(name).to_str().unwrap().to_owned();
+            std::fs::write(&path, format!("displacements {hash}\n")).unwrap();
+            path
+        };
+        let (zeros, hash) = (file("zeros.txt", &"0".repeat(64)), file("hash.txt", hash));
+        // The same as `convert` writes it.
+        let written = verify(&["convert", plain, "--given", own]).out;
+        assert_eq!(std::fs::read_to_string(&hash).unwrap(), written);
         for checker in [first_checker, second_checker] {
             for (arguments, code) in [
                 (vec![certificate], 0),
-                (vec![certificate, "--displacements", hash], 0),
-                (vec![certificate, "--displacements", "none"], 1),
+                (vec![certificate, "--given", &hash], 0),
+                (vec![certificate, "--given", &zeros], 1),
                 (vec![certificate, &converted], 1),
-                (vec![certificate, &converted, "--displacements", hash], 0),
-                (vec![certificate, &converted, "--displacements", "none"], 1),
-                (vec![certificate, &converted, "--displacements", &zeros], 1),
+                (vec![certificate, &converted, "--given", &hash], 0),
+                (vec![certificate, &converted, "--given", &zeros], 1),
             ] {
                 let run = checker(&arguments);
                 assert_eq!(run.code, code, "{pairs:?} {arguments:?}: {}", run.err);
@@ -376,17 +394,11 @@ fn certificates_and_both_checkers() {
     }
     // Without any the certificate is what it always was, and supposes nothing.
     let graph = File::new("graph.txt", &cycle(4));
-    let known = File::new("known.txt", "0 1\n");
+    let known = File::new("known.txt", "displacement 0 1\n");
     let run = verify(&[graph.text(), "--model", "calibrated", "--certificate", "-"]);
     assert!(!run.out.contains("displacements"), "{}", run.out);
     let plain = File::new("plain.json", &run.out);
-    let checked = verify(&[
-        "check",
-        plain.text(),
-        graph.text(),
-        "--displacements",
-        known.text(),
-    ]);
+    let checked = verify(&["check", plain.text(), graph.text(), "--given", known.text()]);
     assert_eq!(checked.code, 1);
     assert!(
         checked
@@ -400,12 +412,12 @@ fn certificates_and_both_checkers() {
 /// Another table of results cannot be decided again without what it supposes.
 #[test]
 fn claims_that_rest_on_displacements_are_no_claims_of_pairs() {
-    let file = File::new("known.txt", "0 1\n");
+    let file = File::new("known.txt", "displacement 0 1\n");
     let own = [
         "-",
         "--model",
         "calibrated",
-        "--displacements",
+        "--given",
         file.text(),
         "--json",
     ];
@@ -495,19 +507,18 @@ fn scaled_components_that_share_a_camera_are_one() {
 #[test]
 fn the_file_is_no_output() {
     let graph = File::new("graph.txt", &cycle(4));
-    for option in ["--certificate", "--html", "--svg"] {
-        let known = File::new("known.txt", "0 1\n");
-        let run = verify(&[
-            graph.text(),
-            "--model",
-            "calibrated",
-            "--displacements",
-            known.text(),
-            option,
-            known.text(),
-        ]);
-        assert_eq!(run.code, 2, "{option}: {}", run.out);
-        assert!(run.err.contains("known.txt"), "{option}: {}", run.err);
-        assert_eq!(std::fs::read_to_string(known.text()).unwrap(), "0 1\n");
+    let known = File::new("known.svg", "displacement 0 1\n");
+    let question = ["--model", "calibrated", "--given", known.text()];
+    for asked in [
+        &[graph.text(), "--certificate", known.text()][..],
+        &["draw", graph.text(), known.text()],
+    ] {
+        let run = verify(&[asked, &question].concat());
+        assert_eq!(run.code, 2, "{asked:?}: {}", run.out);
+        assert!(run.err.contains("known.svg"), "{asked:?}: {}", run.err);
+        assert_eq!(
+            std::fs::read_to_string(known.text()).unwrap(),
+            "displacement 0 1\n"
+        );
     }
 }

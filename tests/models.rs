@@ -120,8 +120,11 @@ fn reasons_in_words() {
 #[test]
 fn what_the_affine_model_does_not_go_with() {
     for (more, words) in [
-        (&["--rational"][..], "leave out --rational"),
-        (&["--no-counting"], "decided by counting alone"),
+        (
+            &["--rational"][..],
+            "rational cameras: the affine model is decided by counting",
+        ),
+        (&["--method", "ranks"], "decided by counting alone"),
         (&["--planar"], "no centres"),
     ] {
         let arguments = [&["-", "--model", "affine"], more].concat();

@@ -29,40 +29,39 @@ fn every_option_keeps_to_the_schema() {
     let schema = schema();
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let act = [
+    let out = out.to_str().unwrap();
+    let export = ["export", "-", out, "--json", "--components"];
+    let advise = [
+        "advise",
         "-",
         "--json",
         "--components",
         "--weak",
         "--suggest",
-        "--explain",
-        "a",
-        "--margin",
-        "--export",
-        out.to_str().unwrap(),
     ];
+    let advise = [&advise[..], &["--explain", "a", "--margin"]].concat();
     for model in ["projective", "calibrated", "affine"] {
-        let options = [&act[..], &["--model", model]].concat();
-        let line = valid(&schema, &verify_with(TWO.as_bytes(), &options)).remove(0);
-        let asked = [
-            "weak",
-            "suggestions",
-            "explain",
-            "margin",
-            "export",
-            "joints",
-        ];
-        assert!(asked.iter().all(|name| !line[*name].is_null()), "{line}");
-        mutilations_are_refused(&schema, &line, &["graph", "verdict", "joints", "seconds"]);
+        for (act, asked) in [
+            (&export[..], &["export", "joints"][..]),
+            (
+                &advise,
+                &["weak", "suggestions", "explain", "margin", "joints"],
+            ),
+        ] {
+            let options = [act, &["--model", model]].concat();
+            let line = valid(&schema, &verify_with(TWO.as_bytes(), &options)).remove(0);
+            assert!(asked.iter().all(|name| !line[*name].is_null()), "{line}");
+            mutilations_are_refused(&schema, &line, &["graph", "verdict", "joints", "seconds"]);
+        }
     }
     valid(
         &schema,
-        &verify_with(TWO.as_bytes(), &["-", "--json", "--weak=images"]),
+        &verify_with(TWO.as_bytes(), &["advise", "-", "--json", "--weak=images"]),
     );
     for options in [
         &[][..],
         &["--rational"],
-        &["--no-counting"],
+        &["--method", "ranks"],
         &["--model", "calibrated"],
         &["--model", "affine"],
         &["--model", "focal"],
@@ -103,7 +102,7 @@ fn databases_keep_to_the_schema() {
         if !path.ends_with(".db") {
             continue;
         }
-        let pairs = verify(&["--json", "--sweep", "10,30", path]);
+        let pairs = verify(&["advise", "--json", "--sweep", "10,30", path]);
         if pairs.code == 2 {
             // What is no database of verified pairs has no overview either.
             assert_eq!(verify(&["overview", "--json", path]).code, 2, "{path}");
@@ -113,9 +112,16 @@ fn databases_keep_to_the_schema() {
         valid(&schema, &pairs);
         valid(
             &schema,
-            &verify(&["--json", "--tracks", "--components", "--margin=2", path]),
+            &verify(&[
+                "advise",
+                "--json",
+                "--tracks",
+                "--components",
+                "--margin=2",
+                path,
+            ]),
         );
-        let act = ["--json", "--tracks", "--suggest", "--weak"];
+        let act = ["advise", "--json", "--tracks", "--suggest", "--weak"];
         valid(&schema, &verify(&[&act[..], &[path]].concat()));
         let line = valid(&schema, &verify(&["overview", "--json", path])).remove(0);
         mutilations_are_refused(
@@ -378,7 +384,7 @@ fn tracks_of_samples_have_suggestions() {
     let suggested = |name: &str| {
         let path = folder.join(name);
         let path = path.to_str().unwrap();
-        let run = verify(&["--tracks", "--suggest", "--json", path]);
+        let run = verify(&["advise", "--tracks", "--suggest", "--json", path]);
         valid(&schema, &run).remove(0)["suggestions"].clone()
     };
     // Points of two images each join the pair A_000 B_006, 30 of them: tracks too short to count.
@@ -422,7 +428,7 @@ fn commands_name_the_database() {
     let path = folder.join("clusters_nothing.db");
     let path = path.to_str().unwrap();
     for options in [&["--tracks"][..], &[]] {
-        let export = ["--json", "--export", out.to_str().unwrap(), path];
+        let export = ["export", "--json", path, out.to_str().unwrap()];
         let arguments = [&export[..], options].concat();
         let line = verify(&arguments).json().remove(0);
         let parts = line["export"]["commands"].as_array().unwrap();

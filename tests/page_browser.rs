@@ -19,8 +19,8 @@ impl Page {
     fn of(input: &[u8], arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("report.html");
-        let html = ["--html", path.to_str().unwrap()];
-        let run = verify_with(input, &[arguments, &html].concat());
+        let draw = ["draw", arguments[0], path.to_str().unwrap()];
+        let run = verify_with(input, &[&draw, &arguments[1..]].concat());
         assert!(run.code <= 1, "{}", run.err);
         Self { folder, run }
     }
@@ -488,44 +488,24 @@ fn nothing_is_loaded_from_elsewhere() {
 fn one_graph_a_page_and_no_input_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let (graph, list, out) = (at("g.txt"), at("two.g6"), at("out"));
+    let (graph, list) = (at("g.txt"), at("two.g6"));
     fs::write(&graph, cycle(4)).unwrap();
     fs::write(&list, "C~\nBw\n").unwrap();
-    for option in ["--html", "--svg"] {
-        for arguments in [&[&graph[..], &graph][..], &[&list]] {
-            let run = verify(&[arguments, &[option, &out]].concat());
-            assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
-            assert!(
-                run.err
-                    .contains(&format!("{option} {out}: one file shows one graph")),
-                "{}",
-                run.err
-            );
-            assert!(!Path::new(&out).exists());
-        }
-        let run = verify(&[&graph, option, &graph]);
-        assert_eq!(run.code, 2);
-        assert!(run.err.contains("this is the input"), "{}", run.err);
-        let run = verify(&[&graph, option, &at("")]);
-        assert_eq!(run.code, 2, "a folder is no file");
-        assert!(run.err.contains("was not written"), "{}", run.err);
-        let run = verify(&[&graph, option, "-"]);
-        assert_eq!(run.code, 1);
-        assert!(
-            run.out.starts_with('<') && run.err.contains("verdict"),
-            "{}",
-            run.err
-        );
+    for (what, out) in [("page", at("out.html")), ("picture", at("out.svg"))] {
+        let run = verify(&["draw", &list, &out]);
+        assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
+        let why = format!("{what} {out}: this is about one graph");
+        assert!(run.err.contains(&why), "{}", run.err);
+        assert!(!Path::new(&out).exists());
     }
-    let run = verify(&[&graph, "--html", &out, "--svg", &out]);
-    assert!(
-        run.err.contains("--html goes to the same file"),
-        "{}",
-        run.err
-    );
+    let run = verify(&["draw", &graph, "-"]);
+    assert_eq!(run.code, 1);
+    assert!(run.out.starts_with('<') && run.err.contains("verdict"));
+    let run = verify(&["draw", &graph, &at("one.svg"), &at("two.svg")]);
+    assert!(run.err.contains("are files of one kind"), "{}", run.err);
     assert_eq!(fs::read_to_string(&graph).unwrap(), cycle(4));
 
-    let run = verify(&[&graph, "--html", &at("a.html"), "--svg", &at("a.svg")]);
+    let run = verify(&["draw", &graph, &at("a.html"), &at("a.svg")]);
     assert!(
         run.out
             .contains(&format!("  page        {}\n", at("a.html"))),
@@ -538,7 +518,7 @@ fn one_graph_a_page_and_no_input_is_lost() {
         "{}",
         run.out
     );
-    let again = verify(&[&graph, "--svg", "-"]);
+    let again = verify(&["draw", &graph, "-"]);
     assert_eq!(
         fs::read_to_string(at("a.svg")).unwrap(),
         again.out,

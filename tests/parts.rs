@@ -19,7 +19,7 @@ impl Files {
     fn new(graph: &str, parts: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("graph.txt"), graph).unwrap();
-        fs::write(folder.path().join("parts.txt"), parts).unwrap();
+        fs::write(folder.path().join("parts.txt"), given(parts)).unwrap();
         Self(folder)
     }
 
@@ -34,9 +34,18 @@ impl Files {
     /// `verify` on the graph with its parts and further options.
     fn verify(&self, more: &[&str]) -> common::Run {
         let (graph, parts) = (self.name("graph.txt"), self.name("parts.txt"));
-        let own = [&graph, "--parts", &parts];
+        let own = [&graph, "--given", &parts];
         verify(&[&own[..], more].concat())
     }
+}
+
+/// What the lines of a text list, as known parts.
+fn given(parts: &str) -> String {
+    let line = |line: &str| match line.starts_with(['#']) || line.is_empty() {
+        true => format!("{line}\n"),
+        false => format!("part {line}\n"),
+    };
+    parts.lines().map(line).collect()
 }
 
 /// Holds a line of a report against the schema of all reports.
@@ -232,7 +241,7 @@ fn what_is_wrong_is_said() {
     assert_eq!(line["parts"], 2);
     for (parts, reason) in [
         ("a b\nb e\n", ":2: `e` is no camera of the graph"),
-        ("", ": the file holds no part of a reconstruction"),
+        ("", ": the file gives nothing"),
         ("a \"b\n", ":1: a quote"),
     ] {
         let run = Files::new(graph, parts).verify(&[]);
@@ -245,15 +254,13 @@ fn what_is_wrong_is_said() {
     }
     let (one, two) = (files.name("graph.txt"), files.name("graph.txt"));
     for (arguments, reason) in [
-        (vec!["--no-contraction"], "not with --no-contraction"),
-        (vec!["--tracks"], "not with --tracks"),
-        (vec!["--weak"], "not with --weak"),
-        (vec!["--suggest"], "not with --suggest"),
-        (vec!["--explain", "a"], "not with --explain"),
-        (vec!["--sweep", "3"], "not with --sweep"),
-        (vec!["--margin"], "not with --margin"),
-        (vec!["--witness", "w"], "not with --witness"),
-        (vec![two.as_str()], "the parts are those of one graph"),
+        (
+            vec!["--method", "matrix"],
+            "the matrix of the whole graph has none",
+        ),
+        (vec!["--tracks"], "tracks are decided by themselves"),
+        (vec![two.as_str()], "this is about one graph"),
+        (vec!["--proof", "p"], "explicit proofs rest on pairs alone"),
         (vec!["--certificate", &own], "parts.txt"),
     ] {
         let run = files.verify(&arguments);
@@ -266,7 +273,7 @@ fn what_is_wrong_is_said() {
     let run = verify(&["audit", "--claims", &report]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("a graph with known parts"), "{}", run.err);
-    let run = verify_with(b"0 1\n", &["-", "--parts", "-"]);
+    let run = verify_with(b"0 1\n", &["-", "--given", "-"]);
     assert_eq!(run.code, 2);
     assert!(
         run.err.contains("standard input is the graph already"),
@@ -274,10 +281,10 @@ fn what_is_wrong_is_said() {
         run.err
     );
     // Other commands do not know the option.
-    for command in ["overview", "compare", "audit", "conditions"] {
-        let run = verify(&[command, &one, "--parts", &own]);
+    for command in ["overview", "compare", "audit", "conditions", "advise"] {
+        let run = verify(&[command, &one, "--given", &own]);
         assert_eq!(run.code, 2, "{command}");
-        assert!(run.err.contains("'--parts'"), "{}", run.err);
+        assert!(run.err.contains("'--given'"), "{}", run.err);
     }
 }
 
@@ -286,7 +293,7 @@ fn what_is_wrong_is_said() {
 fn models_side_by_side() {
     let files = Files::new("0 4\n1 5\n2 6\n3 7\n", "0 1 4\n1 2 5\n2 3 6\n0 3 7\n");
     let (graph, parts) = (files.name("graph.txt"), files.name("parts.txt"));
-    let run = verify(&["models", &graph, "--parts", &parts, "--json"]);
+    let run = verify(&["models", &graph, "--given", &parts, "--json"]);
     assert_eq!(run.code, 1);
     let line = &run.json()[0];
     is_valid(line);
@@ -304,9 +311,9 @@ fn models_side_by_side() {
         (&"projective".into(), &"calibrated".into())
     );
     assert_eq!(change["at"].as_array().unwrap().len(), 4);
-    let text = verify(&["models", &graph, "--parts", &parts]).out;
+    let text = verify(&["models", &graph, "--given", &parts]).out;
     assert!(text.contains("8 cameras, 4 pairs, 4 known parts"), "{text}");
-    let run = verify(&["models", &graph, &graph, "--parts", &parts]);
+    let run = verify(&["models", &graph, &graph, "--given", &parts]);
     assert_eq!(run.code, 2);
 }
 
@@ -325,7 +332,7 @@ fn certificates_are_about_graph_and_parts() {
     let graph = "a b\nb c\n\"c d\" a\ne f\ng h\n";
     let files = Files::new(graph, "a b e\nb c f\nc \"c d\" g\nh a \"c d\"\n");
     let other = files.name("other.txt");
-    fs::write(&other, "a b e\nb c f\nc \"c d\" g\n").unwrap();
+    fs::write(&other, given("a b e\nb c f\nc \"c d\" g\n")).unwrap();
     for model in ["projective", "calibrated", "affine"] {
         let certificate = files.name("certificate.json");
         let run = files.verify(&["--model", model, "--certificate", &certificate]);
@@ -338,7 +345,7 @@ fn certificates_are_about_graph_and_parts() {
             (Some(parts), &numbers),
             (Some(&*other), &fewer),
         ] {
-            let known: Vec<&str> = known.map_or(vec![], |known| vec!["--parts", known]);
+            let known: Vec<&str> = known.map_or(vec![], |known| vec!["--given", known]);
             let run = verify(&[&["convert", graph, "-o", out], &known[..]].concat());
             assert_eq!((run.code, &*run.out), (0, ""), "{}", run.err);
         }
@@ -346,9 +353,9 @@ fn certificates_are_about_graph_and_parts() {
         let in_numbers = [&*pairs, &*numbers, &*fewer];
         let codes = |[graph, parts, other]: [&str; 3], check: &dyn Fn(&[&str]) -> Option<i32>| {
             let given = [
-                vec![graph, "--parts", parts],
+                vec![graph, "--given", parts],
                 vec![graph],
-                vec![graph, "--parts", other],
+                vec![graph, "--given", other],
             ];
             given.map(|given| check(&[&[&*certificate], &given[..]].concat()).unwrap())
         };
@@ -363,8 +370,8 @@ fn certificates_are_about_graph_and_parts() {
         }
         for check in [&own as &dyn Fn(&[&str]) -> Option<i32>, &first, &second] {
             assert_eq!(check(&[&certificate]), Some(0));
-            assert_eq!(check(&[&certificate, "--parts", &numbers]), Some(0));
-            assert_eq!(check(&[&certificate, "--parts", &fewer]), Some(1));
+            assert_eq!(check(&[&certificate, "--given", &numbers]), Some(0));
+            assert_eq!(check(&[&certificate, "--given", &fewer]), Some(1));
         }
         let text: serde_json::Value =
             serde_json::from_str(&fs::read_to_string(&certificate).unwrap()).unwrap();
@@ -372,7 +379,7 @@ fn certificates_are_about_graph_and_parts() {
         let sha256 = text["graph"]["sha256"].as_str().unwrap();
         assert_eq!(first(&[&certificate, "--sha256", sha256]), Some(1));
         assert_eq!(
-            first(&[&certificate, "--sha256", sha256, "--parts", &numbers]),
+            first(&[&certificate, "--sha256", sha256, "--given", &numbers]),
             Some(0)
         );
         let run = verify(&["check", &certificate]);
@@ -384,10 +391,10 @@ fn certificates_are_about_graph_and_parts() {
         );
     }
     let folder = files.0.path().to_str().unwrap();
-    let run = verify(&["check", folder, "--parts", &other]);
+    let run = verify(&["check", folder, "--given", &other]);
     assert_eq!(run.code, 2);
     assert!(
-        run.err.contains("known parts go with one certificate"),
+        run.err.contains("what is given goes with one certificate"),
         "{}",
         run.err
     );
@@ -473,7 +480,7 @@ fn large_parts_stay_small() {
         let arguments = [
             &*certificate,
             &files.name("graph.txt"),
-            "--parts",
+            "--given",
             &files.name("parts.txt"),
         ];
         assert_eq!(first(&arguments), Some(0));
@@ -485,7 +492,8 @@ fn large_parts_stay_small() {
 fn pictures_show_what_there_is() {
     let files = Files::new("0 1\n1 2\n2 3\n3 4\n4 5\n", "0 2 4\n");
     let (page, picture) = (files.name("page.html"), files.name("picture.svg"));
-    let run = files.verify(&["--html", &page, "--svg", &picture, "--components"]);
+    let (graph, given) = (files.name("graph.txt"), files.name("parts.txt"));
+    let run = verify(&["draw", &graph, &page, &picture, "--given", &given]);
     assert_eq!(run.code, 1, "{}", run.err);
     let html = fs::read_to_string(&page).unwrap();
     assert!(

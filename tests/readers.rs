@@ -410,15 +410,8 @@ fn own_files_are_named() {
     };
     let graph = write("graph.txt", "a b\nb c\nc a\n");
     let [certificate, page, picture] = ["c.json", "page.html", "picture.svg"].map(path);
-    let options = [
-        "--certificate",
-        &certificate,
-        "--html",
-        &page,
-        "--svg",
-        &picture,
-    ];
-    let text = verify(&[&[&*graph][..], &options].concat());
+    assert_eq!(verify(&["draw", &graph, &page, &picture]).code, 0);
+    let text = verify(&[&graph, "--certificate", &certificate]);
     assert_eq!(text.code, 0, "{}", text.err);
     let mut own = vec![
         (certificate.clone(), "a certificate", "`verify check FILE"),
@@ -471,16 +464,14 @@ fn own_files_are_named() {
         .collect();
     let run = verify_with(graphs.as_bytes(), &["-", "--json"]);
     assert_eq!(run.json().len(), catalog.lines().count() - 1);
-    for option in ["--parts", "--displacements"] {
-        let run = verify(&[&*graph, "--model", "calibrated", option, &certificate]);
-        assert_eq!(run.code, 2);
-        assert!(
-            run.err
-                .contains("this is a certificate that this program has written"),
-            "{}",
-            run.err
-        );
-    }
+    let run = verify(&[&*graph, "--given", &certificate]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.err
+            .contains("this is a certificate that this program has written"),
+        "{}",
+        run.err
+    );
 }
 
 /// What is no certificate is not rejected: that would be said of a claim.
@@ -554,5 +545,9 @@ fn ten_bad_lines_are_shown() {
             .err
             .contains("-: 990 more lines cannot be read either\n");
         assert_eq!(more, shown > 10, "{}", run.err);
+        if good == 1 {
+            let run = verify_with(text.as_bytes(), &["-"]);
+            assert!(run.out.contains("3 cameras, 3 pairs"), "{}", run.out);
+        }
     }
 }

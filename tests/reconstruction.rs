@@ -86,7 +86,7 @@ fn printed_commands_reconstruct_what_is_exported() {
     let folder = tempfile::tempdir().unwrap();
     clusters(&python, folder.path());
     std::fs::create_dir(folder.path().join("images")).unwrap();
-    let export = ["--tracks", "--json", "--export", "it's out", "x.db"];
+    let export = ["export", "--tracks", "--json", "x.db", "it's out"];
     let (code, out, err) = verify_in(folder.path(), &export);
     assert_eq!(code, Some(1), "{err}");
     let line: serde_json::Value = serde_json::from_str(&out).unwrap();

@@ -121,11 +121,11 @@ fn certificates_say_what_they_show() {
     // One solution, two solutions (published), and K_{2,3}, which is one body.
     for (graph6, arguments, verdict, count) in [
         ("G@TclO", &[][..], Solvable, Some((1, Some(1)))),
-        ("G@TclO", &["--no-solutions"], FiniteSolvable, None),
+        ("G@TclO", &["--solutions=off"], FiniteSolvable, None),
         ("HBQkcP_", &[], FiniteSolvable, Some((2, Some(2)))),
-        ("HBQkcP_", &["--no-solutions"], FiniteSolvable, None),
+        ("HBQkcP_", &["--solutions=off"], FiniteSolvable, None),
         ("D]o", &[], Solvable, None),
-        ("D]o", &["--no-solutions"], Solvable, None),
+        ("D]o", &["--solutions=off"], Solvable, None),
     ] {
         let graph = graph_file(folder.path(), graph6);
         let to = ["--certificate", certificate.to_str().unwrap()];
@@ -139,7 +139,7 @@ fn certificates_say_what_they_show() {
             .map(|count| (count.at_least, count.at_most));
         assert_eq!(counted, count, "{graph6} {arguments:?}");
         // Without contraction nothing is counted, and nothing is claimed.
-        let whole = verify(&[&[graph.as_str()], &to[..], &["--no-contraction"]].concat());
+        let whole = verify(&[&[graph.as_str()], &to[..], &["--method", "matrix"]].concat());
         assert_eq!(whole.status.code(), Some(0));
         let verified = viewcert_check::check(&std::fs::read(&certificate).unwrap(), None);
         assert_eq!(verified.unwrap().verdict.0, FiniteSolvable, "{graph6}");
@@ -154,7 +154,7 @@ fn a_second_solution_to_look_at() {
     let graph = graph_file(folder.path(), "HBQkcP_");
     let witness = folder.path().join("witness.json");
     let path = witness.to_str().unwrap();
-    let run = verify(&[&graph, "--witness", path]);
+    let run = verify(&["witness", &graph, path]);
     assert_eq!(run.status.code(), Some(0));
     assert!(
         String::from_utf8(run.stdout)
@@ -206,7 +206,7 @@ fn a_second_solution_to_look_at() {
     // One solution only: nothing is written, and why is said.
     let graph = graph_file(folder.path(), "G@TclO");
     let none = folder.path().join("none.json");
-    let run = verify(&[&graph, "--witness", none.to_str().unwrap()]);
+    let run = verify(&["witness", &graph, none.to_str().unwrap()]);
     assert_eq!(run.status.code(), Some(0));
     let said = String::from_utf8(run.stderr).unwrap();
     assert!(
@@ -214,6 +214,6 @@ fn a_second_solution_to_look_at() {
         "{said}"
     );
     assert!(!none.exists());
-    let run = verify(&[&graph, "--witness", &graph]);
+    let run = verify(&["witness", &graph, &graph]);
     assert_eq!(run.status.code(), Some(2), "the graph itself");
 }

@@ -75,14 +75,7 @@ fn other_formats() {
 
 #[test]
 fn what_does_not_go_with_a_table() {
-    for option in [
-        "--json",
-        "--components",
-        "--weak",
-        "--suggest",
-        "--planar",
-        "--tracks",
-    ] {
+    for option in ["--json", "--components", "--planar", "--tracks"] {
         let run = verify(&["--table", option, "examples/house.txt"]);
         assert_eq!(run.code, 2, "{option}: {}", run.out);
         assert!(

@@ -99,8 +99,8 @@ fn what_moves_as_one_need_not_be_a_component() {
     let list = edges.replace(',', "\n");
     for extra in [
         &[][..],
-        &["--no-counting"],
-        &["--no-contraction"],
+        &["--method", "ranks"],
+        &["--method", "matrix"],
         &["--rational"],
     ] {
         let run = verify_with(list.as_bytes(), &[&["-", "--json"], extra].concat());
@@ -179,7 +179,7 @@ fn three_graphs_refuted_by_parts_that_overlap() {
 
 #[test]
 fn without_counting_a_negative_verdict_has_an_error_bound() {
-    let run = verify_with(cycle(5).as_bytes(), &["-", "--json", "--no-counting"]);
+    let run = verify_with(cycle(5).as_bytes(), &["-", "--json", "--method", "ranks"]);
     let line = &run.json()[0];
     assert_eq!(line["strength"], "error-bound");
     assert!(line["error_log2"].as_i64().unwrap() <= -100);
@@ -196,7 +196,7 @@ fn table_1_in_both_modes() {
         assert_eq!(graphs.lines().count(), candidates);
         for mode in ["--prime", "--rational"] {
             // A rational computation on whole graphs with 8 nodes takes a while.
-            for extra in [&[][..], &["--no-contraction"]] {
+            for extra in [&[][..], &["--method", "matrix"]] {
                 let run = verify_with(graphs.as_bytes(), &[&["-", "--json", mode], extra].concat());
                 let found = count(&run);
                 assert_eq!(
@@ -346,7 +346,7 @@ fn solutions_are_counted() {
         ("finite-solvable".to_owned(), open.clone()),
         ("finite-solvable".into(), open),
     ];
-    assert_eq!(found(&["--no-solutions"]), [first, last.clone()].concat());
+    assert_eq!(found(&["--solutions=off"]), [first, last.clone()].concat());
     // Known directions: one solution, or infinitely many.
     let calibrated = found(&["--model", "calibrated"]);
     assert!(
@@ -371,14 +371,14 @@ fn solutions_are_counted() {
         said.contains("one body of 5 cameras around a K_{2,3}"),
         "{said}"
     );
-    let said = verify_with(b"HBQkcP_\n", &["-", "--no-solutions"]).out;
+    let said = verify_with(b"HBQkcP_\n", &["-", "--solutions=off"]).out;
     assert!(
         said.contains("finite solvable: finitely many sets of cameras (proved)"),
         "{said}"
     );
     for bad in [
         &["--solutions=much"][..],
-        &["--solutions=full", "--no-solutions"],
+        &["--solutions=full", "--solutions=off"],
     ] {
         assert_eq!(
             verify_with(graphs, &[&["-"], bad].concat()).code,
@@ -432,15 +432,14 @@ fn the_mode_is_what_was_computed() {
 /// A pair needs no cameras, and its bounds are looked at all the same.
 #[test]
 fn bounds_are_validated_where_they_are_not_used() {
-    for bounds in [
-        ["--numerator", "0"],
-        ["--numerator", "101"],
-        ["--denominator", "0"],
-        ["--denominator", "13"],
-    ] {
-        let run = verify_with(b"1 2\n", &[&["-", "--rational"], &bounds[..]].concat());
-        assert_eq!(run.code, 2, "{bounds:?}");
-        assert!(run.err.contains(" is not in 1..="), "{}", run.err);
+    for bounds in ["0,4", "101,4", "9,0", "9,13", "9", "x,4"] {
+        let run = verify_with(b"1 2\n", &["-", &format!("--rational={bounds}")]);
+        assert_eq!(run.code, 2, "{bounds}");
+        assert!(
+            run.err.contains("the largest denominator, 1 to 12"),
+            "{}",
+            run.err
+        );
     }
     assert_eq!(verify_with(b"1 2\n", &["-", "--prime=91"]).code, 2);
 }
@@ -526,13 +525,13 @@ fn small_primes_are_honest() {
 fn too_large_is_said_at_once() {
     let run = verify_with(
         cycle(40_000).as_bytes(),
-        &["-", "--no-contraction", "--prime"],
+        &["-", "--method", "matrix", "--prime"],
     );
     assert_eq!(run.code, 3);
     assert!(run.err.contains("MiB"), "{}", run.err);
     let run = verify_with(
         cycle(2000).as_bytes(),
-        &["-", "--no-contraction", "--rational"],
+        &["-", "--method", "matrix", "--rational"],
     );
     assert_eq!(run.code, 3);
     assert!(run.err.contains("--prime"), "{}", run.err);

@@ -10,13 +10,11 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use viewcert::decide::Draft;
 use viewcert::graph::{Coordinate, Displacements};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
-use viewcert::{
-    Arithmetic, Calibrated, CountSolutions, Known, Method, Model, Options, Prime, Projective,
-    ProjectiveBodies, Question, Verdict,
-};
+use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts};
 use viewcert_report::Report;
@@ -142,22 +140,27 @@ pub(crate) fn decide(
     }
     let groups = displacements.unwrap_or_default();
     let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
-    if !contraction && !known.parts.is_empty() {
-        let why = "known parts are bodies, and without contraction there are none";
-        return Err(wrong(&format!("{why}; leave contraction on")));
-    }
     let known = match displacements.is_empty() {
         true => Known::Parts(known.parts),
         false => Known::Displacements(displacements),
     };
-    let asked = Asked {
-        bounds,
-        contraction,
+    let arithmetic = bounds.map_or(Arithmetic::Prime, |(numerator, denominator)| {
+        Arithmetic::Rational {
+            numerator,
+            denominator,
+        }
+    });
+    let draft = Draft {
+        model,
+        whole_graph: !contraction,
+        arithmetic,
         counting,
         solutions,
+        known,
     };
+    let question = draft.question().map_err(|error| wrong(&error))?;
     let options = Options::default()
-        .question(asked.question(model, known))
+        .question(question)
         .prime(prime)
         .seed(seed)
         .watch(watched);
@@ -179,50 +182,6 @@ pub(crate) fn decide(
         seed,
         time: start.elapsed(),
     })
-}
-
-/// How a question is asked.
-struct Asked {
-    bounds: Option<(u64, u64)>,
-    contraction: bool,
-    counting: bool,
-    solutions: CountSolutions,
-}
-
-impl Asked {
-    /// The question in a model. What it has no use for was refused before (`_verdict.py`).
-    fn question(self, model: Model, known: Known) -> Question {
-        match model {
-            Model::Projective => Question::Projective(Projective {
-                method: self.method(ProjectiveBodies {
-                    solutions: self.solutions,
-                    known_parts: known.into_parts(),
-                }),
-                arithmetic: self.arithmetic(),
-                counting: self.counting,
-            }),
-            Model::Calibrated => Question::Calibrated(Calibrated {
-                method: self.method(known),
-                counting: self.counting,
-            }),
-            Model::Affine => Question::Affine(self.method(known.into_parts())),
-        }
-    }
-
-    fn method<B>(&self, bodies: B) -> Method<B> {
-        match self.contraction {
-            true => Method::Bodies(bodies),
-            false => Method::WholeGraph,
-        }
-    }
-
-    fn arithmetic(&self) -> Arithmetic {
-        self.bounds
-            .map_or(Arithmetic::Prime, |bounds| Arithmetic::Rational {
-                numerator: bounds.0,
-                denominator: bounds.1,
-            })
-    }
 }
 
 #[pymethods]

@@ -158,7 +158,7 @@ def test_what_is_no_graph_is_refused(graph: Any, message: str) -> None:
         ({"prime": 15}, "prime=15: "),
         ({"seed": -1}, "a seed is at least 0"),
         ({"rational": True, "numerator": 1000}, "bounded by 1 to 100"),
-        ({"rational": True, "model": "calibrated"}, "modulo primes only"),
+        ({"rational": True, "model": "calibrated"}, "modulo primes alone"),
         ({"time_limit": -1.0}, "negative"),
     ],
 )

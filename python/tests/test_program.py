@@ -126,10 +126,10 @@ def test_rational_arithmetic_and_primes(program: Program, tmp_path: pathlib.Path
     path.write_text("".join(f"{i} {j}\n" for i, j in pairs))
     options: list[tuple[list[str], dict[str, Any]]] = [
         (["--rational"], {"rational": True}),
-        (["--rational", "--numerator", "5"], {"rational": True, "numerator": 5}),
+        (["--rational=5,4"], {"rational": True, "numerator": 5}),
         (["--prime=1000003", "--seed", "7"], {"prime": 1000003, "seed": 7}),
-        (["--no-contraction"], {"contraction": False}),
-        (["--no-contraction", "--no-counting"], {"contraction": False, "counting": False}),
+        (["--method", "matrix"], {"contraction": False}),
+        (["--method", "ranks"], {"counting": False}),
     ]
     for words, keywords in options:
         certificate = tmp_path / "program.json"
@@ -145,7 +145,7 @@ def test_the_report_and_the_picture(program: Program, tmp_path: pathlib.Path) ->
     graph = viewcert.read(path)
     verdict = viewcert.verify(graph)
     picture, page = tmp_path / "picture.svg", tmp_path / "page.html"
-    said = program.run(path, "--components", "--svg", picture, "--html", page).stdout
+    said = program.run("draw", path, picture, page, "--components").stdout
     assert verdict.picture() == picture.read_text()
     assert verdict.page().count("<svg") == page.read_text().count("<svg") > 0
     lines = verdict.report(list_components=True).splitlines()
@@ -184,7 +184,7 @@ def test_what_to_do_is_what_the_program_says(
     verdict = viewcert.verify(graph)
     image = str(graph.nodes[0])
     [found] = program.json(
-        path, "--weak", "--suggest", "--explain", image, "--sweep", "15,30", "--margin=3"
+        "advise", path, "--weak", "--suggest", "--explain", image, "--sweep", "15,30", "--margin=3"
     )
     weak = [[list(item.nodes), item.component + 1] for item in viewcert.weak(verdict)]
     assert weak == [[item["images"], item["component"]] for item in found["weak"]["items"]]
@@ -202,7 +202,7 @@ def test_what_to_do_is_what_the_program_says(
     ]
     ours, theirs = tmp_path / "ours", tmp_path / "theirs"
     export = viewcert.export(verdict, ours)
-    program.run(path, "--export", theirs)
+    program.run("export", path, theirs)
     assert export.components == len(list((theirs / "components").iterdir())) > 0
     files = sorted(file.relative_to(theirs) for file in theirs.rglob("*") if file.is_file())
     for file in files:

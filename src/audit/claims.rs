@@ -1,6 +1,6 @@
 //! `--claims`: every row of a table, decided again.
 
-use super::super::certificates::{Target, too_many};
+use super::super::certificates::Target;
 use super::AuditArguments;
 use super::rulings::{self, Ruled};
 use anyhow::{Context, Result, anyhow, bail};
@@ -25,10 +25,10 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
     let mut target = arguments.target(&[path.to_owned()])?;
-    if let Some((option, file)) = target.as_ref().and_then(Target::single)
+    if let Some(file) = target.as_ref().and_then(Target::single)
         && rows.len() > 1
     {
-        bail!(too_many(option, &file, &counted(rows.len(), "claim")));
+        bail!(Target::too_many(file, &counted(rows.len(), "claim")));
     }
     let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     // Confirmed, refuted, not decidable, bad.

@@ -7,13 +7,12 @@ mod rulings;
 mod sweep;
 
 use self::report::Audit;
-use super::certificates;
 use super::certificates::Target;
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::decide;
@@ -124,8 +123,7 @@ impl AuditArguments {
     /// The target of the certificates of graphs in these files.
     fn target(&self, inputs: &[PathBuf]) -> Result<Option<Target>> {
         let path = self.certificate.as_deref();
-        path.map(|path| Target::new(path, false, inputs))
-            .transpose()
+        path.map(|path| Target::apart(path, inputs)).transpose()
     }
 }
 
@@ -142,11 +140,8 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitC
         return sweep::run(session, arguments);
     }
     let mut target = arguments.target(&arguments.graphs)?;
-    let single = target.as_ref().and_then(Target::single);
-    let too_many = |what: &str| {
-        let (option, file) = single.as_ref()?;
-        Some(certificates::too_many(option, file, what))
-    };
+    let single = target.as_ref().and_then(Target::single).map(Path::to_owned);
+    let too_many = |what: &str| Some(Target::too_many(single.as_ref()?, what));
     let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(session, arguments, input, target.as_mut(), out)?;

@@ -2,10 +2,11 @@
 
 use anyhow::{Context, Result};
 use std::path::Path;
+use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert_check::{Certificate, Failure, Graph, Verdict, Verified};
-use viewcert_formats::{NamedGraph, ReadOptions, read_displacements, read_graphs, read_parts};
+use viewcert_formats::{NamedGraph, ReadOptions, read_given, read_graphs};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -49,40 +50,26 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
     viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }
 
-/// Files of what is known besides the pairs, in the labels of the graph.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Known<'a> {
-    pub(crate) parts: Option<&'a Path>,
-    pub(crate) displacements: Option<&'a Path>,
+/// The checker's graph with what is given of it, in node numbers.
+fn with_given(graph: Graph, given: Option<&Path>, input: &NamedGraph) -> Result<Graph> {
+    let Some(file) = given else {
+        return Ok(graph);
+    };
+    Ok(match read_given(file, input)?.known {
+        Known::Parts(parts) => {
+            let graph = graph.with_parts(parts.iter().map(<[u32]>::to_vec));
+            graph.with_context(|| file.display().to_string())?
+        }
+        Known::Displacements(known) => graph.with_displacements(hex(&known.sha256())),
+    })
 }
 
-impl Known<'_> {
-    /// The checker's graph with what is known of it, in node numbers.
-    fn of(self, graph: Graph, input: &NamedGraph) -> Result<Graph> {
-        let graph = match self.parts {
-            None => graph,
-            Some(file) => {
-                let found = read_parts(file, input)?.parts;
-                let graph = graph.with_parts(found.iter().map(<[u32]>::to_vec));
-                graph.with_context(|| file.display().to_string())?
-            }
-        };
-        Ok(match self.displacements {
-            None => graph,
-            Some(file) => {
-                let found = read_displacements(file, input)?.known;
-                graph.with_displacements(hex(&found.sha256()))
-            }
-        })
-    }
-}
-
-/// What a certificate proves about the graph that it holds, with the known parts of a file, which
-/// are sets of node numbers.
+/// What a certificate proves about the graph that it holds, with what a file gives, which calls nodes by
+/// their numbers.
 ///
 /// # Errors
-/// If there are no such parts.
-pub(super) fn check_with_parts(text: &[u8], parts: &Path) -> Result<Result<Proved, Failure>> {
+/// If the file gives no such thing.
+pub(super) fn check_given(text: &[u8], given: &Path) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
@@ -92,11 +79,7 @@ pub(super) fn check_with_parts(text: &[u8], parts: &Path) -> Result<Result<Prove
         Ok(Some(graph)) => {
             let nodes = viewcert::Graph::new(u32::try_from(graph.nodes())?, [])?;
             let input = NamedGraph::new("", nodes, Labels::Numbers { first: 0 });
-            let known = Known {
-                parts: Some(parts),
-                ..Known::default()
-            };
-            Some(known.of(graph, &input)?)
+            Some(with_given(graph, Some(given), &input)?)
         }
         _ => None,
     };
@@ -104,22 +87,22 @@ pub(super) fn check_with_parts(text: &[u8], parts: &Path) -> Result<Result<Prove
     Ok(checked.map(|verified| Proved::new(&verified)))
 }
 
-/// What a certificate proves about the graph in a file, of several the one that is named. Known
-/// parts and displacements have to be those that the certificate supposes.
+/// What a certificate proves about the graph in a file, of several the one that is named. What
+/// is given has to be what the certificate supposes.
 ///
 /// # Errors
 /// If there is no such graph.
 pub(super) fn check_for(
     text: &[u8],
     path: &Path,
-    known: Known,
+    given: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Result<Proved, Failure>> {
     let certificate = match Certificate::parse(text) {
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let graph = graph_at(&certificate, path, known, options)?;
+    let graph = graph_at(&certificate, path, given, options)?;
     let checked = certificate.check(Some(&graph));
     Ok(checked.map(|verified| Proved::new(&verified)))
 }
@@ -128,10 +111,10 @@ pub(super) fn check_for(
 ///
 /// # Errors
 /// If there is no such graph, or nothing of the kind is known.
-pub(crate) fn graph_at(
+fn graph_at(
     certificate: &Certificate,
     path: &Path,
-    known: Known,
+    given: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Graph> {
     let (mut meant, mut first) = (None, None);
@@ -148,5 +131,5 @@ pub(crate) fn graph_at(
     let input = meant.or(first).with_context(no_graph)?;
     let pairs = input.graph.edges().iter().copied();
     let graph = Graph::new(input.graph.nodes(), pairs).with_context(name)?;
-    known.of(graph, &input)
+    with_given(graph, given, &input)
 }

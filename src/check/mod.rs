@@ -4,9 +4,9 @@ pub(crate) mod checker;
 mod folder;
 
 use self::folder::{Listing, name};
-use super::input::{InputArguments, TrackArguments};
+use super::given::GivenArguments;
+use super::input::InputArguments;
 use super::manifest::Contents;
-use super::parts::PartArguments;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use flate2::read::MultiGzDecoder;
@@ -19,7 +19,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_check::Failure;
 use viewcert_check::program::{is_certificate, no_certificate};
-use viewcert_formats::ReadOptions;
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 
@@ -38,33 +37,22 @@ pub(super) struct CheckArguments {
     graph: Option<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
+    /// The graph is that of cameras and points, as for `verify GRAPH --tracks`.
+    #[arg(long)]
+    tracks: bool,
+    /// What the certificate has to suppose, in the names of the graph, as for `verify GRAPH`: anything
+    /// else is a rejection. With GRAPH and without this option: nothing.
     #[command(flatten)]
-    tracks: TrackArguments,
-    #[command(flatten)]
-    parts: PartArguments,
-    /// The displacements that the certificate has to suppose, in the names of the graph (as for
-    /// `verify GRAPH`): others are a rejection. With GRAPH and without this option: none.
-    #[arg(long, value_name = "FILE", requires = "graph")]
-    displacements: Option<PathBuf>,
-}
-
-impl CheckArguments {
-    /// Whether an option is given that is about the reading of the graph.
-    fn says_how_to_read(&self) -> bool {
-        let read = self.input.read_options();
-        let format = read.format.is_some() || read.variable.is_some();
-        let pairs = read.pipeline.is_some() || read.min_inliers.is_some();
-        format || pairs || self.tracks.options().is_some()
-    }
+    given: GivenArguments,
 }
 
 /// Checks one certificate, or all of a file or folder.
 pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     let path = &arguments.certificate;
     ensure!(
-        arguments.graph.is_some() || !arguments.says_how_to_read(),
-        "--format, --variable, --pipeline, --min-inliers and --tracks say how a graph is read: name the \
-         graph as well, or leave them out"
+        arguments.graph.is_some() || !(arguments.tracks || arguments.input.says_anything()),
+        "--tracks and the options of `verify help input` say how a graph is read: name the graph as \
+         well, or leave them out"
     );
     if path.is_dir() || is_list(path) {
         ensure!(
@@ -73,8 +61,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             path.display()
         );
         ensure!(
-            arguments.parts.path().is_none(),
-            "known parts go with one certificate, and {} has many",
+            arguments.given.path().is_none(),
+            "what is given goes with one certificate, and {} has many",
             path.display()
         );
         let listing = Listing::new(path)?;
@@ -94,30 +82,25 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     }
     let text = read(path)?;
     ensure_certificate(path, &text, arguments.graph.as_deref())?;
-    let parts = arguments.parts.path();
-    let inputs = [Some(&**path), arguments.graph.as_deref(), parts];
+    let given = arguments.given.path();
+    let inputs = [Some(&**path), arguments.graph.as_deref(), given];
     let standard = inputs
         .into_iter()
         .flatten()
         .filter(|&path| path == Path::new("-"));
     ensure!(
         standard.count() < 2,
-        "only one of certificate, graph and parts can be standard input"
+        "only one of certificate, graph and what is given can be standard input"
     );
-    let outcome = match (&arguments.graph, parts) {
+    let outcome = match (&arguments.graph, given) {
         (None, None) => checker::check(&text),
-        (None, Some(parts)) => checker::check_with_parts(&text, parts)?,
-        (Some(graph), parts) => {
-            let tracks = arguments.tracks.options();
-            let options = ReadOptions {
-                tracks,
-                ..arguments.input.read_options()
+        (None, Some(given)) => checker::check_given(&text, given)?,
+        (Some(graph), given) => {
+            let options = match arguments.tracks {
+                true => arguments.input.of_tracks(),
+                false => arguments.input.of_pairs()?,
             };
-            let known = checker::Known {
-                parts,
-                displacements: arguments.displacements.as_deref(),
-            };
-            checker::check_for(&text, graph, known, &options)?
+            checker::check_for(&text, graph, given, &options)?
         }
     };
     let mut out = std::io::stdout().lock();

@@ -28,10 +28,10 @@ pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use margin::{Margin, Thinning, margin};
 pub use named::Advice;
 pub use parts::{Part, Parts};
-pub use request::{Request, Weak};
+pub use request::Request;
 pub use suggest::{SuggestedMatch, Suggestion, suggest, suggest_matches};
 pub use sweep::{Row, sweep};
-pub use task::named_joints;
+pub use task::{Weak, named_joints};
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
 
 /// A pair of images that is known and is no edge of the graph.

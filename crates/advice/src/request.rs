@@ -1,7 +1,7 @@
 //! What is asked about a verdict, and the answers to it.
 
 use crate::named::Advice;
-use crate::task::{Task, others};
+use crate::task::{Task, Weak, others};
 use crate::{OtherPair, Shapes, export};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
@@ -25,15 +25,6 @@ pub struct Request {
     pub margin: Option<u32>,
     /// The folder that gets the components as COLMAP takes them.
     pub export: Option<PathBuf>,
-}
-
-/// What a component may hang on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Weak {
-    /// Pairs.
-    Pairs,
-    /// Images.
-    Images,
 }
 
 impl Request {
@@ -97,7 +88,7 @@ impl Request {
     }
 
     /// Whether more than the joints is asked for.
-    fn asks(&self) -> bool {
+    pub fn asks(&self) -> bool {
         self.asked().1
     }
 

@@ -3,7 +3,6 @@
 use crate as advice;
 use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
-use crate::request::Weak;
 use crate::suggest::Wanted;
 use crate::{Known, OtherPair, Parts, Shapes, Thinning, words};
 use anyhow::{Context, Result};
@@ -33,6 +32,15 @@ pub(crate) fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item =
         matches: pair.matches,
         used: pair.used,
     })
+}
+
+/// What a component may hang on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weak {
+    /// Pairs.
+    Pairs,
+    /// Images.
+    Images,
 }
 
 /// Most joints that are computed.

@@ -138,13 +138,16 @@ def read_pairs(data):
     return Graph(n, edges)
 
 
-def read_parts(data, graph):
-    """Section 2, files of known parts: these in their canonical form."""
-    parts = set()
-    for k, line in lines_of(data):
-        if line.startswith(b"#"):
-            continue
-        part = tuple(sorted(numbers_of(line, f"line {k}")))
+def read_given(data, graph):
+    """Section 2, files of what is given: known parts in their canonical form, and the hash of displacements or None."""
+    parts, lines = set(), [(k, line) for k, line in lines_of(data) if not line.startswith(b"#")]
+    for k, line in lines:
+        word, numbers = re.fullmatch(b"([a-z]*)[ \t]?(.*)", line, re.DOTALL).groups()
+        if word == b"displacements" and len(lines) == 1 and re.fullmatch(b"displacements[ \t][0-9a-fA-F]{64}", line):
+            return [], numbers.decode().lower()
+        if not re.match(b"part[ \t]", line):
+            raise Unreadable(f"line {k}: neither a part nor, alone, the hash of displacements")
+        part = tuple(sorted(numbers_of(numbers, f"line {k}")))
         if len(part) < 2 or not distinct(part):
             raise Unreadable(f"line {k}: not two different nodes or more")
         if part[-1] >= graph.n:
@@ -153,9 +156,8 @@ def read_parts(data, graph):
             raise Unreadable(f"line {k}: the part is there already")
         parts.add(part)
     if not parts:
-        raise Unreadable("no known part in it")
-    return [list(part) for part in sorted(parts)]
-
+        raise Unreadable("nothing is given in it")
+    return [list(part) for part in sorted(parts)], None
 
 
 # Section 4: draws ----------------------------------------------------------------------------------------------------
@@ -618,7 +620,7 @@ class Check:
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
     def __init__(
-        self, data, graph_data=None, core_limit=CORE_LIMIT, parts_data=None, displacements=None, work_limit=WORK_LIMIT
+        self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT
     ):
         document = parse(data) if isinstance(data, bytes) else data
         self.core_limit, self.work_limit = core_limit, work_limit
@@ -642,10 +644,9 @@ class Check:
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
         self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
-        expects = graph_data is not None or parts_data is not None or displacements is not None
-        if expects:
-            given = [] if parts_data is None else read_parts(parts_data, self.graph)
-            need(self.parts == given, "section 3: the known parts that are given are others")
+        expects = graph_data is not None or given_data is not None
+        given_parts, given_hash = ([], None) if given_data is None else read_given(given_data, self.graph)
+        need(not expects or self.parts == given_parts, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
         # Section 5: what is known is there from the start.
         self.bodies = [frozenset(part) for part in self.parts]
@@ -656,9 +657,8 @@ class Check:
             self.check_displacements(stated["displacements"])
         if "vectors" in stated:
             self.check_vectors(stated["vectors"])
-        if expects:
-            given = None if displacements == "none" else displacements
-            need(self.displacements_hash() == given, "section 3: the known displacements that are given are others")
+        same_hash = not expects or self.displacements_hash() == given_hash
+        need(same_hash, "section 3: the known displacements that are given are others")
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
@@ -1584,6 +1584,19 @@ def certificates_in(path):
         raise Unreadable(f"{path}: {error}") from None
 
 
+def need_certificate(where, data, other=None):
+    """What says neither that it is a certificate nor what it claims is neither verified nor rejected: no answer."""
+
+    def says_so(text):
+        text = text.lstrip()
+        return text.startswith(b"{") and (b'"viewcert certificate"' in text or b'"claim"' in text)
+
+    if not says_so(data):
+        if other is not None and says_so(other):
+            raise Unreadable(f"{where}: this is no certificate, but the other file is one: the certificate comes first")
+        raise Unreadable(f'{where}: this is no certificate (JSON that says "format": "viewcert certificate")')
+
+
 def check_list(paths, **limits):
     count = {0: 0, 1: 0, 3: 0}
     for path in paths:
@@ -1602,36 +1615,28 @@ def check_list(paths, **limits):
     return 2 if not any(count.values()) else 1 if count[1] else 3 if count[3] else 0
 
 
-def hash_or_none(text):
-    if not re.fullmatch("none|[0-9a-f]{64}", text.lower()):
-        raise argparse.ArgumentTypeError("it is none, or 64 hexadecimal digits")
-    return text.lower()
-
-
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Checks certificates of docs/certificate.md, version 2.")
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
-    parser.add_argument("--parts", metavar="FILE", help="the known parts that it has to suppose; with GRAPH, default none")
-    parser.add_argument("--displacements", metavar="HEX", type=hash_or_none,
-                        help="the hash of the displacements that it has to suppose, or none; with GRAPH, default none")
+    parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
     parser.add_argument("--max-operations", type=int, default=WORK_LIMIT, metavar="N", help=f"of section 12, default {WORK_LIMIT}")
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
-    if options.list and (options.parts or options.displacements):
-        parser.error("known parts and displacements are those of one certificate, not of a --list")
+    if options.list and options.given:
+        parser.error("what is given is that of one certificate, not of a --list")
     limits = {"core_limit": options.max_core_nodes, "work_limit": options.max_operations}
     try:
         if options.list:
             return check_list(options.list, **limits)
         graph_data = read_file(options.graph) if options.graph else None
-        parts_data = read_file(options.parts) if options.parts else None
+        given_data = read_file(options.given) if options.given else None
         text = read_file(options.certificate)
-        known = {"parts_data": parts_data, "displacements": options.displacements}
-        done = check(text, graph_data=graph_data, **known, **limits)
+        need_certificate(options.certificate, text, graph_data)
+        done = check(text, graph_data=graph_data, given_data=given_data, **limits)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

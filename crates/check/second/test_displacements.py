@@ -61,18 +61,18 @@ class Displacements(Case):
         """Section 3: they are those whose hash is given, and none where something is expected without them."""
         document = named("rigs")
         graph, own = document["graph"]["graph6"].encode(), self.verifies(document).displacements_hash()
-        self.verifies(document, graph_data=graph, displacements=own)
-        self.verifies(document, displacements=own)
+        own = b"# of the rigs\ndisplacements " + own.upper().encode() + b"\n"
+        self.verifies(document, graph_data=graph, given_data=own)
+        self.verifies(document, given_data=own)
         for options in (
             {"graph_data": graph},
-            {"displacements": "none"},
-            {"graph_data": graph, "displacements": "none"},
-            {"displacements": "0" * 64},
+            {"given_data": b"displacements " + b"0" * 64},
+            {"graph_data": graph, "given_data": b"displacements\t" + b"0" * 64},
         ):
             self.rejects(document, "section 3: the known displacements that are given are others", **options)
         pair = by_hand()
-        self.verifies(pair, graph_data=b"Cl", displacements="none")
-        self.rejects(pair, "the known displacements that are given are others", displacements=own)
+        self.verifies(pair, graph_data=b"Cl")
+        self.rejects(pair, "the known displacements that are given are others", given_data=own)
 
     def test_without_them(self):
         def forget(document):

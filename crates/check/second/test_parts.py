@@ -86,30 +86,40 @@ class Parts(test_check.Case):
     def test_given(self):
         """Sections 2 and 3: the parts of a file are those of the certificate."""
         document, graph = named("parts-rig"), named("parts-rig")["graph"]["graph6"].encode()
-        own = b"# a rig\n2 1 0\r\n4\t2 5\n5 3\n# \xff\n4 2"
+        own = b"# a rig\npart 2 1 0\r\npart\t4\t2 5\npart 5 3\n# \xff\npart 4 2"
         for options in ({"graph_data": graph}, {}):
-            self.verifies(document, parts_data=own, **options)
-            self.rejects(document, "the known parts that are given are others", parts_data=b"2 1 0\n", **options)
-        for options in ({"graph_data": graph}, {"displacements": "none"}):
+            self.verifies(document, given_data=own, **options)
+            self.rejects(document, "the known parts that are given are others", given_data=b"part 2 1 0\n", **options)
+        for options in ({"graph_data": graph}, {"given_data": b"displacements " + b"0" * 64}):
             self.rejects(document, "the known parts that are given are others", **options)
-        self.rejects(named("pair"), "the known parts that are given are others", parts_data=b"0 1\n")
+        self.rejects(named("pair"), "the known parts that are given are others", given_data=b"part 0 1\n")
         self.verifies(named("pair"), graph_data=b"0 1\n")
         for data, words in [
-            (b"", "no known part"),
-            (b"# none\n", "no known part"),
-            (b"2 1 0\n2 6", "line 2: 6 is no node of the graph"),
-            (b"2 01", "line 1: not node numbers"),
-            (b"2 x", "line 1: not node numbers"),
-            (b"2  1", "line 1: not node numbers"),
-            (b"2 1 # all", "line 1: not node numbers"),
-            (b"2 1\n\n", "line 2: not node numbers"),
-            (b"2 1\x01", "line 1: not node numbers"),
-            (b"2\n", "line 1: not two different nodes or more"),
-            (b"2 1 2\n", "line 1: not two different nodes or more"),
-            (b"2 1 0\n2 1\n0 2 1", "line 3: the part is there already"),
+            (b"", "nothing is given"),
+            (b"# none\n", "nothing is given"),
+            (b"part 2 1 0\npart 2 6", "line 2: 6 is no node of the graph"),
+            (b"2 1", "line 1: neither a part nor"),
+            (b"part\n", "line 1: neither a part nor"),
+            (b"part2 1\n", "line 1: neither a part nor"),
+            (b"parts 2 1\n", "line 1: neither a part nor"),
+            (b"part 2 01", "line 1: not node numbers"),
+            (b"part 2 x", "line 1: not node numbers"),
+            (b"part 2  1", "line 1: not node numbers"),
+            (b"part  2 1", "line 1: not node numbers"),
+            (b"part 2 1 # all", "line 1: not node numbers"),
+            (b"part 2 1\n\n", "line 2: neither a part nor"),
+            (b"part 2 1\x01", "line 1: not node numbers"),
+            (b"part 2\n", "line 1: not two different nodes or more"),
+            (b"part 2 1 2\n", "line 1: not two different nodes or more"),
+            (b"part 2 1 0\npart 2 1\npart 0 2 1", "line 3: the part is there already"),
+            (b"displacements " + b"0" * 63, "line 1: neither a part nor"),
+            (b"displacements  " + b"0" * 64, "line 1: neither a part nor"),
+            (b"displacements" + b"0" * 64, "line 1: neither a part nor"),
+            (b"displacements " + b"0" * 64 + b"\npart 0 1", "line 1: neither a part nor"),
+            (b"part 0 1\ndisplacements " + b"0" * 64, "line 2: neither a part nor"),
         ]:
             with self.subTest(data=data), self.assertRaises(check.Unreadable) as caught:
-                self.verifies(document, parts_data=data)
+                self.verifies(document, given_data=data)
             self.assertIn(words, str(caught.exception))
 
 

@@ -1,13 +1,13 @@
 //! Rigid bodies, rebuilt step by step (section 5 of the specification; theory, Theorems 4.1, 4.9,
 //! 10.3 and 13.9; 4.14 and 13.16 for those from the start, Proposition 4.15 for those by rank).
 
+use crate::core::{Core, Joined, sorted};
 use crate::document::{Body, Merge, Model, Piece, Seed, Source};
 use crate::elimination::SPARSE;
 use crate::graph::Graph;
 use crate::lower::check_rigid;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Setting;
-use crate::structure::{Core, Joined, sorted};
 use std::collections::HashSet;
 
 type Nodes = HashSet<u32>;

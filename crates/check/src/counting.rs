@@ -2,8 +2,9 @@
 //! blocks, and hubs.
 
 use crate::document::{Block, Counting, Hub, Model};
+use crate::forest::{root, unite};
 use crate::rejection::{Checked, Within, ensure};
-use crate::structure::{Part, Structure, root, unite};
+use crate::structure::{Part, Structure};
 
 /// Verifies `counting`; returns the bound on the rank of the piece (theory, Theorems 5.1, 5.5
 /// and, with displacements, 13.6 and 13.22).

@@ -2,12 +2,12 @@
 
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
+use crate::core::Core;
 use crate::document::{Draws, Model};
 use crate::elimination::Echelon;
 use crate::matrices::{camera_at, jacobian};
 use crate::rejection::{Checked, ensure};
 use crate::setting::Setting;
-use crate::structure::Core;
 
 /// What is verified of `draws`.
 pub(crate) struct Drawn {
@@ -37,7 +37,7 @@ pub(crate) fn check_draws(evidence: &Draws, setting: &Setting, core: &Core) -> C
     let (mut numbers, mut ranks) = (Vec::new(), Vec::new());
     // Void draws are rarer than 2^-50: a few more than wanted are enough.
     for number in 0..count + 10 {
-        setting.charge_draw(core)?;
+        core.charge_draw(setting)?;
         if numbers.len() as u64 == count {
             break;
         }
@@ -67,7 +67,7 @@ pub(crate) fn own_centres(
     number: u64,
     core: &Core,
 ) -> Checked<(Field, Vec<[u64; 3]>)> {
-    let mut stream = Stream::new("draw", setting.hashes(core), seed, number);
+    let mut stream = Stream::new("draw", core.hashes(setting), seed, number);
     let field = cameras::prime(&mut stream)?;
     let centres = cameras::centres(&mut stream, &field, &core.places)?;
     Ok((field, centres))

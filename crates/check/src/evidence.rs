@@ -2,6 +2,7 @@
 //! 2 to 7 of theory, section 9). What each kind of evidence has to show is in a file of its own.
 
 use crate::added;
+use crate::core::Core;
 use crate::counting::check_counting;
 use crate::document::{self, Evidence, Members, Model};
 use crate::draws::{Drawn, check_draws};
@@ -10,7 +11,7 @@ use crate::lower::{check_lower, check_rigid};
 use crate::overlap::check_overlap;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Lower;
-use crate::structure::{Core, Part, Structure};
+use crate::structure::{Part, Structure};
 
 /// What is verified of a piece. Ranks are those of the piece, not of its core; errors are exponents
 /// of 2.
@@ -182,7 +183,7 @@ impl Sizes {
         Sizes {
             nodes,
             required: structure.required(piece),
-            core_required: structure.setting.required_of_core(core),
+            core_required: core.required(structure.setting),
         }
     }
 

@@ -2,7 +2,7 @@
 //! `file` reads the files that hold one, `parts` those of known parts.
 
 mod file;
-mod parts;
+mod given;
 
 use crate::document::{GraphName, Pair};
 use crate::rejection::{Checked, Failure, Unreadable, ensure};

@@ -4,6 +4,7 @@
 
 use crate::algebra::{Field, Integers, is_prime};
 use crate::cameras::{self, Camera, Stream, gcd};
+use crate::core::Core;
 use crate::document::IntegerMinor;
 use crate::elimination::{Echelon, Factors, SPARSE};
 use crate::json::Big;
@@ -12,7 +13,6 @@ use crate::matrices::{jacobian, map_motion, scale_motion};
 use crate::pivots::Pivots;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
-use crate::structure::Core;
 
 /// The primes modulo which integers are compared have at least this many bits behind the first.
 const PRIME_BITS: u64 = 61;
@@ -33,7 +33,7 @@ pub(crate) fn check_integer_minor(
         cols,
         ..
     } = evidence;
-    let mut stream = Stream::new("draw", setting.hashes(core), *seed, *draw);
+    let mut stream = Stream::new("draw", core.hashes(setting), *seed, *draw);
     let bounds = (*numerator, *denominator);
     let cameras = cameras::integer(&mut stream, bounds, core.nodes)?;
     let matrix = IntegerMatrix::jacobian(core, &cameras);

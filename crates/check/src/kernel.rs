@@ -3,13 +3,13 @@
 
 use crate::algebra::{Field, Ring};
 use crate::cameras::{self, Stream};
+use crate::core::Core;
 use crate::document::{Kernel, Model};
 use crate::draws::{Drawn, own_centres};
 use crate::elimination::Echelon;
 use crate::matrices::{camera_at, map_motion, scale_motion};
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::{Draw, Setting};
-use crate::structure::Core;
 
 /// Where classes were told apart.
 #[derive(PartialEq)]
@@ -36,7 +36,7 @@ pub(crate) fn check_kernel(
     (owner, classes): (&[usize], usize),
     drawn: Option<&Drawn>,
 ) -> Checked<Place> {
-    setting.charge_draw(core)?;
+    core.charge_draw(setting)?;
     if setting.model == Model::Affine {
         return check_plane_kernel(kernel, setting, core, (owner, classes));
     }
@@ -74,7 +74,7 @@ fn check_plane_kernel(
         prime, seed, draw, ..
     } = *kernel;
     let field = Field::new(prime).within(|| "prime".into())?;
-    let mut stream = Stream::new("draw", setting.hashes(core), seed, draw);
+    let mut stream = Stream::new("draw", core.hashes(setting), seed, draw);
     let points = cameras::plane_points(&mut stream, &field, core.nodes)?;
     let vector = residues(kernel, 2 * core.nodes, &field)?;
     check_apart(core, classes, |edge| {
@@ -127,7 +127,7 @@ fn centres(
             });
         }
     }
-    let mut stream = Stream::new("draw", setting.hashes(core), seed, draw);
+    let mut stream = Stream::new("draw", core.hashes(setting), seed, draw);
     let centres = cameras::centres(&mut stream, &field, &core.places)?;
     let place = Place::Named((prime, seed, draw));
     Ok(Centres {

@@ -3,6 +3,7 @@
 
 use crate::algebra::Field;
 use crate::cameras::{self, Stream};
+use crate::core::Core;
 use crate::document::{Evidence, Minor, Model};
 use crate::elimination::{Echelon, Factors};
 use crate::integer_minor::check_integer_minor;
@@ -13,12 +14,11 @@ use crate::plane_flow::check_plane_flow;
 use crate::plane_minor::check_plane_minor;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
-use crate::structure::Core;
 
 /// Verifies a lower bound: a rank at one point is one for the generic rank (theory, Proposition
 /// 1.4).
 pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -> Checked<Lower> {
-    setting.charge_draw(core)?;
+    core.charge_draw(setting)?;
     check_model(evidence, setting.model)?;
     let lower = match evidence {
         Evidence::Minor(minor) => check_minor(minor, setting, core)?,
@@ -28,7 +28,7 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
         Evidence::PlaneMinor(minor) => check_plane_minor(minor, setting, core)?,
         _ => return Err(Failure::rejected("not a lower bound")),
     };
-    let most = setting.required_of_core(core);
+    let most = core.required(setting);
     ensure!(
         lower.rank <= most,
         "a rank of {} is impossible for {} nodes",
@@ -40,7 +40,7 @@ pub(crate) fn check_lower(evidence: &Evidence, setting: &Setting, core: &Core) -
 
 /// Sees that lower bounds show a core to be rigid.
 pub(crate) fn check_rigid(evidence: &[Evidence], setting: &Setting, core: &Core) -> Checked<()> {
-    let required = setting.required_of_core(core);
+    let required = core.required(setting);
     let mut is_rigid = false;
     for (k, one) in evidence.iter().enumerate() {
         let bound = check_lower(one, setting, core);
@@ -69,7 +69,7 @@ fn check_model(evidence: &Evidence, model: Model) -> Checked<()> {
 /// A minor of J_P that does not vanish modulo p.
 fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> {
     let field = &Field::new(minor.prime)?;
-    let mut stream = Stream::new("draw", setting.hashes(core), minor.seed, minor.draw);
+    let mut stream = Stream::new("draw", core.hashes(setting), minor.seed, minor.draw);
     let cameras = cameras::general(&mut stream, field, core.nodes)?;
     let pivots = Pivots::of_jacobian(&minor.rows, &minor.cols, core)?;
     let echelon = Echelon::new(field, 12 * core.nodes, setting.meter);

@@ -3,7 +3,7 @@
 
 use crate::algebra::{Field, Ring};
 use crate::cameras::{Camera, centre};
-use crate::structure::Core;
+use crate::core::Core;
 
 /// The sum of the products of entries.
 pub(crate) fn dot<R: Ring, const N: usize>(ring: &R, x: [R::E; N], y: [R::E; N]) -> R::E {

@@ -2,11 +2,11 @@
 //! without arithmetic. A set of edges is built step by step, as Henneberg builds frameworks, and
 //! stays (2,3)-sparse.
 
+use crate::core::Core;
 use crate::document::Pinching;
 use crate::elimination::SPARSE;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::{Lower, Setting};
-use crate::structure::Core;
 use std::collections::HashSet;
 
 /// What the search for an edge among those that are there counts as, in steps of sorting.

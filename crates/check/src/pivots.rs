@@ -1,8 +1,8 @@
 //! Pivots: the rows and columns of a minor, in an order in which elimination meets no zero (section
 //! 7 of the specification).
 
+use crate::core::Core;
 use crate::rejection::{Checked, ensure};
-use crate::structure::Core;
 use std::collections::HashSet;
 
 /// Different rows and as many different columns of a matrix.

@@ -3,6 +3,7 @@
 
 use crate::algebra::{Field, Ring};
 use crate::cameras::{self, Stream};
+use crate::core::Core;
 use crate::document::{Model, PlaneFlow};
 use crate::elimination::{Dense, Echelon, Factors, SPARSE, TOGETHER, for_all};
 use crate::limits::Meter;
@@ -10,7 +11,6 @@ use crate::matrices::{Bearing, bearings, dot, lengths};
 use crate::pivots::Pivots;
 use crate::rejection::{Checked, Within, ensure};
 use crate::setting::{Lower, Setting};
-use crate::structure::Core;
 use std::ops::Range;
 
 /// Entries of the flows that are computed at the same time.
@@ -32,10 +32,10 @@ pub(crate) fn check_plane_flow(
         ..
     } = evidence;
     let field = &Field::new(*prime)?;
-    let mut stream = Stream::new("draw", setting.hashes(core), *seed, *draw);
+    let mut stream = Stream::new("draw", core.hashes(setting), *seed, *draw);
     let centres = &cameras::centres(&mut stream, field, &core.places)?;
     let flows = Flows::new(evidence, setting, core, field, centres)?;
-    let stream = Stream::new("flow", setting.hashes(core), *seed, *draw);
+    let stream = Stream::new("flow", core.hashes(setting), *seed, *draw);
     let lambda = flows.lambda(evidence, stream)?;
     let (a, b, m) = (
         rows.len() as i64,

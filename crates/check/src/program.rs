@@ -32,14 +32,14 @@ CERTIFICATE and GRAPH are files (`-`: standard input). GRAPH is graph6 or pairs 
 `verify convert` writes them of any other; without it the certificate must hold the graph.
 
 What the certificate must be about (verified, but something else: exit code 1). With GRAPH or any of
-these no known parts and displacements may be supposed but those that are named:
+these no known parts and displacements may be supposed but what is given:
   --expect VERDICT     solvable, finite-solvable or not-finite-solvable
   --model MODEL        projective, calibrated or affine
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
-  --parts FILE         the known parts, the node numbers of one on each line
-  --displacements HEX  the hash of the known displacements, or none
+  --given FILE         known parts, or the hash of known displacements, as `verify convert --given`
+                       writes them
 
   --proofs-only        proofs, no error bounds
 
@@ -73,7 +73,7 @@ enum Request {
 struct Arguments {
     certificate: OsString,
     graph: Option<OsString>,
-    parts: Option<OsString>,
+    given: Option<OsString>,
     max_bytes: u64,
     limits: Limits,
     expected: Expected,
@@ -87,10 +87,8 @@ struct Expected {
     nodes: Option<usize>,
     edges: Option<usize>,
     sha256: Option<String>,
-    /// Whether known parts are given.
-    parts: bool,
-    /// A hash, or `none`.
-    displacements: Option<Option<String>>,
+    /// Whether there is a file of what is given.
+    given: bool,
     proofs_only: bool,
 }
 
@@ -140,7 +138,7 @@ fn arguments() -> Result<Request, Stop> {
 }
 
 fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
-    let (mut files, mut parts) = (Vec::new(), None);
+    let (mut files, mut given) = (Vec::new(), None);
     let mut max_bytes = MAX_BYTES;
     let (mut limits, mut expected) = (Limits::default(), Expected::default());
     while let Some(argument) = parser.next()? {
@@ -155,10 +153,7 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("nodes") => expected.nodes = Some(number(&mut parser)?),
             Long("edges") => expected.edges = Some(number(&mut parser)?),
             Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
-            Long("parts") => parts = Some(parser.value()?),
-            Long("displacements") => {
-                expected.displacements = Some(parser.value()?.parse_with(hash_or_none)?);
-            }
+            Long("given") => given = Some(parser.value()?),
             Long("proofs-only") => expected.proofs_only = true,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
             Long("max-core") => limits.core = number(&mut parser)?,
@@ -172,8 +167,8 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
     let mut files = files.into_iter();
     let certificate = files.next().ok_or("no certificate is given")?;
     let graph = files.next();
-    expected.parts = parts.is_some();
-    let inputs = [Some(&certificate), graph.as_ref(), parts.as_ref()];
+    expected.given = given.is_some();
+    let inputs = [Some(&certificate), graph.as_ref(), given.as_ref()];
     if inputs
         .into_iter()
         .flatten()
@@ -186,7 +181,7 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
     Ok(Request::Check(Box::new(Arguments {
         certificate,
         graph,
-        parts,
+        given,
         max_bytes,
         limits,
         expected,
@@ -221,15 +216,6 @@ fn hash(text: &str) -> Result<String, &'static str> {
     digits.ok_or("it has 64 hexadecimal digits")
 }
 
-fn hash_or_none(text: &str) -> Result<Option<String>, &'static str> {
-    match text {
-        "none" => Ok(None),
-        _ => hash(text)
-            .map(Some)
-            .map_err(|_| "it is `none`, or has 64 hexadecimal digits"),
-    }
-}
-
 /// Checks the files; returns the exit code.
 fn check(arguments: &Arguments) -> Result<u8, Stop> {
     let text = read(&arguments.certificate, arguments.max_bytes)?;
@@ -238,7 +224,7 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         let file = file.map(|path| Ok((path.clone(), read(path, arguments.max_bytes)?)));
         file.transpose()
     };
-    let (file, parts) = (open(&arguments.graph)?, open(&arguments.parts)?);
+    let (file, given) = (open(&arguments.graph)?, open(&arguments.given)?);
     if !is_certificate(&text) {
         let name = arguments.certificate.display();
         let swapped = file.as_ref().is_some_and(|(_, file)| is_certificate(file));
@@ -260,20 +246,16 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
         let graph = |(path, file): &Opened| Graph::read(file, wanted).map_err(in_file(path));
         file.as_ref().map(graph)
     });
-    let graph = match (graph.transpose()?, &parts) {
+    let graph = match (graph.transpose()?, &given) {
         (graph, None) => graph,
-        (Some(graph), Some(parts)) => Some(with_parts(graph, parts)?),
+        (Some(graph), Some(given)) => Some(with_given(graph, given)?),
         // Where the certificate holds no graph, it is rejected for that.
-        (None, Some(parts)) => {
+        (None, Some(given)) => {
             let certificate = LazyLock::force(&certificate).as_ref().ok();
             let held = certificate.and_then(|certificate| certificate.held_graph().ok()?);
-            held.map(|graph| with_parts(graph, parts)).transpose()?
+            held.map(|graph| with_given(graph, given)).transpose()?
         }
     };
-    let graph = graph.map(|graph| match &arguments.expected.displacements {
-        Some(Some(sha256)) => graph.with_displacements(sha256),
-        Some(None) | None => graph,
-    });
     let checked = match &*certificate {
         Ok(certificate) => certificate.check_within(graph.as_ref(), &arguments.limits),
         Err(failure) => Err(failure.clone()),
@@ -317,9 +299,9 @@ fn in_file(path: &OsString) -> impl Fn(Unreadable) -> Stop {
     move |error| Stop::no_answer(format!("{}: {error}", path.display()))
 }
 
-/// The graph with the known parts of a file.
-fn with_parts(graph: Graph, (path, file): &Opened) -> Result<Graph, Stop> {
-    graph.with_parts_of(file).map_err(in_file(path))
+/// The graph with what a file gives.
+fn with_given(graph: Graph, (path, file): &Opened) -> Result<Graph, Stop> {
+    graph.with_given(file).map_err(in_file(path))
 }
 
 /// Says what was verified, if it is what was expected.
@@ -344,8 +326,7 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         nodes,
         edges,
         sha256,
-        parts,
-        displacements,
+        given,
         proofs_only,
     } = expected;
     let verified_verdict = verified.verdict.0;
@@ -372,20 +353,15 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
     // Whoever expects something expects it of the pairs alone, unless they say what else is known.
     let expects = (verdict.is_some() || model.is_some() || sha256.is_some())
         || (nodes.is_some() || edges.is_some())
-        || (*parts || displacements.is_some());
+        || *given;
     see(
-        expects && !parts && verified.parts > 0,
+        expects && !given && verified.parts > 0,
         format!("{} known parts are taken for given", verified.parts),
     );
-    let known = verified.displacements.as_ref();
-    let supposed = displacements.as_ref().and_then(Option::as_ref);
-    see(
-        expects && known.map(|known| &known.sha256) != supposed,
-        match known {
-            Some(known) => format!("displacements are supposed to be known: {known}"),
-            None => "no displacements are supposed to be known".into(),
-        },
-    );
+    if let Some(known) = &verified.displacements {
+        let what = format!("displacements are supposed to be known: {known}");
+        see(expects && !given, what);
+    }
     for (name, strength) in [
         ("verdict", verified.verdict.1),
         ("rank", verified.rank.1),

@@ -1,10 +1,8 @@
 //! What all evidence refers to, and what a lower bound on a rank amounts to.
 
 use crate::document::Model;
-use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
-use crate::structure::Core;
 use crate::vectors::Vectors;
 
 impl Model {
@@ -30,17 +28,6 @@ pub(crate) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// The hashes to which draws for a core are bound (section 4).
-    pub fn hashes<'h>(&'h self, core: &'h Core) -> [&'h [u8; 32]; 2] {
-        [&self.sha256, &core.sha256]
-    }
-
-    /// The rank of a core that is solvable up to finitely many solutions: one more if it holds a
-    /// known displacement (section 6; theory, Theorem 13.18).
-    pub fn required_of_core(&self, core: &Core) -> i64 {
-        self.model.required(core.nodes) + i64::from(!core.scales.is_empty())
-    }
-
     /// Whether nodes that merge are independent (section 3), as all are in general position.
     pub fn check_independent(&self, nodes: &[u32]) -> Checked<()> {
         ensure!(
@@ -49,13 +36,6 @@ impl Setting<'_> {
             "the given vectors do not show that the nodes {nodes:?} are independent"
         );
         Ok(())
-    }
-
-    /// Counts what evidence costs in any case: cameras are drawn for all nodes of a core, and
-    /// something is computed for all its edges.
-    pub fn charge_draw(&self, core: &Core) -> Checked<()> {
-        let size = core.nodes + core.edges.len();
-        self.meter.charge(50 * SPARSE * size as u64)
     }
 }
 

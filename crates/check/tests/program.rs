@@ -310,15 +310,12 @@ fn hypotheses_are_none_unless_they_are_named() {
     for (certificate, own, reason) in [
         (
             &rigs,
-            ["--displacements".to_owned(), hash.to_owned()],
+            file("rigs.txt", format!("displacements {hash}\n").as_bytes()),
             &*supposed,
         ),
         (
             &rig,
-            [
-                "--parts".to_owned(),
-                file("rig.txt", b"0 1 2\n2 4\n2 4 5\n3 5\n"),
-            ],
+            file("rig.txt", b"part 0 1 2\npart 2 4\npart 2 4 5\npart 3 5\n"),
             "4 known parts are taken for given",
         ),
     ] {
@@ -332,40 +329,29 @@ fn hypotheses_are_none_unless_they_are_named() {
             ["--nodes", &nodes],
             ["--edges", &edges],
             ["--sha256", &sha256],
-            ["--displacements", "none"],
         ] {
             let alone = run(&[&arguments[..], &[certificate]].concat());
             assert_eq!((alone.code, alone.out.as_str()), (1, ""), "{arguments:?}");
             assert!(alone.err.contains(reason), "{}", alone.err);
-            if !own.contains(&arguments[0].to_owned()) {
-                let named = [&arguments[..], &[certificate, &own[0], &own[1]]].concat();
-                assert_eq!(run(&named).code, 0, "{named:?}");
-            }
+            let named = [&arguments[..], &[certificate, "--given", &own]].concat();
+            assert_eq!(run(&named).code, 0, "{named:?}");
         }
         let given = run(&[certificate, &graph]);
         assert_eq!((given.code, given.out.as_str()), (1, "REJECTED\n"));
-        assert_eq!(run(&[certificate, &graph, &own[0], &own[1]]).code, 0);
+        assert_eq!(run(&[certificate, &graph, "--given", &own]).code, 0);
     }
-    let other = run(&["--displacements", &"0".repeat(64), &rigs]);
-    assert_eq!((other.code, other.out.as_str()), (1, ""));
-    assert!(other.err.contains(&supposed), "{}", other.err);
-    let square = path("square-calibrated");
-    assert_eq!(run(&["--displacements", "none", &square]).code, 0);
-    let other = run(&["--displacements", hash, &square]);
-    assert_eq!(other.code, 1);
-    assert!(
-        other
-            .err
-            .contains("no displacements are supposed to be known"),
-        "{}",
-        other.err
+    let zeros = file(
+        "zeros.txt",
+        format!("displacements {}\n", "0".repeat(64)).as_bytes(),
     );
-    let wrong = run(&["--displacements", "some", &rigs]);
+    for certificate in [&rigs, &path("square-calibrated")] {
+        let other = run(&["--given", &zeros, certificate]);
+        assert_eq!((other.code, other.out.as_str()), (1, "REJECTED\n"));
+    }
+    let wrong = run(&["--given", &file("some.txt", b"displacements some\n"), &rigs]);
     assert_eq!(wrong.code, 2);
     assert!(
-        wrong
-            .err
-            .contains("it is `none`, or has 64 hexadecimal digits"),
+        wrong.err.contains("stands a hash, 64 hexadecimal digits"),
         "{}",
         wrong.err
     );

@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::NamedGraph;
-use crate::edge_list::fields::integer;
+use crate::edge_list::fields::{Field, integer};
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::own;
@@ -50,6 +50,13 @@ impl<'a> Cameras<'a> {
         };
         let node = u32::try_from(place).ok()?;
         ((node as usize) < self.nodes).then_some(node)
+    }
+
+    /// The node that a field of a line names.
+    pub(crate) fn named(&self, field: Field, line: &str) -> Result<u32, Problem> {
+        let label = field.text(line);
+        let node = self.node(&label);
+        node.ok_or_else(|| Problem::UnknownCamera(label.into_owned()))
     }
 }
 

@@ -132,29 +132,36 @@ pub enum Problem {
         /// How many nodes without pairs are allowed.
         limit: u64,
     },
-    /// A file of known parts without one.
-    #[error("the file holds no part of a reconstruction")]
-    NoParts,
+    /// A file of what is given that gives nothing.
+    #[error("the file gives nothing")]
+    Empty,
+    /// A line of such a file that begins with another word.
+    #[error("the line begins with `{}`, not with part, displacement or position", shown(.0))]
+    NothingGiven(String),
+    /// Parts and displacements in one such file.
+    #[error("known parts stand beside known displacements, and there is no theorem about both")]
+    PartsAndDisplacements,
     /// A label that the graph does not have.
     #[error("`{}` is no camera of the graph", shown(.0))]
     UnknownCamera(String),
     /// A file of known displacements without one.
     #[error("the file holds no displacement")]
     NoDisplacements,
-    /// A line of such a file that is neither a pair of cameras nor one camera.
-    #[error("the line has {found} fields")]
-    NoPairOrCamera {
+    /// A known displacement without two cameras.
+    #[error("the line does not name two cameras")]
+    NoPair,
+    /// A known position without a camera.
+    #[error("the line names no camera")]
+    NoCamera,
+    /// Fields behind cameras that are no vector.
+    #[error("{found} fields stand behind the cameras, and a vector has three")]
+    NoVector {
         /// How many fields.
         found: usize,
     },
-    /// A line of such a file with a vector where others have none, or the other way round.
-    #[error("the line has {found} fields, and an earlier one has {before}")]
-    SomeVectors {
-        /// How many fields.
-        found: usize,
-        /// How many the first line has.
-        before: usize,
-    },
+    /// A line with a vector where others have none, or the other way round.
+    #[error("some lines have vectors, and others have none")]
+    SomeVectors,
     /// A coordinate that is no number, and why.
     #[error("`{}` is {why}", shown(.field))]
     NoCoordinate {
@@ -476,17 +483,20 @@ impl Problem {
                 "if you trust it, unpack it first (`gunzip`, `bunzip2`, `unxz`, `unzstd --memory=2048MB`)"
             }
             Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
-            Self::NoParts => "put the cameras of one part on each line",
+            Self::Empty | Self::NothingGiven(_) => {
+                "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"
+            }
+            Self::PartsAndDisplacements => "leave out one of the two",
             Self::UnknownCamera(_) => {
                 "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
             }
             Self::NoDisplacements => {
                 "write pairs of cameras, one a line, or cameras with known positions, two at least"
             }
-            Self::NoPairOrCamera { .. } => {
-                "a line names a pair of cameras, or one camera with a known position; with the vector from the first to the second, or the position, behind it, as three numbers: on all lines or on none"
+            Self::NoPair | Self::NoCamera | Self::NoVector { .. } => {
+                "write `displacement` and two cameras, or `position` and one; behind them, on all lines or on none, the vector from the first to the second, or the position, as three numbers"
             }
-            Self::SomeVectors { .. } => {
+            Self::SomeVectors => {
                 "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about vectors in general position"
             }
             Self::NoCoordinate { .. } => {
@@ -502,7 +512,7 @@ impl Problem {
             Self::TooManyNodes | Self::TooManyPairs => "split it into its connected components",
             Self::TooManyIsolated { .. } => "leave out what has no pairs",
             Self::SelfLoop(_) => {
-                "remove the pair (or the line, if it holds counts); --skip-loops leaves such lines of lists out"
+                "remove the pair (or the line, if it holds counts); --skip-loops leaves such pairs out"
             }
             Self::NotUtf8 | Self::CarriageReturn => "save it as UTF-8 with line feeds",
             Self::Nul | Self::Control(_) => {
@@ -586,9 +596,7 @@ impl Problem {
                 "if the direction of pairs does not matter, fill in the other triangle: save A ~= 0 | \
                  A' ~= 0 in MATLAB, (A != 0) + (A != 0).T in NumPy and SciPy"
             }
-            Self::Diagonal(_) => {
-                "set the diagonal to zero (of matrices as text, --skip-loops leaves it out)"
-            }
+            Self::Diagonal(_) => "set the diagonal to zero; --skip-loops leaves it out",
         }
     }
 

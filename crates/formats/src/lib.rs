@@ -6,10 +6,10 @@
 
 mod cameras;
 pub mod colmap;
-pub mod displacements;
 pub mod documents;
 pub mod edge_list;
 pub mod error;
+pub mod given;
 mod inflate;
 mod lines;
 mod lookalikes;
@@ -20,7 +20,6 @@ pub mod matrix_market;
 pub mod numpy;
 mod own;
 pub mod pairs;
-pub mod parts;
 pub mod read;
 mod read_as;
 mod recognise;
@@ -28,12 +27,11 @@ pub mod sparse6;
 pub mod tracks;
 mod variables;
 
-pub use displacements::{NamedDisplacements, read_displacements};
 pub use edge_list::decimal::{Decimal, NoDecimal};
 pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
+pub use given::{Given, NamedParts, read_given};
 pub use matching::{Matching, OtherPair};
-pub use parts::{NamedParts, read_parts};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{TrackFacts, TrackOptions};

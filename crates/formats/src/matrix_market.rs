@@ -10,6 +10,7 @@
 use std::io::{BufRead, BufReader, Read};
 
 use crate::edge_list::fields::is_number;
+use crate::edge_list::layout::ListOptions;
 use crate::edge_list::text;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
@@ -62,6 +63,11 @@ enum Symmetry {
 /// skew-symmetric or general, square; an entry out of range; NaN. Without: a pattern that is not
 /// symmetric with a zero diagonal, fewer or more entries than promised.
 pub fn read(input: impl Read) -> Result<Parsed, Fault> {
+    read_with(input, &ListOptions::default())
+}
+
+/// The same with the options of whoever asks.
+pub(super) fn read_with(input: impl Read, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut input = BufReader::with_capacity(1 << 16, input);
     let mut line = Vec::new();
     let mut file = File::default();
@@ -78,7 +84,8 @@ pub fn read(input: impl Read) -> Result<Parsed, Fault> {
         let taken = file.take(&line);
         taken.map_err(|problem| Place::Line(number).fault(problem))?;
     }
-    file.graph().map_err(|problem| Place::Input.fault(problem))
+    file.graph(options)
+        .map_err(|problem| Place::Input.fault(problem))
 }
 
 /// What the lines have said so far.
@@ -179,7 +186,7 @@ impl File {
     }
 
     /// The graph, after the last line.
-    fn graph(self) -> Result<Parsed, Problem> {
+    fn graph(self, options: &ListOptions) -> Result<Parsed, Problem> {
         let (Some(kind), Some(size)) = (self.kind, self.size) else {
             return Err(said("the line with the sizes is missing".into()));
         };
@@ -191,7 +198,7 @@ impl File {
         }
         let value = |at: usize| self.values.get(at).copied().unwrap_or(1.0);
         if size.rows != size.columns {
-            let mut list = List::new(size.shape());
+            let mut list = List::new(size.shape(), options);
             for (at, &(row, column)) in self.entries.iter().enumerate() {
                 list.entry(row, column, value(at))?;
             }
@@ -199,12 +206,14 @@ impl File {
             parsed.read.format = FORMAT;
             return Ok(parsed);
         }
-        let (matrix, again) = Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value)?;
+        let (matrix, again) =
+            Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value, options)?;
         let mut parsed = matrix.graph()?;
         parsed.read.format = FORMAT;
         // Of a symmetric matrix both triangles were filled in.
         let symmetric = kind.symmetry != Symmetry::General;
         let again = if symmetric { again / 2 } else { again };
+        parsed.read.merged = again;
         parsed.notes.extend(crate::merged(again));
         Ok(parsed)
     }

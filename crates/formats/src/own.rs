@@ -39,6 +39,29 @@ const HEADS: [(&str, &str, &str); 4] = [
     ("nodes\tedges\tcandidates\t", "a table of counts", COUNTS),
 ];
 
+/// A file of what is given besides a graph (`verify help given`), where a graph is expected: every line
+/// begins with one of three words.
+pub(super) fn given(head: &[u8]) -> Option<Problem> {
+    let text = String::from_utf8_lossy(head);
+    let lines = text.lines().map(str::trim_start);
+    let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with(['#', '%']));
+    let mut words = lines
+        .by_ref()
+        .map(|line| line.split_ascii_whitespace().next());
+    let is_given = |word| matches!(word, Some("part" | "displacement" | "position"));
+    let first = words.next()?;
+    let mut rest: Vec<_> = words.collect();
+    // What was looked at may end within a line.
+    if !text.ends_with('\n') {
+        rest.pop();
+    }
+    (is_given(first) && rest.into_iter().all(is_given)).then_some(Problem::Own {
+        what: "a file of what is given besides a graph",
+        advice: "give it with the graph: verify GRAPH --given FILE; if its lines are pairs all the same, \
+                 say --format edges",
+    })
+}
+
 /// What a file is that begins like this, if this program has written it.
 pub(super) fn known(head: &[u8]) -> Option<Problem> {
     let text = String::from_utf8_lossy(head);

@@ -7,6 +7,7 @@
 use crate::documents::Document;
 use crate::edge_list::BYTE_ORDER_MARK;
 use crate::edge_list::fields::is_number;
+use crate::edge_list::is_image;
 use crate::error::{Problem, TRACKS};
 use crate::inflate::Compression;
 use crate::lines::{Encoding, trimmed};
@@ -81,7 +82,10 @@ pub(super) fn kind(head: &[u8], whole: bool) -> Result<Kind, Problem> {
             return Ok(Kind::Lines { encoding, guessed });
         }
     }
-    if let Some(problem) = own::known(head).or_else(|| certain(head)) {
+    if let Some(problem) = own::known(head)
+        .or_else(|| own::given(head))
+        .or_else(|| certain(head))
+    {
         return Err(problem);
     }
     let guessed = true;
@@ -266,7 +270,7 @@ const FIRST_WORDS: [(&str, &str, &str); 10] = [
 const TORO: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
 
 /// First comments of texts that might pass for edge lists.
-const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
+const FIRST_COMMENTS: [(&str, &str, &str); 6] = [
     (
         "# Image list with two lines of data per image",
         "COLMAP's images.txt",
@@ -288,6 +292,11 @@ const FIRST_COMMENTS: [(&str, &str, &str); 5] = [
         COLMAP,
     ),
     ("# Bundle file", "a Bundler file", TRACKS),
+    (
+        "#index = ",
+        "coords.txt of 1DSfM (features of images)",
+        "give EGs.txt, which lies beside it",
+    ),
 ];
 
 const COLMAP: &str =
@@ -547,6 +556,15 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     {
         return Some(foreign("a bundle adjustment problem (BAL)", TRACKS));
     }
+    if first.len() == 1 && first[0].starts_with("sep=") {
+        return Some(foreign(
+            "a table with a line `sep=` for Excel",
+            "delete that line",
+        ));
+    }
+    if let Some(problem) = sets_of_names(&lines).or_else(|| vectors(&lines)) {
+        return Some(problem);
+    }
     if let Some(what) = table(&lines) {
         return Some(foreign(what, PAIRS));
     }
@@ -567,16 +585,46 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
             "separate the columns by commas, blanks or tabs",
         ));
     }
-    if lines
-        .iter()
-        .all(|line| line.len() > 2 && line[2].starts_with('{'))
-    {
-        return Some(foreign(
-            "an edge list with attributes",
-            "write it without: networkx.write_edgelist(graph, 'pairs.txt', data=False), or say --format edges",
-        ));
-    }
     None
+}
+
+/// Lines of several names each, as files of known parts have.
+fn sets_of_names(lines: &[Vec<&str>]) -> Option<Problem> {
+    let is_name = |word: &&str| {
+        is_image(word)
+            || !is_number(word.as_bytes())
+                && word.contains(|c: char| c.is_ascii_digit())
+                && word
+                    .chars()
+                    .all(|c| c.is_alphanumeric() || "_-./".contains(c))
+    };
+    let several = lines.iter().any(|line| line.len() > 2);
+    (several && lines.iter().flatten().all(is_name)).then(|| {
+        foreign(
+            "a list of sets of names, a set a line",
+            "if the cameras of each line have known relative positions, write `part` before them and give it with the \
+             graph: verify GRAPH --given FILE; if every line joins its first name with each of the others, say --format \
+             openmvg-pairs",
+        )
+    })
+}
+
+/// Lines of two names, or two integers, and three numbers, as files of known displacements have.
+fn vectors(lines: &[Vec<&str>]) -> Option<Problem> {
+    let number = |word: &&str| is_number(word.as_bytes());
+    let named = |line: &Vec<&str>| !number(&line[0]) && !number(&line[1]);
+    let counted = |line: &Vec<&str>| is_integer(line[0]) && is_integer(line[1]);
+    let five = |line: &Vec<&str>| line.len() == 5 && line[2..].iter().all(number);
+    let fraction = |line: &Vec<&str>| line[2..].iter().any(|word| word.contains('.'));
+    let is_list = lines.iter().all(five)
+        && (lines.iter().all(named) || lines.iter().all(counted) && lines.iter().any(fraction));
+    is_list.then(|| {
+        foreign(
+            "a list of pairs with three numbers each",
+            "if these are vectors between cameras, write `displacement` before them and give it with the graph: \
+             verify GRAPH --model calibrated --given FILE; if the first two fields are the pairs, say --columns 1,2",
+        )
+    })
 }
 
 /// Tables that people have beside their lists of pairs.
@@ -594,6 +642,12 @@ fn table(lines: &[Vec<&str>]) -> Option<&'static str> {
     let numbers = |line: &Vec<&str>| line.iter().all(number);
     let fractions = rest.iter().flatten().any(|word| word.contains('.'));
     match columns {
+        4 if rest.iter().all(|line| {
+            matches!(line[..], [time, image, other_time, other] if number(&time) && number(&other_time) && is_image(image) && is_image(other))
+        }) =>
+        {
+            Some("a list of times and images (associations)")
+        }
         1 if even && !others.is_empty() => Some("a list of single fields"),
         8 if even && fractions && rest.iter().all(numbers) => {
             Some("a trajectory (time, position, quaternion)")
@@ -646,11 +700,21 @@ fn integers(lines: &[Vec<&str>], whole: bool) -> Option<Problem> {
             "write one pair a line, or in Python: scipy.io.mmwrite(name, scipy.sparse.coo_matrix(numpy.loadtxt(FILE)))",
         ));
     }
+    let counts = |line: &Vec<&str>| {
+        value(line[0]).and_then(|n| n.checked_mul(2)) == Some(line.len() as u64 - 1)
+    };
+    if first.len() == 1 && lines.len() > 1 && lines[1..].iter().all(counts) {
+        return Some(foreign(
+            "a list of tracks (1DSfM)",
+            "give EGs.txt, which lies beside it",
+        ));
+    }
     let uneven = lines.iter().any(|line| line.len() != first.len());
     (uneven && lines.len() > 1 && lines.iter().any(|line| line.len() > 2)).then(|| {
         foreign(
             "an adjacency list, or stars of pairs as OpenMVG writes them",
-            "write one pair a line; stars: awk '{ for (i = 2; i <= NF; i++) print $1, $i }' FILE",
+            "if every line joins its first number with each of the others, say --format openmvg-pairs; sets of cameras \
+             with known relative positions are given with the graph, `part` before each: verify GRAPH --given FILE",
         )
     })
 }

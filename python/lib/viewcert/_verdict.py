@@ -374,7 +374,7 @@ class Verdict:
         return self._native.report("text", list_components=list_components).decode()
 
     def page(self) -> str:
-        """The web page of ``verify --html``, which needs no network."""
+        """The web page of ``verify draw``, which needs no network."""
         return self._native.report("html").decode()
 
     def picture(self) -> str:
@@ -524,27 +524,19 @@ def verify(
             f"leave out model={model!r}"
         )
     chosen = model or ("calibrated" if points else "projective")
-    if rational and chosen != "projective":
-        raise InputError(
-            f"rational=True: the {chosen} model is decided modulo primes only; leave it out"
-        )
     if planar and chosen == "affine":
         raise InputError(
             "planar=True: affine cameras have no centres that could lie in a plane; leave it out"
         )
-    if not counting and chosen == "affine":
-        raise InputError("counting=False: the affine model is decided by counting alone")
     known = None if parts is None else numbered(given, parts)
     if known and points:
         raise InputError("parts: tracks are decided by themselves; leave out one of the two")
     groups = None if displacements is None else numbered(given, displacements, "displacements")
     if groups:
         refused = {
-            f"the {chosen} model": chosen not in ("calibrated", "focal"),
             "parts": bool(known),
             "tracks": points,
             "planar=True": planar,
-            "contraction=False": not contraction,
         }
         for other in (other for other, asked in refused.items() if asked):
             raise InputError(f"displacements: not with {other}; leave out one of the two")

@@ -2,9 +2,9 @@
 
 use super::grammar;
 use crate::elimination::SPARSE;
+use crate::forest::unite;
 use crate::limits::Meter;
 use crate::rejection::{Checked, ensure};
-use crate::structure::unite;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A core with scales. Nodes are indices in the increasing list of shared nodes.

@@ -23,7 +23,7 @@
 //! In the affine model counting alone decides a piece (section 13), in `plane_piece`. The other
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
-//! paper's own matrix (`--no-contraction`, `--rational`) in `whole_matrix`, the number of solutions in
+//! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What is asked is in `question`, with what it is decided in `options`, what is
 //! found in [`evidence`], what comes out in `verdict`.
 
@@ -33,6 +33,7 @@ mod added;
 mod bodies_by_rank;
 mod claim;
 mod counting;
+mod draft;
 mod drawn;
 mod error;
 mod motion_class;
@@ -49,6 +50,7 @@ mod walk;
 mod whole_matrix;
 
 pub use claim::{Claim, Strength, UnknownStrength};
+pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
 pub use evidence::{Block, Bound, Counting, Hub, Overlap, Shared, SharedPiece, Upper};
 pub use options::{Options, Prime};

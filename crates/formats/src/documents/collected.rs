@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use crate::edge_list::PAIR_LIMIT;
+use crate::edge_list::layout::ListOptions;
 use crate::edge_list::nodes::Index;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};
@@ -21,6 +22,9 @@ pub(crate) struct Collected {
     listed: Vec<bool>,
     listed_again: usize,
     directed: bool,
+    /// Whether pairs of a node with itself are left out, and how many were.
+    skip_loops: bool,
+    loops: usize,
     ignored: BTreeSet<String>,
     /// What nodes are called by an attribute, for each of [`NAMES`].
     names: [BTreeMap<u32, String>; 2],
@@ -31,6 +35,14 @@ pub(crate) struct Collected {
 pub(super) const NAMES: [&str; 2] = ["label", "name"];
 
 impl Collected {
+    /// Nothing so far.
+    pub(crate) fn new(options: &ListOptions) -> Self {
+        Self {
+            skip_loops: options.skip_loops,
+            ..Self::default()
+        }
+    }
+
     /// The node of a label, a new one if need be.
     ///
     /// # Errors
@@ -66,11 +78,15 @@ impl Collected {
         self.index.nodes.get(label).copied()
     }
 
-    /// Takes in a pair.
+    /// Takes in a pair. One with itself may be left out; the node stays.
     ///
     /// # Errors
     /// A node with itself; too many pairs.
     pub(crate) fn pair(&mut self, a: u32, b: u32) -> Result<(), Problem> {
+        if a == b && self.skip_loops {
+            self.loops += 1;
+            return Ok(());
+        }
         if a == b {
             let label = self.index.labels().swap_remove(a as usize);
             return Err(Problem::SelfLoop(label.into()));
@@ -159,6 +175,8 @@ impl Collected {
             listed,
             listed_again,
             directed,
+            skip_loops: _,
+            loops,
             ignored,
             mut notes,
             names: _,
@@ -185,6 +203,11 @@ impl Collected {
             let names = names(&ignored);
             read.ignored.push(format!("attributes ({names})"));
             notes.push(format!("attributes are ignored: {names}"));
+        }
+        if loops > 0 {
+            let pairs = counted(loops, "pair");
+            read.ignored
+                .push(format!("{pairs} of a camera with itself"));
         }
         let only_in_pairs = listed.iter().filter(|listed| !**listed).count();
         if only_in_pairs > 0 && only_in_pairs < listed.len() {

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use crate::documents::collected::Collected;
 use crate::documents::malformed;
 use crate::edge_list::fields::integer;
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 use viewcert::wording::counted;
@@ -49,8 +50,8 @@ pub(super) fn is_g2o(head: &str) -> bool {
 }
 
 /// Reads a pose graph.
-pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
-    let mut collected = Collected::default();
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
+    let mut collected = Collected::new(options);
     let mut ignored: BTreeMap<&str, usize> = BTreeMap::new();
     for (line, number) in text.lines().zip(1..) {
         let fault = |problem| Place::Line(number).fault(problem);

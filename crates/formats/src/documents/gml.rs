@@ -6,6 +6,7 @@
 
 use crate::documents::collected::Collected;
 use crate::documents::{Parsed, line_of, malformed};
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 
 const FORMAT: &str = "GML";
@@ -111,9 +112,9 @@ impl<'t> Tokens<'t> {
 }
 
 /// Reads a graph.
-pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut tokens = Tokens::new(text);
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     let found = graph(&mut tokens, &mut collected);
     let at = tokens.at;
     match found {

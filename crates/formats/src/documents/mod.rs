@@ -70,13 +70,9 @@ impl Document {
         .find_map(|(document, is)| is.then_some(document))
     }
 
-    /// Whether its pairs have weights, and whether pairs of a camera with itself may be left out.
-    pub(super) fn takes(self) -> [bool; 2] {
-        match self {
-            Self::RawMatches | Self::TextMatrix => [true, true],
-            Self::Stars => [false, true],
-            _ => [false, false],
-        }
+    /// Whether weights of its pairs are read.
+    pub(super) fn has_weights(self) -> bool {
+        matches!(self, Self::RawMatches | Self::TextMatrix)
     }
 
     /// What it is called in reports.
@@ -123,7 +119,7 @@ pub fn read(document: Document, input: impl Read, asked: bool) -> Result<Parsed,
     read_with(document, input, asked, &ListOptions::default())
 }
 
-/// The same with the options of whoever asks, for the documents that have weights or loops.
+/// The same with the options of whoever asks.
 pub(super) fn read_with(
     document: Document,
     mut input: impl Read,
@@ -141,12 +137,12 @@ pub(super) fn read_with(
         return Err(Place::Input.fault(doubt));
     }
     let mut parsed = match document {
-        Document::Dot => dot::read(text),
-        Document::G2o => g2o::read(text),
-        Document::Gexf => xml::read(text, xml::GEXF),
-        Document::Gml => gml::read(text),
-        Document::GraphMl => xml::read(text, xml::GRAPHML),
-        Document::NodeLink => node_link::read(text),
+        Document::Dot => dot::read(text, options),
+        Document::G2o => g2o::read(text, options),
+        Document::Gexf => xml::read(text, xml::GEXF, options),
+        Document::Gml => gml::read(text, options),
+        Document::GraphMl => xml::read(text, xml::GRAPHML, options),
+        Document::NodeLink => node_link::read(text, options),
         Document::Stars => stars::read(text, asked, options),
         Document::RawMatches => raw_matches::read(text, asked, options),
         Document::TextMatrix => text_matrix::read(text, options),

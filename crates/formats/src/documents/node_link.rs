@@ -13,7 +13,8 @@ use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Seq
 
 use crate::documents::collected::Collected;
 use crate::documents::malformed;
-use crate::error::{Fault, Place};
+use crate::edge_list::layout::ListOptions;
+use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
 const FORMAT: &str = "node-link JSON";
@@ -52,15 +53,21 @@ struct Document {
     others: Vec<String>,
 }
 
+/// JSON of something else.
+const NO_GRAPH: Problem = Problem::Foreign {
+    what: "JSON without a graph (there is no list `nodes`)",
+    advice: "write one pair a line: the names of two cameras and nothing else",
+};
+
 /// Reads a graph.
-pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let ignored = RefCell::new(BTreeSet::new());
     let mut json = serde_json::Deserializer::from_str(text);
     let document = json
         .deserialize_map(Members { ignored: &ignored })
         .and_then(|document| json.end().map(|()| document))
         .map_err(of_json)?;
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     for name in ignored.into_inner() {
         collected.ignore(&name);
     }
@@ -85,7 +92,7 @@ impl Document {
                 match () {
                     () if has("elements") => "this is Cytoscape's, with `elements`",
                     () if has("graph") => "no list `nodes` (a JSON graph with all in `graph`?)",
-                    () => "there is no list `nodes`",
+                    () => return Err(Place::Input.fault(NO_GRAPH)),
                 }
                 .to_owned(),
             ));

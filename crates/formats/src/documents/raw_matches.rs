@@ -102,7 +102,7 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
             None => return Err(wrong("a line has two names or the numbers of two features")),
         }
     }
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     let (mut without, mut light, mut all) = (0, 0, 0);
     for (number, [a, b], matches) in blocks {
         let fault = |problem| Place::Line(number).fault(problem);
@@ -116,9 +116,7 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
                 collected.node(a).map_err(fault)?,
                 collected.node(b).map_err(fault)?,
             ];
-            if a != b || !options.skip_loops {
-                collected.pair(a, b).map_err(fault)?;
-            }
+            collected.pair(a, b).map_err(fault)?;
         }
     }
     let mut parsed = collected.finish()?;

@@ -145,7 +145,7 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
             advice: DOUBT_ADVICE,
         }));
     }
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     let mut fields = Vec::new();
     for (line, number) in text.lines().zip(1..) {
         let fault = |problem| Place::Line(number).fault(problem);
@@ -156,9 +156,7 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
         let centre = collected.node(&first.text(line)).map_err(fault)?;
         for other in others {
             let other = collected.node(&other.text(line)).map_err(fault)?;
-            if other != centre || !options.skip_loops {
-                collected.pair(centre, other).map_err(fault)?;
-            }
+            collected.pair(centre, other).map_err(fault)?;
         }
     }
     let mut parsed = collected.finish()?;
@@ -169,7 +167,7 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
 /// Reads what networkx calls a multi-line adjacency list: a node and how many neighbours follow,
 /// these on a line each, with attributes behind them.
 fn of_several_lines(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     let mut left: Option<(u32, u64)> = None;
     let lines = text.lines().zip(1..).filter(|(line, _)| {
         let line = line.trim();
@@ -183,9 +181,7 @@ fn of_several_lines(text: &str, options: &ListOptions) -> Result<Parsed, Fault> 
         match &mut left {
             Some((centre, count)) if *count > 0 => {
                 let node = collected.node(name).map_err(fault)?;
-                if node != *centre || !options.skip_loops {
-                    collected.pair(*centre, node).map_err(fault)?;
-                }
+                collected.pair(*centre, node).map_err(fault)?;
                 *count -= 1;
             }
             _ => {

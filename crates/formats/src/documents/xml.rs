@@ -15,6 +15,7 @@ use quick_xml::reader::Reader;
 
 use crate::documents::collected::{Collected, NAMES};
 use crate::documents::{line_of, malformed};
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
@@ -57,10 +58,15 @@ enum Element {
 }
 
 /// Reads a graph of the format GraphML or GEXF, whose name in capitals that is.
-pub(super) fn read(text: &str, format: &'static str) -> Result<Parsed, Fault> {
+pub(super) fn read(
+    text: &str,
+    format: &'static str,
+    options: &ListOptions,
+) -> Result<Parsed, Fault> {
     let mut reader = Reader::from_str(text);
     let mut tree = Tree {
         format,
+        collected: Collected::new(options),
         ..Tree::default()
     };
     loop {

@@ -18,6 +18,16 @@ pub(crate) struct Field {
 }
 
 impl Field {
+    /// What stands between two places of a line, without quotes.
+    pub(crate) fn plain(start: usize, end: usize) -> Self {
+        Self {
+            start,
+            end,
+            quoted: false,
+            doubled: false,
+        }
+    }
+
     /// What stands there, without the quotes around it.
     pub(crate) fn raw(self, line: &str) -> &str {
         &line[self.start..self.end]
@@ -77,12 +87,7 @@ pub(crate) fn split(line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> 
             if bytes.get(end) == Some(&b'"') {
                 return Err(Problem::Quote("stands within a field"));
             }
-            Field {
-                start: at,
-                end,
-                quoted: false,
-                doubled: false,
-            }
+            Field::plain(at, end)
         };
         at = field.end + usize::from(field.quoted);
         fields.push(field);

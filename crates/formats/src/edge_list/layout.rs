@@ -120,6 +120,19 @@ pub(crate) struct Layout {
     pub(super) head: Option<Vec<String>>,
     /// Whether the user has said which columns are meant.
     pub(super) asked: bool,
+    /// Whether attributes follow the names, as networkx writes them.
+    pub(super) attributes: Option<Attributes>,
+}
+
+/// What stands in the `{...}` behind the two names of every line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Attributes {
+    /// Nothing.
+    None,
+    /// One, `weight`.
+    Weight,
+    /// Others.
+    Other,
 }
 
 impl Layout {
@@ -139,6 +152,13 @@ impl Layout {
     /// The columns that are of no concern, in words.
     pub(super) fn ignored(&self) -> Option<String> {
         const SHOWN: usize = 4;
+        match self.attributes {
+            Some(Attributes::Weight) if self.weight.is_none() => {
+                return Some("attributes (weight)".to_owned());
+            }
+            Some(Attributes::Other) => return Some("attributes".to_owned()),
+            _ => {}
+        }
         let used = |column: &usize| self.ends.contains(column) || self.weight == Some(*column);
         let others: Vec<usize> = (0..self.columns).filter(|column| !used(column)).collect();
         let mut names: Vec<String> = others
@@ -166,10 +186,89 @@ impl Layout {
     /// Cuts a line.
     ///
     /// # Errors
-    /// As [`fields::split`] and [`fields::split_by`].
+    /// As [`fields::split`] and [`fields::split_by`]; attributes that are not where others are.
     pub(super) fn split(&self, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
-        cut(self.separator, line, fields)
+        if self.attributes.is_none() {
+            return cut(self.separator, line, fields);
+        }
+        let wrong = |what: String| Problem::Malformed {
+            format: "edge list with attributes",
+            what,
+        };
+        let (names, attributes) = names_and_attributes(line);
+        fields::split(names, fields)?;
+        match (fields.len(), attributes) {
+            (0, None) => return Ok(()),
+            (2, Some(_)) => {}
+            _ => return Err(wrong("two names and `{...}` are expected".to_owned())),
+        }
+        if self.weight.is_some() {
+            let weight = attributes.and_then(weight);
+            let weight = weight.ok_or_else(|| wrong("`{'weight': N}` is expected".to_owned()))?;
+            // Nothing but brackets and separators follows it.
+            let start = line.rfind(weight).unwrap_or(0);
+            fields.push(Field::plain(start, start + weight.len()));
+        }
+        Ok(())
     }
+}
+
+/// A line before and in its `{...}`, which is its end.
+fn names_and_attributes(line: &str) -> (&str, Option<&str>) {
+    let separates = [' ', '\t', ','];
+    let end = line.trim_end_matches(separates);
+    let inner = end.strip_suffix('}').and_then(|text| {
+        let at = text.find('{')?;
+        let names = text[..at].strip_suffix(separates)?;
+        Some((names.trim_end_matches(separates), Some(&text[at + 1..])))
+    });
+    inner.unwrap_or((line, None))
+}
+
+/// The number in `'weight': N`, if attributes are that alone.
+fn weight(attributes: &str) -> Option<&str> {
+    let value = attributes.trim().strip_prefix("'weight':")?.trim();
+    is_number(value.as_bytes()).then_some(value)
+}
+
+/// What attributes all first lines have, if all have them.
+fn attributes(text: &str, whole: bool) -> Option<Attributes> {
+    let end = if whole {
+        Some(text.len())
+    } else {
+        text.rfind('\n')
+    };
+    let mut found = None;
+    let mut fields = Vec::new();
+    for line in text[..end?].lines() {
+        let (names, inner) = names_and_attributes(line);
+        fields::split(names, &mut fields).ok()?;
+        let Some(inner) = inner else {
+            // Blank, or a comment.
+            if fields.is_empty() {
+                continue;
+            }
+            return None;
+        };
+        // A comment may end so, too.
+        if fields.is_empty() {
+            continue;
+        }
+        let this = match inner {
+            "" => Attributes::None,
+            _ if weight(inner).is_some() => Attributes::Weight,
+            _ if inner.contains(':') => Attributes::Other,
+            _ => return None,
+        };
+        if fields.len() != 2 {
+            return None;
+        }
+        found = Some(match found {
+            Some(before) if before != this => Attributes::Other,
+            _ => this,
+        });
+    }
+    found
 }
 
 fn cut(separator: Option<u8>, line: &str, fields: &mut Vec<Field>) -> Result<(), Problem> {
@@ -330,6 +429,21 @@ pub(crate) fn layout(
 ) -> Result<Option<Layout>, Problem> {
     let head = String::from_utf8_lossy(head);
     let text = head.strip_prefix('\u{feff}').unwrap_or(&head);
+    if options.columns.is_none()
+        && let Some(attributes) = attributes(text, whole)
+    {
+        let weighs = attributes == Attributes::Weight && options.min_weight.is_some();
+        let layout = Layout {
+            separator: None,
+            columns: if weighs { 3 } else { 2 },
+            ends: [0, 1],
+            weight: weighs.then_some(2),
+            head: None,
+            asked: false,
+            attributes: Some(attributes),
+        };
+        return weighed(layout, options).map(Some);
+    }
     let table = Sample::of_table(text, whole);
     if let Some(columns) = &options.columns {
         let sample = table.or_else(|| Sample::of(text, whole, None));
@@ -355,6 +469,7 @@ pub(crate) fn layout(
                 weight: None,
                 head: names.filter(|_| sample.columns() > 2),
                 asked: false,
+                attributes: None,
             };
             weighed(layout, options).map(Some)
         }
@@ -390,6 +505,7 @@ fn unasked(sample: &Sample) -> Option<Layout> {
         weight: None,
         head: head.filter(|_| pair.is_some() || columns > 2).map(owned),
         asked: false,
+        attributes: None,
     })
 }
 
@@ -447,6 +563,7 @@ fn asked(
         weight,
         head: is_head.then_some(names),
         asked: true,
+        attributes: None,
     };
     weighed(layout, options)
 }
@@ -498,6 +615,11 @@ pub(crate) fn first_two_are_pairs(head: &[u8], whole: bool) -> bool {
     let lines: Vec<_> = sample.lines.iter().filter(|line| line.len() > 1).collect();
     let all = |is: &dyn Fn(&Cell) -> bool| lines.iter().all(|line| line[..2].iter().all(is));
     let images = all(&|cell| is_image(&cell.text));
+    // Names of images among numbers of features.
+    let features = !images
+        && lines
+            .iter()
+            .any(|line| is_image(&line[0].text) && is_image(&line[1].text));
     let first: std::collections::HashSet<&str> = lines.iter().map(|line| &*line[0].text).collect();
     let shared = lines.iter().any(|line| first.contains(&*line[1].text));
     let fraction = lines.iter().any(|line| {
@@ -513,5 +635,10 @@ pub(crate) fn first_two_are_pairs(head: &[u8], whole: bool) -> bool {
                 .all(|b| b.is_ascii_alphanumeric() || b"_-./".contains(&b) || b > 0x7f)
     });
     let loops = lines.iter().any(|line| line[0].text == line[1].text);
-    lines.len() == sample.lines.len() && words && !loops && !fraction && (images || shared)
+    lines.len() == sample.lines.len()
+        && words
+        && !features
+        && !loops
+        && !fraction
+        && (images || shared)
 }

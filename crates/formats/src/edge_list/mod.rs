@@ -707,10 +707,9 @@ impl Collector {
             ignore(format!("{} with a weight below {least}", lines(self.light)));
         }
         if self.loops > 0 {
-            ignore(format!(
-                "{} that pair a camera with itself",
-                lines(self.loops)
-            ));
+            let pair = if self.loops == 1 { "pairs" } else { "pair" };
+            let lines = lines(self.loops);
+            ignore(format!("{lines} that {pair} a camera with itself"));
         }
     }
 
@@ -890,7 +889,10 @@ pub(super) fn is_image(name: &str) -> bool {
 /// before does: two names with blanks in them.
 fn names_with_blanks(line: &str, fields: &[Field]) -> bool {
     let is_image = |field: &Field| !field.quoted && is_image(field.raw(line));
+    // Times of images are no parts of their names.
+    let timed = fields.len() == 4 && fields[0].is_number(line) && fields[2].is_number(line);
     fields.len() > 2
+        && !timed
         && fields.last().is_some_and(is_image)
         && fields.iter().filter(|field| is_image(field)).count() == 2
 }

@@ -13,6 +13,14 @@ use viewcert::graph::Graph;
 const ADVICE: &str = "write one pair a line: the names of two cameras; if other columns hold the pairs, name them \
      with --columns";
 
+const DERIVED: &str = "on every line one name is the other with an addition, another ending or a folder \
+     of masks: a table of copies, and no list of pairs";
+const DERIVED_ADVICE: &str =
+    "write the pairs of images that match; if these are pairs, say `--format edges`";
+
+/// Words in the names of folders that hold something else for every image.
+const BESIDE_IMAGES: [&str; 7] = ["mask", "depth", "label", "segm", "annot", "normal", "flow"];
+
 /// Fewer lines say little about a column.
 const FEW: usize = 3;
 
@@ -39,6 +47,10 @@ pub(super) fn problem(pairs: &[(u32, u32)], names: Option<&Index>) -> Option<Pro
         return doubt("all lines have the same two fields: a table, and no list of pairs");
     }
     match names {
+        Some(names) if are_derived(pairs, names) => Some(Problem::Doubtful {
+            what: DERIVED,
+            advice: DERIVED_ADVICE,
+        }),
         Some(names) => unlike_columns(pairs, names).and_then(doubt),
         None if is_index(pairs) => doubt(
             "the first column counts the lines, and the second has other numbers: a table, and no list of \
@@ -85,6 +97,67 @@ fn unlike_columns(pairs: &[(u32, u32)], names: &Index) -> Option<&'static str> {
         "one of the first two columns holds names of images, and the other none: a table, and no list of \
          pairs",
     )
+}
+
+/// Whether no image is in two pairs, and on every line one name is made of the other in one way.
+fn are_derived(pairs: &[(u32, u32)], names: &Index) -> bool {
+    if pairs.len() < FEW || names.nodes.len() != 2 * pairs.len() {
+        return false;
+    }
+    let mut labels = vec![""; names.nodes.len()];
+    for (label, &node) in &names.nodes {
+        labels[node as usize] = label;
+    }
+    let all = |first: fn(&(u32, u32)) -> u32, second: fn(&(u32, u32)) -> u32| {
+        let made = |pair| made_of(labels[first(pair) as usize], labels[second(pair) as usize]);
+        let way = made(&pairs[0]);
+        way.is_some() && pairs.iter().all(|pair| made(pair) == way)
+    };
+    all(|pair| pair.0, |pair| pair.1) || all(|pair| pair.1, |pair| pair.0)
+}
+
+/// How the second name of an image is made of the first one, if it is.
+#[derive(PartialEq, Eq)]
+enum Made<'a> {
+    /// By this behind its stem.
+    Added(&'a str),
+    /// By another ending.
+    Ending(&'a str),
+    /// By a folder for something else.
+    Folder,
+}
+
+fn made_of<'a>(first: &'a str, second: &'a str) -> Option<Made<'a>> {
+    let [
+        (folder, stem, ending),
+        (other_folder, other_stem, other_ending),
+    ] = [first, second].map(parts);
+    if !is_image(first) || !is_image(second) {
+        return None;
+    }
+    if stem == other_stem {
+        let beside = |folder: &str| {
+            let folder = folder.to_ascii_lowercase();
+            BESIDE_IMAGES.iter().any(|word| folder.contains(word))
+        };
+        return match () {
+            () if beside(other_folder) && !beside(folder) => Some(Made::Folder),
+            () if !ending.eq_ignore_ascii_case(other_ending) => Some(Made::Ending(other_ending)),
+            () => None,
+        };
+    }
+    let added = other_stem.strip_prefix(stem)?;
+    let is_word = !added.starts_with(|c: char| c.is_alphanumeric())
+        && added.contains(|c: char| c.is_alphabetic())
+        && !added.contains(|c: char| c.is_ascii_digit());
+    is_word.then_some(Made::Added(added))
+}
+
+/// The folder, the stem and the ending of a name.
+fn parts(name: &str) -> (&str, &str, &str) {
+    let (folder, file) = name.rsplit_once(['/', '\\']).unwrap_or(("", name));
+    let (stem, ending) = file.rsplit_once('.').unwrap_or((file, ""));
+    (folder, stem, ending)
 }
 
 /// Whether this is a date like 2011-09-26 or a time like 13:02:25.5.
@@ -212,6 +285,30 @@ mod tests {
             "a b\nc d\n",
             "1 a\na 2\n2 b\n",
             "640 480\n640 480\n",
+        ] {
+            assert_eq!(refusal(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn copies_and_masks_are_no_pairs() {
+        for text in [
+            "1.jpg 1_mask.png\n2.jpg 2_mask.png\n3.jpg 3_mask.png\n",
+            "1.mask.png 1.png\n2.mask.png 2.png\n3.mask.png 3.png\n",
+            "1.CR2.tif 1.CR2.jpg\n2.CR2.tif 2.CR2.jpg\n3.CR2.tif 3.CR2.jpg\n",
+            "i/1.png masks/1.png\ni/2.png masks/2.png\ni/3.png masks/3.png\n",
+        ] {
+            let refusal = refusal(text).unwrap_or_default();
+            assert!(refusal.contains("a table of copies"), "{text}: {refusal}");
+        }
+        for text in [
+            // Stereo, numbers that go on, one way a line, one camera in two pairs, two lines.
+            "left/1.png right/1.png\nleft/2.png right/2.png\nleft/3.png right/3.png\n",
+            "1.jpg 1_2.jpg\n2.jpg 2_2.jpg\n3.jpg 3_2.jpg\n",
+            "1.jpg 1_a.jpg\n2.jpg 2_b.jpg\n3.jpg 3_c.jpg\n",
+            "1.jpg 1_m.jpg\n2.jpg 2_m.jpg\n3.jpg 3_m.jpg\n3.jpg 1.jpg\n",
+            "1.jpg 1_m.jpg\n2.jpg 2_m.jpg\n",
+            "c1 c1_m\nc2 c2_m\nc3 c3_m\n",
         ] {
             assert_eq!(refusal(text), None, "{text}");
         }

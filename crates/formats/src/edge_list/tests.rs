@@ -356,7 +356,7 @@ fn tables() {
                 .contains("is paired with itself")
         );
         let (_, read) = table(text, "", "", true).unwrap();
-        assert!(read.contains("pair a camera with itself"), "{read}");
+        assert!(read.contains(" a camera with itself"), "{read}");
     }
     assert!(
         table("5 5\n", "", "", true)

@@ -16,6 +16,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
 use crate::read_as::Parsed;
@@ -123,18 +124,22 @@ impl Candidate for Variable<'_> {
 /// real, square and symmetric with a zero diagonal, or has no rows; NaN; a
 /// file of another version, truncated, or corrupt.
 pub fn read(bytes: &[u8], variable: Option<&str>) -> Result<Graph, Fault> {
-    read_noting(bytes, variable).map(|parsed| parsed.graph)
+    read_noting(bytes, variable, &ListOptions::default()).map(|parsed| parsed.graph)
 }
 
 /// As [`read`]; with labels, and with notes: on the entries, and on the variable if it was neither
 /// named nor is it `A`.
-pub(super) fn read_noting(bytes: &[u8], variable: Option<&str>) -> Result<Parsed, Fault> {
+pub(super) fn read_noting(
+    bytes: &[u8],
+    variable: Option<&str>,
+    options: &ListOptions,
+) -> Result<Parsed, Fault> {
     let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
-        hdf5::read(bytes, variable)?
+        hdf5::read(bytes, variable, options)?
     } else {
         let (order, variables) = variables(bytes)?;
         let chosen = choose(&variables, variable)?;
-        (chosen.header.name.clone(), graph(chosen, order))
+        (chosen.header.name.clone(), graph(chosen, order, options))
     };
     match graph {
         Ok(mut parsed) => {
@@ -217,11 +222,11 @@ fn each_entry(
 }
 
 /// The graph of a variable.
-fn graph(variable: &Variable, order: ByteOrder) -> Result<Parsed, Problem> {
+fn graph(variable: &Variable, order: ByteOrder, options: &ListOptions) -> Result<Parsed, Problem> {
     let header = &variable.header;
     match header.numeric_shape() {
         Some(shape) if are_pairs(shape) && !header.is_sparse() => {
-            let mut list = List::new(shape);
+            let mut list = List::new(shape, options);
             each_entry(variable, order, |row, column, value| {
                 list.entry(row, column, value)
             })?;
@@ -229,7 +234,7 @@ fn graph(variable: &Variable, order: ByteOrder) -> Result<Parsed, Problem> {
         }
         _ => {
             let size = header.real_square()?;
-            let mut matrix = Matrix::new(size, Places::MATLAB);
+            let mut matrix = Matrix::new(size, Places::MATLAB, options);
             each_entry(variable, order, |row, column, value| {
                 matrix.entry(row, column, value)
             })?;

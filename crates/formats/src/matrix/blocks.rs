@@ -93,7 +93,7 @@ pub(super) fn read(matrix: &Matrix) -> Result<Option<(Graph, Option<String>)>, P
     let size = matrix.size;
     // Entries that are all alike say nothing but that they are there.
     let alike = matrix.range.least >= matrix.range.most;
-    let Some(values) = matrix.values.as_ref().filter(|_| !alike) else {
+    let Some(values) = matrix.values.as_ref().filter(|_| may_be(size) && !alike) else {
         return Ok(None);
     };
     if size.is_multiple_of(4) && each_block::<4>(matrix, values, |block| block.is_pose()) {

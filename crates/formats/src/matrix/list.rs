@@ -3,10 +3,17 @@
 //! Matches of features have the same form: rows of two indices, each index in one row at most. They
 //! are known by the graph that they would give, which falls into single pairs.
 
+use crate::edge_list::layout::ListOptions;
 use crate::error::Problem;
 use crate::pairs;
 use crate::read_as::{Parsed, ReadAs};
+use viewcert::wording::counted;
 
+/// Weights are asked for, of what has none.
+const WEIGHTLESS: Problem = Problem::Doubtful {
+    what: "--min-weight: the numbers are pairs, and there are no weights",
+    advice: "leave the option out, or write a matrix of the weights of pairs",
+};
 /// Integers up to that are numbers of 64 bits.
 const EXACT: f64 = (1u64 << 53) as f64;
 
@@ -16,21 +23,23 @@ pub(crate) fn are_pairs([rows, columns]: [u64; 2]) -> bool {
 }
 
 /// The numbers of a matrix of two columns, or of two rows.
-pub(crate) struct List {
+pub(crate) struct List<'o> {
     ends: [Vec<u64>; 2],
     /// How many pairs there are.
     count: u64,
     /// Each pair is a column.
     columns: bool,
+    options: &'o ListOptions,
 }
 
-impl List {
+impl<'o> List<'o> {
     /// A matrix of this shape, of zeros so far.
-    pub(crate) fn new([rows, columns]: [u64; 2]) -> Self {
+    pub(crate) fn new([rows, columns]: [u64; 2], options: &'o ListOptions) -> Self {
         Self {
             ends: Default::default(),
             count: rows.max(columns),
             columns: rows == 2,
+            options,
         }
     }
 
@@ -57,8 +66,11 @@ impl List {
     /// O(m log m).
     ///
     /// # Errors
-    /// No pairs, a camera with itself, or what are matches of features.
+    /// No pairs, a camera with itself, or what are matches of features; weights are asked for.
     pub(crate) fn graph(self) -> Result<Parsed, Problem> {
+        if self.options.min_weight.is_some() {
+            return Err(WEIGHTLESS);
+        }
         let count = usize::try_from(self.count).map_err(|_| Problem::TooManyPairs)?;
         let [first, second] = self.ends.map(|mut ends| {
             ends.resize(count, 0);
@@ -72,16 +84,29 @@ impl List {
                 advice: "write one pair of cameras a line",
             });
         }
+        let all = given.len();
+        let mut given = given;
+        given.retain(|(a, b)| a != b || !self.options.skip_loops);
+        let loops = all - given.len();
         let named = pairs::of_long_integers("", &given).map_err(|error| error.problem)?;
         let which = if self.columns { "columns" } else { "rows" };
         let mut notes = vec![format!(
             "the {which} are pairs: two numbers of cameras each"
         )];
         notes.extend(named.notes);
+        let mut read = ReadAs {
+            merged: named.read.merged,
+            ..ReadAs::default()
+        };
+        if loops > 0 {
+            let pairs = counted(loops, "pair");
+            read.ignored
+                .push(format!("{pairs} of a camera with itself"));
+        }
         Ok(Parsed {
             graph: named.graph,
             labels: named.labels,
-            read: ReadAs::default(),
+            read,
             notes,
         })
     }

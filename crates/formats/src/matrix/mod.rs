@@ -9,6 +9,8 @@
 //! real numbers for all pairs, which are distances or the like and say nothing about pairs.
 //! A matrix of two columns of integers is a list of pairs ([`list`]).
 
+use crate::edge_list::decimal::Decimal;
+use crate::edge_list::layout::ListOptions;
 use crate::error::Problem;
 use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError, Labels};
@@ -23,6 +25,11 @@ pub(super) use list::{List, are_pairs};
 const ISOLATED_LIMIT: u64 = 1 << 24;
 /// What is smaller beside the largest entry may be an error of rounding.
 const ROUNDING: f64 = 1e-12;
+/// Weights are asked for, of what has none.
+const WEIGHTLESS: Problem = Problem::Doubtful {
+    what: "--min-weight: the entries belong to 3 x 3 blocks, one a pair, and are no weights",
+    advice: "leave the option out, or write a matrix of the weights of pairs",
+};
 /// More entries than any graph has pairs, twice.
 const ENTRY_LIMIT: usize = 2 * i32::MAX as usize;
 
@@ -54,20 +61,22 @@ impl Places {
 }
 
 /// The entries of a square matrix that are not zero, by columns.
-pub(super) struct Matrix {
+pub(super) struct Matrix<'o> {
     /// How many rows, and columns.
     size: u32,
     places: Places,
     /// `rows[starts[c]..starts[c + 1]]` are the rows of column c, increasing.
     starts: Vec<usize>,
     rows: Vec<u32>,
-    /// The values in the same order, if the number of rows is such that they can matter.
+    /// The values in the same order, if they can matter.
     values: Option<Vec<f64>>,
     range: Range,
     /// The first entry of the diagonal.
     diagonal: Option<u32>,
     /// How many zeros are stored as if they were entries.
     zeros: usize,
+    /// Which entries count.
+    options: &'o ListOptions,
 }
 
 /// What the values are.
@@ -81,24 +90,20 @@ struct Range {
     largest: f64,
 }
 
-impl Matrix {
+impl<'o> Matrix<'o> {
     /// A matrix of so many rows without entries so far.
-    pub(super) fn new(size: u32, places: Places) -> Self {
+    pub(super) fn new(size: u32, places: Places, options: &'o ListOptions) -> Self {
+        let chosen = options.skip_loops || options.min_weight.is_some();
         Self {
             size,
             places,
             starts: vec![0],
             rows: Vec::new(),
-            values: blocks::may_be(size).then(Vec::new),
-            range: Range {
-                least: f64::INFINITY,
-                most: f64::NEG_INFINITY,
-                integers: true,
-                smallest: f64::INFINITY,
-                largest: 0.0,
-            },
+            values: (chosen || blocks::may_be(size)).then(Vec::new),
+            range: Range::NONE,
             diagonal: None,
             zeros: 0,
+            options,
         }
     }
 
@@ -143,6 +148,7 @@ impl Matrix {
         places: Places,
         entries: &[(u32, u32)],
         value: impl Fn(usize) -> f64,
+        options: &'o ListOptions,
     ) -> Result<(Self, usize), Problem> {
         check_size(size, entries.len())?;
         let mut next = vec![0usize; size as usize + 1];
@@ -157,7 +163,7 @@ impl Matrix {
             sorted[next[column as usize]] = (row, value(at));
             next[column as usize] += 1;
         }
-        let mut matrix = Self::new(size, places);
+        let mut matrix = Self::new(size, places, options);
         let mut again = 0;
         let mut start = 0;
         // Each column's `next` stands behind its last entry by now.
@@ -189,9 +195,12 @@ impl Matrix {
             return Err(Problem::NoNodes);
         }
         let mut notes = Vec::new();
+        let mut read = ReadAs::default();
         let (graph, what) = match blocks::read(&self)? {
+            Some(_) if self.options.min_weight.is_some() => return Err(WEIGHTLESS),
             Some(blocks) => blocks,
             None => {
+                read.ignored = self.choose();
                 let graph = self.pattern()?;
                 let what = self.describe(&graph)?;
                 (graph, what)
@@ -206,9 +215,61 @@ impl Matrix {
         Ok(Parsed {
             graph,
             labels: Labels::Numbers { first },
-            read: ReadAs::default(),
+            read,
             notes,
         })
+    }
+
+    /// Leaves out what the options do not want, and says so. O(entries).
+    fn choose(&mut self) -> Vec<String> {
+        let ListOptions {
+            min_weight: least,
+            skip_loops,
+            ..
+        } = self.options;
+        if !skip_loops && least.is_none() {
+            return Vec::new();
+        }
+        let values = self.values.take().unwrap_or_default();
+        let (starts, rows) = (
+            std::mem::take(&mut self.starts),
+            std::mem::take(&mut self.rows),
+        );
+        let (mut loops, mut light) = (0, 0);
+        let mut kept = Vec::with_capacity(values.len());
+        self.range = Range::NONE;
+        self.starts.push(0);
+        for (ends, column) in starts.windows(2).zip(0u32..) {
+            for at in ends[0]..ends[1] {
+                let (row, value) = (rows[at], values[at]);
+                if *skip_loops && row == column {
+                    loops += 1;
+                } else if row != column
+                    && least
+                        .as_ref()
+                        .is_some_and(|least| weighs_less(value, least))
+                {
+                    light += usize::from(row < column);
+                } else {
+                    self.rows.push(row);
+                    self.range.take(value);
+                    kept.push(value);
+                }
+            }
+            self.starts.push(self.rows.len());
+        }
+        self.values = Some(kept);
+        if *skip_loops {
+            self.diagonal = None;
+        }
+        let mut said = Vec::new();
+        if loops > 0 {
+            said.push(format!("{} on the diagonal", counted(loops, "entry")));
+        }
+        if let Some(least) = least.as_ref().filter(|_| light > 0) {
+            said.push(format!("{} below {least}", counted(light, "pair")));
+        }
+        said
     }
 
     /// The graph whose adjacency has this pattern. O(m).
@@ -268,6 +329,9 @@ impl Matrix {
             smallest,
             largest,
         } = self.range;
+        if self.options.min_weight.is_some() {
+            return Ok(None);
+        }
         if self.rows.is_empty() || least == most {
             return Ok(blocks::doubt(self));
         }
@@ -294,6 +358,12 @@ impl Matrix {
              a pair"
         )))
     }
+}
+
+/// Whether a value is below the least one, as the shortest decimal number that stands for it.
+fn weighs_less(value: f64, least: &Decimal) -> bool {
+    let value = value.to_string().parse::<Decimal>();
+    value.is_ok_and(|value| value < *least)
 }
 
 /// What a few bytes promise takes no memory.
@@ -325,6 +395,15 @@ fn shown(value: f64) -> String {
 }
 
 impl Range {
+    /// Of no values.
+    const NONE: Self = Self {
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+        integers: true,
+        smallest: f64::INFINITY,
+        largest: 0.0,
+    };
+
     fn take(&mut self, value: f64) {
         self.least = self.least.min(value);
         self.most = self.most.max(value);

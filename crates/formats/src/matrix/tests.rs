@@ -4,7 +4,8 @@ use super::*;
 
 /// The graph of a full matrix, column by column.
 fn read(size: u32, entry: impl Fn(u32, u32) -> f64) -> Result<Parsed, Problem> {
-    let mut matrix = Matrix::new(size, Places::MATLAB);
+    let options = ListOptions::default();
+    let mut matrix = Matrix::new(size, Places::MATLAB, &options);
     for column in 0..size {
         for row in 0..size {
             let value = entry(row, column);
@@ -92,6 +93,16 @@ fn assert_five_cameras(matrix: &[Vec<f64>], what: &str) {
     assert_eq!(notes, [note]);
 }
 
+/// The matrix of five cameras with these blocks of their pairs.
+fn of_five(block: &dyn Fn(usize) -> Block) -> Vec<Vec<f64>> {
+    let blocks: Vec<_> = PAIRS
+        .iter()
+        .enumerate()
+        .map(|(k, &(i, j))| (i, j, block(k)))
+        .collect();
+    of_blocks(5, &blocks)
+}
+
 fn essential(k: usize) -> Block {
     let k = k as f64;
     let direction = [1.0 + k, 2.0 - k, 0.5 * k + 0.3];
@@ -103,16 +114,8 @@ fn essential(k: usize) -> Block {
 
 #[test]
 fn fundamental_matrices_are_pairs_of_cameras() {
-    let with = |block: &dyn Fn(usize) -> Block| -> Vec<Vec<f64>> {
-        let blocks: Vec<_> = PAIRS
-            .iter()
-            .enumerate()
-            .map(|(k, &(i, j))| (i, j, block(k)))
-            .collect();
-        of_blocks(5, &blocks)
-    };
     let fundamental = "fundamental or essential matrices";
-    assert_five_cameras(&with(&essential), fundamental);
+    assert_five_cameras(&of_five(&essential), fundamental);
     // In pixels: K^-T E K^-1 with a focal length of 1,500.
     let calibration = [
         [1.0 / 1500.0, 0.0, 0.0],
@@ -124,7 +127,7 @@ fn fundamental_matrices_are_pairs_of_cameras() {
         [0.0, 1.0 / 1500.0, -0.4],
         [0.0, 0.0, 1.0],
     ];
-    let pixels = with(&|k| product(product(calibration, essential(k)), transposed));
+    let pixels = of_five(&|k| product(product(calibration, essential(k)), transposed));
     assert_five_cameras(&pixels, fundamental);
     // Each up to its own scale and sign, in one triangle alone.
     let mut scaled = pixels;
@@ -137,8 +140,11 @@ fn fundamental_matrices_are_pairs_of_cameras() {
     }
     assert_five_cameras(&scaled, fundamental);
     // Pure translations: zeros within the blocks.
-    assert_five_cameras(&with(&|k| cross([1.0, 2.0 + k as f64, 3.0])), fundamental);
-    let mut rotations = with(&|k| rotation([1.0, 0.3, k as f64, 0.2]));
+    assert_five_cameras(
+        &of_five(&|k| cross([1.0, 2.0 + k as f64, 3.0])),
+        fundamental,
+    );
+    let mut rotations = of_five(&|k| rotation([1.0, 0.3, k as f64, 0.2]));
     assert_five_cameras(&rotations, "relative rotations");
     for (k, row) in rotations.iter_mut().enumerate() {
         row[k] = 1.0;
@@ -148,26 +154,18 @@ fn fundamental_matrices_are_pairs_of_cameras() {
 
 #[test]
 fn blocks_of_another_kind_are_refused_by_name() {
-    let with = |block: &dyn Fn(usize) -> Block| -> Vec<Vec<f64>> {
-        let blocks: Vec<_> = PAIRS
-            .iter()
-            .enumerate()
-            .map(|(k, &(i, j))| (i, j, block(k)))
-            .collect();
-        of_blocks(5, &blocks)
-    };
     let weights = |k: usize| -> Block {
         std::array::from_fn(|r| {
             std::array::from_fn(|c| 0.1 + ((7 * r + 4 * c + 5 * k) % 11) as f64)
         })
     };
-    let text = refusal(read_blocks(&with(&weights)));
+    let text = refusal(read_blocks(&of_five(&weights)));
     assert!(
         text.starts_with("the entries come in blocks of 3 x 3, and the blocks are neither"),
         "{text}"
     );
     // One of the blocks is that of another pair.
-    let mut wrong = with(&essential);
+    let mut wrong = of_five(&essential);
     let other = essential(17);
     for r in 0..3 {
         wrong[r][3..6].copy_from_slice(&other[r]);
@@ -177,7 +175,7 @@ fn blocks_of_another_kind_are_refused_by_name() {
         text.contains("no multiple of block (i, j) transposed"),
         "{text}"
     );
-    let mut upper = with(&essential);
+    let mut upper = of_five(&essential);
     for (r, row) in upper.iter_mut().enumerate() {
         row[..r].fill(0.0);
     }
@@ -317,13 +315,15 @@ fn rounding_errors_are_no_pairs() {
 
 #[test]
 fn entries_in_any_order_are_added_up() {
+    let options = ListOptions::default();
     let entries = [(2, 1), (1, 0), (0, 1), (1, 2), (0, 1), (2, 0), (0, 2)];
     let values = [1.0, 1.0, 0.5, 1.0, 0.5, 2.0, 2.0];
     let zero_based = Places {
         first: 0,
         transposed: true,
     };
-    let (matrix, again) = Matrix::of_entries(4, zero_based, &entries, |at| values[at]).unwrap();
+    let (matrix, again) =
+        Matrix::of_entries(4, zero_based, &entries, |at| values[at], &options).unwrap();
     let Parsed {
         graph,
         labels,
@@ -335,30 +335,107 @@ fn entries_in_any_order_are_added_up() {
     assert_eq!(labels, Labels::Numbers { first: 0 });
     assert_eq!(notes.len(), 1);
     // Entries that cancel are zeros.
-    let (matrix, _) = Matrix::of_entries(2, zero_based, &[(0, 1), (0, 1), (1, 0)], |at| {
-        [1.0, -1.0, 0.0][at]
-    })
+    let (matrix, _) = Matrix::of_entries(
+        2,
+        zero_based,
+        &[(0, 1), (0, 1), (1, 0)],
+        |at| [1.0, -1.0, 0.0][at],
+        &options,
+    )
     .unwrap();
     let Parsed { graph, notes, .. } = matrix.graph().unwrap();
     assert_eq!(graph.edges(), []);
     assert_eq!(notes, ["explicit zeros are no pairs: 2 entries"]);
     // What is a column here is a row in the file.
-    let (matrix, _) = Matrix::of_entries(3, zero_based, &[(2, 0)], |_| 1.0).unwrap();
+    let (matrix, _) = Matrix::of_entries(3, zero_based, &[(2, 0)], |_| 1.0, &options).unwrap();
     let text = refusal(matrix.graph());
     assert!(
         text.contains("(0, 2) is non-zero, (2, 0) is zero"),
         "{text}"
     );
-    let Err(problem) = Matrix::of_entries(u32::MAX, zero_based, &[], |_| 1.0).map(|_| ()) else {
+    let Err(problem) = Matrix::of_entries(u32::MAX, zero_based, &[], |_| 1.0, &options).map(|_| ())
+    else {
         panic!("four billion rows");
     };
     assert!(problem.is_size());
 }
 
+/// A table of matches, with the numbers of features on its diagonal.
+#[test]
+fn light_entries_and_the_diagonal_are_left_out() {
+    let entries = [
+        (0, 0, 900.0),
+        (1, 0, 12.0),
+        (2, 0, 0.1),
+        (0, 1, 12.0),
+        (2, 1, 7.5),
+        (0, 2, 0.1),
+        (1, 2, 7.5),
+        (2, 2, 800.0),
+    ];
+    let of = |min_weight: Option<&str>, skip_loops| {
+        let options = ListOptions {
+            min_weight: min_weight.map(|least| least.parse().unwrap()),
+            skip_loops,
+            ..ListOptions::default()
+        };
+        let mut matrix = Matrix::new(3, Places::MATLAB, &options);
+        for (row, column, value) in entries {
+            matrix.entry(row, column, value).unwrap();
+        }
+        matrix.graph()
+    };
+    assert!(matches!(of(None, false), Err(Problem::Diagonal(1))));
+    assert!(matches!(of(Some("1"), false), Err(Problem::Diagonal(1))));
+    for (least, edges, said) in [
+        (None, 3, None),
+        (Some("0.1"), 3, None),
+        (
+            Some("0.1000000000000000001"),
+            2,
+            Some("1 pair below 0.1000000000000000001"),
+        ),
+        (Some("7.5"), 2, Some("1 pair below 7.5")),
+        (Some("12"), 1, Some("2 pairs below 12")),
+    ] {
+        let parsed = of(least, true).unwrap();
+        assert_eq!(
+            (parsed.graph.nodes(), parsed.graph.edges().len()),
+            (3, edges)
+        );
+        let expected: Vec<&str> = std::iter::once("2 entries on the diagonal")
+            .chain(said)
+            .collect();
+        assert_eq!(parsed.read.ignored, expected);
+        assert!(!parsed.notes.iter().any(|note| note.contains("900")));
+    }
+}
+
+/// Blocks and lists of pairs have no weights.
+#[test]
+fn weights_of_what_has_none_are_refused() {
+    let options = ListOptions {
+        min_weight: Some("5".parse().unwrap()),
+        ..ListOptions::default()
+    };
+    let matrix = of_five(&essential);
+    let mut read = Matrix::new(15, Places::MATLAB, &options);
+    for column in 0..15 {
+        for row in 0..15 {
+            read.entry(row, column, matrix[row as usize][column as usize])
+                .unwrap();
+        }
+    }
+    assert!(refusal(read.graph()).starts_with("--min-weight: the entries belong to 3 x 3 blocks"));
+    let list = List::new([4, 2], &options);
+    assert!(refusal(list.graph()).starts_with("--min-weight: the numbers are pairs"));
+}
+
 #[test]
 fn two_columns_are_pairs() {
     let list = |rows: &[[f64; 2]]| {
-        let mut list = List::new([rows.len() as u64, 2]);
+        let options = ListOptions::default();
+        let mut list = List::new([rows.len() as u64, 2], &options);
         for (row, pair) in (0..).zip(rows) {
             for (column, &value) in (0..).zip(pair) {
                 if value != 0.0 {

@@ -7,6 +7,7 @@ use rawzip::{CompressionMethod, ZipArchive, ZipSliceArchive};
 
 use super::header::{Element, Header};
 use super::{damaged, graph, malformed, numbers};
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::inflate::Inflated;
 use crate::matrix::{Matrix, Places};
@@ -127,6 +128,15 @@ impl Array<'_> {
 /// # Errors
 /// As [`super::read`]; no such array, or no way to choose one.
 pub fn read_archive(bytes: &[u8], variable: Option<&str>) -> Result<Parsed, Fault> {
+    read_archive_with(bytes, variable, &ListOptions::default())
+}
+
+/// The same with the options of whoever asks.
+pub(in super::super) fn read_archive_with(
+    bytes: &[u8],
+    variable: Option<&str>,
+    options: &ListOptions,
+) -> Result<Parsed, Fault> {
     let fault = |problem| Place::Input.fault(problem);
     let archive = ZipArchive::from_slice(bytes).map_err(|error| fault(zip(&error)))?;
     let arrays = arrays(&archive).map_err(fault)?;
@@ -141,10 +151,10 @@ pub fn read_archive(bytes: &[u8], variable: Option<&str>) -> Result<Parsed, Faul
             data,
             named: &named,
         };
-        return sparse.graph().map_err(fault);
+        return sparse.graph(options).map_err(fault);
     }
     let chosen = choose(&arrays, variable)?;
-    match chosen.read(graph) {
+    match chosen.read(|header, input| graph(header, input, options)) {
         Ok(mut parsed) => {
             if variable.is_none() && arrays.len() > 1 && chosen.name != "A" {
                 parsed.notes.insert(0, chosen_note(&chosen.name));
@@ -209,7 +219,7 @@ impl<'s, 'a, F: Fn(&str) -> Option<&'s Array<'a>>> Sparse<'s, 'a, F> {
         (self.named)(name).ok_or_else(missing)
     }
 
-    fn graph(&self) -> Result<Parsed, Problem> {
+    fn graph(&self, options: &ListOptions) -> Result<Parsed, Problem> {
         let mut format = String::new();
         self.format
             .read(|header, input| numbers::each_text(header, input, |text| format += &text))?;
@@ -268,9 +278,10 @@ impl<'s, 'a, F: Fn(&str) -> Option<&'s Array<'a>>> Sparse<'s, 'a, F> {
             first: 0,
             transposed: format != "csc",
         };
-        let (matrix, again) = Matrix::of_entries(rows, order, &places, |at| values[at])?;
+        let (matrix, again) = Matrix::of_entries(rows, order, &places, |at| values[at], options)?;
         let mut parsed = matrix.graph()?;
         parsed.read.format = "sparse matrix of SciPy";
+        parsed.read.merged = again;
         parsed.notes.extend(crate::merged(again));
         Ok(parsed)
     }

@@ -12,6 +12,7 @@
 use std::io::{Cursor, Read};
 
 use crate::documents::Collected;
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
 use crate::read_as::Parsed;
@@ -23,6 +24,7 @@ mod numbers;
 use header::{Element, Header};
 
 pub use archive::read_archive;
+pub(super) use archive::read_archive_with;
 pub(super) use archive::{MAGIC as ARCHIVE_MAGIC, is_archive};
 pub(super) use header::MAGIC;
 
@@ -44,10 +46,15 @@ fn damaged(error: std::io::Error) -> Problem {
 /// An array that is no square symmetric matrix of real numbers with a zero diagonal, and not two
 /// columns of integers or names; a file that is truncated or corrupt.
 pub fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
+    read_with(bytes, &ListOptions::default())
+}
+
+/// The same with the options of whoever asks.
+pub(super) fn read_with(bytes: &[u8], options: &ListOptions) -> Result<Parsed, Fault> {
     let fault = |problem| Place::Input.fault(problem);
     let mut input = Cursor::new(bytes);
     let header = Header::read(&mut input).map_err(fault)?;
-    let mut parsed = graph(&header, &mut input).map_err(fault)?;
+    let mut parsed = graph(&header, &mut input, options).map_err(fault)?;
     parsed.read.format = "NumPy array";
     let rest = &bytes[input.position() as usize..];
     if rest.starts_with(MAGIC) {
@@ -63,7 +70,7 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
 }
 
 /// The graph of an array whose entries follow.
-fn graph(header: &Header, input: &mut dyn Read) -> Result<Parsed, Problem> {
+fn graph(header: &Header, input: &mut dyn Read, options: &ListOptions) -> Result<Parsed, Problem> {
     match (&header.element, &header.shape[..]) {
         (Element::Complex, _) => Err(Problem::Complex),
         (Element::Objects, _) => Err(Problem::Foreign {
@@ -74,7 +81,9 @@ fn graph(header: &Header, input: &mut dyn Read) -> Result<Parsed, Problem> {
         (Element::Other(name), _) => {
             Err(Problem::NotNumericNamed(format!("NumPy array of {name}")))
         }
-        (Element::Bytes(_) | Element::Characters(..), &[rows, 2]) => names(header, rows, input),
+        (Element::Bytes(_) | Element::Characters(..), &[rows, 2]) => {
+            names(header, rows, input, options)
+        }
         (Element::Bytes(_) | Element::Characters(..), _) => {
             Err(Problem::NotNumericNamed("NumPy array of text".to_owned()))
         }
@@ -84,7 +93,7 @@ fn graph(header: &Header, input: &mut dyn Read) -> Result<Parsed, Problem> {
                 first: 0,
                 transposed: !header.fortran,
             };
-            let mut matrix = Matrix::new(size, places);
+            let mut matrix = Matrix::new(size, places, options);
             // By columns, as they come: those of the file, or its rows.
             each_entry(header, input, |fast, slow, value| {
                 matrix.entry(fast, slow, value)
@@ -95,7 +104,7 @@ fn graph(header: &Header, input: &mut dyn Read) -> Result<Parsed, Problem> {
         (Element::Number(..), &[rows, columns])
             if are_pairs([rows, columns]) || are_pairs([columns, rows]) =>
         {
-            let mut list = List::new([rows, columns]);
+            let mut list = List::new([rows, columns], options);
             each_entry(header, input, |fast, slow, value| {
                 if header.fortran {
                     list.entry(fast, slow, value)
@@ -134,10 +143,15 @@ fn each_entry(
 }
 
 /// The graph of two columns of names.
-fn names(header: &Header, rows: u64, input: &mut dyn Read) -> Result<Parsed, Problem> {
+fn names(
+    header: &Header,
+    rows: u64,
+    input: &mut dyn Read,
+    options: &ListOptions,
+) -> Result<Parsed, Problem> {
     let mut all = Vec::new();
     numbers::each_text(header, input, |name| all.push(name))?;
-    let mut collected = Collected::default();
+    let mut collected = Collected::new(options);
     let count = rows as usize;
     for row in 0..count {
         let [a, b] = if header.fortran {

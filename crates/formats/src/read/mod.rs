@@ -333,12 +333,18 @@ fn of_sampled(path: Option<&Path>, name: String, sampled: Sampled, options: Read
         Ok(Some(Kind::Sqlite)) => {
             return Box::new(std::iter::once(database(path, &name, &options, unused)));
         }
-        Ok(Some(Kind::Matlab)) => all(sampled.into_input())
-            .and_then(|bytes| matlab::read_noting(&bytes, options.variable.as_deref())),
-        Ok(Some(Kind::MatrixMarket)) => matrix_market::read(sampled.into_input()),
-        Ok(Some(Kind::Numpy)) => all(sampled.into_input()).and_then(|bytes| numpy::read(&bytes)),
-        Ok(Some(Kind::NumpyArchive)) => all(sampled.into_input())
-            .and_then(|bytes| numpy::read_archive(&bytes, options.variable.as_deref())),
+        Ok(Some(Kind::Matlab)) => all(sampled.into_input()).and_then(|bytes| {
+            matlab::read_noting(&bytes, options.variable.as_deref(), &options.list)
+        }),
+        Ok(Some(Kind::MatrixMarket)) => {
+            matrix_market::read_with(sampled.into_input(), &options.list)
+        }
+        Ok(Some(Kind::Numpy)) => {
+            all(sampled.into_input()).and_then(|bytes| numpy::read_with(&bytes, &options.list))
+        }
+        Ok(Some(Kind::NumpyArchive)) => all(sampled.into_input()).and_then(|bytes| {
+            numpy::read_archive_with(&bytes, options.variable.as_deref(), &options.list)
+        }),
         // Compressed data within such are refused.
         Ok(None | Some(Kind::Text | Kind::Compressed(_))) => list(sampled, edges, &options.list),
         Ok(Some(Kind::Document(document))) => {
@@ -397,23 +403,38 @@ fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<S
         let why = "this is no MATLAB file, and no archive of NumPy";
         notes.push(format!("--variable is ignored: {why}"));
     }
+    // Weights are read, and loops may be there.
     let takes = match kind {
-        Ok(None | Some(Kind::Text)) => [true; 2],
-        Ok(Some(Kind::Document(document))) => document.takes(),
+        Ok(
+            None
+            | Some(Kind::Text | Kind::Matlab | Kind::MatrixMarket | Kind::Numpy | Kind::NumpyArchive),
+        ) => [true; 2],
+        Ok(Some(Kind::Document(document))) => [document.has_weights(), true],
         _ => [false; 2],
     };
     let list = &options.list;
-    for (option, given, taken) in [
+    for (option, given, taken, why) in [
         (
             "--columns",
             list.columns.is_some(),
             matches!(kind, Ok(None | Some(Kind::Text))),
+            "this is no list of pairs",
         ),
-        ("--min-weight", list.min_weight.is_some(), takes[0]),
-        ("--skip-loops", list.skip_loops, takes[1]),
+        (
+            "--min-weight",
+            list.min_weight.is_some(),
+            takes[0],
+            "no weights are read from such a file",
+        ),
+        (
+            "--skip-loops",
+            list.skip_loops,
+            takes[1],
+            "of such a file no pairs are left out by that",
+        ),
     ] {
         if given && !taken {
-            notes.push(format!("{option} is ignored: this is no list of pairs"));
+            notes.push(format!("{option} is ignored: {why}"));
         }
     }
     if !matches!(kind, Ok(Some(Kind::Sqlite))) {

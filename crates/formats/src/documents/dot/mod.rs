@@ -13,6 +13,7 @@ use std::collections::HashMap;
 
 use crate::documents::collected::Collected;
 use crate::documents::malformed;
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 use tokens::{Token, Tokens};
@@ -43,13 +44,13 @@ pub(super) fn is_dot(head: &str) -> bool {
 }
 
 /// Reads a graph.
-pub(super) fn read(text: &str) -> Result<Parsed, Fault> {
+pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut parser = Parser {
         tokens: Tokens::new(text),
         ahead: None,
         line: 1,
         directed: false,
-        collected: Collected::default(),
+        collected: Collected::new(options),
         scopes: vec![Scope::default()],
         joined: 0,
     };

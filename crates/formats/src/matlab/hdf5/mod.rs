@@ -12,6 +12,7 @@ use hdf5_reader::messages::datatype::Datatype;
 use hdf5_reader::{Attribute, ByteOrder, Dataset, Hdf5File, OpenOptions};
 
 use super::malformed;
+use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
 use crate::read_as::Parsed;
@@ -79,12 +80,12 @@ impl Variable {
         }
     }
 
-    fn graph(&self, most: usize) -> Result<Parsed, Problem> {
+    fn graph(&self, most: usize, options: &ListOptions) -> Result<Parsed, Problem> {
         if let Content::Full(dataset) = &self.content
             && let Some(shape) = self.numeric_shape().filter(|&shape| are_pairs(shape))
         {
             let numbers = Numbers::read(dataset, most)?;
-            let mut list = List::new(shape);
+            let mut list = List::new(shape, options);
             self.each_entry(&numbers, shape, |fast, slow, value| {
                 if self.by_matlab {
                     list.entry(fast, slow, value)
@@ -99,7 +100,7 @@ impl Variable {
             Content::Complex => return Err(Problem::Complex),
             _ => self.square()?,
         };
-        self.matrix(size, most)?.graph()
+        self.matrix(size, most, options)?.graph()
     }
 
     /// Calls `entry` with the entries of a full matrix that are not zero, in the order in which they
@@ -131,12 +132,17 @@ impl Variable {
         Ok(())
     }
 
-    fn matrix(&self, size: u32, most: usize) -> Result<Matrix, Problem> {
+    fn matrix<'o>(
+        &self,
+        size: u32,
+        most: usize,
+        options: &'o ListOptions,
+    ) -> Result<Matrix<'o>, Problem> {
         let places = Places {
             first: 1,
             transposed: !self.by_matlab,
         };
-        let mut matrix = Matrix::new(size, places);
+        let mut matrix = Matrix::new(size, places, options);
         match &self.content {
             Content::Other | Content::Complex | Content::Empty => {}
             Content::Full(dataset) => {
@@ -189,11 +195,12 @@ impl Variable {
 pub(super) fn read(
     bytes: &[u8],
     variable: Option<&str>,
+    options: &ListOptions,
 ) -> Result<(String, Result<Parsed, Problem>), Fault> {
     let most = bytes.len().saturating_mul(RATIO).min(LIMIT);
     let variables = variables(bytes, most).map_err(|problem| Place::Input.fault(problem))?;
     let chosen = choose(&variables, variable)?;
-    Ok((chosen.name.clone(), chosen.graph(most)))
+    Ok((chosen.name.clone(), chosen.graph(most, options)))
 }
 
 fn damaged(error: hdf5_reader::error::Error) -> Problem {

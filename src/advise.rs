@@ -1,19 +1,33 @@
-//! What to do about a verdict: options of `verify GRAPH`.
+//! `verify advise GRAPH...`: what follows from a verdict, and what to do about it
+//! (docs/reconstruction.md).
 
+use super::plan::Plan;
+use super::question::{GRAPHS, QuestionArguments};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use viewcert_advice::{Request, Weak};
 
-/// Options about what to do.
+/// What to do about which graphs. Joints between components are listed in any case.
 #[derive(Args)]
-#[command(next_help_heading = "What to do about a verdict")]
+pub(super) struct AdviseArguments {
+    #[arg(required = true, value_name = "GRAPH", help = GRAPHS)]
+    graphs: Vec<PathBuf>,
+    #[command(flatten)]
+    advice: AdviceArguments,
+    #[command(flatten)]
+    question: QuestionArguments,
+}
+
+/// What is asked about an answer.
+#[derive(Args)]
 pub(super) struct AdviceArguments {
     /// Find the pairs (`--weak=images`: the images) without which a component falls apart.
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<WeakName>,
     /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
-    /// also how much has to come of it.
+    /// also how much has to come of it. `advise` does this if nothing else is asked.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
     suggest: Option<u32>,
@@ -28,9 +42,6 @@ pub(super) struct AdviceArguments {
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     margin: Option<u32>,
-    /// Write the components to this folder, as COLMAP takes them.
-    #[arg(long, value_name = "DIR")]
-    export: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -39,6 +50,24 @@ enum WeakName {
     Pairs,
     /// Images.
     Images,
+}
+
+/// Most suggestions where nothing else is asked.
+const SUGGESTED: u32 = 10;
+
+impl AdviseArguments {
+    /// The plan.
+    ///
+    /// # Errors
+    /// By name, what does not go together.
+    pub(super) fn plan(&self) -> Result<Plan> {
+        let mut plan = self.question.plan(&self.graphs)?;
+        plan.request = self.advice.request();
+        if !plan.request.asks() {
+            plan.request.suggest = Some(SUGGESTED);
+        }
+        plan.checked()
+    }
 }
 
 impl AdviceArguments {
@@ -53,7 +82,7 @@ impl AdviceArguments {
             explain: self.explain.clone(),
             sweep: self.sweep.clone(),
             margin: self.margin,
-            export: self.export.clone(),
+            export: None,
         }
     }
 }

@@ -1,0 +1,105 @@
+//! What is given besides the pairs: known parts and displacements, and files of them (section 2 of the
+//! specification).
+
+use super::Graph;
+use super::file::{fields, lines_of_numbers};
+use crate::rejection::{Unreadable, ensure};
+
+impl Graph {
+    /// The same graph with known parts, in the place of those it has. What comes again counts once;
+    /// parts of fewer than two nodes are left out.
+    ///
+    /// # Errors
+    /// A node that the graph does not have.
+    pub fn with_parts(
+        mut self,
+        parts: impl IntoIterator<Item = Vec<u32>>,
+    ) -> Result<Graph, Unreadable> {
+        let nodes = self.nodes();
+        self.parts.clear();
+        for mut part in parts {
+            part.sort_unstable();
+            part.dedup();
+            let wrong = part.last().filter(|&&node| node as usize >= nodes);
+            ensure!(
+                wrong.is_none(),
+                "a known part has a node that is not below {nodes}"
+            );
+            self.parts.extend((part.len() > 1).then_some(part));
+        }
+        self.parts.sort_unstable();
+        self.parts.dedup();
+        Ok(self)
+    }
+
+    /// The same graph with what a file gives.
+    ///
+    /// # Errors
+    /// What is wrong with the file, with the line.
+    pub fn with_given(self, file: &[u8]) -> Result<Graph, Unreadable> {
+        let mut lines = lines_of_numbers(file).peekable();
+        match lines.peek() {
+            Some((number, line)) if line.starts_with(DISPLACEMENTS) => {
+                let hash = hash(&line[DISPLACEMENTS.len()..]);
+                let hash = hash.ok_or_else(|| format!("line {number}: {HASH}"))?;
+                ensure!(
+                    lines.count() == 1,
+                    "something stands beside the displacements"
+                );
+                Ok(self.with_displacements(hash))
+            }
+            _ => self.with_parts_of(lines),
+        }
+    }
+
+    fn with_parts_of<'a>(
+        self,
+        lines: impl Iterator<Item = (usize, &'a [u8])>,
+    ) -> Result<Graph, Unreadable> {
+        let mut parts = Vec::new();
+        for (number, line) in lines {
+            let wrong = || Unreadable::from(format!("line {number}: {PARTS}"));
+            let line = line.strip_prefix(b"part").ok_or_else(wrong)?;
+            let line = line
+                .split_first()
+                .filter(|(blank, _)| matches!(blank, b' ' | b'\t'));
+            let (_, line) = line.ok_or_else(wrong)?;
+            let part: Option<Vec<u32>> = fields(line).collect();
+            let part = part.filter(|part| part.len() > 1);
+            let mut part = part.ok_or_else(wrong)?;
+            part.sort_unstable();
+            let largest = part.last().copied().unwrap_or_default();
+            ensure!(
+                (largest as usize) < self.nodes(),
+                "line {number}: the graph has no node {largest}"
+            );
+            let twice = part.windows(2).any(|two| two[0] == two[1]);
+            ensure!(!twice, "line {number}: a node is named twice");
+            parts.push(part);
+        }
+        ensure!(!parts.is_empty(), "the file gives nothing");
+        let listed = parts.len();
+        let graph = self.with_parts(parts)?;
+        ensure!(graph.parts.len() == listed, "a known part occurs twice");
+        Ok(graph)
+    }
+}
+
+/// The hash behind the first word of a line.
+fn hash(rest: &[u8]) -> Option<String> {
+    let (blank, digits) = rest.split_first()?;
+    let is_hash = digits.len() == 64 && digits.iter().all(u8::is_ascii_hexdigit);
+    let text = std::str::from_utf8(digits).ok()?;
+    (matches!(blank, b' ' | b'\t') && is_hash).then(|| text.to_ascii_lowercase())
+}
+
+const DISPLACEMENTS: &[u8] = b"displacements";
+
+const HASH: &str = "behind `displacements` stands a hash, 64 hexadecimal digits";
+
+const PARTS: &str = "a line is `part` and two node numbers or more, with a single blank or tab before \
+                     each, or else `displacements` and a hash (`verify convert --given` writes such a \
+                     file)";
+
+#[cfg(test)]
+mod tests;

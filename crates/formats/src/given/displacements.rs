@@ -1,0 +1,224 @@
+//! Known displacements: pairs of cameras whose vector is known, and cameras whose position is.
+//!
+//! In: the fields of their lines: two cameras or one, and behind them, on all lines or on none, the
+//! vector from the first camera to the second, or the position (docs/models.md). Out: the groups
+//! ([`Displacements`]), with notes on what counts once or says nothing.
+
+use crate::NamedGraph;
+use crate::cameras::Cameras;
+use crate::edge_list::fields::Field;
+use crate::error::{Fault, Place, Problem};
+use crate::given::Given;
+use std::collections::BTreeSet;
+use viewcert::Known;
+use viewcert::graph::{Coordinate, Displacements, VectorError};
+use viewcert::wording::counted;
+
+/// The lines so far.
+#[derive(Default)]
+pub(super) struct Lines {
+    /// Whether there are vectors and positions: as on the first line.
+    has_vectors: Option<bool>,
+    /// Pairs as they stand there, the number of their line, and the vector from the first to the
+    /// second.
+    pairs: Vec<Line<(u32, u32)>>,
+    /// Cameras with a known position.
+    positions: Vec<Line<u32>>,
+    with_itself: usize,
+}
+
+/// What a line says of a camera or a pair.
+struct Line<T> {
+    number: u64,
+    about: T,
+    vector: Option<Vector>,
+}
+
+type Vector = [Coordinate; 3];
+
+impl Lines {
+    pub(super) fn is_empty(&self) -> bool {
+        self.has_vectors.is_none()
+    }
+
+    /// Takes in a line with a displacement: two cameras, and perhaps a vector.
+    pub(super) fn take_pair(
+        &mut self,
+        number: u64,
+        line: &str,
+        fields: &[Field],
+        cameras: &Cameras,
+    ) -> Result<(), Problem> {
+        let (&[first, second], rest) = fields.split_first_chunk().ok_or(Problem::NoPair)?;
+        let [first, second] = [cameras.named(first, line)?, cameras.named(second, line)?];
+        let vector = self.vector(line, rest)?;
+        if first == second {
+            let zero = Some([Coordinate::default(); 3]);
+            if vector.is_some() && vector != zero {
+                return Err(Problem::Contradiction);
+            }
+            self.with_itself += 1;
+            return Ok(());
+        }
+        self.pairs.push(Line {
+            number,
+            about: (first, second),
+            vector,
+        });
+        Ok(())
+    }
+
+    /// Takes in a line with a position: a camera, and perhaps where it is.
+    pub(super) fn take_position(
+        &mut self,
+        number: u64,
+        line: &str,
+        fields: &[Field],
+        cameras: &Cameras,
+    ) -> Result<(), Problem> {
+        let (first, rest) = fields.split_first().ok_or(Problem::NoCamera)?;
+        let about = cameras.named(*first, line)?;
+        let vector = self.vector(line, rest)?;
+        self.positions.push(Line {
+            number,
+            about,
+            vector,
+        });
+        Ok(())
+    }
+
+    /// The vector in the fields behind the cameras, if there are any.
+    fn vector(&mut self, line: &str, fields: &[Field]) -> Result<Option<Vector>, Problem> {
+        let vector = match fields {
+            [] => None,
+            [x, y, z] => Some([
+                coordinate(line, x)?,
+                coordinate(line, y)?,
+                coordinate(line, z)?,
+            ]),
+            _ => {
+                return Err(Problem::NoVector {
+                    found: fields.len(),
+                });
+            }
+        };
+        match *self.has_vectors.get_or_insert(vector.is_some()) == vector.is_some() {
+            true => Ok(vector),
+            false => Err(Problem::SomeVectors),
+        }
+    }
+
+    pub(super) fn finish(mut self, graph: &NamedGraph) -> Result<Given, Fault> {
+        let pairs: BTreeSet<_> = self.pairs.iter().map(|line| sorted(line.about)).collect();
+        let positions: BTreeSet<_> = self.positions.iter().map(|line| line.about).collect();
+        let again = self.pairs.len() - pairs.len() + self.positions.len() - positions.len();
+        self.take_positions()?;
+        let known = self.known(graph)?;
+        if known.is_empty() {
+            return Err(Place::Input.fault(Problem::NoDisplacements));
+        }
+        let is_other = |&&(v, w): &&(u32, u32)| graph.graph.edge_number(v, w).is_none();
+        let others = pairs.iter().filter(is_other).count();
+        let mut notes = Vec::new();
+        let mut note = |count: usize, what: &str, one: &str, more: &str| {
+            let how = if count == 1 { one } else { more };
+            if count > 0 {
+                notes.push(format!("{} {how}", counted(count, what)));
+            }
+        };
+        note(
+            again,
+            "line",
+            "says again what another one says, and counts once",
+            "say again what others say, and count once",
+        );
+        note(
+            self.with_itself,
+            "pair",
+            "is one of a camera with itself, which says nothing",
+            "are of cameras with themselves, which says nothing",
+        );
+        note(
+            usize::from(positions.len() == 1),
+            "position",
+            "is known, which says nothing about a single camera",
+            "",
+        );
+        note(
+            others,
+            "known displacement",
+            "is of no pair of the graph: its direction is known with it",
+            "are of no pairs of the graph: their directions are known with them",
+        );
+        Ok(Given {
+            known: Known::Displacements(known),
+            notes,
+        })
+    }
+
+    /// Makes positions, which are known in one frame, displacements from the first of them.
+    fn take_positions(&mut self) -> Result<(), Fault> {
+        let mut positions = std::mem::take(&mut self.positions).into_iter();
+        let Some(first) = positions.next() else {
+            return Ok(());
+        };
+        for line in positions {
+            let fault = |problem| Place::Line(line.number).fault(problem);
+            let vector = match line.vector.zip(first.vector) {
+                None => None,
+                Some((to, from)) => Some(between(from, to).map_err(fault)?),
+            };
+            if line.about != first.about {
+                self.pairs.push(Line {
+                    number: line.number,
+                    about: (first.about, line.about),
+                    vector,
+                });
+            } else if line.vector != first.vector {
+                return Err(fault(Problem::Contradiction));
+            }
+        }
+        Ok(())
+    }
+
+    /// The groups, with their vectors if there are any.
+    fn known(&self, graph: &NamedGraph) -> Result<Displacements, Fault> {
+        let nodes = graph.graph.nodes() as u32;
+        let pairs = self.pairs.iter().map(|line| line.about);
+        let given: Option<Vec<Vector>> = self.pairs.iter().map(|line| line.vector).collect();
+        let Some(given) = given.filter(|given| !given.is_empty()) else {
+            return Ok(Displacements::new(nodes, pairs).expect("pairs of the graph's nodes"));
+        };
+        let items = pairs.zip(given).map(|((u, v), vector)| (u, v, vector));
+        Displacements::with_vectors(nodes, items).map_err(|error| match error {
+            VectorError::Contradiction { vector } => {
+                Place::Line(self.pairs[vector].number).fault(Problem::Contradiction)
+            }
+            VectorError::SamePlace { first, second } => {
+                let [first, second] = [first, second].map(|v| graph.labels.label(v).into_owned());
+                Place::Input.fault(Problem::SamePlace { first, second })
+            }
+            VectorError::TooLong => Place::Input.fault(Problem::LongVectors),
+            VectorError::Pair(_) => unreachable!("pairs of the graph's nodes"),
+        })
+    }
+}
+
+fn sorted((v, w): (u32, u32)) -> (u32, u32) {
+    (v.min(w), v.max(w))
+}
+
+/// A coordinate of a vector or a position.
+fn coordinate(line: &str, field: &Field) -> Result<Coordinate, Problem> {
+    let text = field.text(line);
+    text.parse().map_err(|why| Problem::NoCoordinate {
+        field: text.clone().into_owned(),
+        why,
+    })
+}
+
+/// The vector from one position to another.
+fn between(from: Vector, to: Vector) -> Result<Vector, Problem> {
+    let minus = |k: usize| to[k].minus(from[k]).map_err(|_| Problem::LongVectors);
+    Ok([minus(0)?, minus(1)?, minus(2)?])
+}

@@ -1,0 +1,212 @@
+//! A plan, carried out: every graph decided, certified, reported.
+
+use super::certificates::Target;
+use super::plan::{Form, Plan, Products};
+use super::witness;
+use super::{given, input};
+use anyhow::{Context, Result};
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+use viewcert::decide as verdict;
+use viewcert::decide::{Options, Value, Verdict};
+use viewcert_advice::{Advice, Shapes};
+use viewcert_formats::NamedGraph;
+use viewcert_report::Report;
+use viewcert_report::assumptions::Scope;
+use viewcert_report::graph_picture::{self, Picture};
+use viewcert_report::many::Table;
+use viewcert_report::{json, page};
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::{Outputs, Session, outputs};
+
+/// Decides every graph in turn; a bad one is reported and does not stop the others.
+pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
+    let mut out = outputs::text(&plan.products.files().map(|(_, path)| path));
+    let table = match plan.form {
+        Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs)),
+        Form::Text | Form::Json => None,
+    };
+    let mut work = Work {
+        session,
+        plan,
+        target: plan.target(),
+        shapes: Shapes::default(),
+        table: table.transpose().context("standard output")?,
+    };
+    let too_many = |what: &str| plan.too_many(what);
+    let each = |out: &mut _, input: &NamedGraph, start| {
+        plan.request.check_input(input)?;
+        let (input, known) = given::read(plan.given.as_deref(), input)?;
+        let options = plan.options(known)?.watch(session.shown_watch());
+        let is_determined = work.decide(&options, &input, start, out)?;
+        Ok(if is_determined { GOOD } else { NOT })
+    };
+    let code = input::for_each(session, &plan.read, &plan.graphs, &too_many, &mut out, each)?;
+    if let Some(table) = work.table {
+        table.end(&mut out).context("standard output")?;
+        out.flush().context("standard output")?;
+    }
+    Ok(ExitCode::from(code))
+}
+
+/// What is to be done with every graph of a run.
+struct Work<'a> {
+    session: &'a Session,
+    plan: &'a Plan,
+    target: Option<Target>,
+    /// Joints of the graphs before.
+    shapes: Shapes,
+    table: Option<Table>,
+}
+
+impl Work<'_> {
+    /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
+    /// determines the cameras; if that is asked for, whether it does in the plane.
+    fn decide(
+        &mut self,
+        options: &Options,
+        input: &NamedGraph,
+        start: Instant,
+        out: &mut impl Write,
+    ) -> Result<bool> {
+        let (session, plan) = (self.session, self.plan);
+        let name = || input.name.clone();
+        let decided = verdict::decide(&input.graph, options);
+        session.hide();
+        let verdict = decided.with_context(name)?;
+        let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
+        session.hide();
+        let scope = scope.with_context(name)?;
+        let written = self.write(input, &verdict)?;
+        let time = start.elapsed();
+        let advice = self.advise(input, &verdict);
+        session.hide();
+        let advice = advice.with_context(name)?;
+        let report = Report {
+            input,
+            verdict: &verdict,
+            rational: plan.is_rational(),
+            list_components: plan.list_components,
+            time,
+            advice: &advice,
+            scope: &scope,
+        };
+        draw(session, &plan.products, &report)?;
+        match (&mut self.table, &plan.form) {
+            (Some(table), _) => table.row(out, &report)?,
+            (None, Form::Json) => json::write(out, &report)?,
+            (None, _) => {
+                report.write_text(out)?;
+                written.say(out, &plan.products)?;
+            }
+        }
+        if let Some(why) = written.no_witness {
+            let name = &input.name;
+            writeln!(std::io::stderr(), "verify: {name}: no witness: {why}")?;
+        }
+        Ok(match scope.planar() {
+            Some(planar) if plan.asked.planar => planar.is_determined(),
+            _ => verdict.value != Value::NotFiniteSolvable,
+        })
+    }
+
+    /// Writes the certificate, the proof and the witness.
+    fn write(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<Written> {
+        let (outputs, products) = (self.session.outputs(), &self.plan.products);
+        let mut written = Written::default();
+        if let Some(target) = &mut self.target {
+            let path = target.write(outputs, input, verdict)?;
+            written
+                .lines
+                .push(format!("certificate {}", path.display()));
+        }
+        if let Some(path) = &products.proof {
+            let [lower, upper] = write_proof(outputs, path, input, verdict)?;
+            let path = path.display();
+            written.lines.push(format!(
+                "proof       {path} (rank {lower} at least, {upper} at most)"
+            ));
+        }
+        if let Some(path) = &products.witness {
+            match witness::write(outputs, path, input, verdict, self.plan.seed)? {
+                witness::Found::Written => {
+                    written
+                        .lines
+                        .push(format!("witness     {}", path.display()));
+                }
+                witness::Found::Nothing(why) => written.no_witness = Some(why),
+            }
+        }
+        Ok(written)
+    }
+
+    /// What follows; a row of a table says nothing of joints.
+    fn advise(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<Advice> {
+        if self.table.is_some() {
+            return Ok(Advice::default());
+        }
+        let (outputs, watch) = (self.session.outputs(), self.session.watch());
+        let (request, seed) = (&self.plan.request, self.plan.seed);
+        request.advise(outputs, input, verdict, seed, &mut self.shapes, watch)
+    }
+}
+
+/// What was written for a graph.
+#[derive(Default)]
+struct Written {
+    /// What the report says of it.
+    lines: Vec<String>,
+    /// Why there is no witness, if one was asked for.
+    no_witness: Option<&'static str>,
+}
+
+impl Written {
+    fn say(&self, out: &mut impl Write, products: &Products) -> std::io::Result<()> {
+        for line in &self.lines {
+            writeln!(out, "  {line}")?;
+        }
+        let drawn = [("page", &products.page), ("picture", &products.picture)];
+        for (what, path) in drawn {
+            if let Some(path) = path {
+                writeln!(out, "  {what:<11} {}", path.display())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
+/// none for this verdict.
+fn write_proof(
+    outputs: &Outputs,
+    path: &Path,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<[usize; 2]> {
+    let proof = verdict
+        .proof(&input.graph)
+        .with_context(|| format!("{}: --proof: no explicit proof", input.name))?;
+    outputs.write(path, |out| write!(out, "{proof}"))?;
+    Ok([proof.lower(), proof.upper()])
+}
+
+/// Writes the picture and the page.
+fn draw(session: &Session, products: &Products, report: &Report) -> Result<()> {
+    if products.page.is_none() && products.picture.is_none() {
+        return Ok(());
+    }
+    session.doing(format!("drawing {}", report.input.name));
+    let picture = Picture::new(report.input, report.verdict);
+    let drawn = graph_picture::draw(&picture);
+    let outputs = session.outputs();
+    if let Some(path) = &products.picture {
+        let text = graph_picture::document(&picture, &drawn, true);
+        outputs.write(path, |out| out.write_all(text.as_bytes()))?;
+    }
+    if let Some(path) = &products.page {
+        outputs.write(path, |out| page::write(out, report, &picture, &drawn))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! `verify draw GRAPH FILE...`: one graph as a page and as a picture.
+
+use super::advise::AdviceArguments;
+use super::given::GivenArguments;
+use super::plan::Plan;
+use super::question::QuestionArguments;
+use anyhow::{Result, bail};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// What to draw, and where to.
+#[derive(Args)]
+pub(super) struct DrawArguments {
+    /// The graph, in whatever `verify` reads.
+    graph: PathBuf,
+    /// The files: a name that ends in .html is a page that needs nothing but this file, one that ends
+    /// in .svg a picture of the graph with its components in colours; `-` is the picture on standard
+    /// output, and the report goes to standard error. A page shows what else is asked here.
+    #[arg(required = true, value_name = "FILE", num_args = 1..=2)]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    advice: AdviceArguments,
+    #[command(flatten)]
+    question: QuestionArguments,
+    #[command(flatten)]
+    given: GivenArguments,
+}
+
+impl DrawArguments {
+    /// The plan.
+    ///
+    /// # Errors
+    /// By name, what does not go together; a file whose name does not say what it is.
+    pub(super) fn plan(&self) -> Result<Plan> {
+        let mut plan = self.question.plan(std::slice::from_ref(&self.graph))?;
+        plan.given = self.given.path().map(Into::into);
+        plan.request = self.advice.request();
+        for file in &self.files {
+            let is_standard = file == Path::new("-");
+            let place = match extension(file).as_deref() {
+                Some("html" | "htm") => &mut plan.products.page,
+                Some("svg") => &mut plan.products.picture,
+                _ if is_standard => &mut plan.products.picture,
+                _ => bail!(
+                    "{}: the name of a file says what is drawn: .html a page, .svg a picture",
+                    file.display()
+                ),
+            };
+            if let Some(other) = place.replace(file.clone()) {
+                bail!(
+                    "{} and {} are files of one kind; name one page and one picture at most",
+                    other.display(),
+                    file.display()
+                );
+            }
+        }
+        plan.checked()
+    }
+}
+
+fn extension(file: &Path) -> Option<String> {
+    Some(file.extension()?.to_str()?.to_ascii_lowercase())
+}

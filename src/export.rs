@@ -1,0 +1,40 @@
+//! `verify export GRAPH DIR`: the components, as COLMAP takes them.
+
+use super::given::GivenArguments;
+use super::plan::Plan;
+use super::question::QuestionArguments;
+use anyhow::Result;
+use clap::Args;
+use std::path::PathBuf;
+use viewcert_advice::Request;
+
+/// What to export, and where to.
+#[derive(Args)]
+pub(super) struct ExportArguments {
+    /// The graph: a COLMAP database, or any other input of `verify`.
+    graph: PathBuf,
+    /// The folder for the components: lists of images and pairs for COLMAP, tables, commands. It holds
+    /// nothing else.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    #[command(flatten)]
+    question: QuestionArguments,
+    #[command(flatten)]
+    given: GivenArguments,
+}
+
+impl ExportArguments {
+    /// The plan.
+    ///
+    /// # Errors
+    /// By name, what does not go together.
+    pub(super) fn plan(&self) -> Result<Plan> {
+        let mut plan = self.question.plan(std::slice::from_ref(&self.graph))?;
+        plan.given = self.given.path().map(Into::into);
+        plan.request = Request {
+            export: Some(self.folder.clone()),
+            ..Request::default()
+        };
+        plan.checked()
+    }
+}

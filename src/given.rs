@@ -1,0 +1,79 @@
+//! `--given FILE`: what is known besides the pairs (docs/theory.md, Theorems 4.14 and 13.16 to 13.22).
+//!
+//! In: a graph as it was read. Out: the graph with what was noted in reading the file, and the known
+//! parts or displacements. Whoever decides the graph passes them on.
+
+use anyhow::{Result, ensure};
+use clap::Args;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use viewcert::Known;
+use viewcert_formats::{NamedGraph, read_given};
+
+/// The option.
+pub(super) const OPTION: &str = "--given";
+
+/// What is known besides the pairs.
+#[derive(Args)]
+pub(super) struct GivenArguments {
+    /// What is known besides the pairs; see `verify help given`.
+    #[arg(long, value_name = "FILE")]
+    given: Option<PathBuf>,
+}
+
+/// What a file of things given looks like: `verify help given`.
+pub(super) const HELP: &str = "\
+What --given FILE holds: what is known besides the pairs, one thing on each line.
+
+  part A B C ...             The relative position of these cameras is known, from trifocal tensors,
+                             rigs or partial reconstructions: as good as all pairs of them, in every
+                             model.
+  displacement A B           The distance of two calibrated cameras is known as well as its direction
+                             (stereo rigs).
+  displacement A B X Y Z     The vector from A to B is this one.
+  position A                 The position of a calibrated camera is known (GPS).
+  position A X Y Z           It is this one.
+
+Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
+on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
+without them about vectors in general position. Parts and displacements do not go together.
+The certificate states what was given, and `verify check` asks for the same file.
+";
+
+impl GivenArguments {
+    /// The file.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.given.as_deref()
+    }
+}
+
+/// Refuses standard input for two things.
+///
+/// # Errors
+/// If both a graph and what is given are `-`.
+pub(super) fn ensure_one_standard_input(given: Option<&Path>, graphs: &[PathBuf]) -> Result<()> {
+    let is_input = |path: &Path| path == Path::new("-");
+    let graph = graphs.iter().any(|path| is_input(path));
+    ensure!(
+        !(graph && given.is_some_and(is_input)),
+        "{OPTION} -: standard input is the graph already; put what is given into a file"
+    );
+    Ok(())
+}
+
+/// The graph with the notes on the file, and what it gives; nothing without a file.
+///
+/// # Errors
+/// Those of the file.
+pub(super) fn read<'a>(
+    given: Option<&Path>,
+    input: &'a NamedGraph,
+) -> Result<(Cow<'a, NamedGraph>, Known)> {
+    let Some(path) = given else {
+        return Ok((Cow::Borrowed(input), Known::default()));
+    };
+    let given = read_given(path, input)?;
+    let mut input = input.clone();
+    input.notes.extend(given.notes);
+    Ok((Cow::Owned(input), given.known))
+}

@@ -1,0 +1,69 @@
+//! `verify help [TOPIC]`: a command, or what is common to many of them.
+
+use super::given;
+use super::input::InputArguments;
+use anyhow::{Context, Result, bail};
+use clap::{Args, Command};
+use std::io::Write;
+use std::process::ExitCode;
+use viewcert_session::exit::GOOD;
+
+/// What to explain.
+#[derive(Args)]
+pub(super) struct HelpArguments {
+    /// A command, as words (`catalog merge`), or input, or given [default: the program].
+    #[arg(value_name = "TOPIC")]
+    topic: Vec<String>,
+}
+
+/// How graphs are read, before the options.
+const INPUT: &str = "\
+How files are read: the same options for all commands with graphs.
+
+Formats are known by their content, not by their names: edge lists, graph6 and sparse6 (a graph a
+line), match lists and raw matches of COLMAP, pairs of hloc and OpenMVG, relative poses of GLOMAP, 1DSfM,
+g2o, matrices (MATLAB, MatrixMarket, NumPy, text), node-link JSON, GEXF, GML, GraphML, DOT, all of them
+also compressed (gzip, bzip2, xz, Zstandard), and COLMAP's databases; with --tracks also models and other
+files of tracks. The first line of every report says how the file was read; docs/input.md has all rules.";
+
+/// Prints a page of help.
+///
+/// # Errors
+/// A topic that there is not.
+pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<ExitCode> {
+    let words: Vec<&str> = arguments.topic.iter().map(String::as_str).collect();
+    let text = match words[..] {
+        ["input"] => input(),
+        ["given"] => given::HELP.to_owned(),
+        _ => {
+            program.build();
+            command(&mut program, &words)?
+        }
+    };
+    let mut out = std::io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.context("standard output")?;
+    Ok(ExitCode::from(GOOD))
+}
+
+fn command(program: &mut Command, words: &[&str]) -> Result<String> {
+    let mut of = program;
+    for word in words {
+        let Some(found) = of.find_subcommand_mut(word) else {
+            bail!("help: {word} is no command and no topic; the topics are input and given");
+        };
+        of = found;
+    }
+    Ok(of.render_long_help().to_string())
+}
+
+fn input() -> String {
+    let options = InputArguments::augment_args(Command::new("input"));
+    let options = options
+        .disable_help_flag(true)
+        .mut_args(|arg| arg.hide(false));
+    let mut page = options
+        .help_template("{before-help}\n\n{options}\n")
+        .before_help(INPUT);
+    page.render_long_help().to_string()
+}

@@ -1,0 +1,241 @@
+//! From options to a plan: what is decided, and what is done with the answer.
+//!
+//! In: the arguments of `verify GRAPH` and of the commands that do something about an answer. Out: a
+//! [`Plan`], or by name what does not go together. All rules stand here and in the library's
+//! [`Draft`]; what carries a plan out never looks back at options.
+
+use super::certificates::Target;
+use super::given;
+use anyhow::{Context, Result, ensure};
+use std::path::{Path, PathBuf};
+use viewcert::Known;
+use viewcert::decide::Meaningless;
+use viewcert::decide::{Arithmetic, Draft, Options, Prime};
+use viewcert::geometry::model::Model;
+use viewcert_advice::Request;
+use viewcert_formats::ReadOptions;
+use viewcert_report::assumptions::Asked;
+use viewcert_report::many::Format;
+use viewcert_session::outputs;
+
+/// What is decided, and what is done with the answer.
+pub(super) struct Plan {
+    /// The files with graphs.
+    pub(super) graphs: Vec<PathBuf>,
+    /// How they are read.
+    pub(super) read: ReadOptions,
+    /// The file with what is given besides.
+    pub(super) given: Option<PathBuf>,
+    /// The question, without what is given.
+    pub(super) draft: Draft,
+    /// The prime.
+    pub(super) prime: Prime,
+    /// The seed of all draws.
+    pub(super) seed: u64,
+    /// What is asked about the scope of the answer.
+    pub(super) asked: Asked,
+    /// What is asked about the answer.
+    pub(super) request: Request,
+    /// Files that are written.
+    pub(super) products: Products,
+    /// How the report is printed.
+    pub(super) form: Form,
+    /// Whether it lists the members of every component.
+    pub(super) list_components: bool,
+}
+
+/// Files that are written for a graph, each whole or not at all.
+#[derive(Default)]
+pub(super) struct Products {
+    /// The certificate, or the folder for the certificates of all graphs.
+    pub(super) certificate: Option<PathBuf>,
+    /// Whether certificates hold graphs of any size.
+    pub(super) embed_graph: bool,
+    /// The explicit proof.
+    pub(super) proof: Option<PathBuf>,
+    /// Two families of cameras with the same fundamental matrices.
+    pub(super) witness: Option<PathBuf>,
+    /// The page.
+    pub(super) page: Option<PathBuf>,
+    /// The picture.
+    pub(super) picture: Option<PathBuf>,
+}
+
+/// How a report is printed.
+pub(super) enum Form {
+    /// Some lines a graph.
+    Text,
+    /// One JSON object a graph.
+    Json,
+    /// A line a graph and a summary.
+    Table(Format),
+}
+
+/// The name of the file for certificates in messages.
+pub(super) const CERTIFICATE: &str = "--certificate";
+/// The same of the explicit proof.
+pub(super) const PROOF: &str = "--proof";
+
+impl Products {
+    /// All files behind what they are called in messages.
+    pub(super) fn files(&self) -> [(&'static str, Option<&Path>); 5] {
+        [
+            (CERTIFICATE, self.certificate.as_deref()),
+            (PROOF, self.proof.as_deref()),
+            ("witness", self.witness.as_deref()),
+            ("page", self.page.as_deref()),
+            ("picture", self.picture.as_deref()),
+        ]
+    }
+}
+
+impl Plan {
+    /// The usual question of a model about some graphs, and a report in lines.
+    pub(super) fn new(graphs: &[PathBuf], read: ReadOptions, model: Model, seed: u64) -> Self {
+        Self {
+            graphs: graphs.to_vec(),
+            read,
+            given: None,
+            draft: Draft::new(model),
+            prime: Prime::Auto,
+            seed,
+            asked: Asked::default(),
+            request: Request::default(),
+            products: Products::default(),
+            form: Form::Text,
+            list_components: false,
+        }
+    }
+
+    /// Refuses what does not go together, as far as it shows before a graph is read.
+    ///
+    /// # Errors
+    /// By name, what does not go together, and what to leave out.
+    pub(super) fn checked(self) -> Result<Self> {
+        self.check_question()?;
+        self.check_products()?;
+        self.check_files()?;
+        if let Some(reason) = self.too_many(&format!("{} graphs", self.graphs.len())) {
+            ensure!(self.graphs.len() <= 1, reason);
+        }
+        Ok(self)
+    }
+
+    fn check_question(&self) -> Result<()> {
+        let (model, of_tracks) = (self.draft.model, self.read.tracks.is_some());
+        ensure!(
+            !of_tracks || model == Model::Calibrated,
+            "--tracks: observations are directions of known rotations, which only the calibrated \
+             model has; leave out --model, or say --model calibrated"
+        );
+        ensure!(
+            !of_tracks || self.given.is_none(),
+            "{}: tracks are decided by themselves; leave out --tracks or {0}",
+            given::OPTION
+        );
+        ensure!(
+            !self.asked.planar || model != Model::Affine,
+            "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
+             or --model affine"
+        );
+        ensure!(
+            matches!(self.prime, Prime::Auto) || model != Model::Affine,
+            "--prime: the affine model is decided by counting alone; leave out one of the two"
+        );
+        self.draft.clone().question()?;
+        ensure!(
+            !self.draft.whole_graph || self.given.is_none(),
+            Meaningless::KnownOverWholeGraph
+        );
+        Ok(())
+    }
+
+    /// What is written has to be there to be written.
+    fn check_products(&self) -> Result<()> {
+        let is_projective = self.draft.model == Model::Projective;
+        if self.products.proof.is_some() {
+            ensure!(
+                is_projective,
+                "{PROOF}: explicit proofs are written in the projective model alone; leave out one of the two"
+            );
+            ensure!(
+                self.given.is_none(),
+                "{PROOF}: explicit proofs rest on pairs alone; leave out {}",
+                given::OPTION
+            );
+        }
+        Ok(())
+    }
+
+    /// No output is an input or another output, and standard input is one thing.
+    fn check_files(&self) -> Result<()> {
+        let inputs = self.graphs.iter().chain(&self.given);
+        let inputs = inputs.map(PathBuf::as_path);
+        let files = self.products.files();
+        // A folder of certificates is no file that could be the same.
+        let is_folder = files[0].1.is_some_and(Path::is_dir);
+        let from = usize::from(is_folder);
+        outputs::ensure_apart(&files[from..], inputs)?;
+        self.request.check(&self.graphs, &files)?;
+        given::ensure_one_standard_input(self.given.as_deref(), &self.graphs)
+    }
+
+    /// Why there cannot be several graphs, if there cannot.
+    pub(super) fn too_many(&self, what: &str) -> Option<String> {
+        let files = self.products.files().into_iter();
+        let mut files = files.filter_map(|(name, path)| Some((name, path?)));
+        let given = self.given.as_deref().map(|path| (given::OPTION, path));
+        let single = |&(name, path): &(&str, &Path)| name != CERTIFICATE || !path.is_dir();
+        match files.find(single).or(given) {
+            Some((CERTIFICATE, path)) => Some(Target::too_many(path, what)),
+            Some((name, path)) => Some(format!(
+                "{name} {}: this is about one graph, and there are {what}; run the program on each",
+                path.display()
+            )),
+            None => self.request.too_many(what),
+        }
+    }
+
+    /// Where certificates go, if they go anywhere.
+    ///
+    /// # Errors
+    /// If one file is meant and there are several graphs.
+    pub(super) fn target(&self) -> Option<Target> {
+        let path = self.products.certificate.as_deref()?;
+        Some(Target::new(path, self.products.embed_graph))
+    }
+
+    /// How a graph is decided of which this is known.
+    ///
+    /// # Errors
+    /// If the question has no use for it.
+    pub(super) fn options(&self, known: Known) -> Result<Options> {
+        if matches!(known, Known::Displacements(_)) {
+            ensure!(
+                !self.asked.planar,
+                "--planar: in a plane nothing is proved about known displacements; leave out one of the \
+                 two"
+            );
+            ensure!(
+                !self.request.asks(),
+                "known displacements join components in ways of their own, and nothing is said about \
+                 these; leave out {}",
+                given::OPTION
+            );
+        }
+        let draft = Draft {
+            known,
+            ..self.draft.clone()
+        };
+        let question = draft.question().context(given::OPTION)?;
+        Ok(Options::default()
+            .question(question)
+            .prime(self.prime.clone())
+            .seed(self.seed))
+    }
+
+    /// Whether cameras are rational.
+    pub(super) fn is_rational(&self) -> bool {
+        self.draft.arithmetic != Arithmetic::Prime
+    }
+}
