@@ -127,7 +127,7 @@ fn databases_keep_to_the_schema() {
         mutilations_are_refused(
             &schema,
             &line,
-            &["name", "tracks", "joints", "follows", "next"],
+            &["graph", "tracks", "joints", "follows", "next"],
         );
         // One screen.
         let run = verify(&["overview", path]);

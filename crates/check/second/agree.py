@@ -600,6 +600,31 @@ def change_model(document, rng):
     document["model"] = rng.choice([model for model in MODELS if model != document["model"]])
 
 
+def change_vectors(document, rng):
+    """Given vectors where there were none, or other ones: few directions, so that many are parallel or equal or sums."""
+    groups = document["displacements"]
+
+    def draw():
+        return [str(rng.randrange(-1, 3)) for _ in range(3)]
+
+    if "vectors" not in document or rng.random() < 0.3:
+        document["vectors"] = [[draw() for _ in group[1:]] for group in groups]
+        return
+    vectors = [(list_, k) for list_ in document["vectors"] for k in range(len(list_))]
+    (one, k), (other, j) = rng.choice(vectors), rng.choice(vectors)
+    way = rng.randrange(5)
+    if way == 0:
+        one[k] = draw()
+    elif way == 1:
+        one[k] = list(other[j])
+    elif way == 2:
+        one[k] = [str(rng.choice([-1, 2]) * int(x)) for x in other[j]]
+    elif way == 3:
+        one[k] = [str(int(x) + int(y)) for x, y in zip(one[k], other[j])]
+    else:
+        del document["vectors"]
+
+
 def remake(document, rng):
     """All evidence is made anew, honestly, for other bodies, pieces and primes, which may be bad ones."""
     graph = check.read_graph6(document["graph"]["graph6"])
@@ -635,7 +660,7 @@ MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
-    *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part),
+    *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
 )
 
 

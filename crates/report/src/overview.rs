@@ -5,7 +5,7 @@
 //! seen of COLMAP's mappers.
 
 use super::database::DatabaseLine;
-use super::json::{AnswerLine, write_line};
+use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, size_of, text, tracks};
@@ -347,8 +347,10 @@ impl Overview<'_> {
             let facts = report.input.database.as_deref()?;
             Some(DatabaseLine::from(facts))
         });
+        let decided = self.tracks.as_ref();
+        let decided = decided.or_else(|| self.pairs.as_ref().map(|[_, calibrated]| calibrated));
         let line = Line {
-            name: self.name,
+            graph: decided.map(|report| GraphLine::new(report.input, report.verdict)),
             read: ReadLine::from(self.read),
             notes: &self.notes,
             database,
@@ -373,7 +375,8 @@ impl Overview<'_> {
 
 #[derive(Serialize)]
 struct Line<'a> {
-    name: &'a str,
+    /// The graph that determines: of tracks, if there are any, or else of pairs.
+    graph: Option<GraphLine<'a>>,
     read: ReadLine<'a>,
     notes: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
