@@ -1,6 +1,5 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
-use super::manifest;
 use anyhow::{Result, bail, ensure};
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -8,6 +7,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use viewcert::Certificate;
 use viewcert::decide::Verdict;
+use viewcert_catalog::manifest;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
 use viewcert_session::outputs;

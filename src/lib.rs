@@ -16,15 +16,12 @@ mod experiment;
 mod input;
 mod limits;
 mod man;
-mod manifest;
 mod models;
 mod overview;
 mod pages;
 mod parts;
 mod verify;
 mod witness;
-
-pub use catalog::{Part, Size, merged};
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};

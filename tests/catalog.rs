@@ -99,7 +99,7 @@ fn as_many_candidates_as_geng() {
         let line = report.lines().find(|line| line.starts_with(">Z")).unwrap();
         let expected: u64 = line.split(' ').nth(1).unwrap().parse().unwrap();
         let mut found = 0u64;
-        viewcert_studies::catalog::Candidates::new(nodes, edges, false)
+        viewcert_catalog::Candidates::new(nodes, edges, false)
             .unwrap()
             .for_each(&mut |_| {
                 found += 1;
@@ -718,7 +718,7 @@ fn verdicts_are_those_of_the_table() {
     let lines = good(&verify(&[&ten[..], &["--verdicts"]].concat()));
     assert_eq!(lines.lines().collect::<Vec<_>>(), finite_solvable);
     // The digest is of the list, in any order.
-    let mut digest = viewcert_studies::catalog::set_digest::SetDigest::default();
+    let mut digest = viewcert_catalog::set_digest::SetDigest::default();
     for line in finite_solvable.iter().rev() {
         digest.insert(line.as_bytes());
     }

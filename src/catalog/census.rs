@@ -1,6 +1,5 @@
 //! `verify catalog census`: how many graphs of a list each camera model determines.
 
-use super::BATCH;
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
@@ -8,12 +7,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
+use viewcert_catalog::census::{Census, MODELS, Row};
+use viewcert_formats::csv;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
 use viewcert_report::json::write_line;
-use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::{BAD_INPUT, GOOD};
-use viewcert_studies::catalog::census::{Census, MODELS, Row};
+
+/// How many graphs are decided in one go.
+const BATCH: usize = 4096;
 
 /// What to count.
 #[derive(Args)]
@@ -64,7 +66,7 @@ pub(super) fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
 /// Writes a row for each number of nodes and of edges: how many graphs there are, and how many of
 /// them each model determines.
 pub(super) fn write_table(out: &mut dyn Write, census: &Census) -> std::io::Result<()> {
-    let mut table = Values::tabs(out);
+    let mut table = csv::Writer::tabs(out);
     let models = MODELS.map(|model| model.name().to_owned());
     let names = ["nodes", "edges", "connected"].map(str::to_owned);
     table.row(names.into_iter().chain(models))?;

@@ -4,7 +4,6 @@
 //! solutions included (docs/theory.md, sections 5 to 7 and 10), lists of larger graphs with what is
 //! known of each, counts, a picture, a page, and a manifest of all these.
 
-use super::super::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
 use super::census;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
@@ -21,18 +20,19 @@ use viewcert::decide::{
 use viewcert::graph::{Graph, graph6};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
+use viewcert_catalog::candidates::to_graph;
+use viewcert_catalog::canonical::canonical;
+use viewcert_catalog::invariants::Invariants;
+use viewcert_catalog::manifest::{self, Contents, Entry as FileEntry, Hashing, Manifest};
+use viewcert_catalog::mine::{Entry, Summary, decide_all};
+use viewcert_catalog::multigraph::Multigraph;
+use viewcert_catalog::{Candidates, least_edges};
+use viewcert_formats::csv;
 use viewcert_report::catalog_page;
 use viewcert_report::catalog_page::Drawing;
-use viewcert_report::values::Values;
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
-use viewcert_studies::catalog::candidates::to_graph;
-use viewcert_studies::catalog::canonical::canonical;
-use viewcert_studies::catalog::invariants::Invariants;
-use viewcert_studies::catalog::mine::{Entry, Summary, decide_all};
-use viewcert_studies::catalog::multigraph::Multigraph;
-use viewcert_studies::catalog::{Candidates, least_edges};
 
 /// Options of the publication.
 #[derive(Args)]
@@ -338,7 +338,7 @@ fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Resu
 }
 
 fn write_invariants(out: &mut dyn Write, found: &[(Graph, Entry)]) -> std::io::Result<()> {
-    let mut table = Values::tabs(out);
+    let mut table = csv::Writer::tabs(out);
     table.row([
         "graph6",
         "degrees",
@@ -385,7 +385,7 @@ const COUNTS: [&str; 11] = [
 ];
 
 fn write_counts(out: &mut dyn Write, counts: &[(usize, Counts)]) -> std::io::Result<()> {
-    let mut table = Values::tabs(out);
+    let mut table = csv::Writer::tabs(out);
     table.row(COUNTS)?;
     for (nodes, counts) in counts {
         let summary = &counts.summary;

@@ -5,7 +5,6 @@ mod folder;
 
 use self::folder::{Listing, name};
 use super::input::{InputArguments, TrackArguments};
-use super::manifest::Contents;
 use super::parts::PartArguments;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
@@ -17,6 +16,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_catalog::manifest::Contents;
 use viewcert_check::Failure;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_formats::ReadOptions;

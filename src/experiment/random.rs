@@ -6,17 +6,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
+use viewcert_catalog::mine;
+use viewcert_catalog::mine::Entry;
+use viewcert_catalog::random;
+use viewcert_catalog::random::{Density, Sampler, fisher};
+use viewcert_formats::csv;
 use viewcert_report::plot::{Point, plot};
-use viewcert_report::values::Values;
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
-use viewcert_studies::catalog::mine;
-use viewcert_studies::catalog::mine::Entry;
-use viewcert_studies::catalog::random;
-use viewcert_studies::catalog::random::{Density, Sampler, fisher};
-use viewcert_studies::values;
 
 /// Options of the random experiment.
 #[derive(Args)]
@@ -94,7 +93,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
     columns.sort_by(|a, b| a.percent.total_cmp(&b.percent));
     if let Some(path) = csv {
         session.outputs().write(path, |out| {
-            let mut table = Values::commas(out);
+            let mut table = csv::Writer::commas(out);
             table.row(GRAPH_COLUMNS)?;
             rows.iter().try_for_each(|row| table.row(row))?;
             table.finish()
@@ -249,7 +248,7 @@ fn write_table(
 fn read_table(path: &Path) -> Result<Vec<Published>> {
     let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let refused = |line| format!("{}:{line}: not a line of the table", path.display());
-    let lines = values::lines(&text).map_err(|quote| anyhow!("{}", refused(quote.line)))?;
+    let lines = csv::lines(&text).map_err(|quote| anyhow!("{}", refused(quote.line)))?;
     lines
         .iter()
         .skip(1)

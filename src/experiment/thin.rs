@@ -14,13 +14,13 @@ use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
+use viewcert_catalog::random::generator;
 use viewcert_formats::NamedGraph;
+use viewcert_formats::csv;
 use viewcert_report::counted;
-use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
-use viewcert_studies::catalog::random::generator;
 use viewcert_studies::thin::{draw_size, piece, thinned};
 
 /// Options of the experiment on thinned pieces.
@@ -84,7 +84,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
     out.flush().context("standard output")?;
     if let Some(path) = csv {
         session.outputs().write(path, |out| {
-            let mut table = Values::commas(out);
+            let mut table = csv::Writer::commas(out);
             table.row(COLUMNS)?;
             all.iter()
                 .try_for_each(|(name, row)| table.row(row.cells(name)))?;

@@ -23,11 +23,9 @@ pub mod page;
 pub mod plot;
 pub mod read;
 pub mod svg;
-#[cfg(feature = "studies")]
 pub mod table;
 pub mod text;
 pub mod tracks;
-pub mod values;
 
 use assumptions::Scope;
 use graph_picture::{Picture, document, draw};

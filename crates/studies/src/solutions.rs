@@ -4,11 +4,11 @@
 //! core has more of equations than of unknowns, with the first graph of each kind, and the graphs
 //! whose number is not known exactly.
 
-use crate::catalog::{Candidates, SizeError, laman, least_edges};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
+use viewcert_catalog::{Candidates, SizeError, laman, least_edges};
 
 /// Where graphs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

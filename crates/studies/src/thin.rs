@@ -166,7 +166,7 @@ fn shuffle<T>(list: &mut [T], generator: &mut impl Rng) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalog::random::generator;
+    use viewcert_catalog::random::generator;
 
     fn complete(n: u32) -> Graph {
         Graph::from_edges((0..n).flat_map(|v| (0..v).map(move |u| (u, v)))).unwrap()

@@ -1,41 +1,40 @@
-//! `verify catalog merge`: all shards of a run, once each.
+//! All shards of a run, once each.
 
-use super::parts::{DONE, Done, Shard, part_path, read_part};
-use super::verdicts;
+use crate::mine::Summary;
+use crate::shard_files::{DONE, Done, Shard, part_path, read_part};
+use crate::verdict_files;
+use crate::verdicts::Tally;
 use anyhow::{Context, Result, bail, ensure};
-use clap::Args;
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::ExitCode;
-use viewcert_report::table;
-use viewcert_session::exit::GOOD;
-use viewcert_studies::catalog::mine::Summary;
+use std::path::Path;
 
-/// What to merge.
-#[derive(Args)]
-pub(super) struct Arguments {
-    /// The folder that was given to `--out`.
-    folder: PathBuf,
+/// The whole of a run.
+#[derive(Clone, Debug)]
+pub struct Merged {
+    /// What was decided.
+    pub source: String,
+    /// What was counted.
+    pub counts: Counts,
 }
 
-/// Checks every shard and prints the table of the whole.
-pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
-    write(&mut std::io::stdout().lock(), &arguments.folder)?;
-    Ok(ExitCode::from(GOOD))
+/// What a run has counted.
+#[derive(Clone, Debug)]
+pub enum Counts {
+    /// Entries.
+    Entries(Summary),
+    /// Verdicts alone.
+    Verdicts(Tally),
 }
 
-/// Checks every shard, and writes the table of the whole.
-pub(super) fn write(out: &mut impl Write, folder: &Path) -> Result<()> {
-    if verdicts::is_here(folder)? {
-        return verdicts::write_merged(out, folder);
+/// Checks every shard in a folder: those of one run are there, once each.
+///
+/// # Errors
+/// Shards that are missing, broken or not finished, or do not belong together.
+pub fn merged(folder: &Path) -> Result<Merged> {
+    if verdict_files::is_here(folder)? {
+        return verdict_files::merged(folder);
     }
-    table::write(out, &[merged(folder)?]).context("standard output")
-}
-
-/// Checks every shard; the whole as a row of the table.
-fn merged(folder: &Path) -> Result<table::Row> {
     let mut shards = BTreeMap::new();
     let listing = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
     for item in listing {
@@ -70,11 +69,9 @@ fn merged(folder: &Path) -> Result<table::Row> {
     for (_, done) in shards.values() {
         summary.add(&done.summary);
     }
-    Ok(table::Row {
-        name: first.run.source.clone(),
-        summary,
-        solutions: BTreeMap::new(),
-        seconds: None,
+    Ok(Merged {
+        source: first.run.source.clone(),
+        counts: Counts::Entries(summary),
     })
 }
 
@@ -89,18 +86,13 @@ fn read_shard(folder: &Path) -> Result<Done> {
     })?;
     let done: Done = serde_json::from_str(&text)
         .with_context(|| format!("{}: not the end of a shard", path.display()))?;
-    let shard = Shard {
-        index: done.shard,
-        count: done.of,
-    };
+    let (index, count) = (done.shard, done.of);
     ensure!(
-        folder
-            .file_name()
-            .is_some_and(|name| *name == *shard.folder()),
-        "{}: holds shard {}/{}",
+        folder.file_name().is_some_and(|name| {
+            Shard::new(index, count).is_some_and(|shard| *name == *shard.folder())
+        }),
+        "{}: holds shard {index}/{count}",
         folder.display(),
-        done.shard,
-        done.of
     );
     let mut summary = Summary::default();
     for number in 0..done.parts {

@@ -149,7 +149,7 @@ mod tests {
     /// Against deleting edges from every biconnected graph.
     #[test]
     fn nothing_is_lost_by_pruning() {
-        use crate::catalog::candidates::Candidates;
+        use crate::candidates::Candidates;
         for nodes in 5..=6 {
             let mut expected = 0;
             for edges in nodes..=nodes * (nodes - 1) / 2 {

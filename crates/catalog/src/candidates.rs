@@ -12,7 +12,7 @@ use viewcert::graph::Graph;
 ///
 /// # Example
 /// ```
-/// assert_eq!(viewcert_studies::catalog::least_edges(9), 12);
+/// assert_eq!(viewcert_catalog::least_edges(9), 12);
 /// ```
 pub fn least_edges(nodes: usize) -> usize {
     Model::Projective.required(nodes).div_ceil(7)
@@ -179,7 +179,7 @@ pub fn to_graph(graph: &Multigraph) -> Graph {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalog::canonical::canonical;
+    use crate::canonical::canonical;
     use std::collections::BTreeSet;
 
     fn count(nodes: usize, edges: usize, necessary: bool) -> usize {

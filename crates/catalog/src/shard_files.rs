@@ -7,8 +7,8 @@
 //! is complete, a killed run leaves complete parts; the next one compares their
 //! description and digest and computes the rest. `done.json` says how many parts there are.
 
-use super::Arguments;
-use super::source::Source;
+use crate::mine::{COLUMNS, Entry, Summary};
+use crate::work::{Files, Settings};
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -18,27 +18,29 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use viewcert::graph::{Graph, graph6};
-use viewcert_report::values::Values;
+use viewcert_formats::csv;
 use viewcert_session::Outputs;
-use viewcert_studies::catalog::mine::{COLUMNS, Entry, Summary};
 
 /// Candidates that go to the same shard together.
 const BLOCK: u64 = 64;
 
 /// What a run was made by.
-pub(super) const PROGRAM: &str = concat!("viewcert ", env!("CARGO_PKG_VERSION"));
+pub(crate) const PROGRAM: &str = concat!("viewcert ", env!("CARGO_PKG_VERSION"));
 
 /// Candidates per part, if nothing else is asked for.
-const CANDIDATES: u32 = 16384;
+pub const CANDIDATES: u32 = 16384;
+
+/// Most candidates that a part may have.
+pub const MOST_CANDIDATES: u32 = 1 << 20;
 
 /// The name of the file that closes a shard.
-pub(super) const DONE: &str = "done.json";
+pub(crate) const DONE: &str = "done.json";
 
 /// Part `index` of `count`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shard {
-    pub(super) index: u64,
-    pub(super) count: u64,
+pub struct Shard {
+    index: u64,
+    count: u64,
 }
 
 impl FromStr for Shard {
@@ -47,29 +49,47 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let parse = || {
             let (index, count) = text.split_once('/')?;
-            let shard = Self {
-                index: index.parse().ok()?,
-                count: count.parse().ok()?,
-            };
-            (1 <= shard.index && shard.index <= shard.count).then_some(shard)
+            Self::new(index.parse().ok()?, count.parse().ok()?)
         };
         parse().ok_or("a shard is I/K with 1 <= I <= K, as in 2/8")
     }
 }
 
+impl Default for Shard {
+    /// All of the work.
+    fn default() -> Self {
+        Self { index: 1, count: 1 }
+    }
+}
+
 impl Shard {
+    /// Part `index` of `count`, counted from 1; `None` if there is none.
+    pub fn new(index: u64, count: u64) -> Option<Self> {
+        (1 <= index && index <= count).then_some(Self { index, count })
+    }
+
+    /// Which part, from 1.
+    pub fn index(self) -> u64 {
+        self.index
+    }
+
+    /// Of how many.
+    pub fn count(self) -> u64 {
+        self.count
+    }
+
     /// Whether the shard decides the candidate with this number.
-    pub(super) fn owns(self, candidate: u64) -> bool {
+    pub fn owns(self, candidate: u64) -> bool {
         self.has_turn(candidate / BLOCK)
     }
 
     /// Whether a block with this number is the shard's: blocks go to the shards in turn.
-    pub(super) fn has_turn(self, block: u64) -> bool {
+    pub fn has_turn(self, block: u64) -> bool {
         block % self.count == self.index - 1
     }
 
     /// How many of so many candidates the shard decides.
-    pub(super) fn share(self, candidates: u64) -> u64 {
+    pub fn share(self, candidates: u64) -> u64 {
         let round = BLOCK.saturating_mul(self.count);
         let before = BLOCK.saturating_mul(self.index - 1);
         let last = (candidates % round).saturating_sub(before).min(BLOCK);
@@ -77,7 +97,7 @@ impl Shard {
     }
 
     /// The name of its folder.
-    pub(super) fn folder(self) -> String {
+    pub(crate) fn folder(self) -> String {
         format!("shard-{}-of-{}", self.index, self.count)
     }
 }
@@ -85,9 +105,9 @@ impl Shard {
 /// What makes two shards belong to the same run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Run {
+pub(crate) struct Run {
     program: String,
-    pub(super) source: String,
+    pub(crate) source: String,
     prime: u64,
     seed: u64,
     part: u32,
@@ -95,14 +115,14 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub(super) fn new(arguments: &Arguments, source: &Source) -> Self {
+    pub(crate) fn new(source: String, settings: Settings, files: &Files) -> Self {
         Self {
             program: PROGRAM.into(),
-            source: source.name(),
-            prime: arguments.prime,
-            seed: arguments.seed,
-            part: arguments.part.unwrap_or(CANDIDATES),
-            solvable_only: arguments.solvable_only,
+            source,
+            prime: settings.prime,
+            seed: settings.seed,
+            part: files.part,
+            solvable_only: files.solvable_only,
         }
     }
 }
@@ -118,16 +138,16 @@ struct End {
 /// The contents of `done.json`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Done {
-    pub(super) run: Run,
-    pub(super) shard: u64,
-    pub(super) of: u64,
-    pub(super) parts: u64,
-    pub(super) summary: Summary,
+pub(crate) struct Done {
+    pub(crate) run: Run,
+    pub(crate) shard: u64,
+    pub(crate) of: u64,
+    pub(crate) parts: u64,
+    pub(crate) summary: Summary,
 }
 
 /// Writes the parts of a shard.
-pub(super) struct Writer<'a> {
+pub(crate) struct Writer<'a> {
     outputs: &'a Outputs,
     folder: PathBuf,
     shard: Shard,
@@ -139,7 +159,7 @@ pub(super) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     /// Makes the shard's folder if it is not there.
-    pub(super) fn open(
+    pub(crate) fn open(
         outputs: &'a Outputs,
         folder: &Path,
         shard: Shard,
@@ -159,7 +179,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Takes candidates, and writes every part that they complete.
-    pub(super) fn push(
+    pub(crate) fn push(
         &mut self,
         graphs: Vec<Graph>,
         decide: impl Fn(&[Graph]) -> Result<Vec<Entry>>,
@@ -173,7 +193,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes the rest and closes the shard.
-    pub(super) fn finish(
+    pub(crate) fn finish(
         mut self,
         decide: impl Fn(&[Graph]) -> Result<Vec<Entry>>,
     ) -> Result<Summary> {
@@ -217,7 +237,7 @@ impl<'a> Writer<'a> {
             self.outputs.write(&path, |mut out| {
                 serde_json::to_writer(&mut out, &self.run)?;
                 out.write_all(b"\n")?;
-                let mut table = Values::tabs(&mut out);
+                let mut table = csv::Writer::tabs(&mut out);
                 table.row(COLUMNS)?;
                 for entry in &entries {
                     if !self.run.solvable_only || entry.is_notable() {
@@ -241,7 +261,7 @@ impl<'a> Writer<'a> {
 }
 
 /// The path of a part.
-pub(super) fn part_path(folder: &Path, number: u64) -> PathBuf {
+pub(crate) fn part_path(folder: &Path, number: u64) -> PathBuf {
     folder.join(format!("part-{number:06}.tsv"))
 }
 
@@ -255,7 +275,7 @@ fn digest(graphs: &[Graph]) -> String {
 }
 
 /// Where two runs differ, in words: "the seed is 2 there and 1 here".
-pub(super) fn differences(there: &impl Serialize, here: &impl Serialize) -> String {
+pub(crate) fn differences(there: &impl Serialize, here: &impl Serialize) -> String {
     let [there, here] = [serde_json::to_value(there), serde_json::to_value(here)]
         .map(|run| run.expect("numbers and words"));
     let words = |value: &Value| match value {
@@ -286,7 +306,7 @@ pub(super) fn differences(there: &impl Serialize, here: &impl Serialize) -> Stri
 }
 
 /// The counts and the digest of a part of the given run.
-pub(super) fn read_part(path: &Path, run: &Run) -> Result<(Summary, String)> {
+pub(crate) fn read_part(path: &Path, run: &Run) -> Result<(Summary, String)> {
     let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
     let parse = || -> Option<(Run, End)> {
         let first = text.lines().next()?;
@@ -317,7 +337,7 @@ mod tests {
         for count in [1, 2, 3, 7, 64] {
             for candidates in [0, 1, 63, 64, 65, 433, 5898] {
                 for index in 1..=count {
-                    let shard = Shard { index, count };
+                    let shard = Shard::new(index, count).unwrap();
                     let owned = (0..candidates).filter(|&candidate| shard.owns(candidate));
                     let owned = owned.count() as u64;
                     assert_eq!(shard.share(candidates), owned, "{shard:?} of {candidates}");
@@ -325,7 +345,7 @@ mod tests {
             }
         }
         let count = u64::MAX;
-        let shard = |index| Shard { index, count };
+        let shard = |index| Shard::new(index, count).unwrap();
         assert_eq!((shard(1).share(100), shard(2).share(100)), (64, 36));
         assert_eq!(shard(count).share(100), 0);
     }

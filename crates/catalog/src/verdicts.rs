@@ -237,8 +237,8 @@ fn may_contract(nodes: usize, edges: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalog::least_edges;
-    use crate::catalog::mine::{Summary, decide_all};
+    use crate::least_edges;
+    use crate::mine::{Summary, decide_all};
 
     /// The candidates of a size, one by one by `decide` and kernel by kernel.
     fn both(nodes: usize, edges: usize, necessary: bool) -> (Summary, Vec<String>, Tally) {

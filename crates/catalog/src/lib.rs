@@ -7,6 +7,10 @@
 //! graphs that are finite solvable and not so without any one edge; [`laman`] grows the Laman
 //! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found; a
 //! [`census`] counts by model.
+//!
+//! A [`work`] is a shard of a [`source`] of candidates, counted or written to files: entries to
+//! [`shard_files`], counts of verdicts to [`verdict_files`]; [`merge`] puts the shards together. A
+//! [`manifest`] says which files a published folder has.
 
 pub mod candidates;
 pub mod canonical;
@@ -15,13 +19,23 @@ pub mod grow;
 pub mod invariants;
 pub mod kernel;
 pub mod laman;
+pub mod manifest;
+pub mod merge;
 pub mod mine;
 pub mod minimal;
 pub mod multigraph;
 pub mod random;
 pub mod set_digest;
+pub mod shard_files;
 pub mod siblings;
+pub mod source;
 pub mod subdivide;
+pub mod verdict_files;
 pub mod verdicts;
+pub mod work;
 
 pub use candidates::{Candidates, SizeError, least_edges};
+pub use merge::{Merged, merged};
+pub use shard_files::Shard;
+pub use source::Source;
+pub use work::{Files, Settings, Work};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::catalog::multigraph::Multigraph;
+use crate::multigraph::Multigraph;
 
 /// Connected labelled graphs: OEIS A001187; by edges for 4 nodes: 16 trees, 15, 6, 1.
 #[test]

@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 use viewcert::certificate::hex;
 
 /// The name of the file.
-pub(super) const NAME: &str = "manifest.json";
+pub const NAME: &str = "manifest.json";
 
 const FORMAT: &str = "viewcert manifest";
 const VERSION: u64 = 1;
@@ -16,43 +16,43 @@ const VERSION: u64 = 1;
 /// What belongs to a folder.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Manifest {
+pub struct Manifest {
     format: String,
     version: u64,
     /// The files, but the manifest itself.
-    pub(super) files: Vec<Entry>,
+    pub files: Vec<Entry>,
 }
 
 /// A file of the folder.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Entry {
+pub struct Entry {
     /// Its name.
-    pub(super) file: String,
+    pub file: String,
     /// SHA-256 of its bytes.
-    pub(super) sha256: String,
+    pub sha256: String,
     /// What its certificates prove; none for a file that holds no certificates.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) certificates: Option<Contents>,
+    pub certificates: Option<Contents>,
 }
 
 /// The certificates of a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Contents {
+pub struct Contents {
     /// How many graphs they are about.
-    pub(super) graphs: u64,
+    pub graphs: u64,
     /// How many certificates prove each verdict.
-    pub(super) verdicts: BTreeMap<String, u64>,
+    pub verdicts: BTreeMap<String, u64>,
     /// Of those that prove finitely many solutions, how many prove which number ("2") or which
     /// bounds ("1-3", "1-").
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub(super) solutions: BTreeMap<String, u64>,
+    pub solutions: BTreeMap<String, u64>,
 }
 
 impl Manifest {
     /// Of these files, in the order of their names.
-    pub(super) fn new(mut files: Vec<Entry>) -> Self {
+    pub fn new(mut files: Vec<Entry>) -> Self {
         files.sort_by(|a, b| a.file.cmp(&b.file));
         Self {
             format: FORMAT.into(),
@@ -65,7 +65,7 @@ impl Manifest {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn parse(text: &[u8]) -> Result<Self, String> {
+    pub fn parse(text: &[u8]) -> Result<Self, String> {
         let manifest: Self = serde_json::from_slice(text).map_err(|error| error.to_string())?;
         let (format, version) = (&manifest.format, manifest.version);
         if format != FORMAT || version != VERSION {
@@ -86,20 +86,24 @@ impl Manifest {
 }
 
 /// The SHA-256 of all that can be read.
-pub(super) fn digest_of(mut input: impl Read) -> io::Result<String> {
+///
+/// # Errors
+/// Those of reading.
+pub fn digest_of(mut input: impl Read) -> io::Result<String> {
     let mut hash = Hashing::new(io::sink());
     io::copy(&mut input, &mut hash)?;
     Ok(hash.finish())
 }
 
 /// A writer that digests what it passes on.
-pub(super) struct Hashing<W> {
+pub struct Hashing<W> {
     out: W,
     hash: Sha256,
 }
 
 impl<W: Write> Hashing<W> {
-    pub(super) fn new(out: W) -> Self {
+    /// Passes on to `out`.
+    pub fn new(out: W) -> Self {
         Self {
             out,
             hash: Sha256::new(),
@@ -107,7 +111,7 @@ impl<W: Write> Hashing<W> {
     }
 
     /// The digest of all that was written.
-    pub(super) fn finish(self) -> String {
+    pub fn finish(self) -> String {
         hex(&self.hash.finalize())
     }
 }

@@ -189,7 +189,7 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalog::{Candidates, least_edges};
+    use crate::{Candidates, least_edges};
     use viewcert::decide::{CountSolutions, Projective};
 
     fn entries(nodes: usize) -> Vec<Entry> {

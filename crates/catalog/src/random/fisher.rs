@@ -14,7 +14,7 @@ use num_traits::One;
 /// # Example
 /// ```
 /// // Fisher's lady: all four of four cups against none of four; 2 of 70 ways.
-/// let p = viewcert_studies::catalog::random::fisher([4, 4], [0, 4]);
+/// let p = viewcert_catalog::random::fisher([4, 4], [0, 4]);
 /// assert!((p - 2.0 / 70.0).abs() < 1e-12);
 /// ```
 pub fn fisher(one: [u64; 2], two: [u64; 2]) -> f64 {

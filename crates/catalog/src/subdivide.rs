@@ -287,7 +287,7 @@ impl Subdivision<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalog::kernel::kernels;
+    use crate::kernel::kernels;
     use std::collections::BTreeSet;
 
     fn theta(parallel: u8) -> Multigraph {
