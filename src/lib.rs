@@ -12,16 +12,16 @@ mod compare;
 mod conditions;
 mod convert;
 mod displacements;
-mod experiment;
 mod input;
 mod limits;
-mod man;
 mod models;
 mod overview;
 mod pages;
 mod parts;
 mod verify;
 mod witness;
+
+pub use limits::LimitArguments;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -63,8 +63,6 @@ enum Command {
     Convert(convert::ConvertArguments),
     /// Enumerate candidates and decide them all.
     Catalog(Box<catalog::Arguments>),
-    /// Repeat an experiment of the paper.
-    Experiment(experiment::Arguments),
     /// Hold floating point, or claims of others, against the exact verdict.
     Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
@@ -73,28 +71,18 @@ enum Command {
     Models(models::ModelsArguments),
     /// Check the necessary and sufficient conditions of the literature.
     Conditions(conditions::ConditionArguments),
-    /// Print the completion script of a shell.
-    #[command(hide = true)]
-    Completions(man::CompletionArguments),
-    /// Print a manual page.
-    #[command(hide = true)]
-    Manpage(man::ManpageArguments),
 }
 
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let limits = arguments.limits.limits();
-    let done = Session::begin(&limits).map_err(|error| (Session::default(), error));
-    let done = done.and_then(|session| {
-        let done = run(&session, &arguments);
-        session.hide();
-        done.map_err(|error| (session, error))
-    });
-    done.unwrap_or_else(|(session, error)| {
-        session.say_end(&error);
-        ExitCode::from(session.exit_code(&error))
-    })
+    Session::run("verify", &limits, |session| run(session, &arguments))
+}
+
+/// The arguments of the program, for its manual pages and completions.
+pub fn command() -> clap::Command {
+    CommandLine::command()
 }
 
 fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
@@ -103,15 +91,10 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
-        Some(Command::Experiment(arguments)) => experiment::run(session, arguments),
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
         Some(Command::Compare(arguments)) => compare::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
         Some(Command::Conditions(arguments)) => conditions::run(session, arguments),
-        Some(Command::Completions(arguments)) => {
-            man::completions(CommandLine::command(), arguments)
-        }
-        Some(Command::Manpage(arguments)) => man::manpage(CommandLine::command(), arguments),
         None => {
             no_command(&arguments.verify)?;
             verify::run(session, &arguments.verify)

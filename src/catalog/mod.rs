@@ -1,7 +1,5 @@
 //! `verify catalog`: candidates, verdicts, a table.
 
-mod census;
-mod publish;
 mod verdicts;
 
 use anyhow::{Context, Result, bail};
@@ -82,10 +80,6 @@ pub(super) struct Arguments {
 enum Command {
     /// Check that all shards of one run are there, and print its table.
     Merge(MergeArguments),
-    /// Count how many graphs of a list each camera model determines.
-    Census(census::Arguments),
-    /// Write the published catalog to a folder.
-    Publish(publish::Arguments),
 }
 
 /// What to merge.
@@ -150,11 +144,8 @@ impl Arguments {
 
 /// Decides the candidates and prints the table.
 pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
-    match &arguments.command {
-        Some(Command::Merge(arguments)) => return merge(arguments),
-        Some(Command::Census(arguments)) => return census::run(session, arguments),
-        Some(Command::Publish(arguments)) => return publish::run(session, arguments),
-        None => (),
+    if let Some(Command::Merge(arguments)) = &arguments.command {
+        return merge(arguments);
     }
     // What cannot be asked for is refused before anything is made.
     let options = arguments.settings().options(session.watch())?;

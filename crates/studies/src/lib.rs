@@ -5,5 +5,3 @@ pub mod audit;
 pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
-pub mod solutions;
-pub mod thin;

@@ -1,6 +1,7 @@
-//! `verify experiment solutions`: how many solutions the graphs of a size have.
+//! `viewcert-paper solutions`: how many solutions the graphs of a size have.
 
 use super::sizes;
+use crate::solutions::{Bounds, Source, Tally, tally};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -12,11 +13,10 @@ use viewcert::decide::Options;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
-use viewcert_studies::solutions::{Bounds, Source, Tally, tally};
 
 /// Options of the experiment on numbers of solutions.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// Numbers of nodes, as in 9 or 3-10.
     #[arg(long, value_name = "N", default_value = "3-10", value_parser = sizes)]
     nodes: RangeInclusive<usize>,
@@ -30,7 +30,7 @@ pub(super) struct Arguments {
 
 /// Counts solutions, and lists what the graphs with each number of solutions have of equations
 /// beyond their unknowns, the first of them, and the graphs whose number is not known exactly.
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let options = Options::default()
         .seed(arguments.seed)
         .watch(session.watch());

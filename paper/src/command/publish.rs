@@ -1,10 +1,12 @@
-//! `verify catalog publish`: the published catalog, byte for byte the same every time.
+//! `viewcert-paper publish`: the published catalog, byte for byte the same every time.
 //!
 //! In: how far to go. Out: a folder with certificates of small candidates, their numbers of
 //! solutions included (docs/theory.md, sections 5 to 7 and 10), lists of larger graphs with what is
 //! known of each, counts, a picture, a page, and a manifest of all these.
 
 use super::census;
+use crate::catalog_page;
+use crate::catalog_page::Drawing;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use flate2::{Compression, GzBuilder};
@@ -28,15 +30,13 @@ use viewcert_catalog::mine::{Entry, Summary, decide_all};
 use viewcert_catalog::multigraph::Multigraph;
 use viewcert_catalog::{Candidates, least_edges};
 use viewcert_formats::csv;
-use viewcert_report::catalog_page;
-use viewcert_report::catalog_page::Drawing;
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 
 /// Options of the publication.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// The folder.
     folder: PathBuf,
     /// Certificates for all candidates with up to this many nodes.
@@ -68,7 +68,7 @@ const DRAWN: usize = 8;
 /// How many graphs are certified in one go.
 const BATCH: usize = 1024;
 
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let folder = &arguments.folder;
     std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
     // The only name among those of the catalog that anybody's folder may have.
@@ -447,7 +447,7 @@ mod tests {
     /// The page of the catalog in the repository, which the default options have made.
     #[test]
     fn the_page_is_the_published_one() {
-        let published = include_str!("../../certificates/README.md");
+        let published = include_str!("../../../certificates/README.md");
         assert_eq!(readme(&(3..=10), &(11..=12), 12, true), published);
     }
 }

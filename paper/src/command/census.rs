@@ -1,5 +1,6 @@
-//! `verify catalog census`: how many graphs of a list each camera model determines.
+//! `viewcert-paper census`: how many graphs of a list each camera model determines.
 
+use crate::census::{Census, MODELS, Row};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
@@ -7,7 +8,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
-use viewcert_catalog::census::{Census, MODELS, Row};
 use viewcert_formats::csv;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
 use viewcert_report::json::write_line;
@@ -19,7 +19,7 @@ const BATCH: usize = 4096;
 
 /// What to count.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// Graphs of graph6, a graph a line, as nauty's `geng -c` writes them; `-` is standard input.
     #[arg(value_name = "FILE")]
     from: PathBuf,
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
 }
 
 /// Decides all graphs in every model, and prints the counts.
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let (census, bad_lines) = count(session, &arguments.from)?;
     write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
     Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
@@ -37,7 +37,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
 
 /// Decides all graphs of a file in every model. Lines that are no graphs are reported; how many
 /// there are is returned.
-pub(super) fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
+pub fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
     let options = Options::default().watch(session.watch());
     let read = ReadOptions {
         format: Some(Format::Graph6),
@@ -50,7 +50,7 @@ pub(super) fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
         match input {
             Ok(input) => batch.push(input.graph),
             Err(error) => {
-                writeln!(std::io::stderr(), "verify: {error:#}")?;
+                writeln!(std::io::stderr(), "viewcert-paper: {error:#}")?;
                 bad_lines += 1;
             }
         }
@@ -65,7 +65,7 @@ pub(super) fn count(session: &Session, from: &Path) -> Result<(Census, usize)> {
 
 /// Writes a row for each number of nodes and of edges: how many graphs there are, and how many of
 /// them each model determines.
-pub(super) fn write_table(out: &mut dyn Write, census: &Census) -> std::io::Result<()> {
+pub fn write_table(out: &mut dyn Write, census: &Census) -> std::io::Result<()> {
     let mut table = csv::Writer::tabs(out);
     let models = MODELS.map(|model| model.name().to_owned());
     let names = ["nodes", "edges", "connected"].map(str::to_owned);

@@ -1,24 +1,21 @@
 //! docs/paper.md: the commands whose output stands there print it, and it is what was published.
 
+#[path = "../../tests/common/mod.rs"]
 mod common;
 
 use common::{TABLE_1, absent, data};
 use std::path::Path;
 use std::process::Command;
 
-const PAGE: &str = include_str!("../docs/paper.md");
+const PAGE: &str = include_str!("../../docs/paper.md");
 
-/// The commands of the page with what they print.
+/// The commands of the page, the program first, with what they print.
 fn examples() -> Vec<(Vec<&'static str>, &'static str)> {
     let blocks = PAGE.split("```console\n").skip(1);
     let blocks = blocks.map(|block| block.split("```").next().unwrap());
     blocks
         .map(|block| {
-            let (command, printed) = block
-                .strip_prefix("$ verify ")
-                .unwrap()
-                .split_once('\n')
-                .unwrap();
+            let (command, printed) = block.strip_prefix("$ ").unwrap().split_once('\n').unwrap();
             (command.split(' ').collect(), printed)
         })
         .collect()
@@ -72,18 +69,15 @@ fn commands_print_what_stands_there() {
     assert_eq!(examples.len(), 6);
     for (words, expected) in examples {
         if words.iter().any(|word| word.starts_with("data/")) && published.is_none() {
-            absent(&format!(
-                "no published graphs for `verify {}`",
-                words.join(" ")
-            ));
+            absent(&format!("no published graphs for `{}`", words.join(" ")));
             continue;
         }
         let words = words
             .into_iter()
             .flat_map(|word| expanded(word, folder.path()));
         let words: Vec<String> = words.collect();
-        let run = Command::new(env!("CARGO_BIN_EXE_verify"))
-            .args(&words)
+        let run = Command::new(common::program(&words[0]))
+            .args(&words[1..])
             .current_dir(folder.path())
             .output()
             .unwrap();

@@ -1,5 +1,5 @@
-//! `verify completions SHELL` and `verify manpage`: what a package of the program installs beside
-//! it. Hidden from the help: nobody needs them twice.
+//! `viewcert-paper completions SHELL` and `viewcert-paper manpage`: what a package of `verify` installs
+//! beside it.
 
 use anyhow::{Context, Result};
 use clap::Args;
@@ -10,24 +10,22 @@ use viewcert_session::exit::GOOD;
 
 /// Options of the completions.
 #[derive(Args)]
-pub(super) struct CompletionArguments {
+pub struct CompletionArguments {
     /// For which shell.
     shell: Shell,
 }
 
 /// Options of the manual pages.
 #[derive(Args)]
-pub(super) struct ManpageArguments {
+pub struct ManpageArguments {
     /// Of which command, as words (`catalog merge`) [default: of the program].
     #[arg(value_name = "COMMAND")]
     command: Vec<String>,
 }
 
 /// Prints the completion script of a shell.
-pub(super) fn completions(
-    mut command: clap::Command,
-    arguments: &CompletionArguments,
-) -> Result<ExitCode> {
+pub fn completions(arguments: &CompletionArguments) -> Result<ExitCode> {
+    let mut command = viewcert_cli::command();
     let name = command.get_name().to_owned();
     // By way of a buffer: the generator panics where its output fails.
     let mut script = Vec::new();
@@ -36,10 +34,8 @@ pub(super) fn completions(
 }
 
 /// Prints a manual page in roff.
-pub(super) fn manpage(
-    mut command: clap::Command,
-    arguments: &ManpageArguments,
-) -> Result<ExitCode> {
+pub fn manpage(arguments: &ManpageArguments) -> Result<ExitCode> {
+    let mut command = viewcert_cli::command();
     command.build();
     let mut of = &command;
     for word in &arguments.command {

@@ -1,8 +1,8 @@
 //! A page of drawings of small graphs.
 
-use super::layout::layout;
-use super::svg::Svg;
+use crate::layout::layout;
 use viewcert::graph::Graph;
+use viewcert_report::svg::Svg;
 
 /// A graph to be drawn.
 #[derive(Clone, Debug)]

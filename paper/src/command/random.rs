@@ -1,5 +1,6 @@
-//! `verify experiment random`: connected random graphs, the paper's Table 2.
+//! `viewcert-paper random`: connected random graphs, the paper's Table 2.
 
+use crate::plot::{Point, plot};
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
@@ -11,7 +12,6 @@ use viewcert_catalog::mine::Entry;
 use viewcert_catalog::random;
 use viewcert_catalog::random::{Density, Sampler, fisher};
 use viewcert_formats::csv;
-use viewcert_report::plot::{Point, plot};
 use viewcert_session::Progress;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
@@ -19,7 +19,7 @@ use viewcert_session::outputs;
 
 /// Options of the random experiment.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// Number of nodes.
     #[arg(long, value_name = "N", default_value_t = 20)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=40))]
@@ -69,7 +69,7 @@ struct Published {
 const BATCH: u64 = 1024;
 
 /// Draws and decides graphs, and prints the table.
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
     let inputs = arguments.compare.as_deref();
     outputs::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;

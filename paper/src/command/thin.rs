@@ -1,8 +1,8 @@
-//! `verify experiment thin`: pieces of graphs, thinned until they are only just finite solvable, and
+//! `viewcert-paper thin`: pieces of graphs, thinned until they are only just finite solvable, and
 //! how many solutions they have.
 
-use super::super::input::InputArguments;
 use super::sizes;
+use crate::thinned::{draw_size, piece, thinned};
 use anyhow::{Context, Result};
 use clap::Args;
 use rayon::prelude::*;
@@ -15,22 +15,19 @@ use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
 use viewcert_catalog::random::generator;
-use viewcert_formats::NamedGraph;
 use viewcert_formats::csv;
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_report::counted;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
-use viewcert_studies::thin::{draw_size, piece, thinned};
 
 /// Options of the experiment on thinned pieces.
 #[derive(Args)]
-pub(super) struct Arguments {
+pub struct Arguments {
     /// Graphs to take pieces of.
     #[arg(required = true, value_name = "GRAPH")]
     graphs: Vec<PathBuf>,
-    #[command(flatten)]
-    input: InputArguments,
     /// How many nodes pieces have, drawn from this range.
     #[arg(long, value_name = "N", default_value = "20-110", value_parser = sizes)]
     nodes: RangeInclusive<usize>,
@@ -60,7 +57,7 @@ struct Row {
 }
 
 /// Thins pieces of all graphs, and prints a line for each and a summary.
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let csv = arguments.csv.as_deref();
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     outputs::ensure_apart(&[("--csv", csv)], inputs)?;
@@ -70,16 +67,18 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
         "nodes  pairs  thinned  solutions  seconds  piece  graph"
     )?;
     let mut all: Vec<(String, Row)> = Vec::new();
-    let each = |out: &mut _, input: &NamedGraph, _| {
-        let rows = of_graph(session, arguments, input).with_context(|| input.name.clone())?;
-        for row in rows {
-            write_row(out, &input.name, &row)?;
-            all.push((input.name.clone(), row));
+    for path in &arguments.graphs {
+        session.reading(path);
+        for input in read_graphs(path, &ReadOptions::default()) {
+            let input = input?;
+            let rows = of_graph(session, arguments, &input);
+            for row in rows.with_context(|| input.name.clone())? {
+                write_row(&mut out, &input.name, &row)?;
+                all.push((input.name.clone(), row));
+            }
+            out.flush().context("standard output")?;
         }
-        Ok(GOOD)
-    };
-    let input = &arguments.input;
-    let code = input.for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
+    }
     write_summary(&mut out, &all)?;
     out.flush().context("standard output")?;
     if let Some(path) = csv {
@@ -91,7 +90,7 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
             table.finish()
         })?;
     }
-    Ok(ExitCode::from(code))
+    Ok(ExitCode::from(GOOD))
 }
 
 /// The pieces of a graph, in parallel.
