@@ -3,12 +3,15 @@
 //! [`main`] is the program.
 
 mod advice;
+#[cfg(feature = "studies")]
 mod audit;
 mod bounds;
 mod catalog;
 mod certificates;
 mod check;
+#[cfg(feature = "studies")]
 mod compare;
+#[cfg(feature = "studies")]
 mod conditions;
 mod convert;
 mod displacements;
@@ -64,12 +67,15 @@ enum Command {
     /// Enumerate candidates and decide them all.
     Catalog(Box<catalog::Arguments>),
     /// Hold floating point, or claims of others, against the exact verdict.
+    #[cfg(feature = "studies")]
     Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
+    #[cfg(feature = "studies")]
     Compare(compare::CompareArguments),
     /// Decide every camera model side by side, and say what changes between them.
     Models(models::ModelsArguments),
     /// Check the necessary and sufficient conditions of the literature.
+    #[cfg(feature = "studies")]
     Conditions(conditions::ConditionArguments),
 }
 
@@ -91,9 +97,12 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Compare(arguments)) => compare::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Conditions(arguments)) => conditions::run(session, arguments),
         None => {
             no_command(&arguments.verify)?;

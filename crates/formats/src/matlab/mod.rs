@@ -23,6 +23,7 @@ use crate::variables::{Candidate, choose, chosen_note};
 use viewcert::graph::Graph;
 
 mod element;
+#[cfg(feature = "hdf5")]
 mod hdf5;
 mod matrix;
 
@@ -130,7 +131,7 @@ pub fn read(bytes: &[u8], variable: Option<&str>) -> Result<Graph, Fault> {
 /// named nor is it `A`.
 pub(super) fn read_noting(bytes: &[u8], variable: Option<&str>) -> Result<Parsed, Fault> {
     let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
-        hdf5::read(bytes, variable)?
+        read_hdf5(bytes, variable)?
     } else {
         let (order, variables) = variables(bytes)?;
         let chosen = choose(&variables, variable)?;
@@ -146,6 +147,15 @@ pub(super) fn read_noting(bytes: &[u8], variable: Option<&str>) -> Result<Parsed
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
     }
+}
+
+#[cfg(feature = "hdf5")]
+use hdf5::read as read_hdf5;
+
+/// Says that this build reads none.
+#[cfg(not(feature = "hdf5"))]
+fn read_hdf5(_: &[u8], _: Option<&str>) -> Result<(String, Result<Parsed, Problem>), Fault> {
+    Err(Place::Input.fault(Problem::NoHdf5))
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
