@@ -2,7 +2,7 @@
 //! bodies and loose edges that is.
 //!
 //! ```text
-//! cargo run --release --example contraction -- GRAPH...
+//! cargo run --release -p viewcert-paper --example contraction -- GRAPH...
 //! ```
 
 use std::process::ExitCode;

@@ -2,7 +2,7 @@
 //! how many of them are finite solvable. `cargo run --example mine`.
 
 use viewcert::{Options, Value, decide};
-use viewcert_studies::catalog::{Candidates, least_edges};
+use viewcert_catalog::{Candidates, least_edges};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let nodes = 8;

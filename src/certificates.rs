@@ -1,12 +1,12 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
-use super::manifest;
 use anyhow::{Result, bail, ensure};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use viewcert::decide::Verdict;
+use viewcert_catalog::manifest;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
 use viewcert_session::outputs;

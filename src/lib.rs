@@ -3,24 +3,24 @@
 //! [`main`] is the program.
 
 mod advise;
+#[cfg(feature = "studies")]
 mod audit;
 mod bounds;
 mod catalog;
 mod certificates;
 mod check;
+#[cfg(feature = "studies")]
 mod compare;
+#[cfg(feature = "studies")]
 mod conditions;
 mod convert;
 mod decisions;
 mod draw;
-mod experiment;
 mod export;
 mod given;
 mod help;
 mod input;
 mod limits;
-mod man;
-mod manifest;
 mod models;
 mod overview;
 mod plan;
@@ -28,7 +28,7 @@ mod question;
 mod verify;
 mod witness;
 
-pub use catalog::{Part, Size, merged};
+pub use limits::LimitArguments;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -43,7 +43,7 @@ use viewcert_session::Session;
 #[derive(Parser)]
 #[command(name = "verify", version, args_conflicts_with_subcommands = true)]
 #[command(subcommand_negates_reqs = true, disable_help_subcommand = true)]
-#[command(verbatim_doc_comment, after_help = LITERATURE, after_long_help = AFTER)]
+#[command(verbatim_doc_comment, after_help = after_help(), after_long_help = after_long_help())]
 struct CommandLine {
     #[command(subcommand)]
     command: Option<Command>,
@@ -54,35 +54,37 @@ struct CommandLine {
 }
 
 /// The commands that the list of commands leaves out; a test holds them against it.
-const LITERATURE: &str = "\
-Commands of the literature:
-  models      Decide every camera model side by side, and say what changes between them
-  conditions  Check the necessary and sufficient conditions of the literature
-  compare     Compare the formulations of the literature: sizes, ranks, time
-  audit       Hold floating point, or claims of others, against the exact verdict
-  catalog     Enumerate candidates and decide them all
-  experiment  Repeat an experiment of the paper
+const LITERATURE: &[&str] = &[
+    "  models      Decide every camera model side by side, and say what changes between them",
+    #[cfg(feature = "studies")]
+    "  conditions  Check the necessary and sufficient conditions of the literature",
+    #[cfg(feature = "studies")]
+    "  compare     Compare the formulations of the literature: sizes, ranks, time",
+    #[cfg(feature = "studies")]
+    "  audit       Hold floating point, or claims of others, against the exact verdict",
+    "  catalog     Enumerate candidates and decide them all",
+];
 
-How files are read: `verify help input`. What else can be known: `verify help given`.";
+/// The end of the help.
+fn after_help() -> String {
+    format!(
+        "Commands of the literature:\n{}\n\nHow files are read: `verify help input`. What else can be \
+         known: `verify help given`.",
+        LITERATURE.join("\n")
+    )
+}
 
 /// The same with the exit codes.
-const AFTER: &str = "\
-Commands of the literature:
-  models      Decide every camera model side by side, and say what changes between them
-  conditions  Check the necessary and sufficient conditions of the literature
-  compare     Compare the formulations of the literature: sizes, ranks, time
-  audit       Hold floating point, or claims of others, against the exact verdict
-  catalog     Enumerate candidates and decide them all
-  experiment  Repeat an experiment of the paper
-
-How files are read: `verify help input`. What else can be known: `verify help given`.
-
+fn after_long_help() -> String {
+    after_help()
+        + "\n\n\
 Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and compare: all
 agree; conditions: no necessary one fails; overview: all images with a pair are determined; models:
 solvable in every model), 1 some are not (check: rejected; audit and compare: a disagreement, a
 refuted claim), 2 bad usage or input, 3 too large for the method or for the limits of time and memory
 (compare: nothing could be compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
-terminated. Of several graphs the largest code counts.";
+terminated. Of several graphs the largest code counts."
+}
 
 #[derive(Subcommand)]
 enum Command {
@@ -104,45 +106,35 @@ enum Command {
     /// Enumerate candidates and decide them all.
     #[command(hide = true)]
     Catalog(Box<catalog::Arguments>),
-    /// Repeat an experiment of the paper.
-    #[command(hide = true)]
-    Experiment(experiment::Arguments),
     /// Hold floating point, or claims of others, against the exact verdict.
+    #[cfg(feature = "studies")]
     #[command(hide = true)]
     Audit(audit::AuditArguments),
     /// Compare the formulations of the literature: sizes, ranks, time.
+    #[cfg(feature = "studies")]
     #[command(hide = true)]
     Compare(compare::CompareArguments),
     /// Decide every camera model side by side, and say what changes between them.
     #[command(hide = true)]
     Models(models::ModelsArguments),
     /// Check the necessary and sufficient conditions of the literature.
+    #[cfg(feature = "studies")]
     #[command(hide = true)]
     Conditions(conditions::ConditionArguments),
     /// Explain a command, how files are read (input), or what else can be known (given).
     Help(help::HelpArguments),
-    /// Print the completion script of a shell.
-    #[command(hide = true)]
-    Completions(man::CompletionArguments),
-    /// Print a manual page.
-    #[command(hide = true)]
-    Manpage(man::ManpageArguments),
 }
 
 /// Runs the program on the process's arguments.
 pub fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let limits = arguments.limits.limits();
-    let done = Session::begin(&limits).map_err(|error| (Session::default(), error));
-    let done = done.and_then(|session| {
-        let done = run(&session, &arguments);
-        session.hide();
-        done.map_err(|error| (session, error))
-    });
-    done.unwrap_or_else(|(session, error)| {
-        session.say_end(&error);
-        ExitCode::from(session.exit_code(&error))
-    })
+    Session::run("verify", &limits, |session| run(session, &arguments))
+}
+
+/// The arguments of the program, for its manual pages and completions.
+pub fn command() -> clap::Command {
+    CommandLine::command()
 }
 
 fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
@@ -156,15 +148,13 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
-        Some(Command::Experiment(arguments)) => experiment::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Audit(arguments)) => audit::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Compare(arguments)) => compare::run(session, arguments),
         Some(Command::Models(arguments)) => models::run(session, arguments),
+        #[cfg(feature = "studies")]
         Some(Command::Conditions(arguments)) => conditions::run(session, arguments),
-        Some(Command::Completions(arguments)) => {
-            man::completions(CommandLine::command(), arguments)
-        }
-        Some(Command::Manpage(arguments)) => man::manpage(CommandLine::command(), arguments),
         None => {
             no_command(&arguments.verify)?;
             decisions::run(session, &arguments.verify.plan()?)
@@ -199,17 +189,16 @@ mod tests {
     #[test]
     fn every_command_is_in_the_help() {
         let program = CommandLine::command();
-        for command in program.get_subcommands().filter(|one| one.is_hide_set()) {
-            let (name, about) = (command.get_name(), command.get_about().unwrap());
-            if ["completions", "manpage"].contains(&name) {
-                continue;
-            }
-            let line = format!("  {name:<11} {about}\n");
-            assert!(
-                LITERATURE.contains(&line) && AFTER.contains(&line),
-                "{line}"
-            );
-        }
-        assert!(AFTER.starts_with(LITERATURE));
+        let hidden = program.get_subcommands().filter(|one| one.is_hide_set());
+        let mut lines: Vec<String> = hidden
+            .map(|command| {
+                let about = command.get_about().unwrap();
+                format!("  {:<11} {about}", command.get_name())
+            })
+            .collect();
+        let mut listed = LITERATURE.to_vec();
+        lines.sort();
+        listed.sort();
+        assert_eq!(lines, listed);
     }
 }

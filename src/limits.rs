@@ -5,7 +5,7 @@ use viewcert_session::{MemoryLimit, RunLimits, TimeLimit};
 
 /// Limits on a run, for all commands.
 #[derive(Args)]
-pub(super) struct LimitArguments {
+pub struct LimitArguments {
     /// End with exit code 3 after this time: 90s, 5m, 1h; a plain number is seconds.
     #[arg(long, global = true, value_name = "DURATION", help_heading = "Limits")]
     time_limit: Option<TimeLimit>,
@@ -17,7 +17,7 @@ pub(super) struct LimitArguments {
 
 impl LimitArguments {
     /// As the session takes them.
-    pub(super) fn limits(&self) -> RunLimits {
+    pub fn limits(&self) -> RunLimits {
         RunLimits {
             time: self.time_limit,
             memory: self.memory_limit,

@@ -1,10 +1,10 @@
-//! `verify catalog` and `verify experiment`, through the program.
+//! `verify catalog`, through the program.
 
 mod common;
 
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
@@ -99,7 +99,7 @@ fn as_many_candidates_as_geng() {
         let line = report.lines().find(|line| line.starts_with(">Z")).unwrap();
         let expected: u64 = line.split(' ').nth(1).unwrap().parse().unwrap();
         let mut found = 0u64;
-        viewcert_studies::catalog::Candidates::new(nodes, edges, false)
+        viewcert_catalog::Candidates::new(nodes, edges, false)
             .unwrap()
             .for_each(&mut |_| {
                 found += 1;
@@ -368,207 +368,6 @@ fn minimal_graphs() {
     assert_eq!(found[..2], [[1, 1, 0]; 2]);
 }
 
-#[test]
-fn random_graphs_are_reproducible_and_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let run = |csv: &str, svg: &str| {
-        good(&verify(&[
-            "experiment",
-            "random",
-            "--nodes",
-            "8",
-            "--density",
-            "20%,0.5",
-            "--samples",
-            "50",
-            "--seed",
-            "7",
-            "--csv",
-            csv,
-            "--svg",
-            svg,
-        ]))
-    };
-    let (one, two) = (path("one.csv"), path("two.csv"));
-    let (first, second) = (path("one.svg"), path("two.svg"));
-    let table = run(&one, &first);
-    assert_eq!(run(&two, &second), table);
-    let csv = fs::read_to_string(&one).unwrap();
-    assert_eq!(csv.lines().count(), 101);
-    assert_eq!(csv, fs::read_to_string(&two).unwrap());
-    assert!(fs::read_to_string(&first).unwrap().starts_with("<svg"));
-    assert_eq!(fs::read(&first).unwrap(), fs::read(&second).unwrap());
-}
-
-/// The published counts lie within the sampling error of ours: Fisher's exact test at every
-/// density, at a level of 1 in 1000 for all eight together.
-#[test]
-fn table_2_within_sampling_error() {
-    let Some(data) = common::data() else { return };
-    let published = fs::read(data.join("table2.csv")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("table.csv");
-    fs::write(&path, published).unwrap();
-    let table = good(&verify(&[
-        "experiment",
-        "random",
-        "--density",
-        "5%,10%,20%,30%,40%,50%,60%,70%",
-        "--samples",
-        "500",
-        "--compare",
-        path.to_str().unwrap(),
-    ]));
-    let rows: Vec<&str> = table.lines().skip(1).collect();
-    assert_eq!(rows.len(), 8);
-    for row in rows {
-        let cells: Vec<&str> = row.split_whitespace().collect();
-        let p: f64 = cells[cells.len() - 3].parse().unwrap();
-        assert!(p > 0.001 / 8.0, "{table}");
-        assert_eq!(cells[1], cells[3], "an unproved verdict: {table}");
-        // Of 500 graphs, 10 and more beyond the extremes of 1000 others on one side: 3^-10.
-        for beyond in &cells[cells.len() - 2..] {
-            assert!(beyond.parse::<u32>().unwrap() < 10, "{table}");
-        }
-    }
-}
-
-#[test]
-fn bad_densities_are_bad_usage() {
-    for bad in ["0", "1.5", "x"] {
-        let run = verify(&["experiment", "random", "--density", bad]);
-        assert_eq!(run.status.code(), Some(2));
-        assert!(text(&run.stderr).contains("decimal fraction"));
-    }
-}
-
-/// Small, and the same bytes twice.
-#[test]
-fn the_published_catalog_is_reproducible() {
-    let folder = tempfile::tempdir().unwrap();
-    let names = ["one", "two"].map(|name| folder.path().join(name));
-    for name in &names {
-        good(&verify(&[
-            "catalog",
-            "publish",
-            "--certified",
-            "7",
-            "--listed",
-            "8",
-            name.to_str().unwrap(),
-        ]));
-    }
-    let mut files: Vec<_> = fs::read_dir(&names[0])
-        .unwrap()
-        .map(|file| file.unwrap().file_name())
-        .collect();
-    files.sort();
-    // Two files of 5, 6 and 7 nodes, one of 3 and 4, two lists, page, counts, README, manifest.
-    assert_eq!(files.len(), 6 + 2 + 2 + 4);
-    for file in files {
-        let read = |folder: &PathBuf| fs::read(folder.join(&file)).unwrap();
-        assert_eq!(read(&names[0]), read(&names[1]), "{file:?}");
-    }
-    let listed = fs::read_to_string(names[0].join("n08-finite-solvable.g6")).unwrap();
-    assert_eq!(listed.lines().count(), 36);
-}
-
-/// A published folder is complete by its manifest, until something is missing, extra or changed.
-#[test]
-fn a_folder_says_whether_it_is_complete() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let path = out.to_str().unwrap();
-    let publish = ["catalog", "publish", "--certified", "6", "--listed", "7"];
-    good(&verify(&[&publish[..], &[path]].concat()));
-    let check = |code: i32| {
-        let run = verify(&["check", path]);
-        assert_eq!(run.status.code(), Some(code), "{}", text(&run.stdout));
-        (text(&run.stdout), text(&run.stderr))
-    };
-    // 1 + 1 + 2 + 9 candidates; 1 and 1, 2 and 2 files of certificates, 2 of a list, 3 others.
-    let (said, skipped) = check(0);
-    let lines: Vec<&str> = said.lines().collect();
-    assert_eq!(lines[0], "13 certificates verified, 0 rejected");
-    assert_eq!(lines[1], "13 distinct graphs");
-    assert_eq!(
-        lines[2],
-        format!("{path}: complete by its manifest of 11 files")
-    );
-    assert_eq!(skipped, "");
-
-    let file = out.join("n06-refuted.jsonl.gz");
-    let hidden = folder.path().join("hidden");
-    fs::rename(&file, &hidden).unwrap();
-    let (said, _) = check(1);
-    assert!(
-        said.contains(&format!("MISSING {}", file.display())),
-        "{said}"
-    );
-    assert!(said.contains("1 difference to its manifest"), "{said}");
-    fs::rename(&hidden, &file).unwrap();
-
-    // A certificate more, which is good, and once more by itself: a graph less than certificates.
-    let extra = out.join("extra.json");
-    let run = with_input(&["-", "--certificate", extra.to_str().unwrap()], b"1 2\n");
-    good(&run);
-    fs::copy(&extra, out.join("more.json")).unwrap();
-    let (said, _) = check(1);
-    assert!(
-        said.contains(&format!("EXTRA {}", extra.display())),
-        "{said}"
-    );
-    assert!(said.contains("15 certificates verified"), "{said}");
-    assert!(said.contains("14 distinct graphs"), "{said}");
-    fs::remove_file(&extra).unwrap();
-    fs::remove_file(out.join("more.json")).unwrap();
-
-    // Other contents: of a list, and of a file whose certificates are all good.
-    let list = out.join("n07-finite-solvable.g6");
-    let before = fs::read(&list).unwrap();
-    fs::write(&list, [&before[..], b"Bw\n"].concat()).unwrap();
-    let (said, _) = check(1);
-    assert!(
-        said.contains(&format!("CHANGED {}", list.display())),
-        "{said}"
-    );
-    fs::write(&list, before).unwrap();
-    let twin = fs::read(out.join("n05-refuted.jsonl.gz")).unwrap();
-    let whole = fs::read(&file).unwrap();
-    fs::write(&file, twin).unwrap();
-    let (said, _) = check(1);
-    assert!(
-        said.contains(&format!("CHANGED {}", file.display())),
-        "{said}"
-    );
-    assert!(said.contains("0 rejected"), "{said}");
-    fs::write(&file, whole).unwrap();
-
-    // The manifest with other counts, and one that is none.
-    let manifest = out.join("manifest.json");
-    let before = fs::read_to_string(&manifest).unwrap();
-    let other = before.replacen("\"graphs\": 5", "\"graphs\": 4", 1);
-    assert_ne!(other, before);
-    fs::write(&manifest, other).unwrap();
-    let (said, _) = check(1);
-    assert!(
-        said.contains("5 graphs (5 not-finite-solvable), and the manifest says 4 graphs"),
-        "{said}"
-    );
-    fs::write(&manifest, "{}").unwrap();
-    let run = verify(&["check", path]);
-    assert_eq!(run.status.code(), Some(2));
-    assert!(text(&run.stderr).contains("manifest.json: not a manifest"));
-    fs::remove_file(&manifest).unwrap();
-    let (said, skipped) = check(0);
-    assert!(said.contains("no manifest.json"), "{said}");
-    for name in ["README.md", "counts.tsv", "finite-solvable.svg"] {
-        let line = format!("skipped {}", out.join(name).display());
-        assert!(skipped.contains(&line), "{skipped}");
-    }
-}
-
 /// Links that lead around are followed once, and what is no file is not waited for.
 #[test]
 #[cfg(unix)]
@@ -653,32 +452,6 @@ fn a_shard_says_how_many_candidates_are_its_own() {
     assert_eq!(sum, 433);
 }
 
-/// A folder with a README of its own is not one to publish to; a published one is.
-#[test]
-fn a_readme_of_somebody_else_is_not_overwritten() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().to_str().unwrap();
-    let readme = folder.path().join("README.md");
-    fs::write(&readme, "mine").unwrap();
-    let publish = [
-        "catalog",
-        "publish",
-        "--certified",
-        "3",
-        "--listed",
-        "3",
-        path,
-    ];
-    let run = verify(&publish);
-    assert_eq!(run.status.code(), Some(2));
-    assert!(text(&run.stderr).contains("README.md"));
-    assert_eq!(fs::read_to_string(&readme).unwrap(), "mine");
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-    fs::remove_file(&readme).unwrap();
-    good(&verify(&publish));
-    good(&verify(&publish));
-}
-
 /// Kernel by kernel and one by one: the same counts, the same graphs.
 #[test]
 fn verdicts_are_those_of_the_table() {
@@ -718,7 +491,7 @@ fn verdicts_are_those_of_the_table() {
     let lines = good(&verify(&[&ten[..], &["--verdicts"]].concat()));
     assert_eq!(lines.lines().collect::<Vec<_>>(), finite_solvable);
     // The digest is of the list, in any order.
-    let mut digest = viewcert_studies::catalog::set_digest::SetDigest::default();
+    let mut digest = viewcert_catalog::set_digest::SetDigest::default();
     for line in finite_solvable.iter().rev() {
         digest.insert(line.as_bytes());
     }

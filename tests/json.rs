@@ -3,38 +3,9 @@
 
 mod common;
 
-use common::schema::{mutilations_are_refused, schema, valid};
-use common::{Run, geng, verify, verify_with};
-use serde_json::{Value, json};
-
-/// The schema of one command alone.
-fn of_command(definition: &str) -> jsonschema::Validator {
-    let all: Value = serde_json::from_str(include_str!("../docs/report.schema.json")).unwrap();
-    let known = all["oneOf"].as_array().unwrap();
-    let reference = format!("#/$defs/{definition}");
-    assert!(
-        known.contains(&json!({ "$ref": reference })),
-        "{definition}"
-    );
-    let one = json!({ "$ref": reference, "$defs": all["$defs"] });
-    jsonschema::validator_for(&one).unwrap()
-}
-
-/// Holds a run against the schema of its command, and that against changes of its first line.
-fn keeps_to(definition: &str, run: &Run, required: &[&str]) -> Vec<Value> {
-    valid(&schema(), run);
-    let own = of_command(definition);
-    let lines = valid(&own, run);
-    let version = env!("CARGO_PKG_VERSION");
-    for line in &lines {
-        assert_eq!(
-            line["program"],
-            json!({ "name": "verify", "version": version })
-        );
-    }
-    mutilations_are_refused(&own, &lines[0], required);
-    lines
-}
+use common::schema::keeps_to;
+use common::{verify, verify_with};
+use serde_json::Value;
 
 const GRAPHS: [&str; 3] = ["house.txt", "psi.txt", "minimal.g6"];
 
@@ -108,16 +79,6 @@ fn of_audits() {
     let rulings: Vec<&Value> = lines.iter().map(|line| &line["ruling"]).collect();
     assert_eq!(rulings, ["confirmed", "refuted"]);
     assert_eq!(lines[1]["graph"]["nodes"], 4);
-}
-
-#[test]
-fn of_a_census() {
-    // The connected graphs with three nodes; geng knows those with five.
-    let lists = [Some("Bw\nBo\n".to_owned()), geng(5, 6)];
-    for list in lists.into_iter().flatten() {
-        let run = verify_with(list.as_bytes(), &["catalog", "census", "--json", "-"]);
-        keeps_to("census", &run, &["program", "nodes", "projective"]);
-    }
 }
 
 /// The words of the text, and no identifiers.

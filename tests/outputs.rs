@@ -67,14 +67,6 @@ fn a_dash_is_standard_output_and_the_report_goes_to_standard_error() {
     let run = verify(&["audit", graph, "--certificate", "-"]);
     assert!(is_certificate(&run.out), "{}", run.out);
     assert!(run.err.contains("result      agree"), "{}", run.err);
-    let random = ["experiment", "random", "--density", "0.5", "--samples", "3"];
-    let run = verify(&[&random[..], &["--csv", "-"]].concat());
-    assert_eq!(run.out.lines().count(), 4, "{}", run.out);
-    assert!(run.err.starts_with("density %"), "{}", run.err);
-    refused(
-        &verify(&[&random[..], &["--csv", "-", "--svg", "-"]].concat()),
-        "--csv goes to the same file",
-    );
     // No file of that name has come to be.
     assert!(!Path::new("-").exists());
 }
@@ -187,9 +179,6 @@ fn an_input_is_never_an_output() {
     fs::write(&other, PAIR).unwrap();
     let table = at("claims.csv");
     fs::write(&table, "file,rank\ng.txt,8\n").unwrap();
-    let published = at("table.csv");
-    let head = "density_percent,graphs,finite_solvable,components_min,components_max\n";
-    fs::write(&published, head).unwrap();
     let before = names(folder.path());
     let spelt = format!("{}/./g.txt", text(folder.path()));
     for name in [&graph, &spelt, &at("link.txt"), &at("hard.txt")] {
@@ -222,12 +211,6 @@ fn an_input_is_never_an_output() {
         &verify(&["audit", "--claims", &table, "--certificate", &table]),
         "this is the input",
     );
-    let random = ["experiment", "random", "--density", "0.5", "--samples", "3"];
-    let arguments = ["--compare", &published, "--csv", &published];
-    refused(
-        &verify(&[&random[..], &arguments].concat()),
-        "this is the input",
-    );
     // Standard input that comes from the file.
     let output = Command::new(env!("CARGO_BIN_EXE_verify"))
         .args(["-", "--certificate", &graph])
@@ -236,7 +219,6 @@ fn an_input_is_never_an_output() {
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(fs::read_to_string(&graph).unwrap(), PAIR);
-    assert_eq!(fs::read_to_string(&published).unwrap(), head);
     assert_eq!(names(folder.path()), before);
 }
 
@@ -358,7 +340,6 @@ fn a_broken_pipe_is_quiet() {
         &["catalog", "--nodes", "5"],
         &["catalog", "--nodes", "7", "--list"],
         &["catalog", "merge", &shards],
-        &["experiment", "random", "--density", "0.5", "--samples", "3"],
         &["audit", &graph],
         &["audit", &graph, "--json", "--certificate", &copy],
         &["audit", "--sweep-tolerance", &graph],

@@ -161,14 +161,6 @@ fn limits_are_for_all_commands() {
         &["compare", &graph, "--limit", "1000000000000000"][..],
         &["audit", &graph],
         &["catalog", "--nodes", "12"],
-        &[
-            "experiment",
-            "random",
-            "--density",
-            "0.2",
-            "--samples",
-            "1000000",
-        ],
     ] {
         let (run, time) = timed(&[command, &limit].concat());
         assert_eq!(run.code, 3, "{command:?}: {}", run.err);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use viewcert::graph::{Graph, graph6};
 use viewcert::solutions::{Effort, count};
 use viewcert::{Options, Value, decide};
-use viewcert_studies::catalog::{Candidates, least_edges};
+use viewcert_catalog::{Candidates, least_edges};
 
 /// The certificate of a graph with the evidence for its number of solutions; nothing if the graph is
 /// not finite solvable.

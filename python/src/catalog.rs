@@ -3,6 +3,7 @@
 use crate::errors::{of_any, of_deciding};
 use crate::work;
 use crate::work::Told;
+use anyhow::{Context, bail};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rayon::prelude::*;
@@ -10,11 +11,14 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use viewcert::linalg::prime::DEFAULT_PRIME;
 use viewcert::watch::{Limits, Watch};
-use viewcert::{Graph, Options, VerdictError, decide};
-use viewcert_cli::{Part, Size, merged};
-use viewcert_studies::catalog::mine::{COLUMNS, Entry};
-use viewcert_studies::catalog::minimal::decide_minimal;
+use viewcert::{Graph, Options, VerdictError};
+use viewcert_catalog::mine::{COLUMNS, Entry};
+use viewcert_catalog::work::Listener;
+use viewcert_catalog::{Files, Settings, Shard, Source, Work, merged};
+use viewcert_report::table;
+use viewcert_session::{Outputs, Progress};
 
 /// Candidates that are decided together.
 const BATCH: usize = 256;
@@ -62,25 +66,19 @@ impl Candidates {
         prime: Option<u64>,
         seed: u64,
     ) -> PyResult<Self> {
-        let size = Size {
-            nodes,
-            edges,
-            necessary,
-            minimal,
-            solutions,
-            prime,
-            seed,
-        };
         let watch = Watch::new(Limits::default());
-        let options = size.options().map_err(|error| of_any(&error))?;
-        let options = options.watch(watch.clone());
+        let options = settings(solutions, prime, seed)
+            .options(watch.clone())
+            .map_err(|error| of_any(&error))?;
         // What cannot be asked for is refused now and not by the first entry.
-        py.detach(|| size.total()).map_err(|error| of_any(&error))?;
+        let source = py
+            .detach(|| source(nodes, edges, necessary, minimal))
+            .map_err(|error| of_any(&error))?;
         let threads = work::threads()?;
         let (sender, batches) = sync_channel(AHEAD);
         std::thread::Builder::new().spawn(move || {
-            let decide = |graphs: &[Graph]| threads.install(|| entries(graphs, minimal, &options));
-            enumerate(&size, &sender, &decide);
+            let decide = |graphs: &[Graph]| threads.install(|| entries(graphs, &source, &options));
+            enumerate(&source, &sender, &decide);
         })?;
         Ok(Self {
             watch,
@@ -148,12 +146,39 @@ impl Drop for Candidates {
     }
 }
 
+/// Where candidates come from.
+fn source(
+    nodes: usize,
+    edges: Option<usize>,
+    necessary: bool,
+    minimal: bool,
+) -> anyhow::Result<Source> {
+    if !minimal {
+        return Ok(Source::size(nodes, edges, necessary)?);
+    }
+    if edges.is_some() || necessary {
+        bail!("minimal graphs have all numbers of edges: leave out edges and necessary");
+    }
+    Source::minimal(nodes)
+}
+
+fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
+    Settings {
+        solutions,
+        prime: prime.unwrap_or(DEFAULT_PRIME),
+        seed,
+    }
+}
+
 /// Sends the entries of all candidates, batch by batch, until nobody takes them.
-fn enumerate(size: &Size, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) -> Batch) {
+fn enumerate(source: &Source, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) -> Batch) {
     let mut waiting = Vec::with_capacity(BATCH);
     let mut open = true;
-    let done = size.for_each(&mut |graph| {
-        waiting.push(graph);
+    source.for_each(&mut |graph| {
+        match graph {
+            Ok(graph) => waiting.push(graph),
+            Err(error) => open = sender.send(Err(Problem::Other(error))).is_ok(),
+        }
         if waiting.len() == BATCH {
             open = sender.send(decide(&waiting)).is_ok();
             waiting.clear();
@@ -161,32 +186,20 @@ fn enumerate(size: &Size, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) 
         open
     });
     if open {
-        let last = match done {
-            Ok(()) => decide(&waiting),
-            Err(error) => Err(Problem::Other(error)),
-        };
         // Whoever has gone does not miss it.
-        let _ = sender.send(last);
+        let _ = sender.send(decide(&waiting));
     }
 }
 
-/// The entries of some candidates, with certificates; if `minimal`, of those that are minimal.
-fn entries(graphs: &[Graph], minimal: bool, options: &Options) -> Batch {
+/// The entries of some candidates, with certificates.
+fn entries(graphs: &[Graph], source: &Source, options: &Options) -> Batch {
     let entry = |graph: &Graph| -> Result<Option<Certified>, VerdictError> {
-        let (verdict, strength) = if minimal {
-            match decide_minimal(graph, options)? {
-                None => return Ok(None),
-                Some((verdict, strength)) => (verdict, Some(strength)),
-            }
-        } else {
-            (decide(graph, options)?, None)
-        };
-        let mut entry = Entry::new(graph, &verdict);
-        // The claim is the minimality.
-        entry.strength = strength.unwrap_or(entry.strength);
-        let certificate = verdict.certificate(graph).named(&entry.graph6).compact();
-        let certificate = certificate.to_string().into_bytes();
-        Ok(Some((entry, certificate)))
+        let decided = source.decide(graph, options)?;
+        Ok(decided.map(|(entry, verdict)| {
+            let certificate = verdict.certificate(graph).named(&entry.graph6).compact();
+            let certificate = certificate.to_string().into_bytes();
+            (entry, certificate)
+        }))
     };
     let found: Result<Vec<Option<Certified>>, VerdictError> =
         graphs.par_iter().map(entry).collect();
@@ -219,19 +232,9 @@ pub(crate) fn catalog_shard(
     seed: u64,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let size = Size {
-        nodes,
-        edges,
-        necessary,
-        minimal,
-        solutions,
-        prime,
-        seed,
-    };
-    let part = Part {
+    let settings = settings(solutions, prime, seed);
+    let files = Files {
         folder,
-        shard,
-        of,
         part,
         solvable_only,
     };
@@ -245,7 +248,22 @@ pub(crate) fn catalog_shard(
         progress.as_ref().map(|callback| (callback, &*told)),
         move || {
             let tell = Box::new(move |more| teller.counted(&what, more));
-            threads.install(|| size.write_shard(&part, stop, tell))
+            threads.install(|| {
+                let source = source(nodes, edges, necessary, minimal)?;
+                let shard = Shard::new(shard, of);
+                let work = Work {
+                    source: &source,
+                    settings,
+                    shard: shard.context("a shard is one of 1 to the number of shards")?,
+                    files: Some(files),
+                };
+                let listener = Listener {
+                    entry: &mut |_| Ok(()),
+                    malformed: &mut Err,
+                    progress: Progress::to(tell),
+                };
+                work.run(&Outputs::default(), stop, listener).map(drop)
+            })
         },
     )?;
     done.map_err(|error| of_any(&error))
@@ -254,6 +272,10 @@ pub(crate) fn catalog_shard(
 /// The table of all shards in a folder.
 #[pyfunction]
 pub(crate) fn catalog_merge(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
-    let merged = py.detach(|| merged(&folder));
-    merged.map_err(|error| of_any(&error))
+    let table = || -> anyhow::Result<String> {
+        let mut out = Vec::new();
+        table::write_merged(&mut out, merged(&folder)?)?;
+        Ok(String::from_utf8(out)?)
+    };
+    py.detach(table).map_err(|error| of_any(&error))
 }

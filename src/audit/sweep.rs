@@ -8,10 +8,10 @@ use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert_formats::NamedGraph;
+use viewcert_formats::csv;
 use viewcert_report::counted;
 use viewcert_report::curves;
 use viewcert_report::curves::Picture;
-use viewcert_report::values::Values;
 use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
 use viewcert_session::outputs;
@@ -72,7 +72,7 @@ fn write_table(
     populations: &Populations,
     tolerance: f64,
 ) -> std::io::Result<()> {
-    let mut table = Values::commas(out);
+    let mut table = csv::Writer::commas(out);
     table.row(COLUMNS)?;
     let (solvable, not_solvable) = (&populations.solvable, &populations.not_solvable);
     for errors in std::iter::once(populations.errors(tolerance)).chain(populations.sweep()) {

@@ -1,11 +1,11 @@
 //! What a folder of certificates holds, and whether that is all of it.
 
-use super::super::manifest::{self, Contents, Manifest};
 use super::{is_list, printable};
 use anyhow::{Context, Result, anyhow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use viewcert_catalog::manifest::{self, Contents, Manifest};
 use viewcert_report::counted;
 
 /// The files at or below a path.

@@ -54,10 +54,32 @@ pub fn on_read_only(
     found.unwrap();
 }
 
+/// The root of the repository, from whichever of its packages.
+pub fn root() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut above = package.ancestors();
+    above
+        .find(|folder| folder.join("Cargo.lock").exists())
+        .unwrap()
+}
+
+/// A program that has been built beside the tests.
+pub fn program(name: &str) -> PathBuf {
+    let test = std::env::current_exe().unwrap();
+    let programs = test.parent().and_then(Path::parent).unwrap();
+    let path = programs.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+    assert!(
+        path.exists(),
+        "{} is not there: cargo build",
+        path.display()
+    );
+    path
+}
+
 /// The folder with the published graphs and tables, which is not part of the repository:
 /// `VIEWCERT_DATA`, or `../shared/data`. `tests/data.sh` says where its files come from.
 pub fn data() -> Option<PathBuf> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let beside = || root().join("../shared/data");
     let path = std::env::var_os("VIEWCERT_DATA").map_or_else(beside, PathBuf::from);
     if path.is_dir() {
         return Some(path);
@@ -126,34 +148,38 @@ impl Run {
 
 /// Runs `verify`.
 pub fn verify(arguments: &[&str]) -> Run {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
-    Run::new(
-        command
-            .args(arguments)
-            .stdin(Stdio::null())
-            .output()
-            .unwrap(),
-    )
+    run("verify", arguments)
+}
+
+/// Runs a program that has been built beside the tests.
+pub fn run(name: &str, arguments: &[&str]) -> Run {
+    let mut command = Command::new(program(name));
+    let command = command.args(arguments).stdin(Stdio::null());
+    Run::new(command.output().unwrap())
 }
 
 /// Runs `viewcert-check`.
 pub fn first_checker(arguments: &[&str]) -> Run {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_viewcert-check"));
-    Run::new(command.args(arguments).output().unwrap())
+    run("viewcert-check", arguments)
 }
 
 /// Runs the second checker.
 pub fn second_checker(arguments: &[&str]) -> Run {
     let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let checker = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/check/second/check.py");
+    let checker = root().join("crates/check/second/check.py");
     let mut command = Command::new(python);
     Run::new(command.arg(checker).args(arguments).output().unwrap())
 }
 
 /// Runs `verify` with something on standard input.
 pub fn verify_with(input: &[u8], arguments: &[&str]) -> Run {
+    run_with("verify", input, arguments)
+}
+
+/// Runs a program that has been built beside the tests, with something on standard input.
+pub fn run_with(name: &str, input: &[u8], arguments: &[&str]) -> Run {
     use std::io::Write;
-    let mut child = Command::new(env!("CARGO_BIN_EXE_verify"))
+    let mut child = Command::new(program(name))
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

@@ -358,6 +358,11 @@ pub enum Problem {
     /// A MATLAB file of level 7.3, which is HDF5.
     #[error("a MATLAB file of version 7.3 (HDF5) is not read here")]
     MatlabHdf5,
+    /// HDF5, in a program that was built without the feature `hdf5`.
+    #[error(
+        "this is HDF5, as MATLAB writes it in version 7.3, and this program was built without reading it"
+    )]
+    NoHdf5,
     /// The file ends before what it promises.
     #[error("the file is truncated: {0}")]
     Truncated(String),
@@ -565,6 +570,9 @@ impl Problem {
             }
             Self::Hdf5(_) => {
                 "copy the file again, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
+            }
+            Self::NoHdf5 => {
+                "build it with it (`cargo install --path . --features hdf5`), take the Python package, which reads it, or save the matrix in another format (MATLAB: -v7; Python: numpy.save)"
             }
             Self::MatlabFour | Self::MatlabHdf5 => "save it in MATLAB with -v7 or -v6",
             Self::Truncated(_) | Self::Corrupt(_) => "copy or write the file again",

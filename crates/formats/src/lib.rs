@@ -6,6 +6,7 @@
 
 mod cameras;
 pub mod colmap;
+pub mod csv;
 pub mod documents;
 pub mod edge_list;
 pub mod error;

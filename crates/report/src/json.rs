@@ -11,7 +11,6 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
-use viewcert::graph::sha256;
 use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
@@ -87,8 +86,9 @@ impl<'a> GraphLine<'a> {
     }
 
     /// Where there is no verdict. O(n + m) for the hash.
+    #[cfg(feature = "studies")]
     pub(super) fn of(input: &'a NamedGraph) -> Self {
-        Self::with_hash(input, &sha256(&input.graph))
+        Self::with_hash(input, &viewcert::graph::sha256(&input.graph))
     }
 
     fn with_hash(input: &'a NamedGraph, hash: &[u8; 32]) -> Self {

@@ -4,7 +4,6 @@ pub mod advice;
 pub mod assumptions;
 #[cfg(feature = "studies")]
 pub mod bars;
-pub mod catalog_page;
 #[cfg(feature = "studies")]
 pub mod comparison;
 #[cfg(feature = "studies")]
@@ -15,19 +14,15 @@ pub mod database;
 pub mod force_layout;
 pub mod graph_picture;
 pub mod json;
-pub mod layout;
 pub mod many;
 pub mod models;
 pub mod overview;
 pub mod page;
-pub mod plot;
 pub mod read;
 pub mod svg;
-#[cfg(feature = "studies")]
 pub mod table;
 pub mod text;
 pub mod tracks;
-pub mod values;
 
 use assumptions::Scope;
 use graph_picture::{Picture, document, draw};

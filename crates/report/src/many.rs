@@ -2,12 +2,12 @@
 
 use super::text::{seconds, strength, value};
 use super::{Report, counted};
-use crate::values::Values;
 use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use viewcert::decide::Value;
+use viewcert_formats::csv;
 
 /// How a table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,7 +162,7 @@ impl Table {
 }
 
 fn comma_separated(out: &mut impl Write, cells: [&str; 8]) -> io::Result<()> {
-    let mut row = Values::commas(out);
+    let mut row = csv::Writer::commas(out);
     row.row(cells)?;
     row.finish()
 }

@@ -20,6 +20,7 @@ pub struct Progress {
 pub type Told = Box<dyn Fn(u64) + Send + Sync>;
 
 struct Plain {
+    program: &'static str,
     what: &'static str,
     start: Instant,
     last: Instant,
@@ -29,7 +30,7 @@ struct Plain {
 
 impl Progress {
     /// Starts at nothing out of `total`, if that is known, of `what`: "candidates".
-    pub(crate) fn new(what: &'static str, total: Option<u64>) -> Self {
+    pub(crate) fn new(program: &'static str, what: &'static str, total: Option<u64>) -> Self {
         if std::io::stderr().is_terminal() {
             let bar = match total {
                 Some(total) => ProgressBar::new(total),
@@ -53,6 +54,7 @@ impl Progress {
         Self {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
             plain: Some(Mutex::new(Plain {
+                program,
                 what,
                 start: now,
                 last: now,
@@ -99,7 +101,8 @@ impl Progress {
         // Progress is not worth failing for.
         let _ = writeln!(
             std::io::stderr(),
-            "verify: {}{of} {}{left}, {rate:.0} a second",
+            "{}: {}{of} {}{left}, {rate:.0} a second",
+            plain.program,
             plain.done,
             plain.what
         );

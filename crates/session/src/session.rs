@@ -16,6 +16,7 @@ use crate::unpoisoned;
 use anyhow::{Context, Error, Result};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
+use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -33,6 +34,8 @@ pub struct Session(Arc<Run>);
 
 #[derive(Debug, Default)]
 struct Run {
+    /// What messages begin with.
+    program: &'static str,
     watch: Watch,
     time: Option<Duration>,
     memory: Option<u64>,
@@ -47,17 +50,41 @@ struct Run {
 }
 
 impl Session {
-    /// Begins a run of this process: from now on limits and signals count.
-    ///
-    /// # Errors
-    /// If signals or threads cannot be had.
-    pub fn begin(limits: &RunLimits) -> Result<Self> {
+    /// Runs a program of this name: limits and signals count from the beginning, and at the end
+    /// the exit code is that of the work, or of the error, which is said.
+    pub fn run(
+        program: &'static str,
+        limits: &RunLimits,
+        work: impl FnOnce(&Self) -> Result<ExitCode>,
+    ) -> ExitCode {
+        let (session, done) = match Self::begin(program, limits) {
+            Ok(session) => {
+                let done = work(&session);
+                session.hide();
+                (session, done)
+            }
+            Err(error) => {
+                let run = Run {
+                    program,
+                    ..Run::default()
+                };
+                (Self(Arc::new(run)), Err(error))
+            }
+        };
+        done.unwrap_or_else(|error| {
+            session.say_end(&error);
+            ExitCode::from(session.exit_code(&error))
+        })
+    }
+
+    fn begin(program: &'static str, limits: &RunLimits) -> Result<Self> {
         let (time, memory) = (limits.duration(), limits.bytes());
         let run = Arc::new(Run {
             watch: Watch::new(Limits {
                 deadline: time.and_then(|time| Instant::now().checked_add(time)),
                 memory,
             }),
+            program,
             time,
             memory,
             bar: std::io::stderr().is_terminal().then(Arc::<Bar>::default),
@@ -110,7 +137,7 @@ impl Session {
 
     /// Progress of many things, out of `total`, if that is known, of `what`: "candidates".
     pub fn progress(&self, what: &'static str, total: Option<u64>) -> Progress {
-        Progress::new(what, total)
+        Progress::new(self.0.program, what, total)
     }
 
     /// Takes the bar off the terminal: something else is to be written.
@@ -134,7 +161,7 @@ impl Session {
     pub fn say_end(&self, error: &Error) {
         if !is_broken_pipe(error) && self.0.first_to_say() {
             // Nothing is left to tell if standard error is gone as well.
-            let _ = writeln!(std::io::stderr(), "verify: {error:#}");
+            let _ = writeln!(std::io::stderr(), "{}: {error:#}", self.0.program);
         }
     }
 }
@@ -200,7 +227,11 @@ impl Run {
             }
             let during = if doing.is_empty() { "" } else { " while " };
             // Nothing is left to tell if standard error is gone.
-            let _ = writeln!(std::io::stderr(), "verify: {limit}{during}{doing}");
+            let _ = writeln!(
+                std::io::stderr(),
+                "{}: {limit}{during}{doing}",
+                self.program
+            );
         }
         std::process::exit(i32::from(self.exit_code(reason)));
     }

@@ -1,11 +1,7 @@
 //! Studies beside the verifier: formulations of the literature side by side, the float audit,
-//! necessary and sufficient conditions, the catalog of minimal graphs, random graphs.
+//! necessary and sufficient conditions.
 
 pub mod audit;
-pub mod catalog;
 pub mod conditions;
 pub mod formulation;
 pub mod paper_components;
-pub mod solutions;
-pub mod thin;
-pub mod values;

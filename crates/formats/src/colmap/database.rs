@@ -6,10 +6,9 @@ use std::path::Path;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
-use super::facts::bins;
 use super::open::Opened;
 use super::tracks;
-use super::{ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
+use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
 use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
@@ -471,6 +470,25 @@ fn has_pose(row: &Row) -> Result<bool, DatabaseError> {
         }
         _ => false,
     })
+}
+
+/// Where bins begin; doubling from the mappers' threshold on.
+const BINS: [u32; 9] = [0, 1, 15, 30, 60, 120, 240, 480, 960];
+
+/// Numbers of inliers, counted. O(numbers).
+pub(super) fn bins(numbers: impl Iterator<Item = u32>) -> Vec<Bin> {
+    let mut pairs = [0; BINS.len()];
+    for number in numbers {
+        pairs[BINS.partition_point(|&from| from <= number) - 1] += 1;
+    }
+    (0..BINS.len())
+        .filter(|&k| pairs[k] > 0)
+        .map(|k| Bin {
+            from: BINS[k],
+            to: BINS.get(k + 1).map(|next| next - 1),
+            pairs: pairs[k],
+        })
+        .collect()
 }
 
 /// The sizes of the connected parts, falling. O(nodes + edges).

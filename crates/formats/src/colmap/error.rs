@@ -1,11 +1,15 @@
 //! Why a database gives no graph.
 
+#[cfg(feature = "databases")]
 use rusqlite::{Error, ErrorCode, ffi};
 use viewcert::wording::counted;
 
 /// What is wrong with a database, or with reading it.
 #[derive(Debug, thiserror::Error)]
 pub enum DatabaseError {
+    /// The program was built without the feature `databases`.
+    #[error("this is an SQLite database, and this program was built without reading any")]
+    NotBuilt,
     /// It came through a pipe or compressed.
     #[error("an SQLite database can be read only from a file of its own")]
     NoFile,
@@ -67,6 +71,9 @@ impl DatabaseError {
     /// What whoever gave the database can do about it.
     pub fn remedy(&self) -> &'static str {
         match self {
+            Self::NotBuilt => {
+                "build it with them, as it is built by default: `cargo install --path .`, or among other features --features databases"
+            }
             Self::NoFile => "name the file itself, uncompressed",
             Self::Locked => "try again when it is done, or read a copy",
             Self::Unfinished => {
@@ -107,6 +114,7 @@ fn are(count: usize, thing: &str) -> String {
     format!("{} {verb}", counted(count, thing))
 }
 
+#[cfg(feature = "databases")]
 impl From<Error> for DatabaseError {
     fn from(error: Error) -> Self {
         let Error::SqliteFailure(code, text) = &error else {

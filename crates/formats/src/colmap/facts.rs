@@ -53,25 +53,6 @@ pub struct Bin {
     pub pairs: usize,
 }
 
-/// Where bins begin; doubling from the mappers' threshold on.
-const BINS: [u32; 9] = [0, 1, 15, 30, 60, 120, 240, 480, 960];
-
-/// Numbers of inliers, counted. O(numbers).
-pub(super) fn bins(numbers: impl Iterator<Item = u32>) -> Vec<Bin> {
-    let mut pairs = [0; BINS.len()];
-    for number in numbers {
-        pairs[BINS.partition_point(|&from| from <= number) - 1] += 1;
-    }
-    (0..BINS.len())
-        .filter(|&k| pairs[k] > 0)
-        .map(|k| Bin {
-            from: BINS[k],
-            to: BINS.get(k + 1).map(|next| next - 1),
-            pairs: pairs[k],
-        })
-        .collect()
-}
-
 /// What COLMAP calls a configuration of two views (`TwoViewGeometry::ConfigurationType`).
 pub fn config_name(config: i64) -> &'static str {
     match config {

@@ -5,18 +5,35 @@
 //! ([`DatabaseFacts`]). With `--tracks` the matches are joined to tracks and the graph is that of
 //! cameras and points (docs/theory.md, section 12). The database is never written to.
 
+#[cfg(feature = "databases")]
 mod database;
 mod error;
 mod facts;
+#[cfg(feature = "databases")]
 mod open;
+#[cfg(feature = "databases")]
 mod tracks;
 
 pub use error::DatabaseError;
 pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
 
+#[cfg(feature = "databases")]
 pub(crate) use database::read;
 
 use std::fmt;
+
+/// Says that this build reads none.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "databases"))]
+pub(crate) fn read(
+    _: &str,
+    _: &std::path::Path,
+    _: &crate::ReadOptions,
+) -> Result<crate::NamedGraph, crate::error::Fault> {
+    Err(crate::error::Place::Input.fault(DatabaseError::NotBuilt.into()))
+}
 
 /// What every SQLite database begins with.
 pub(crate) const MAGIC: &[u8] = b"SQLite format 3\0";
@@ -51,5 +68,5 @@ impl fmt::Display for Pipeline {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "databases"))]
 mod tests;

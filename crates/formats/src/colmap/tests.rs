@@ -1,4 +1,4 @@
-use super::facts::bins;
+use super::database::bins;
 use crate::{Matching, NamedGraph, OtherPair, ReadError, ReadOptions, read_graphs};
 use rusqlite::Connection;
 use viewcert::graph::Labels;

@@ -24,6 +24,7 @@ use crate::variables::{Candidate, choose, chosen_note};
 use viewcert::graph::Graph;
 
 mod element;
+#[cfg(feature = "hdf5")]
 mod hdf5;
 mod matrix;
 
@@ -135,7 +136,7 @@ pub(super) fn read_noting(
     options: &ListOptions,
 ) -> Result<Parsed, Fault> {
     let (name, graph) = if version(bytes) == Some(Version::Hdf5) {
-        hdf5::read(bytes, variable, options)?
+        read_hdf5(bytes, variable, options)?
     } else {
         let (order, variables) = variables(bytes)?;
         let chosen = choose(&variables, variable)?;
@@ -151,6 +152,19 @@ pub(super) fn read_noting(
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
     }
+}
+
+#[cfg(feature = "hdf5")]
+use hdf5::read as read_hdf5;
+
+/// Says that this build reads none.
+#[cfg(not(feature = "hdf5"))]
+fn read_hdf5(
+    _: &[u8],
+    _: Option<&str>,
+    _: &ListOptions,
+) -> Result<(String, Result<Parsed, Problem>), Fault> {
+    Err(Place::Input.fault(Problem::NoHdf5))
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of

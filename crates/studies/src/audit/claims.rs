@@ -28,13 +28,13 @@ mod ruling;
 
 pub use ruling::{Claim, ClaimedVerdict, Named, RowError, Ruling, claim, rule};
 
-use crate::values;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 use std::fmt;
 use viewcert::wording::counted;
+use viewcert_formats::csv;
 
 /// A row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -149,7 +149,7 @@ pub fn read_table(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError
 }
 
 fn read_csv(text: &str, ignored: &[String]) -> Result<Vec<Row>, TableError> {
-    let lines = values::lines(text).map_err(|quote| TableProblem::Quote.at(quote.line))?;
+    let lines = csv::lines(text).map_err(|quote| TableProblem::Quote.at(quote.line))?;
     let mut lines = lines.into_iter();
     let (number, head) = lines.next().ok_or(TableProblem::Empty.at(1))?;
     let head: Vec<String> = head.iter().map(|cell| cell.trim().to_lowercase()).collect();

@@ -1,10 +1,10 @@
 //! The conditions and the exact verdict never contradict each other.
 
 use super::{decide, refuted, solvable};
-use crate::catalog::random::{Sampler, generator};
-use crate::catalog::{Candidates, least_edges};
 use viewcert::decide::{CountSolutions, Options, Projective, Value};
 use viewcert::graph::{Graph, graph6};
+use viewcert_catalog::random::{Sampler, generator};
+use viewcert_catalog::{Candidates, least_edges};
 
 /// What the two say of a graph, as counts.
 #[derive(Debug, Default, PartialEq, Eq)]

@@ -1,0 +1,39 @@
+//! The catalog: all candidates of a size, decided one by one.
+//!
+//! [`candidates`] generates the biconnected graphs with some numbers of nodes and edges,
+//! one of each isomorphism class: from [`kernel`]s by [`subdivide`]-ing, or node by node
+//! ([`grow`]) where there are many edges. [`mine`] decides them one by one; [`verdicts`] decides the
+//! subdivisions of one kernel together ([`siblings`]) and keeps counts and a [`set_digest`]; [`minimal`] finds the
+//! graphs that are finite solvable and not so without any one edge; [`laman`] grows the Laman
+//! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found.
+//!
+//! A [`work`] is a shard of a [`source`] of candidates, counted or written to files: entries to
+//! [`shard_files`], counts of verdicts to [`verdict_files`]; [`merge`] puts the shards together. A
+//! [`manifest`] says which files a published folder has.
+
+pub mod candidates;
+pub mod canonical;
+pub mod grow;
+pub mod invariants;
+pub mod kernel;
+pub mod laman;
+pub mod manifest;
+pub mod merge;
+pub mod mine;
+pub mod minimal;
+pub mod multigraph;
+pub mod random;
+pub mod set_digest;
+pub mod shard_files;
+pub mod siblings;
+pub mod source;
+pub mod subdivide;
+pub mod verdict_files;
+pub mod verdicts;
+pub mod work;
+
+pub use candidates::{Candidates, SizeError, least_edges};
+pub use merge::{Merged, merged};
+pub use shard_files::Shard;
+pub use source::Source;
+pub use work::{Files, Settings, Work};

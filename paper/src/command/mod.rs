@@ -1,0 +1,19 @@
+//! The commands, a file for each.
+
+pub mod census;
+pub mod man;
+pub mod publish;
+pub mod random;
+pub mod solutions;
+pub mod thin;
+
+use std::ops::RangeInclusive;
+
+/// Reads `9` or `3-10`.
+fn sizes(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    match (first.trim().parse(), last.trim().parse()) {
+        (Ok(first), Ok(last)) if 3 <= first && first <= last => Ok(first..=last),
+        _ => Err("write one number of nodes or two, from 3 up, as in 9 or 3-10".into()),
+    }
+}

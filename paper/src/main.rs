@@ -1,0 +1,65 @@
+//! `viewcert-paper`: what was published with viewcert, made anew - the catalog of small graphs, the
+//! census, the experiments with their charts, manual pages and completions.
+//!
+//! Arguments are read by [`command`], a file for each; the rest has no arguments.
+
+mod catalog_page;
+mod census;
+mod command;
+mod layout;
+mod plot;
+mod solutions;
+mod thinned;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+use viewcert_cli::LimitArguments;
+use viewcert_session::Session;
+
+/// What was published with viewcert, made anew.
+///
+/// Exit codes are those of verify: 0 done, 2 bad usage or input, 3 too large for the limits of time
+/// and memory, 130 interrupted (Ctrl-C), 141 nobody reads the output, 143 terminated.
+#[derive(Parser)]
+#[command(name = "viewcert-paper", version)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    limits: LimitArguments,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write the published catalog to a folder.
+    Publish(command::publish::Arguments),
+    /// Count how many graphs of a list each camera model determines.
+    Census(command::census::Arguments),
+    /// Decide connected random graphs (the paper's Table 2).
+    Random(command::random::Arguments),
+    /// Count the solutions of the finite solvable graphs with the fewest pairs, or of the Laman
+    /// graphs.
+    Solutions(command::solutions::Arguments),
+    /// Count the solutions of pieces of graphs that are only just finite solvable.
+    Thin(command::thin::Arguments),
+    /// Print the completion script of a shell for verify.
+    Completions(command::man::CompletionArguments),
+    /// Print a manual page of verify.
+    Manpage(command::man::ManpageArguments),
+}
+
+fn main() -> ExitCode {
+    let arguments = CommandLine::parse();
+    let limits = arguments.limits.limits();
+    Session::run("viewcert-paper", &limits, |session| {
+        match &arguments.command {
+            Command::Publish(arguments) => command::publish::run(session, arguments),
+            Command::Census(arguments) => command::census::run(session, arguments),
+            Command::Random(arguments) => command::random::run(session, arguments),
+            Command::Solutions(arguments) => command::solutions::run(session, arguments),
+            Command::Thin(arguments) => command::thin::run(session, arguments),
+            Command::Completions(arguments) => command::man::completions(arguments),
+            Command::Manpage(arguments) => command::man::manpage(arguments),
+        }
+    })
+}
