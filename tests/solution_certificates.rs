@@ -36,7 +36,9 @@ fn verified(nodes: usize, every: usize) -> BTreeMap<usize, usize> {
         let verified = viewcert_check::check(certificate.as_bytes(), None)
             .unwrap_or_else(|failure| panic!("{name}: {failure}"));
         let solutions = match verified.solutions {
-            Some(count) if count.at_most == Some(count.at_least) => count.at_least,
+            Some(count) if count.at_most.as_ref() == Some(&count.at_least) => {
+                count.at_least.to_string().parse().unwrap()
+            }
             Some(_) => 0,
             None if verified.verdict.0 == viewcert_check::Verdict::Solvable => 1,
             None => 0,

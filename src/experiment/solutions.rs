@@ -11,6 +11,7 @@ use std::ops::RangeInclusive;
 use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
+use viewcert::solutions::Number;
 use viewcert_studies::solutions::{Bounds, Source, Tally, tally};
 
 /// Options of the experiment on numbers of solutions.
@@ -75,7 +76,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitCode> {
 }
 
 /// How many graphs have each number of solutions.
-fn in_words(exactly: &BTreeMap<usize, usize>) -> String {
+fn in_words(exactly: &BTreeMap<Number, usize>) -> String {
     let words = exactly
         .iter()
         .map(|(solutions, graphs)| format!("{solutions}: {graphs}"));
@@ -95,9 +96,8 @@ fn write_excesses(out: &mut impl Write, tallies: &[(usize, Tally)]) -> std::io::
 }
 
 fn write_open(out: &mut impl Write, graph: &Bounds) -> std::io::Result<()> {
-    let most = graph
-        .at_most
-        .map_or("unknown".into(), |most| most.to_string());
+    let most = graph.at_most.as_ref();
+    let most = most.map_or("unknown".into(), Number::to_string);
     let excess = graph
         .excess
         .map_or(String::new(), |excess| format!(", excess {excess}"));

@@ -13,6 +13,7 @@ use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
 use viewcert::graph::sha256;
+use viewcert::solutions::Number;
 use viewcert_formats::NamedGraph;
 
 /// Which program wrote a line.
@@ -174,18 +175,18 @@ impl From<&Report<'_>> for AnswerLine {
 /// How many solutions there are, if finitely many.
 #[derive(Serialize)]
 struct SolutionsLine {
-    exactly: Option<usize>,
-    at_least: usize,
-    at_most: Option<usize>,
+    exactly: Option<Number>,
+    at_least: Number,
+    at_most: Option<Number>,
     strength: &'static str,
 }
 
 impl From<&SolutionCount> for SolutionsLine {
     fn from(count: &SolutionCount) -> Self {
         Self {
-            exactly: count.exactly(),
-            at_least: count.at_least,
-            at_most: count.at_most,
+            exactly: count.exactly().cloned(),
+            at_least: count.at_least.clone(),
+            at_most: count.at_most.clone(),
             strength: count.strength().name(),
         }
     }

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use viewcert_check::{Certificate, Count, Failure, Limits, Verdict, check};
+use viewcert_check::{Certificate, Count, Failure, Limits, Number, Verdict, check};
 
 /// 2^61 - 1, the modulus of these certificates.
 const P: u64 = (1 << 61) - 1;
@@ -114,8 +114,8 @@ fn all_are_verified() {
         let verified =
             check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{name}: {error}"));
         let exactly = Count {
-            at_least: solutions,
-            at_most: Some(solutions),
+            at_least: Number::from(solutions),
+            at_most: Some(Number::from(solutions)),
         };
         assert_eq!(verified.solutions, Some(exactly), "{name}");
         let solvable = verified.verdict.0 == Verdict::Solvable;
@@ -1041,7 +1041,7 @@ fn s23_the_points_of_a_tight_core() {
     points.as_array_mut().unwrap().pop();
     let value = changed("two", &[("L/points", points)]);
     let verified = check(value.to_string().as_bytes(), None).unwrap();
-    assert_eq!(verified.solutions.unwrap().at_least, 2);
+    assert!(verified.solutions.unwrap().at_least == 2);
 }
 
 #[test]

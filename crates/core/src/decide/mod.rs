@@ -168,7 +168,7 @@ impl Found<'_> {
         let value = self.value(rank, &contraction);
         let value_strength = self.strength(value, upper);
         let solutions = self.solutions(value, &contraction)?;
-        let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
+        let is_one = solutions.as_ref().is_some_and(SolutionCount::is_one);
         let contraction = Arc::new(contraction);
         Ok(Verdict {
             model: self.model(),

@@ -31,7 +31,7 @@ impl Solutions {
     /// Two solutions of the graph that was counted; `None` if no second one is known. `seed` selects
     /// the centres of nodes that no two members share. O(n^3) for n shared nodes.
     pub fn witness(&self, graph: &Graph, seed: u64) -> Option<Witness> {
-        let lower = self.lower.as_ref()?;
+        let lower = self.several()?;
         let field = PrimeField::new(lower.place.prime).ok()?;
         let key = DrawKey {
             graph_sha256: sha256(graph),
@@ -70,6 +70,19 @@ impl Solutions {
                 families: [first, second].map(residues),
             }
         })
+    }
+}
+
+impl Solutions {
+    /// Points of the core, or of the first factor that has some. What hangs on a factor hangs on one of
+    /// its members.
+    fn several(&self) -> Option<&Lower> {
+        let of_factors = || {
+            self.product
+                .iter()
+                .find_map(|factor| factor.solutions.several())
+        };
+        self.lower.as_ref().or_else(of_factors)
     }
 }
 
