@@ -69,7 +69,7 @@ def glued(first, second, way, rng):
 
 def counted(verify, graph6):
     """How many solutions a graph is proved to have; None if that is open."""
-    command = [verify, "-", "--format", "graph6", "--solutions", "full", "--json"]
+    command = [verify, "-", "--format", "graph6", "--solutions=full", "--json"]
     done = subprocess.run(command, input=graph6 + "\n", capture_output=True, text=True)
     return json.loads(done.stdout)["solutions"]["exactly"]
 
@@ -162,7 +162,7 @@ def has_witness(verify, graph6):
     """Whether two explicit families of cameras are written, and pass the script that checks them."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "witness.json"
-        command = [verify, "-", "--format", "graph6", "--witness", str(path)]
+        command = [verify, "-", "--format", "graph6", "--solutions=full", "--witness", str(path)]
         subprocess.run(command, input=graph6 + "\n", capture_output=True, text=True)
         checked = subprocess.run([sys.executable, WITNESS, path], capture_output=True, text=True)
         return checked.returncode == 0 and checked.stdout.startswith("VERIFIED")

@@ -100,8 +100,9 @@ pub(crate) struct Plan {
     pub(crate) is_finite: bool,
 }
 
-/// With more members times nodes a quick count does not look for factors: some ten milliseconds.
-const MOST_SEARCHED: usize = 1 << 20;
+/// With more members times places a quick count does not look for factors, and with more nodes times
+/// places not for joints that are pairs of nodes: some ten milliseconds each.
+const MOST_SEARCHED: [usize; 2] = [1 << 22, 1 << 16];
 
 /// Bounds for the number of solutions of a graph, in the projective model; `None` if it is not
 /// proved here that the graph is finite solvable, or if members share more than
@@ -208,12 +209,16 @@ impl<'w> Draws<'w> {
 /// Bounds for what falls into factors, the outer `None` if it does not. The inner one is that of
 /// [`count`].
 fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<Option<Solutions>> {
-    let nodes: usize = members.iter().map(Vec::len).sum();
-    if plan.quick.is_some() && members.len().saturating_mul(nodes) > MOST_SEARCHED {
+    let places: usize = members.iter().map(Vec::len).sum();
+    let [most, of_pairs] = match plan.quick {
+        Some(_) => MOST_SEARCHED,
+        None => [usize::MAX; 2],
+    };
+    if members.len().saturating_mul(places) > most {
         return None;
     }
     let is_rigid = |part: &[&[u32]]| rigid(part, draws).is_some();
-    let factors = product::factors(members, is_rigid, draws.work);
+    let factors = product::factors(members, is_rigid, of_pairs, draws.work);
     if factors.len() < 2 {
         return None;
     }

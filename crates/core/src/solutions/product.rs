@@ -19,17 +19,20 @@ pub(super) struct Factor {
     pub(super) pairs: Vec<[u32; 2]>,
 }
 
-/// The factors of members; one of them if there are no joints. O(members * nodes of all members),
-/// and where so many equations are left over that two nodes may be a joint, O(nodes) times that.
+/// The factors of members; one of them if there are no joints. O(members * places), places being the
+/// nodes of all members; and O(nodes * places) where so many equations are left over that two nodes
+/// may be a joint, unless that is more than `of_pairs`.
 pub(super) fn factors(
     members: &[Vec<u32>],
     is_rigid: impl Fn(&[&[u32]]) -> bool,
+    of_pairs: usize,
     work: &Work<'_>,
 ) -> Vec<Factor> {
     let (lists, names) = numbered(members);
     let parted = Parted {
         lists: &lists,
         nodes: names.len(),
+        of_pairs,
         work,
     };
     let blocks = parted.by_members();
@@ -83,6 +86,8 @@ fn numbered(members: &[Vec<u32>]) -> (Vec<Vec<u32>>, Vec<u32>) {
 struct Parted<'a> {
     lists: &'a [Vec<u32>],
     nodes: usize,
+    /// How much is looked through for pairs, at most.
+    of_pairs: usize,
     work: &'a Work<'a>,
 }
 
@@ -162,7 +167,9 @@ impl Parted<'_> {
         is_rigid: &impl Fn(&[usize]) -> bool,
     ) -> (Vec<Vec<usize>>, Vec<[u32; 2]>) {
         let (mut rest, mut peeled, mut ties) = (block.to_vec(), Vec::new(), Vec::new());
-        if self.excess(&rest) < OF_A_PAIR {
+        let places: usize = block.iter().map(|&k| self.lists[k].len()).sum();
+        let is_large = places.saturating_mul(self.nodes) > self.of_pairs;
+        if self.excess(&rest) < OF_A_PAIR || is_large {
             return (vec![rest], ties);
         }
         for pair in self.separating(block) {
@@ -351,7 +358,7 @@ mod tests {
         let members: Vec<Vec<u32>> = members.iter().map(|member| member.to_vec()).collect();
         let watch = Watch::default();
         let work = watch.task(Step::Solutions, 1).begin(0);
-        let factors = factors(&members, |_| true, &work).into_iter();
+        let factors = factors(&members, |_| true, usize::MAX, &work).into_iter();
         factors
             .map(|factor| (factor.members, factor.pairs))
             .collect()

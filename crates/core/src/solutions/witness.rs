@@ -37,7 +37,8 @@ impl Solutions {
             graph_sha256: sha256(graph),
             core_sha256: None,
             seed,
-            draw: 0,
+            // Centres of a count are drawn before it: no two nodes may be in one place.
+            draw: 1 << 40,
         };
         let mut centres = centres_mod(&field, graph.nodes(), &key).ok()?.values;
         for &(v, centre) in &lower.place.centres {
@@ -281,6 +282,15 @@ mod tests {
             let found = witness(&with_bodies).unwrap();
             assert_eq!(found.families[1].len(), 9 + edges.len() - 1);
         }
+    }
+
+    /// Three cores, two of which hang together in two nodes that are not adjacent.
+    #[test]
+    fn in_a_factor() {
+        let name = "YoO{b?WB???@?o?@?POEG?_O?H???A?????B?O?O??@g??O???a???E?";
+        let graph = graph6::decode(name.as_bytes()).unwrap();
+        let found = witness(&graph).unwrap();
+        assert_eq!(found.families.each_ref().map(Vec::len), [26, 26]);
     }
 
     /// Eight nodes with one solution.
