@@ -1,10 +1,9 @@
 //! The number of solutions, as part of a verdict (docs/theory.md, section 10).
 //!
-//! In: a graph that is finite solvable, and its contraction. Out: how many solutions there are at
+//! In: a graph or component that is finite solvable, as bodies and edges. Out: how many solutions there are at
 //! least and at most, with the evidence. A body and the calibrated model have one (Corollary 4.2,
 //! Theorem 4.8); what is left is counted by [`mod@crate::solutions`].
 
-use crate::contract::Contraction;
 use crate::decide::claim::Strength;
 use crate::decide::question::CountSolutions;
 use crate::graph::Graph;
@@ -30,6 +29,8 @@ pub struct SolutionCount {
     pub at_least: Number,
     /// There are no more than that, if such a bound is known.
     pub at_most: Option<Number>,
+    /// Whether a quick count left out what a full one, which takes about a second more, often settles.
+    pub full_may_tell_more: bool,
     /// What the bounds rest on, where contraction and the model alone do not show them.
     pub evidence: Option<Arc<Solutions>>,
 }
@@ -40,18 +41,19 @@ impl SolutionCount {
         Self {
             at_least: Number::one(),
             at_most: Some(Number::one()),
+            full_may_tell_more: false,
             evidence: None,
         }
     }
 
-    /// Counts the solutions of a finite solvable graph in the projective model, or says that one
-    /// there is.
+    /// Counts the solutions of a part of a graph that is finite solvable, in the projective model, or
+    /// says that one there is.
     ///
     /// # Errors
     /// If the work is stopped.
     pub(super) fn of(
         graph: &Graph,
-        contraction: &Contraction,
+        members: Vec<Vec<u32>>,
         effort: CountSolutions,
         seed: u64,
         task: &Task<'_>,
@@ -61,10 +63,10 @@ impl SolutionCount {
             quick: (effort == CountSolutions::Quick).then_some(QUICK),
             is_finite: true,
         };
-        let found = match effort {
-            CountSolutions::Off => None,
+        let (found, left_out) = match effort {
+            CountSolutions::Off => (None, false),
             CountSolutions::Quick | CountSolutions::Full => {
-                count_in(graph, contraction, plan, seed, task)?
+                count_in(graph, members, plan, seed, task)?
             }
         };
         Ok(Self {
@@ -72,6 +74,7 @@ impl SolutionCount {
                 .as_ref()
                 .map_or(Number::one(), |found| found.at_least.clone()),
             at_most: found.as_ref().and_then(|found| found.at_most.clone()),
+            full_may_tell_more: left_out,
             evidence: found.map(Arc::new),
         })
     }
@@ -127,6 +130,7 @@ mod tests {
             let count = SolutionCount {
                 at_least: at_least.into(),
                 at_most: at_most.map(Number::from),
+                full_may_tell_more: false,
                 evidence: None,
             };
             (count.to_string(), count.exactly().map(small))

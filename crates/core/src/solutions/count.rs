@@ -3,7 +3,7 @@
 use super::chart::Core;
 use super::evidence::{AtMost, Factor, Lower, One, Place, Solutions, Upper};
 use super::linear::settle;
-use super::members::{Members, Set, bits, of_graph, shared};
+use super::members::{MOST_NODES, Members, Set, bits, nodes_of, shared};
 use super::number::Number;
 use super::points::{NoBound, at_most};
 use super::product;
@@ -16,6 +16,7 @@ use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How much is tried.
@@ -117,26 +118,28 @@ pub fn count(graph: &Graph, effort: Effort, seed: u64) -> Option<Solutions> {
         quick: None,
         is_finite: false,
     };
-    unwatched(|task| count_in(graph, &contraction, plan, seed, task))
+    let members = nodes_of(&contraction, &contraction.finals, &contraction.loose);
+    let covered: BTreeSet<u32> = members.iter().flatten().copied().collect();
+    if covered.len() < graph.nodes() || graph.nodes() < 2 {
+        return None;
+    }
+    unwatched(|task| count_in(graph, members, plan, seed, task)).0
 }
 
-/// As [`count`], with the contraction of the graph in the projective model.
+/// As [`count`], for the part of a graph that uniquely determined members with these nodes form: bodies
+/// and edges of its contraction in the projective model. Also whether a quick count left out what a
+/// full one tries.
 ///
 /// # Errors
 /// If the work is stopped.
 pub(crate) fn count_in(
     graph: &Graph,
-    contraction: &Contraction,
+    mut members: Vec<Vec<u32>>,
     plan: Plan,
     seed: u64,
     task: &Task<'_>,
-) -> Result<Option<Solutions>, Stopped> {
-    let Some(members) = of_graph(graph, contraction) else {
-        return Ok(None);
-    };
-    if graph.nodes() < 2 || members.is_empty() {
-        return Ok(None);
-    }
+) -> Result<(Option<Solutions>, bool), Stopped> {
+    retain_shared(&mut members);
     let work = task.at(Step::Solutions).begin(0);
     let draws = Draws::new(graph, seed, &work);
     let found = match count_product(&members, plan, &draws) {
@@ -145,7 +148,18 @@ pub(crate) fn count_in(
     };
     // What was found after a stop is not all that there is.
     work.done(0)?;
-    Ok(found)
+    Ok((found, draws.left_out.get()))
+}
+
+/// Leaves of each member the nodes that lie in two at least.
+fn retain_shared(members: &mut [Vec<u32>]) {
+    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+    for &v in members.iter().flatten() {
+        *count.entry(v).or_default() += 1;
+    }
+    for nodes in members {
+        nodes.retain(|v| count[v] > 1);
+    }
 }
 
 /// Where centres and other random values come from, and what may stop the work on them.
@@ -153,6 +167,8 @@ pub(super) struct Draws<'w> {
     field: PrimeField,
     key: DrawKey,
     work: &'w Work<'w>,
+    /// Whether a core was left out that is not too large for a full count.
+    left_out: Cell<bool>,
 }
 
 impl<'w> Draws<'w> {
@@ -167,6 +183,7 @@ impl<'w> Draws<'w> {
             field: PrimeField::mersenne61(),
             key,
             work,
+            left_out: Cell::new(false),
         }
     }
 
@@ -180,6 +197,13 @@ impl<'w> Draws<'w> {
         centres_mod(&self.field, nodes, &key)
             .ok()
             .map(|drawn| drawn.values)
+    }
+
+    /// Says that a core was left out. What has more unknowns a full count seldom settles.
+    fn leave_out(&self, size: Size) {
+        if size.unknowns <= MOST_UNKNOWNS && size.nodes <= MOST_NODES {
+            self.left_out.set(true);
+        }
     }
 
     /// A core and where it is looked at.
@@ -237,7 +261,10 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
         let all: Vec<Vec<u32>> = all.collect();
         let counted = match is_open {
             false => count_members(&all, plan, draws),
-            true => None,
+            true => {
+                draws.leave_out(Size::of(&all));
+                None
+            }
         };
         is_open |= plan.quick.is_some() && counted.as_ref().is_some_and(|of| of.at_most.is_none());
         let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(&all)));
@@ -269,10 +296,9 @@ fn rigid(members: &[&[u32]], draws: &Draws<'_>) -> Option<Place> {
 
 /// Bounds for a core; if they do not meet, parts of it that have one solution become members.
 fn count_members(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<Solutions> {
-    if plan
-        .quick
-        .is_some_and(|most| !Size::of(members).is_within(most))
-    {
+    let size = Size::of(members);
+    if plan.quick.is_some_and(|most| !size.is_within(most)) {
+        draws.leave_out(size);
         return None;
     }
     let mut members = Members::new(members)?;

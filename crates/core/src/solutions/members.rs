@@ -7,7 +7,6 @@
 use super::evidence::{Merge, Rule, Solutions};
 use crate::contract::Contraction;
 use crate::geometry::model::Model;
-use crate::graph::Graph;
 use std::collections::BTreeMap;
 
 /// The most nodes that members may share: one bit for each.
@@ -16,21 +15,17 @@ pub const MOST_NODES: usize = 128;
 /// A set of shared nodes, one bit for each.
 pub(super) type Set = u128;
 
-/// The shared nodes of the bodies and loose edges of a contracted graph; `None` if there are nodes
-/// without edges.
-pub(super) fn of_graph(graph: &Graph, contraction: &Contraction) -> Option<Vec<Vec<u32>>> {
-    let finals = contraction.finals.iter();
-    let bodies = finals.map(|&k| contraction.bodies[k as usize].nodes.clone());
-    let edges = contraction.loose.iter().map(|&(i, j)| vec![i, j]);
-    let mut all: Vec<Vec<u32>> = bodies.chain(edges).collect();
-    let mut count = vec![0u32; graph.nodes()];
-    for &v in all.iter().flatten() {
-        count[v as usize] += 1;
-    }
-    for nodes in &mut all {
-        nodes.retain(|&v| count[v as usize] > 1);
-    }
-    (!count.contains(&0)).then_some(all)
+/// The nodes of some bodies and edges of a contracted graph.
+pub(crate) fn nodes_of(
+    contraction: &Contraction,
+    bodies: &[u32],
+    edges: &[(u32, u32)],
+) -> Vec<Vec<u32>> {
+    let bodies = bodies.iter();
+    let bodies = bodies.map(|&k| contraction.bodies[k as usize].nodes.clone());
+    bodies
+        .chain(edges.iter().map(|&(i, j)| vec![i, j]))
+        .collect()
 }
 
 /// Members of a graph, and how they came to be.

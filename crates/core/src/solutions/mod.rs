@@ -35,5 +35,6 @@ pub use evidence::{
     Scale, Solutions, Upper,
 };
 pub use members::MOST_NODES;
+pub(crate) use members::nodes_of;
 pub use number::Number;
 pub use witness::Witness;

@@ -1,7 +1,7 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
 use super::evidence::{Limit, Part, Rule};
-use super::members::{Members, bits, of_graph};
+use super::members::{Members, bits, nodes_of};
 use super::outside::is_outside;
 use super::simple;
 use super::support::MinorSpan;
@@ -29,9 +29,13 @@ fn graph(name: &str) -> Graph {
     graph6::decode(name.as_bytes()).unwrap()
 }
 
+fn all(contraction: &Contraction) -> Vec<Vec<u32>> {
+    nodes_of(contraction, &contraction.finals, &contraction.loose)
+}
+
 fn members(graph: &Graph) -> Members {
     let contraction = Contraction::new(graph, Model::Projective);
-    Members::new(&of_graph(graph, &contraction).unwrap()).unwrap()
+    Members::new(&all(&contraction)).unwrap()
 }
 
 fn centres(nodes: usize, draw: u64) -> Vec<[u64; 3]> {
@@ -88,7 +92,7 @@ fn the_biclique_is_rigid_and_when_not() {
 fn members_are_merged_by_the_rule_of_the_biclique() {
     // Of a contraction nothing would be left to merge.
     let biclique = graph("D]o");
-    let edges = of_graph(&biclique, &Contraction::none(&biclique)).unwrap();
+    let edges = all(&Contraction::none(&biclique));
     let found = Members::new(&edges).unwrap();
     assert_eq!(found.sets.len(), 1);
     let rules: Vec<Rule> = found.merges.iter().map(|merge| merge.rule).collect();
