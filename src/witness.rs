@@ -77,7 +77,7 @@ pub(super) fn write(
     let Some(count) = &verdict.solutions else {
         return Ok(Found::Nothing("there are infinitely many solutions"));
     };
-    if count.exactly() == Some(1) {
+    if count.is_one() {
         return Ok(Found::Nothing("there is one solution only"));
     }
     let witness = count

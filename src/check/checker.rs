@@ -33,12 +33,12 @@ impl Proved {
 
 /// What is proved of the number of solutions; a number is proved by `solvable` as well.
 fn solutions(verified: &Verified) -> Option<String> {
-    match (verified.verdict.0, verified.solutions) {
+    match (verified.verdict.0, &verified.solutions) {
         (Verdict::NotFiniteSolvable, _) => None,
         (Verdict::Solvable, _) => Some("1".into()),
         (Verdict::FiniteSolvable, None) => Some("1-".into()),
-        (Verdict::FiniteSolvable, Some(count)) => Some(match count.at_most {
-            Some(most) if most == count.at_least => most.to_string(),
+        (Verdict::FiniteSolvable, Some(count)) => Some(match &count.at_most {
+            Some(most) if *most == count.at_least => most.to_string(),
             Some(most) => format!("{}-{most}", count.at_least),
             None => format!("{}-", count.at_least),
         }),

@@ -5,6 +5,7 @@ use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, PieceVerdict};
 use viewcert::decide::{Counting, Options, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
+use viewcert::solutions::Number;
 
 /// What the catalog says about one graph.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +18,7 @@ pub struct Entry {
     pub contracts: bool,
     /// How many solutions there are at least and, if a bound is known, at most; `None` if
     /// infinitely many.
-    pub solutions: Option<(usize, Option<usize>)>,
+    pub solutions: Option<(Number, Option<Number>)>,
     /// How strong it is.
     pub strength: Strength,
     /// The generic rank.
@@ -55,7 +56,7 @@ impl Entry {
             solutions: verdict
                 .solutions
                 .as_ref()
-                .map(|count| (count.at_least, count.at_most)),
+                .map(|count| (count.at_least.clone(), count.at_most.clone())),
             strength: verdict.value_claim().strength,
             rank: verdict.rank,
             rank_strength: verdict.rank_claim().strength,
@@ -93,7 +94,7 @@ impl Entry {
     /// The number of solutions, or the least and the largest one that it can be: "2", "1-3", "1-";
     /// `None` if infinitely many.
     pub fn solutions_in_words(&self) -> Option<String> {
-        self.solutions.map(|bounds| match bounds {
+        self.solutions.as_ref().map(|bounds| match bounds {
             (least, Some(most)) if least == most => least.to_string(),
             (least, Some(most)) => format!("{least}-{most}"),
             (least, None) => format!("{least}-"),

@@ -12,6 +12,7 @@ import itertools
 import json
 import os
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,7 +21,12 @@ import time
 import check
 import make
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "benches"))
+
+import uniqueness  # noqa: E402
+
 PRIME = 2**61 - 1
+ALGEBRA = shutil.which("Singular") is not None
 MODELS = ("projective", "calibrated", "affine")
 
 # The truth, by brute force ------------------------------------------------------------------------------------------
@@ -167,6 +173,7 @@ class Truth:
 
     def __init__(self, n, edges, model, vectors, given=None):
         rng = random.Random(n)
+        self.n, self.edges, self.number = n, edges, "open"
         self.rank = generic_rank(range(n), edges, model, rng, vectors, given)
         self.other_rank = full_camera_rank(n, edges, rng) if model == "projective" and n <= 12 else self.rank
         self.required = required(n, model, bool(vectors))
@@ -187,6 +194,14 @@ class Truth:
                         if generic_rank(nodes, inside, model, rng, known, given) == full:
                             rigid.append(nodes)
             self.components = len(rigid)
+
+    def solutions(self):
+        """How many there are, by a Groebner basis of the equations of the cameras at random centres, if that can be
+        computed. It is no proof for generic centres; what disagrees with it is to be looked at."""
+        if self.number == "open":
+            found = uniqueness.by_algebra((self.n, self.edges), 60) if ALGEBRA else None
+            self.number = found and found[0]
+        return self.number
 
     @staticmethod
     def contracts(n, edges):
@@ -229,7 +244,11 @@ class Truth:
             return f"the rank is {self.rank}, claimed is {rank}"
         if (verdict == "not-finite-solvable") != (self.rank < self.required):
             return f"the rank is {self.rank}, claimed is {verdict}"
-        # Nothing here knows how many solutions there are.
+        numbers = claim.get("solutions")
+        if numbers and (found := self.solutions()) is not None:
+            least, most = (None if number is None else int(number) for number in (numbers["at_least"], numbers["at_most"]))
+            if not least <= found or most is not None and found > most:
+                return f"there are {found} solutions, claimed are {least} to {most}"
         if verdict == "solvable" and not self.solvable and "solutions" not in claim:
             return "claimed is solvable, which is not proved by contraction"
         if self.components is not None and components != self.components:
@@ -326,6 +345,58 @@ def nest_part(document, rng):
     if rng.random() < 0.5:
         part["solutions"]["lower"] = None
     evidence.update({"merges": [part], "upper": None, "lower": None})
+
+
+def products_in(document):
+    """All objects with a product."""
+    return [c[k] for c, k in places(document) if type(c[k]) is dict and type(c[k].get("product")) is list]
+
+
+def into_factors(document, rng):
+    """Members fall into factors, at random; what was shown of them goes to one of these, or to all."""
+    evidence = rng.choice([document["solutions"], *[factor["solutions"] for one in products_in(document) for factor in one["product"]]])
+    count = len(document["pieces"][0]["edges"]) + len(document["pieces"][0]["bodies"]) + len(evidence["merges"])
+    gone = {number for merge in evidence["merges"] for number in merge["with"]}
+    left = [number for number in range(count) if number not in gone]
+    rng.shuffle(left)
+    cut = rng.randrange(len(left) + 1)
+    sides = [left[:cut], left[cut:]]
+    for _ in range(rng.choice([0, 1, 1, 2])):
+        number = rng.choice(left)
+        sides = [[*side, number] for side in sides] if rng.random() < 0.7 else [*sides, [number]]
+    inner = {"merges": [], "upper": evidence["upper"], "lower": evidence["lower"]}
+    nothing = {"merges": [], "upper": None, "lower": None}
+    rigid = evidence["upper"] and {name: evidence["upper"][name] for name in ("chart", "centres")}
+    evidence["product"] = [
+        {"with": sorted(set(side)), "solutions": copy_of(rng.choice([inner, nothing])), "rigid": rng.choice([None, None, copy_of(rigid)])}
+        for side in sides
+    ]
+    evidence.update({"upper": None, "lower": None})
+
+
+def change_factor(document, rng):
+    """Factors change places, or become one, or two, or exchange a member or their evidence."""
+    factors = rng.choice(products_in(document))["product"]
+    a, b = rng.sample(range(len(factors)), 2)
+    way = rng.randrange(7)
+    if way == 0:
+        factors[a], factors[b] = factors[b], factors[a]
+    elif way == 1:
+        number = rng.choice(factors[a]["with"])
+        if rng.random() < 0.6:
+            factors[a]["with"].remove(number)
+        factors[b]["with"] = sorted({*factors[b]["with"], number})
+    elif way == 2:
+        factors[a]["with"] = sorted({*factors[a]["with"], *factors[b]["with"]})
+        del factors[b]
+    elif way == 3:
+        factors.insert(b, copy_of(factors[a]))
+    elif way == 4:
+        factors[a]["rigid"] = copy_of(factors[b]["rigid"]) if rng.random() < 0.5 else None
+    elif way == 5:
+        factors[a]["solutions"] = copy_of(factors[b]["solutions"])
+    else:
+        factors[a]["solutions"].update({rng.choice(["upper", "lower"]): None})
 
 
 def double_entry(document, rng):
@@ -661,6 +732,7 @@ MUTATIONS = (
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
     *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
+    *(into_factors, change_factor, change_factor),
 )
 
 
@@ -936,7 +1008,7 @@ def main():
     parser.add_argument("--keep", default="findings", help="folder for what there is to report")
     options = parser.parse_args()
     rng = random.Random(options.seed)
-    print(f"seed {options.seed}", flush=True)
+    print(f"seed {options.seed}; numbers of solutions are judged {'by Singular' if ALGEBRA else 'by nothing'}", flush=True)
     comparison = Comparison(options.checker, options.keep)
     for _ in range(options.graph_files if options.checker else 0):
         comparison.run_graph(graph_text(rng))

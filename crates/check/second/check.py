@@ -23,6 +23,7 @@ from notation import (
     Unreadable,
     a_big,
     a_list,
+    a_number,
     a_pair,
     a_string,
     an_int,
@@ -33,6 +34,7 @@ from notation import (
     need,
     parse,
     same,
+    written,
 )
 from pebbles import counted_rank
 from solutions import WORK_LIMIT, Meter, check_solutions
@@ -803,9 +805,9 @@ class Check:
                 known = values[0] in ("solvable", "finite-solvable", "not-finite-solvable")
                 need(known, f"{where}: no such value")
             elif name == "solutions":
-                an_int(values[0], f"{where}: at_least")
+                a_number(values[0], f"{where}: at_least")
                 if values[1] is not None:
-                    an_int(values[1], f"{where}: at_most")
+                    a_number(values[1], f"{where}: at_most")
             else:
                 for value, member in zip(values, ("value", "required")):
                     an_int(value, f"{where}: {member}")
@@ -1440,7 +1442,8 @@ class Check:
         components = stated(count, bound_sum(errors) if errors else None)
         claim = {"verdict": verdict, "rank": {**rank, "required": required}, "components": components}
         if numbers is not None:
-            claim["solutions"] = {"at_least": numbers[0], "at_most": numbers[1], "strength": "proof", "error_log2": None}
+            least, most = map(written, numbers)
+            claim["solutions"] = {"at_least": least, "at_most": most, "strength": "proof", "error_log2": None}
         return claim
 
     def compare_claim(self):

@@ -1,4 +1,4 @@
-"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S23).
+"""Section 12 of docs/certificate.md: bounds for the number of solutions, as the list of its conditions (S1) to (S26).
 
 In comes what the piece is made of (the nodes of its members) and the member `solutions`; out come `at_least` and
 `at_most`. Rows of matrices are dicts from column to residue; only what has to vanish, or not to, is computed.
@@ -137,15 +137,24 @@ def a_residue(value, p, where, least=0):
     return a_big(value, where, least=least, below=p)
 
 
-def check_solutions(value, sets, where, meter, is_part=False):
+def check_solutions(value, sets, where, meter, is_part=False, is_factor=False):
     """Section 12: at_least and at_most (or None), for members with these nodes; of a part, that it is finite solvable."""
-    merges, upper, lower = members(value, "merges upper lower", where)
+    product = type(value) is dict and "product" in value
+    merges, upper, lower, *factors = members(value, "merges upper lower" + " product" * product, where)
     meter.charge(SPARSE * sum(map(len, sets)))
-    left = merged(merges, shared_nodes(sets), where, meter)
+    numbered = merged(merges, shared_nodes(sets), where, meter)
+    if product:
+        need(not is_part, f"{where}: (S3) a part has no product")
+        need(upper is None and lower is None, f"{where}: with a product upper and lower are null")
+        at_least, at_most = check_product(*factors, numbered, f"{where}: product", meter)
+        need(at_most is None or at_least <= at_most, f"{where}: at least {at_least} solutions, and at most {at_most}")
+        return at_least, at_most
+    left = list(numbered.values())
     if len(left) == 1:
         need(upper is None and lower is None, f"{where}: one member is left, so upper and lower are null")
         return 1, 1
-    need(upper is not None or lower is not None, f"{where}: neither upper nor lower, and {len(left)} members are left")
+    nothing = upper is None and lower is None
+    need(is_factor or not nothing, f"{where}: neither upper nor lower, and {len(left)} members are left")
     core = shared_nodes(left)
     at_most = None if upper is None else check_upper(upper, core, f"{where}: upper", meter, is_part)
     at_least = 1 if lower is None else check_lower(lower, core, f"{where}: lower", meter)
@@ -154,7 +163,7 @@ def check_solutions(value, sets, where, meter, is_part=False):
 
 
 def merged(merges, sets, where, meter):
-    """(S1) to (S3): the members that are left after the merges."""
+    """(S1) to (S3): the members that are left after the merges, by their numbers."""
     sets, used = list(sets), set()
     for k, merge in enumerate(a_list(merges, f"{where}: merges")):
         at = f"{where}: merge {k}"
@@ -172,7 +181,7 @@ def merged(merges, sets, where, meter):
             check_rule(rule, inner, nodes, chosen, at)
         used.update(sources)
         sets.append(frozenset().union(*chosen))
-    return [nodes for member, nodes in enumerate(sets) if member not in used]
+    return {member: nodes for member, nodes in enumerate(sets) if member not in used}
 
 
 def check_rule(rule, inner, nodes, chosen, where):
@@ -194,9 +203,77 @@ def check_part(inner, nodes, chosen, where, meter):
     inside = [nodes_of & kept for nodes_of in chosen]
     need(all(len(nodes_of) >= 2 for nodes_of in inside), f"{where}: (S3) a member has less than two of the nodes")
     need(inner is not None, f"{where}: (S3) solutions is null")
-    need(members(inner, "merges upper lower", f"{where}: solutions")[2] is None, f"{where}: (S3) lower is not null")
+    need(type(inner) is dict and inner.get("lower") is None, f"{where}: (S3) lower is not null")
     at_most = check_solutions(inner, inside, f"{where}: solutions", meter, is_part=True)[1]
     need(at_most == 1, f"{where}: (S3) the part is not shown to have one solution")
+
+
+# Products ------------------------------------------------------------------------------------------------------------
+
+
+def check_product(factors, left, where, meter):
+    """(S24) to (S26): at_least and at_most (or None) of factors of the members that are left."""
+    need(len(a_list(factors, where)) >= 2, f"{where}: (S24) less than two factors")
+    read = [read_factor(factor, left, f"{where}: factor {k}", meter) for k, factor in enumerate(factors)]
+    taken = set().union(*(sources for sources, _, _ in read))
+    need(taken == set(left), f"{where}: (S24) a member is in no factor")
+    nodes = [frozenset().union(*(left[member] for member in sources)) for sources, _, _ in read]
+    joints = joint_pairs([sources for sources, _, _ in read], nodes, left, where, meter)
+    at_least, at_most = 1, 1
+    for k, (sources, inner, rigid) in enumerate(read):
+        at = f"{where}: factor {k}"
+        meter.charge(SPARSE * len(joints))
+        pairs = [pair for pair in joints if nodes[k].issuperset(pair)]
+        sets = [left[member] for member in sources]
+        need((rigid is not None) == bool(pairs), f"{at}: (S26) rigid is an object iff two nodes are a joint")
+        if rigid is not None:
+            check_rigid(rigid, shared_nodes(sets), f"{at}: rigid", meter)
+        sets += map(frozenset, pairs)
+        least, most = check_solutions(inner, sets, f"{at}: solutions", meter, is_factor=True)
+        at_least = times(at_least, least, meter)
+        at_most = None if most is None or at_most is None else times(at_most, most, meter)
+    return at_least, at_most
+
+
+def times(x, y, meter):
+    meter.charge(SPARSE * (1 + x.bit_length() // 30) * (1 + y.bit_length() // 30))
+    return x * y
+
+
+def read_factor(factor, left, where, meter):
+    """(S24) for one factor: its members, and the values of solutions and rigid."""
+    sources, inner, rigid = members(factor, "with solutions rigid", where)
+    sources = [an_int(member, f"{where}: with") for member in a_list(sources, f"{where}: with")]
+    need(len(sources) >= 2, f"{where}: (S24) less than two members")
+    increasing(sources, f"{where}: (S24) with")
+    need(all(member in left for member in sources), f"{where}: (S24) this is no member that is left")
+    meter.charge(SPARSE * sum(len(left[member]) for member in sources))
+    return sources, inner, rigid
+
+
+def joint_pairs(taken, nodes, left, where, meter):
+    """(S25): what each factor has in common with those before it is in a member of both, or a joint pair."""
+    pairs, before, used = set(), set(), set()
+    for k, sources in enumerate(taken):
+        common = nodes[k] & before
+        meter.charge(SPARSE * (len(common) * len(sources) + k))
+        in_member = any(common <= left[member] for member in sources if member in used)
+        if k and not in_member:
+            held = len(common) == 2 and any(common <= others for others in nodes[:k])
+            need(held, f"{where}: (S25) what factor {k} has in common is in no member of both, and is no joint pair")
+            pairs.add(tuple(sorted(common)))
+        before |= nodes[k]
+        used.update(sources)
+    return sorted(pairs)
+
+
+def check_rigid(value, core, where, meter):
+    """(S26): a factor is finite solvable without its pairs."""
+    chart, centres = members(value, "chart centres", where)
+    chart = Chart(chart, core, f"{where}: chart", meter)
+    rows = Rows(chart, centres, f"{where}: centres", meter)
+    check_independent(rows, where)
+    check_point(rows, [1] * len(chart.unknowns), f"{where}: (S26) the factor is not shown to be finite solvable")
 
 
 # Charts --------------------------------------------------------------------------------------------------------------

@@ -96,7 +96,7 @@ pub(crate) fn verify(
     let verdict = check_verdict(
         &claims.verdict,
         (model, displacements.is_some()),
-        (pieces, count),
+        (pieces, count.as_ref()),
         [required, graph.nodes as i64],
     );
     let verdict = verdict.within(|| "verdict".into())?;
@@ -131,11 +131,11 @@ pub(crate) fn verify(
 fn check_verdict(
     claim: &VerdictClaim,
     model: (Model, bool),
-    (pieces, count): (&[Piece], Option<Count>),
+    (pieces, count): (&[Piece], Option<&Count>),
     sizes: [i64; 2],
 ) -> Checked<(Verdict, Strength)> {
     let (found, errors) = match decide(model, pieces, sizes)? {
-        (Verdict::FiniteSolvable, errors) if count.is_some_and(|count| count.is_one()) => {
+        (Verdict::FiniteSolvable, errors) if count.is_some_and(Count::is_one) => {
             (Verdict::Solvable, errors)
         }
         decided => decided,
@@ -196,14 +196,11 @@ fn check_solutions(claim: Option<&SolutionsClaim>, found: Option<Count>) -> Chec
         }
     };
     let claimed = Count {
-        at_least: claim.at_least,
-        at_most: claim.at_most,
+        at_least: claim.at_least.clone(),
+        at_most: claim.at_most.clone(),
     };
-    compare(
-        (&claimed, found),
-        (&claim.strength, claim.error_log2),
-        Ok(Vec::new()),
-    )?;
+    let strength = (claim.strength.as_str(), claim.error_log2);
+    let (found, _) = compare((&claimed, found), strength, Ok(Vec::new()))?;
     Ok(Some(found))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::json::{Big, Name, Optional, Strict, Value, fill, objects, present, unknown};
 use crate::rejection::{Checked, Failure};
-use crate::solutions::grammar::Solutions;
+use crate::solutions::{Number, grammar::Solutions};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
@@ -34,7 +34,7 @@ objects! {
     RankClaim { value: i64, required: i64, strength: String, error_log2: Option<i64> }
     ComponentsClaim { value: usize, strength: String, error_log2: Option<i64> }
     SolutionsClaim {
-        at_least: usize, at_most: Option<usize>, strength: String, error_log2: Option<i64>,
+        at_least: Number, at_most: Option<Number>, strength: String, error_log2: Option<i64>,
     }
     Body { seed: Seed, add: Vec<[u32; 3]>, merge: Vec<Merge> }
     Merge { with: Vec<Source>, at: Vec<u32> }

@@ -44,7 +44,7 @@ impl<'de, T: Value> Deserialize<'de> for Strict<T> {
 /// as a floating point number, which is refused here, and refuses leading zeros by itself.
 struct Int;
 
-const INT_LIMIT: u64 = 1 << 53;
+pub(crate) const INT_LIMIT: u64 = 1 << 53;
 
 impl Visitor<'_> for Int {
     type Value = i64;

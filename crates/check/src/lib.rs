@@ -27,7 +27,7 @@
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
-//! | the number of solutions | 12 | 10.2 to 10.14 | `solutions`, a file for each kind |
+//! | the number of solutions | 12 | 10.2 to 10.17 | `solutions`, a file for each kind |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
@@ -73,7 +73,7 @@ pub use document::Model;
 pub use graph::Graph;
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
-pub use solutions::Count;
+pub use solutions::{Count, Number};
 
 use rejection::Within;
 

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use viewcert_check::{Certificate, Count, Failure, Limits, Verdict, check};
+use viewcert_check::{Certificate, Count, Failure, Limits, Number, Verdict, check};
 
 /// 2^61 - 1, the modulus of these certificates.
 const P: u64 = (1 << 61) - 1;
@@ -26,6 +26,7 @@ fn expand(pointer: &str) -> String {
         ("L", "/solutions/lower"),
         ("M", "/solutions/merges"),
         ("N", "/solutions/merges/0/solutions"),
+        ("P", "/solutions/product"),
     ] {
         if let Some(rest) = pointer.strip_prefix(short) {
             return format!("{long}{rest}");
@@ -63,7 +64,8 @@ fn refused(name: &str, changes: &[(&str, Value)], wanted: &str) {
         .replace("U.", "solutions.upper.")
         .replace("L.", "solutions.lower.")
         .replace("M[", "solutions.merges[")
-        .replace("N.", "solutions.merges[0].solutions.");
+        .replace("N.", "solutions.merges[0].solutions.")
+        .replace("P[", "solutions.product[");
     assert!(reason.starts_with(&wanted), "{name} {changes:?}: {reason}");
 }
 
@@ -101,7 +103,7 @@ fn members_are_unique() {
 #[test]
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 6);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 8);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -109,13 +111,15 @@ fn all_are_verified() {
         ("two", 2),
         ("absent", 2),
         ("outside", 2),
+        ("product", 4),
+        ("pairs", 1),
     ] {
         let text = text_of(name).to_string();
         let verified =
             check(text.as_bytes(), None).unwrap_or_else(|error| panic!("{name}: {error}"));
         let exactly = Count {
-            at_least: solutions,
-            at_most: Some(solutions),
+            at_least: Number::from(solutions),
+            at_most: Some(Number::from(solutions)),
         };
         assert_eq!(verified.solutions, Some(exactly), "{name}");
         let solvable = verified.verdict.0 == Verdict::Solvable;
@@ -1041,7 +1045,7 @@ fn s23_the_points_of_a_tight_core() {
     points.as_array_mut().unwrap().pop();
     let value = changed("two", &[("L/points", points)]);
     let verified = check(value.to_string().as_bytes(), None).unwrap();
-    assert_eq!(verified.solutions.unwrap().at_least, 2);
+    assert!(verified.solutions.unwrap().at_least == 2);
 }
 
 #[test]
@@ -1073,11 +1077,178 @@ fn limits() {
     assert!(least > 0);
 }
 
+/// Two cores with two solutions each, glued at the edge 1-3, which is member 3 of both.
+#[test]
+fn s24_members_of_factors() {
+    let of = |k: usize| value_at("product", &format!("P/{k}/with"));
+    let changed = |k: usize, change: &dyn Fn(&mut Vec<Value>)| {
+        let mut with = of(k).as_array().unwrap().clone();
+        change(&mut with);
+        json!(with)
+    };
+    let factors = value_at("product", "P");
+    for (place, new, wanted) in [
+        (
+            "P",
+            json!([factors[0]]),
+            "solutions: a product of less than two factors",
+        ),
+        (
+            "P",
+            json!([]),
+            "solutions: a product of less than two factors",
+        ),
+        (
+            "P/1/with",
+            json!([3]),
+            "P[1]: `with` is not an increasing list of two members or more",
+        ),
+        (
+            "P/1/with",
+            changed(1, &|with| with.swap(0, 1)),
+            "P[1]: `with` is not an increasing list of two members or more",
+        ),
+        (
+            "P/1/with",
+            changed(1, &|with| with.insert(1, json!(3))),
+            "P[1]: `with` is not an increasing list of two members or more",
+        ),
+        (
+            "P/1/with",
+            changed(1, &|with| with.push(json!(23))),
+            "P[1]: 23 is no member that is left",
+        ),
+        (
+            "P/1/with",
+            changed(1, &|with| with.truncate(11)),
+            "solutions: member 22 is in no factor",
+        ),
+    ] {
+        refused("product", &[(place, new)], wanted);
+    }
+    // A member that was used up is none any more: two edges as if they shared two nodes.
+    let merge =
+        json!({"rule": "biclique", "with": [0, 1], "at": [0, 1, 2, 3, 4], "solutions": null});
+    refused(
+        "product",
+        &[("M", json!([merge]))],
+        "M[0]: no member of `with` holds",
+    );
+}
+
+/// A factor may have one member in common with those before it, or two nodes.
+#[test]
+fn s25_what_factors_have_in_common() {
+    let common = "P[1] has in common lies in no member of both, and is no pair of one factor";
+    let common = format!("solutions: what {}", common.replace("P[", "product["));
+    // A member more: edges that are not in a member of both.
+    let mut with = value_at("product", "P/1/with");
+    with.as_array_mut().unwrap().insert(0, json!(2));
+    refused("product", &[("P/1/with", with)], &common);
+    // The edge is in one of them only: its nodes are a pair then, and the factors not shown to be rigid.
+    let mut with = value_at("product", "P/1/with");
+    with.as_array_mut().unwrap().remove(0);
+    let wanted = "P[0]: `rigid` is missing where two nodes are a joint";
+    refused("product", &[("P/1/with", with)], wanted);
+    // In another order the same is verified.
+    let mut swapped = value_at("product", "P");
+    swapped.as_array_mut().unwrap().swap(0, 1);
+    let swapped = changed("product", &[("P", swapped)]);
+    let verified = check(swapped.to_string().as_bytes(), None).unwrap();
+    assert!(verified.solutions.unwrap().at_least == 4);
+}
+
+/// Two nodes that are not adjacent: both factors are finite solvable without the pair.
+#[test]
+fn s26_rigid_factors() {
+    for k in [0, 1] {
+        let rigid = format!("P/{k}/rigid");
+        let wanted = format!("P[{k}]: `rigid` is missing where two nodes are a joint");
+        refused("pairs", &[(&rigid, json!(null))], &wanted);
+    }
+    let rigid = value_at("pairs", "P/0/rigid");
+    let wanted = "P[0]: `rigid` where no two nodes are a joint";
+    refused("product", &[("P/0/rigid", rigid.clone())], wanted);
+    // The pair is no member where the factor is shown to be rigid.
+    let mut chains = rigid["chart"]["chains"].clone();
+    chains.as_array_mut().unwrap().push(json!([0, 1]));
+    let wanted = "P[0].rigid.chart: the chains and half-edges are not the members";
+    refused("pairs", &[("P/0/rigid/chart/chains", chains)], wanted);
+    let rigid = value_at("pairs", "P/1/rigid");
+    refused("pairs", &[("P/0/rigid", rigid)], wanted);
+    // Centres in a plane: the rank is too small.
+    let mut flat = value_at("pairs", "P/0/rigid/centres/values");
+    for centre in flat.as_array_mut().unwrap() {
+        centre[2] = json!("0");
+    }
+    refused(
+        "pairs",
+        &[("P/0/rigid/centres/values", flat)],
+        "P[0].rigid.",
+    );
+}
+
+#[test]
+fn products_and_other_evidence() {
+    let upper = value_at("product", "P/0/solutions/upper");
+    refused(
+        "product",
+        &[("U", upper)],
+        "solutions: a product, and bounds besides",
+    );
+    let lower = value_at("product", "P/0/solutions/lower");
+    refused(
+        "product",
+        &[("L", lower)],
+        "solutions: a product, and bounds besides",
+    );
+    // A part has none.
+    let mut part = value_at("part", "N");
+    part["product"] = json!([]);
+    refused(
+        "part",
+        &[("N", part)],
+        "M[0].solutions: a product for a part",
+    );
+    // What is claimed is the product.
+    let claim = "/claim/solutions/at_least";
+    refused(
+        "product",
+        &[(claim, json!(2))],
+        "claim.solutions: `2 to 4` is claimed",
+    );
+    refused(
+        "product",
+        &[(claim, json!("4"))],
+        "invalid value: string \"4\"",
+    );
+    refused(
+        "product",
+        &[(claim, json!(-4))],
+        "invalid type: integer `-4`",
+    );
+    // A factor may stay open, from either side.
+    for (member, said) in [("upper", "at least 4"), ("lower", "2 to 4")] {
+        let [least, most] = match member {
+            "upper" => [json!(4), json!(null)],
+            _ => [json!(2), json!(4)],
+        };
+        let mut value = text_of("product");
+        value["solutions"]["product"][1]["solutions"][member] = json!(null);
+        value["claim"]["solutions"]["at_least"] = least;
+        value["claim"]["solutions"]["at_most"] = most;
+        let verified = check(value.to_string().as_bytes(), None).unwrap();
+        assert_eq!(verified.solutions.unwrap().to_string(), said);
+    }
+}
+
 /// Whatever is changed in the evidence, the certificate is rejected or proves the same.
 #[test]
 fn no_changed_scalar_changes_what_is_verified() {
     let (mut rejected, mut tried) = (0, 0);
-    for name in ["part", "support", "two", "absent", "outside"] {
+    for name in [
+        "part", "support", "two", "absent", "outside", "product", "pairs",
+    ] {
         let original = text_of(name);
         let said = check(original.to_string().as_bytes(), None)
             .unwrap()

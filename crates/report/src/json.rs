@@ -3,7 +3,7 @@
 use super::Report;
 use super::database::DatabaseLine;
 use super::read::ReadLine;
-use super::text;
+use super::text::{self, several};
 use super::tracks;
 use super::tracks::TrackLine;
 use crate::assumptions::Planar;
@@ -11,6 +11,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
 use viewcert::decide::{Component, SolutionCount, Verdict};
+use viewcert::solutions::Number;
 use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
@@ -174,19 +175,22 @@ impl From<&Report<'_>> for AnswerLine {
 /// How many solutions there are, if finitely many.
 #[derive(Serialize)]
 struct SolutionsLine {
-    exactly: Option<usize>,
-    at_least: usize,
-    at_most: Option<usize>,
+    exactly: Option<Number>,
+    at_least: Number,
+    at_most: Option<Number>,
     strength: &'static str,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    full_may_tell_more: bool,
 }
 
 impl From<&SolutionCount> for SolutionsLine {
     fn from(count: &SolutionCount) -> Self {
         Self {
-            exactly: count.exactly(),
-            at_least: count.at_least,
-            at_most: count.at_most,
+            exactly: count.exactly().cloned(),
+            at_least: count.at_least.clone(),
+            at_most: count.at_most.clone(),
             strength: count.strength().name(),
+            full_may_tell_more: count.full_may_tell_more,
         }
     }
 }
@@ -203,6 +207,10 @@ pub(super) struct ComponentLine {
     points: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     labels: Option<Vec<String>>,
+    /// Of a graph that falls apart, where more is known than that there are finitely many, and it is
+    /// not just one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solutions: Option<SolutionsLine>,
 }
 
 impl From<&Component> for ComponentLine {
@@ -213,6 +221,7 @@ impl From<&Component> for ComponentLine {
             cameras: None,
             points: None,
             labels: None,
+            solutions: None,
         }
     }
 }
@@ -257,6 +266,7 @@ pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
     let Some(cameras) = report.input.cameras else {
         let line = |component: &Component| ComponentLine {
             labels: listed.then(|| labels(component.nodes())),
+            solutions: several(report.verdict, component).map(SolutionsLine::from),
             ..ComponentLine::from(component)
         };
         return components.map(line).collect();
@@ -268,6 +278,7 @@ pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
         cameras: Some(1),
         points: Some(0),
         labels: listed.then(|| labels(vec![camera])),
+        solutions: None,
     });
     components
         .map(|component| {
@@ -278,6 +289,7 @@ pub(super) fn components(report: &Report) -> Vec<ComponentLine> {
                 cameras: Some(nodes.len()),
                 points: Some(points),
                 labels: listed.then(|| labels(nodes)),
+                solutions: None,
             }
         })
         .chain(alone)

@@ -4,7 +4,7 @@ use super::{Report, counted, database, size_with_parts, tracks};
 use std::io::{self, Write};
 use viewcert::decide::Strength;
 use viewcert::decide::evidence::{Evidence, Witness};
-use viewcert::decide::{Bound, Value, Verdict};
+use viewcert::decide::{Bound, Component, SolutionCount, Value, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 
@@ -41,6 +41,14 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     }
     writeln!(out, "  verdict     {}", answer(report))?;
     writeln!(out, "  because     {}", reason(input, verdict))?;
+    if verdict
+        .solutions
+        .as_ref()
+        .is_some_and(|count| count.full_may_tell_more)
+    {
+        let hint = "--solutions=full may tell how many solutions, in about a second";
+        writeln!(out, "  hint        {hint}")?;
+    }
     for condition in report.scope.conditions() {
         writeln!(out, "  condition   {condition}")?;
     }
@@ -254,7 +262,11 @@ fn sizes(verdict: &Verdict) -> String {
         .take(SHOWN)
         .map(|component| {
             let (nodes, edges) = (component.node_count(), component.edge_count());
-            format!("{} / {}", counted(nodes, "camera"), counted(edges, "pair"))
+            let size = format!("{} / {}", counted(nodes, "camera"), counted(edges, "pair"));
+            match several(verdict, component) {
+                Some(count) => format!("{size} ({count})"),
+                None => size,
+            }
         })
         .collect();
     if verdict.components.len() > SHOWN {
@@ -264,6 +276,16 @@ fn sizes(verdict: &Verdict) -> String {
         return String::new();
     }
     format!(": {}", text.join(", "))
+}
+
+/// How many solutions a component of a graph that falls apart has, if that is known and not just one.
+pub(super) fn several<'v>(
+    verdict: &Verdict,
+    component: &'v Component,
+) -> Option<&'v SolutionCount> {
+    let falls_apart = verdict.value == Value::NotFiniteSolvable;
+    let count = component.solutions.as_ref().filter(|_| falls_apart)?;
+    (count.at_least > 1 || count.at_most.is_some() && !count.is_one()).then_some(count)
 }
 
 /// A time for people.

@@ -14,6 +14,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::{CountSolutions, Options, Projective, VerdictError, decide};
 use viewcert::graph::graph6;
+use viewcert::solutions::Number;
 use viewcert_catalog::random::generator;
 use viewcert_formats::csv;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
@@ -51,8 +52,8 @@ struct Row {
     pairs: usize,
     left: usize,
     graph6: String,
-    at_least: usize,
-    at_most: Option<usize>,
+    at_least: Number,
+    at_most: Option<Number>,
     seconds: f64,
 }
 
@@ -155,7 +156,10 @@ const COLUMNS: [&str; 9] = [
 
 impl Row {
     fn cells(&self, graph: &str) -> [String; 9] {
-        let most = self.at_most.map_or(String::new(), |most| most.to_string());
+        let most = self
+            .at_most
+            .as_ref()
+            .map_or(String::new(), Number::to_string);
         [
             graph.into(),
             self.sample.to_string(),
@@ -170,7 +174,7 @@ impl Row {
     }
 
     fn solutions(&self) -> String {
-        match (self.at_least, self.at_most) {
+        match (&self.at_least, &self.at_most) {
             (least, Some(most)) if least == most => least.to_string(),
             (least, Some(most)) => format!("{least}-{most}"),
             (least, None) => format!("{least}-"),

@@ -81,11 +81,14 @@ class Solutions:
         An upper bound, if one is known.
     strength : str
         How strong the bounds are: ``'proof'``, or ``'error-bound'``.
+    full_may_tell_more : bool
+        Whether ``solutions='full'``, which takes about a second more, often settles what is open.
     """
 
     at_least: int
     at_most: Optional[int]
     strength: str
+    full_may_tell_more: bool = False
 
     @property
     def exactly(self) -> Optional[int]:
@@ -246,7 +249,14 @@ class Verdict:
         found = self.to_dict()["solutions"]
         if found is None:
             return None
-        return Solutions(found["at_least"], found["at_most"], found["strength"])
+        # From 2^53 on numbers are strings.
+        most = found["at_most"]
+        return Solutions(
+            int(found["at_least"]),
+            None if most is None else int(most),
+            found["strength"],
+            found.get("full_may_tell_more", False),
+        )
 
     @property
     def conditions(self) -> Tuple[str, ...]:

@@ -6,7 +6,12 @@ use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
 objects! {
-    Solutions { merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower> }
+    Solutions {
+        merges: Vec<Merge>, upper: Option<Upper>, lower: Option<Lower>,
+        product: Optional<Vec<Factor>>,
+    }
+    Factor { with: Vec<usize>, solutions: Box<Solutions>, rigid: Option<Rigid> }
+    Rigid { chart: Chart, centres: Centres }
     Merge {
         rule: String, with: Vec<usize>, at: Vec<u32>, solutions: Option<Box<Solutions>>,
     }

@@ -7,7 +7,7 @@ use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
-type Nodes = BTreeSet<u32>;
+pub(super) type Nodes = BTreeSet<u32>;
 
 /// Members by their numbers, each with its shared nodes; `None` for those that were used up.
 pub(super) struct Members(Vec<Option<Nodes>>);
@@ -46,6 +46,16 @@ impl Members {
         }
         self.0.push(Some(taken.into_iter().flatten().collect()));
         Ok(())
+    }
+
+    /// The nodes of a member that is left.
+    pub fn get(&self, number: usize) -> Option<&Nodes> {
+        self.0.get(number)?.as_ref()
+    }
+
+    /// The numbers of the members that are left.
+    pub fn numbers(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.0.len()).filter(|&number| self.0[number].is_some())
     }
 
     fn take(&mut self, number: usize) -> Checked<Nodes> {

@@ -5,6 +5,7 @@
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`, less those `outside`), a lower one from simple points of a tight core (`simple`).
+//! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`, `number`).
 //! `dense` has the linear algebra, `grammar` the text.
 
 mod chart;
@@ -13,8 +14,10 @@ pub(crate) mod grammar;
 mod linear;
 mod members;
 mod minors;
+mod number;
 mod outside;
 mod points;
+mod product;
 mod simple;
 mod support;
 mod system;
@@ -28,28 +31,29 @@ use crate::structure::{Part, Structure};
 use chart::Chart;
 use grammar::{Lower, Solutions, Upper};
 use members::Members;
+pub use number::Number;
 use std::fmt;
 use system::{Known, System};
 
 /// What is known of the number of solutions, as a proof.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Count {
     /// There are as many solutions at least.
-    pub at_least: usize,
+    pub at_least: Number,
     /// There are no more, if that was shown.
-    pub at_most: Option<usize>,
+    pub at_most: Option<Number>,
 }
 
 impl Count {
     /// Whether there is just one solution.
-    pub fn is_one(self) -> bool {
-        self.at_most == Some(1)
+    pub fn is_one(&self) -> bool {
+        self.at_most.as_ref().is_some_and(|most| *most == 1)
     }
 }
 
 impl fmt::Display for Count {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.at_least, self.at_most) {
+        match (&self.at_least, &self.at_most) {
             (least, Some(most)) if least == most => write!(f, "exactly {least}"),
             (least, Some(most)) => write!(f, "{least} to {most}"),
             (least, None) => write!(f, "at least {least}"),
@@ -81,17 +85,12 @@ pub(crate) fn check(
     let nodes = members
         .iter()
         .map(|&member| structure.nodes_of(member).to_vec());
-    let found = bounds(
+    bounds(
         evidence,
         Members::new(nodes.collect()),
         structure.setting.meter,
         Of::Graph,
-    )?;
-    ensure!(
-        found.at_most.is_none_or(|most| most >= found.at_least),
-        "the bounds contradict each other"
-    );
-    Ok(found)
+    )
 }
 
 /// What the evidence is about.
@@ -101,45 +100,70 @@ enum Of {
     Graph,
     /// A part, of which that is to be shown.
     Part,
+    /// A factor of a graph, of which that is known as well; its number may stay open.
+    Factor,
 }
 
 /// What the evidence about some members gives.
 fn bounds(evidence: &Solutions, mut members: Members, meter: &Meter, of: Of) -> Checked<Count> {
     ensure!(
-        of == Of::Graph || evidence.lower.is_none(),
+        of != Of::Part || evidence.lower.is_none(),
         "a lower bound for a part, of which one solution is to be shown"
+    );
+    ensure!(
+        of != Of::Part || evidence.product.0.is_none(),
+        "a product for a part, of which one solution is to be shown"
     );
     for (k, merge) in evidence.merges.iter().enumerate() {
         let merged = members.merge(merge, meter);
         merged.within(|| format!("merges[{k}]"))?;
     }
-    let left = members.left();
+    let found = match &evidence.product.0 {
+        Some(factors) => {
+            ensure!(
+                evidence.upper.is_none() && evidence.lower.is_none(),
+                "a product, and bounds besides"
+            );
+            product::check(factors, &members, meter)?
+        }
+        None => of_core(evidence, &members.left(), meter, of)?,
+    };
+    let most = found.at_most.as_ref();
+    ensure!(
+        most.is_none_or(|most| *most >= found.at_least),
+        "the bounds contradict each other"
+    );
+    Ok(found)
+}
+
+/// What the evidence about the core of the members that are left gives.
+fn of_core(evidence: &Solutions, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<Count> {
     if left.len() == 1 {
         ensure!(
             evidence.upper.is_none() && evidence.lower.is_none(),
             "one member is left, and nothing else is to be shown"
         );
         return Ok(Count {
-            at_least: 1,
-            at_most: Some(1),
+            at_least: Number::from(1),
+            at_most: Some(Number::from(1)),
         });
     }
     ensure!(
-        evidence.upper.is_some() || evidence.lower.is_some(),
+        of == Of::Factor || evidence.upper.is_some() || evidence.lower.is_some(),
         "neither an upper nor a lower bound"
     );
     let at_most = evidence.upper.as_ref().map(|upper| {
-        let most = at_most(upper, &left, meter, of);
+        let most = at_most(upper, left, meter, of);
         most.within(|| "upper".into())
     });
     let at_most = at_most.transpose()?;
     let at_least = evidence.lower.as_ref().map(|lower| {
-        let least = at_least(lower, &left, meter);
+        let least = at_least(lower, left, meter);
         least.within(|| "lower".into())
     });
     Ok(Count {
-        at_least: at_least.transpose()?.unwrap_or(1),
-        at_most,
+        at_least: Number::from(at_least.transpose()?.unwrap_or(1) as u64),
+        at_most: at_most.map(|most| Number::from(most as u64)),
     })
 }
 
@@ -177,9 +201,6 @@ fn at_least(lower: &Lower, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
 fn check_part(evidence: &Solutions, members: Vec<Vec<u32>>, meter: &Meter) -> Checked<()> {
     let found = bounds(evidence, Members::new(members), meter, Of::Part);
     let found = found.within(|| "solutions".into())?;
-    ensure!(
-        found.at_most == Some(1),
-        "the part is not shown to have one solution"
-    );
+    ensure!(found.is_one(), "the part is not shown to have one solution");
     Ok(())
 }

@@ -102,7 +102,10 @@ impl<'a> Document<'a> {
         let components = verdict.components_claim();
         let known = solutions.map(|solutions| solutions::view(verdict, solutions));
         let (claimed, evidence) = known.transpose()?.flatten().unzip();
-        if evidence.is_some() && solutions.and_then(Solutions::exactly) == Some(1) {
+        if evidence.is_some()
+            && solutions
+                .is_some_and(|solutions| solutions.at_most.as_ref().is_some_and(|most| *most == 1))
+        {
             value.value = Value::Solvable;
         }
         Ok(Self {

@@ -8,8 +8,8 @@ use super::objects::{Big, bigs, objects};
 use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::solutions::{
-    AtMost, Chart, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule, Solutions,
-    Upper,
+    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, Number, One, Outside, Part, Place,
+    Rule, Solutions, Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -32,8 +32,8 @@ impl std::error::Error for ForeignSolutions {}
 
 objects! {
     ClaimedSolutions {
-        at_least: usize,
-        at_most: Option<usize>,
+        at_least: Number,
+        at_most: Option<Number>,
         strength: &'static str,
         error_log2: Option<i64>,
     }
@@ -42,6 +42,18 @@ objects! {
         merges: Vec<MergeView<'a>>,
         upper: Option<UpperView<'a>>,
         lower: Option<LowerView<'a>>,
+        ; optional product: Vec<FactorView<'a>>
+    }
+
+    FactorView<'a> {
+        with: Vec<usize>,
+        solutions: Nested<'a>,
+        rigid: Option<PlaceView<'a>>,
+    }
+
+    PlaceView<'a> {
+        chart: ChartView<'a>,
+        centres: CentresView<'a>,
     }
 
     MergeView<'a> {
@@ -152,8 +164,8 @@ pub(super) fn view<'a>(
     let edges = piece.members.edges.iter().map(|&(i, j)| vec![i, j]);
     let view = Live::new(bodies.chain(edges).collect()).view(solutions)?;
     let claimed = ClaimedSolutions {
-        at_least: solutions.at_least,
-        at_most: solutions.at_most,
+        at_least: solutions.at_least.clone(),
+        at_most: solutions.at_most.clone(),
         strength: "proof",
         error_log2: None,
     };
@@ -183,10 +195,43 @@ impl Live {
         for chart in charts.chain(lower.map(|lower| &lower.place.chart)) {
             self.see_to(chart)?;
         }
+        let factors = solutions.product.iter().map(|factor| self.factor(factor));
+        let factors = factors.collect::<Result<Vec<_>, _>>()?;
         Ok(SolutionsView {
             merges,
             upper: upper.map(UpperView::new),
             lower: lower.map(LowerView::new),
+            product: (!factors.is_empty()).then_some(factors),
+        })
+    }
+
+    /// A member that is left, with these nodes.
+    fn number(&self, nodes: &[u32]) -> Result<usize, ForeignSolutions> {
+        let mut nodes = nodes.to_vec();
+        nodes.sort_unstable();
+        let found = self.members.iter().find(|(_, other)| **other == nodes);
+        found.map(|(&number, _)| number).ok_or(ForeignSolutions)
+    }
+
+    fn factor<'a>(&self, factor: &'a Factor) -> Result<FactorView<'a>, ForeignSolutions> {
+        let with = factor.members.iter().map(|nodes| self.number(nodes));
+        let mut with = with.collect::<Result<Vec<usize>, _>>()?;
+        with.sort_unstable();
+        let members = with.iter().map(|number| self.members[number].clone());
+        let members: Vec<Vec<u32>> = members.collect();
+        let rigid = factor.rigid.as_ref().map(|place| {
+            Self::new(members.clone()).see_to(&place.chart)?;
+            Ok(PlaceView {
+                chart: ChartView::new(&place.chart),
+                centres: CentresView::new(place),
+            })
+        });
+        let pairs = factor.pairs.iter().map(|pair| pair.to_vec());
+        let inner = Self::new(members.into_iter().chain(pairs).collect());
+        Ok(FactorView {
+            with,
+            solutions: Nested(Box::new(inner.view(&factor.solutions)?)),
+            rigid: rigid.transpose()?,
         })
     }
 
@@ -195,12 +240,8 @@ impl Live {
         let mut with = Vec::with_capacity(merge.members.len());
         let mut merged = Vec::new();
         for nodes in &merge.members {
-            let mut nodes = nodes.clone();
-            nodes.sort_unstable();
-            let found = self.members.iter().find(|(_, other)| **other == nodes);
-            let number = *found.ok_or(ForeignSolutions)?.0;
-            self.members.remove(&number);
-            with.push((number, nodes));
+            let number = self.number(nodes)?;
+            with.push((number, self.members.remove(&number).unwrap_or_default()));
         }
         with.sort_unstable();
         let solutions = merge.grown.as_ref().map(|solutions| {

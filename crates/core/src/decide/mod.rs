@@ -67,6 +67,7 @@ use crate::decide::evidence::{Evidence, PieceVerdict};
 use crate::geometry::model::Model;
 use crate::geometry::placed::Placed;
 use crate::graph::{Displacements, Graph, KnownParts, sha256};
+use crate::solutions::nodes_of;
 use crate::watch::{Step, Stopped};
 use std::sync::Arc;
 
@@ -170,8 +171,15 @@ impl Found<'_> {
         let value = self.value(rank, &contraction);
         let value_strength = self.strength(value, upper);
         let solutions = self.solutions(value, &contraction)?;
-        let is_one = solutions.as_ref().and_then(SolutionCount::exactly) == Some(1);
+        let is_one = solutions.as_ref().is_some_and(SolutionCount::is_one);
         let contraction = Arc::new(contraction);
+        let mut components = self.components(&contraction);
+        match &solutions {
+            Some(_) => components
+                .iter_mut()
+                .for_each(|all| all.solutions = solutions.clone()),
+            None => self.count_in_components(&mut components, &contraction)?,
+        }
         Ok(Verdict {
             model: self.model(),
             known_parts: self.known_parts.clone(),
@@ -182,7 +190,7 @@ impl Found<'_> {
             solutions,
             rank,
             required: self.required(),
-            components: self.components(&contraction),
+            components,
             contraction,
             by_rank: self.by_rank,
             rigid: self.rigid,
@@ -240,26 +248,63 @@ impl Found<'_> {
         value: Value,
         contraction: &Contraction,
     ) -> Result<Option<SolutionCount>, Stopped> {
-        let effort = match &self.options.question {
+        Ok(match value {
+            Value::Solvable => Some(SolutionCount::one()),
+            Value::FiniteSolvable => {
+                let effort = self.effort(contraction);
+                Some(self.count(contraction, &contraction.finals, &contraction.loose, effort)?)
+            }
+            Value::NotFiniteSolvable => None,
+        })
+    }
+
+    /// How much is spent on counting. It is done between bodies that are unique.
+    fn effort(&self, contraction: &Contraction) -> CountSolutions {
+        match &self.options.question {
             Question::Projective(Projective {
                 method: Method::Bodies(bodies),
                 ..
             }) if contraction.by_rank.is_empty() => bodies.solutions,
             _ => CountSolutions::Off,
-        };
-        let seed = self.options.seed;
+        }
+    }
+
+    /// The number of solutions of what some bodies and edges form, which is finite solvable.
+    fn count(
+        &self,
+        contraction: &Contraction,
+        bodies: &[u32],
+        edges: &[(u32, u32)],
+        effort: CountSolutions,
+    ) -> Result<SolutionCount, Stopped> {
+        let members = nodes_of(contraction, bodies, edges);
         let task = self.options.watch.task(Step::Solutions, self.graph.nodes());
-        Ok(match value {
-            Value::Solvable => Some(SolutionCount::one()),
-            Value::FiniteSolvable => Some(SolutionCount::of(
-                self.graph,
-                contraction,
-                effort,
-                seed,
-                &task,
-            )?),
-            Value::NotFiniteSolvable => None,
-        })
+        SolutionCount::of(self.graph, members, effort, self.options.seed, &task)
+    }
+
+    /// The numbers of solutions of components, each by itself. A quick count ends with the first that
+    /// stays open.
+    fn count_in_components(
+        &self,
+        components: &mut [Component],
+        contraction: &Contraction,
+    ) -> Result<(), Stopped> {
+        let mut effort = self.effort(contraction);
+        for component in components {
+            let (bodies, edges) = (&component.members.bodies, &component.members.edges);
+            let is_one = self.model() != Model::Projective
+                || bodies.len() + edges.len() == 1 && contraction.by_rank.is_empty();
+            let count = match is_one {
+                true => SolutionCount::one(),
+                false => self.count(contraction, bodies, edges, effort)?,
+            };
+            let is_open = count.at_most.is_none() && count.evidence.is_some();
+            if effort == CountSolutions::Quick && is_open {
+                effort = CountSolutions::Off;
+            }
+            component.solutions = Some(count);
+        }
+        Ok(())
     }
 
     /// How strong the answer is: full rank and a bound below it are proofs.

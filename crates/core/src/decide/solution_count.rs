@@ -1,23 +1,24 @@
 //! The number of solutions, as part of a verdict (docs/theory.md, section 10).
 //!
-//! In: a graph that is finite solvable, and its contraction. Out: how many solutions there are at
+//! In: a graph or component that is finite solvable, as bodies and edges. Out: how many solutions there are at
 //! least and at most, with the evidence. A body and the calibrated model have one (Corollary 4.2,
 //! Theorem 4.8); what is left is counted by [`mod@crate::solutions`].
 
-use crate::contract::Contraction;
 use crate::decide::claim::Strength;
 use crate::decide::question::CountSolutions;
 use crate::graph::Graph;
-use crate::solutions::{Effort, Solutions, count_in};
+use crate::solutions::{Effort, Number, Plan, Size, Solutions, count_in};
 use crate::watch::{Stopped, Task};
-use crate::wording::counted;
 use std::fmt;
 use std::sync::Arc;
 
 /// The most nodes that the members of a core may share for a quick count, and the most unknown
 /// scales. What a count costs grows with the fourth power of the unknowns and the third one of the
 /// nodes; with so many of both it takes some milliseconds, and about a second where it fails.
-const QUICK: [usize; 2] = [12, 6];
+const QUICK: Size = Size {
+    nodes: 12,
+    unknowns: 6,
+};
 
 /// What is known of the number of solutions of a finite solvable graph: of the classes of cameras
 /// with its fundamental matrices, at generic cameras and over the complex numbers.
@@ -25,9 +26,11 @@ const QUICK: [usize; 2] = [12, 6];
 #[non_exhaustive]
 pub struct SolutionCount {
     /// There are as many at least; the cameras themselves are one.
-    pub at_least: usize,
+    pub at_least: Number,
     /// There are no more than that, if such a bound is known.
-    pub at_most: Option<usize>,
+    pub at_most: Option<Number>,
+    /// Whether a quick count left out what a full one, which takes about a second more, often settles.
+    pub full_may_tell_more: bool,
     /// What the bounds rest on, where contraction and the model alone do not show them.
     pub evidence: Option<Arc<Solutions>>,
 }
@@ -36,45 +39,54 @@ impl SolutionCount {
     /// One solution, by contraction or by the model.
     pub(super) fn one() -> Self {
         Self {
-            at_least: 1,
-            at_most: Some(1),
+            at_least: Number::one(),
+            at_most: Some(Number::one()),
+            full_may_tell_more: false,
             evidence: None,
         }
     }
 
-    /// Counts the solutions of a finite solvable graph in the projective model, or says that one
-    /// there is.
+    /// Counts the solutions of a part of a graph that is finite solvable, in the projective model, or
+    /// says that one there is.
     ///
     /// # Errors
     /// If the work is stopped.
     pub(super) fn of(
         graph: &Graph,
-        contraction: &Contraction,
+        members: Vec<Vec<u32>>,
         effort: CountSolutions,
         seed: u64,
         task: &Task<'_>,
     ) -> Result<Self, Stopped> {
-        let [nodes, unknowns] = size(graph, contraction);
-        let worth_it = match effort {
-            CountSolutions::Off => false,
-            CountSolutions::Quick => nodes <= QUICK[0] && unknowns <= QUICK[1],
-            CountSolutions::Full => true,
+        let plan = Plan {
+            effort: Effort::default(),
+            quick: (effort == CountSolutions::Quick).then_some(QUICK),
+            is_finite: true,
         };
-        let found = if worth_it {
-            count_in(graph, contraction, Effort::default(), seed, task)?
-        } else {
-            None
+        let (found, left_out) = match effort {
+            CountSolutions::Off => (None, false),
+            CountSolutions::Quick | CountSolutions::Full => {
+                count_in(graph, members, plan, seed, task)?
+            }
         };
         Ok(Self {
-            at_least: found.as_ref().map_or(1, |found| found.at_least),
-            at_most: found.as_ref().and_then(|found| found.at_most),
+            at_least: found
+                .as_ref()
+                .map_or(Number::one(), |found| found.at_least.clone()),
+            at_most: found.as_ref().and_then(|found| found.at_most.clone()),
+            full_may_tell_more: left_out,
             evidence: found.map(Arc::new),
         })
     }
 
     /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<usize> {
-        self.at_most.filter(|&most| most == self.at_least)
+    pub fn exactly(&self) -> Option<&Number> {
+        self.at_most.as_ref().filter(|&most| *most == self.at_least)
+    }
+
+    /// Whether there is just one solution.
+    pub fn is_one(&self) -> bool {
+        self.at_most.as_ref().is_some_and(|most| *most == 1)
     }
 
     /// How strong both bounds are: they are proofs, whatever was drawn.
@@ -83,42 +95,20 @@ impl SolutionCount {
     }
 }
 
-/// The nodes that members share, and the scales that are unknown in a chart of them
-/// (sum of the shared nodes of all members, less nodes, less members, plus one).
-fn size(graph: &Graph, contraction: &Contraction) -> [usize; 2] {
-    let mut members = vec![0u32; graph.nodes()];
-    let bodies = contraction.finals.iter();
-    let in_bodies = bodies.flat_map(|&k| &contraction.bodies[k as usize].nodes);
-    let in_edges = contraction.loose.iter().flat_map(|&(i, j)| [i, j]);
-    for v in in_bodies.copied().chain(in_edges) {
-        members[v as usize] += 1;
-    }
-    let shared = members.iter().filter(|&&count| count > 1);
-    let (nodes, places) = shared.fold((0, 0), |(nodes, places), &count| {
-        (nodes + 1, places + count as usize)
-    });
-    let all = contraction.finals.len() + contraction.loose.len();
-    [nodes, (places + 1).saturating_sub(nodes + all)]
-}
-
 /// "exactly 2 solutions", "at least 2 and at most 4 solutions"; what is said of the number where
 /// nothing but its finiteness is known is "finitely many solutions".
 impl fmt::Display for SolutionCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.at_least, self.at_most) {
-            (least, Some(most)) if least == most => {
-                write!(f, "exactly {}", counted(least, "solution"))
-            }
-            (1, None) => f.write_str("finitely many solutions"),
-            (least, None) => write!(f, "at least {}", counted(least, "solution")),
-            (1, Some(most)) => write!(f, "at most {}", counted(most, "solution")),
-            (least, Some(most)) => {
-                write!(
-                    f,
-                    "at least {least} and at most {}",
-                    counted(most, "solution")
-                )
-            }
+        let solutions = |number: &Number| match *number == 1 {
+            true => format!("{number} solution"),
+            false => format!("{number} solutions"),
+        };
+        match (&self.at_least, &self.at_most) {
+            (least, Some(most)) if least == most => write!(f, "exactly {}", solutions(least)),
+            (least, None) if *least == 1 => f.write_str("finitely many solutions"),
+            (least, None) => write!(f, "at least {}", solutions(least)),
+            (least, Some(most)) if *least == 1 => write!(f, "at most {}", solutions(most)),
+            (least, Some(most)) => write!(f, "at least {least} and at most {}", solutions(most)),
         }
     }
 }
@@ -130,16 +120,20 @@ mod tests {
     use crate::geometry::model::Model;
     use crate::graph::graph6;
 
+    fn small(number: &Number) -> u64 {
+        number.try_into().unwrap()
+    }
+
     #[test]
     fn in_words() {
-        let words = |at_least, at_most| {
-            let evidence = None;
+        let words = |at_least: usize, at_most: Option<usize>| {
             let count = SolutionCount {
-                at_least,
-                at_most,
-                evidence,
+                at_least: at_least.into(),
+                at_most: at_most.map(Number::from),
+                full_may_tell_more: false,
+                evidence: None,
             };
-            (count.to_string(), count.exactly())
+            (count.to_string(), count.exactly().map(small))
         };
         assert_eq!(words(1, Some(1)), ("exactly 1 solution".into(), Some(1)));
         assert_eq!(words(2, Some(2)), ("exactly 2 solutions".into(), Some(2)));
@@ -148,15 +142,6 @@ mod tests {
         assert_eq!(words(1, Some(3)), ("at most 3 solutions".into(), None));
         let between = "at least 2 and at most 3 solutions";
         assert_eq!(words(2, Some(3)), (between.into(), None));
-    }
-
-    /// A cycle of six has six nodes, and six edges with two of them each: one unknown scale.
-    #[test]
-    fn unknowns_of_a_cycle() {
-        let pairs = (0..6).map(|i| (i, (i + 1) % 6)).collect();
-        let (cycle, _) = Graph::from_pairs(6, pairs).unwrap();
-        let contraction = Contraction::new(&cycle, Model::Projective);
-        assert_eq!(size(&cycle, &contraction), [6, 1]);
     }
 
     /// Of the 27 graphs with nine nodes and twelve edges ten have two solutions, of those with
@@ -168,7 +153,8 @@ mod tests {
             let options = Options::default().question(question);
             let verdict = decide(&graph, &options).unwrap();
             let solutions = verdict.solutions.clone();
-            let bounds = solutions.map(|count| (count.at_least, count.at_most));
+            let bounds =
+                solutions.map(|count| (small(&count.at_least), count.at_most.as_ref().map(small)));
             (verdict.value, bounds, verdict.value_by_rank())
         };
         use CountSolutions::{Full, Off, Quick};

@@ -37,6 +37,9 @@ named! {
 pub struct Component {
     /// The bodies and loose edges it consists of.
     pub members: Members,
+    /// How many solutions there are if it is taken by itself; `None` where that was not asked for.
+    /// What this rests on is not part of certificates, which count for whole graphs.
+    pub solutions: Option<SolutionCount>,
     nodes: usize,
     edges: usize,
     contraction: Arc<Contraction>,
@@ -51,6 +54,7 @@ impl Component {
             nodes,
             edges: members.edges.len() + of_bodies.sum::<usize>(),
             members,
+            solutions: None,
             contraction: Arc::clone(contraction),
         }
     }

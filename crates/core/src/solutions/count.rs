@@ -1,10 +1,12 @@
 //! How many solutions: what is tried, in which order.
 
 use super::chart::Core;
-use super::evidence::{AtMost, Lower, One, Place, Solutions, Upper};
+use super::evidence::{AtMost, Factor, Lower, One, Place, Solutions, Upper};
 use super::linear::settle;
-use super::members::{Members, Set, bits, shared};
+use super::members::{MOST_NODES, Members, Set, bits, nodes_of, shared};
+use super::number::Number;
 use super::points::{NoBound, at_most};
+use super::product;
 use super::simple::{self, Point};
 use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
@@ -14,7 +16,8 @@ use crate::geometry::model::Model;
 use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
-use std::collections::BTreeSet;
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,39 +59,107 @@ impl Default for Effort {
     }
 }
 
+/// How large a core is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    /// Nodes that its members share.
+    pub(crate) nodes: usize,
+    /// Unknown scales in a chart: the sum of the shared nodes of all members, less nodes, less
+    /// members, plus one.
+    pub(crate) unknowns: usize,
+}
+
+impl Size {
+    /// Of members with these nodes.
+    fn of(members: &[Vec<u32>]) -> Self {
+        let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+        for &v in members.iter().flatten() {
+            *count.entry(v).or_default() += 1;
+        }
+        let shared = count.values().filter(|&&count| count > 1);
+        let places: usize = shared.clone().sum();
+        let nodes = shared.count();
+        Self {
+            nodes,
+            unknowns: (places + 1).saturating_sub(nodes + members.len()),
+        }
+    }
+
+    fn is_within(self, most: Self) -> bool {
+        self.nodes <= most.nodes && self.unknowns <= most.unknowns
+    }
+}
+
+/// What is looked at, and how much is tried.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    pub(crate) effort: Effort,
+    /// The largest core that is counted; with `None` all are. With a limit, what costs little is looked
+    /// at: after a core of which the number stays open no other one is.
+    pub(crate) quick: Option<Size>,
+    /// Whether the graph is known to be finite solvable; otherwise that is to be shown.
+    pub(crate) is_finite: bool,
+}
+
+/// With more members times places a quick count does not look for factors, and with more nodes times
+/// places not for joints that are pairs of nodes: some ten milliseconds each.
+const MOST_SEARCHED: [usize; 2] = [1 << 22, 1 << 16];
+
 /// Bounds for the number of solutions of a graph, in the projective model; `None` if it is not
 /// proved here that the graph is finite solvable, or if members share more than
-/// [`MOST_NODES`](super::members::MOST_NODES) nodes.
+/// [`MOST_NODES`](super::members::MOST_NODES) nodes and fall into no smaller factors.
 ///
 /// Bounds are proofs, whatever was drawn (docs/theory.md, section 10). `seed` selects centres.
 /// Nothing stops this; [`decide`](crate::decide::decide) counts under a watch.
 pub fn count(graph: &Graph, effort: Effort, seed: u64) -> Option<Solutions> {
     let contraction = Contraction::new(graph, Model::Projective);
-    unwatched(|task| count_in(graph, &contraction, effort, seed, task))
+    let plan = Plan {
+        effort,
+        quick: None,
+        is_finite: false,
+    };
+    let members = nodes_of(&contraction, &contraction.finals, &contraction.loose);
+    let covered: BTreeSet<u32> = members.iter().flatten().copied().collect();
+    if covered.len() < graph.nodes() || graph.nodes() < 2 {
+        return None;
+    }
+    unwatched(|task| count_in(graph, members, plan, seed, task)).0
 }
 
-/// As [`count`], with the contraction of the graph in the projective model.
+/// As [`count`], for the part of a graph that uniquely determined members with these nodes form: bodies
+/// and edges of its contraction in the projective model. Also whether a quick count left out what a
+/// full one tries.
 ///
 /// # Errors
 /// If the work is stopped.
 pub(crate) fn count_in(
     graph: &Graph,
-    contraction: &Contraction,
-    effort: Effort,
+    mut members: Vec<Vec<u32>>,
+    plan: Plan,
     seed: u64,
     task: &Task<'_>,
-) -> Result<Option<Solutions>, Stopped> {
-    let Some(mut members) = Members::new(graph, contraction) else {
-        return Ok(None);
-    };
-    if graph.nodes() < 2 || members.sets.is_empty() {
-        return Ok(None);
-    }
+) -> Result<(Option<Solutions>, bool), Stopped> {
+    retain_shared(&mut members);
     let work = task.at(Step::Solutions).begin(0);
-    let found = count_members(&mut members, effort, &Draws::new(graph, seed, &work));
+    let draws = Draws::new(graph, seed, &work);
+    let found = match count_product(&members, plan, &draws) {
+        Some(found) => found,
+        None => count_members(&members, plan, &draws),
+    };
     // What was found after a stop is not all that there is.
     work.done(0)?;
-    Ok(found)
+    Ok((found, draws.left_out.get()))
+}
+
+/// Leaves of each member the nodes that lie in two at least.
+fn retain_shared(members: &mut [Vec<u32>]) {
+    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+    for &v in members.iter().flatten() {
+        *count.entry(v).or_default() += 1;
+    }
+    for nodes in members {
+        nodes.retain(|v| count[v] > 1);
+    }
 }
 
 /// Where centres and other random values come from, and what may stop the work on them.
@@ -96,6 +167,8 @@ pub(super) struct Draws<'w> {
     field: PrimeField,
     key: DrawKey,
     work: &'w Work<'w>,
+    /// Whether a core was left out that is not too large for a full count.
+    left_out: Cell<bool>,
 }
 
 impl<'w> Draws<'w> {
@@ -110,6 +183,7 @@ impl<'w> Draws<'w> {
             field: PrimeField::mersenne61(),
             key,
             work,
+            left_out: Cell::new(false),
         }
     }
 
@@ -125,6 +199,28 @@ impl<'w> Draws<'w> {
             .map(|drawn| drawn.values)
     }
 
+    /// Says that a core was left out. What has more unknowns a full count seldom settles.
+    fn leave_out(&self, size: Size) {
+        if size.unknowns <= MOST_UNKNOWNS && size.nodes <= MOST_NODES {
+            self.left_out.set(true);
+        }
+    }
+
+    /// A core and where it is looked at.
+    fn place(&self, core: &Core, centres: &[[u64; 3]]) -> Place {
+        let centre = |c: &[u64; 3]| c.map(|x| self.field.to_u64(x));
+        Place {
+            chart: core.chart(),
+            prime: self.field.modulus(),
+            centres: core
+                .nodes
+                .iter()
+                .copied()
+                .zip(centres.iter().map(centre))
+                .collect(),
+        }
+    }
+
     fn residues(&self, draw: usize) -> impl FnMut() -> u64 + use<> {
         DrawKey {
             draw: draw as u64,
@@ -134,19 +230,99 @@ impl<'w> Draws<'w> {
     }
 }
 
+/// Bounds for what falls into factors, the outer `None` if it does not. The inner one is that of
+/// [`count`].
+fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<Option<Solutions>> {
+    let places: usize = members.iter().map(Vec::len).sum();
+    let [most, of_pairs] = match plan.quick {
+        Some(_) => MOST_SEARCHED,
+        None => [usize::MAX; 2],
+    };
+    if members.len().saturating_mul(places) > most {
+        return None;
+    }
+    let is_rigid = |part: &[&[u32]]| rigid(part, draws).is_some();
+    let factors = product::factors(members, is_rigid, of_pairs, draws.work);
+    if factors.len() < 2 {
+        return None;
+    }
+    let mut is_open = false;
+    let mut found = Vec::with_capacity(factors.len());
+    for product::Factor {
+        members: places,
+        pairs,
+    } in factors
+    {
+        let lists: Vec<Vec<u32>> = places.iter().map(|&k| members[k].clone()).collect();
+        let all = lists
+            .iter()
+            .cloned()
+            .chain(pairs.iter().map(|pair| pair.to_vec()));
+        let all: Vec<Vec<u32>> = all.collect();
+        let counted = match is_open {
+            false => count_members(&all, plan, draws),
+            true => {
+                draws.leave_out(Size::of(&all));
+                None
+            }
+        };
+        is_open |= plan.quick.is_some() && counted.as_ref().is_some_and(|of| of.at_most.is_none());
+        let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(&all)));
+        let Some(solutions) = known else {
+            return Some(None);
+        };
+        let slices: Vec<&[u32]> = lists.iter().map(Vec::as_slice).collect();
+        found.push(Factor {
+            rigid: match pairs.is_empty() {
+                true => None,
+                false => Some(rigid(&slices, draws)?),
+            },
+            members: lists,
+            pairs,
+            solutions,
+        });
+    }
+    Some(Some(Solutions::product(members, found)))
+}
+
+/// Where u = 1 shows that members form what is finite solvable (Lemma 10.9).
+fn rigid(members: &[&[u32]], draws: &Draws<'_>) -> Option<Place> {
+    let lists: Vec<Vec<u32>> = members.iter().map(|member| member.to_vec()).collect();
+    let core = Core::new(&Members::unmerged(&lists)?, 0)?;
+    let centres = draws.centres(core.nodes.len(), 0)?;
+    let system = System::new(draws.field, &core, &centres)?;
+    is_finite_solvable(&system).then(|| draws.place(&core, &centres))
+}
+
 /// Bounds for a core; if they do not meet, parts of it that have one solution become members.
-fn count_members(members: &mut Members, effort: Effort, draws: &Draws<'_>) -> Option<Solutions> {
-    let mut best = count_core(members, effort, draws)?;
-    let excess = best.excess;
-    while best.exactly().is_none() {
-        let Some((inside, evidence)) = unique_part(members, draws) else {
+fn count_members(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<Solutions> {
+    let size = Size::of(members);
+    if plan.quick.is_some_and(|most| !size.is_within(most)) {
+        draws.leave_out(size);
+        return None;
+    }
+    let mut members = Members::new(members)?;
+    let excess = (members.sets.len() > 1).then(|| members.excess());
+    let mut counted;
+    loop {
+        if !members.merges.is_empty()
+            && let Some(found) = count_product(&members.lists(), plan, draws)
+        {
+            counted = found?;
+            counted.merges = members.merges;
+            break;
+        }
+        counted = count_core(&members, plan.effort, draws)?;
+        if counted.exactly().is_some() {
+            break;
+        }
+        let Some((inside, evidence)) = unique_part(&members, draws) else {
             break;
         };
         members.grow(inside, evidence);
-        best = count_core(members, effort, draws)?;
     }
-    best.excess = excess;
-    Some(best)
+    counted.excess = excess;
+    Some(counted)
 }
 
 /// Most nodes of a core whose parts are looked through.
@@ -211,11 +387,11 @@ fn grown_part(members: &Members, draws: &Draws<'_>) -> Option<(Set, Solutions)> 
 fn unique(part: &Members, draws: &Draws<'_>) -> Option<Solutions> {
     let mut found = Solutions::none(part);
     if part.sets.len() == 1 {
-        found.at_most = Some(1);
+        found.at_most = Some(Number::one());
         return Some(found);
     }
     Charted::new(part, 0, draws)?.conclude(draws, &mut found);
-    (found.exactly() == Some(1)).then_some(found)
+    found.is_one().then_some(found)
 }
 
 /// Bounds for a core, chart after chart. What costs little in every chart comes before what costs
@@ -223,7 +399,7 @@ fn unique(part: &Members, draws: &Draws<'_>) -> Option<Solutions> {
 fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<Solutions> {
     let mut best = Solutions::none(members);
     if members.sets.len() == 1 {
-        best.at_most = Some(1);
+        best.at_most = Some(Number::one());
         return Some(best);
     }
     let core = Core::new(members, 0)?;
@@ -256,23 +432,57 @@ impl Solutions {
     /// Nothing is known beyond the merges.
     fn none(members: &Members) -> Self {
         Self {
-            at_least: 1,
+            at_least: Number::one(),
             at_most: None,
             merges: members.merges.clone(),
             upper: None,
             lower: None,
+            product: Vec::new(),
             excess: (members.sets.len() > 1).then(|| members.excess()),
         }
     }
 
+    /// Nothing is known of members with these nodes.
+    fn nothing(members: &[Vec<u32>]) -> Self {
+        Self {
+            at_least: Number::one(),
+            at_most: None,
+            merges: Vec::new(),
+            upper: None,
+            lower: None,
+            product: Vec::new(),
+            excess: Some(product::excess(members.iter().map(Vec::as_slice))),
+        }
+    }
+
+    /// What factors of members with these nodes give (Corollary 10.17).
+    fn product(members: &[Vec<u32>], factors: Vec<Factor>) -> Self {
+        let all = || factors.iter().map(|factor| &factor.solutions);
+        Self {
+            at_least: all().map(|of| of.at_least.clone()).product(),
+            at_most: all()
+                .map(|of| of.at_most.clone())
+                .collect::<Option<Vec<_>>>()
+                .map(|most| most.into_iter().product()),
+            product: factors,
+            ..Self::nothing(members)
+        }
+    }
+
+    fn is_one(&self) -> bool {
+        self.exactly().is_some_and(|exactly| *exactly == 1)
+    }
+
     fn lower(&mut self, at_least: usize, lower: impl FnOnce() -> Lower) {
+        let at_least = Number::from(at_least);
         if at_least > self.at_least {
             (self.at_least, self.lower) = (at_least, Some(lower()));
         }
     }
 
     fn upper(&mut self, at_most: usize, upper: impl FnOnce() -> Upper) {
-        if self.at_most.is_none_or(|known| at_most < known) {
+        let at_most = Number::from(at_most);
+        if self.at_most.as_ref().is_none_or(|known| at_most < *known) {
             (self.at_most, self.upper) = (Some(at_most), Some(upper()));
         }
     }
@@ -340,13 +550,7 @@ impl Charted {
     }
 
     fn place(&self, draws: &Draws<'_>, centres: &[[u64; 3]]) -> Place {
-        let centre = |c: &[u64; 3]| c.map(|x| draws.field.to_u64(x));
-        let nodes = self.core.nodes.iter().copied();
-        Place {
-            chart: self.core.chart(),
-            prime: draws.field.modulus(),
-            centres: nodes.zip(centres.iter().map(centre)).collect(),
-        }
+        draws.place(&self.core, centres)
     }
 
     /// Bounds by points in the few unknowns whose spans are known.

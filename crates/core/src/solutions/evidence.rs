@@ -1,19 +1,24 @@
 //! What bounds for the number of solutions rest on: the data of docs/certificate.md, section 12, as
 //! they are found.
 
+use super::number::Number;
+
 /// What is known of the number of solutions of a finite solvable graph, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Solutions {
     /// There are as many at least; one always is.
-    pub at_least: usize,
+    pub at_least: Number,
     /// There are no more than that, if such a bound was found.
-    pub at_most: Option<usize>,
+    pub at_most: Option<Number>,
     /// Merges of members; one member is left if they alone are the proof.
     pub merges: Vec<Merge>,
     /// What the upper bound rests on, if there is one and merges are not enough.
     pub upper: Option<Upper>,
     /// What the lower bound rests on, if it is above one.
     pub lower: Option<Lower>,
+    /// What the members left fall into, if that is more than one factor: the bounds are products then,
+    /// and there is no other evidence.
+    pub product: Vec<Factor>,
     /// What the core has more of equations than of unknowns, before parts of it are grown; `None`
     /// if merges leave one member.
     pub excess: Option<i64>,
@@ -21,9 +26,23 @@ pub struct Solutions {
 
 impl Solutions {
     /// The number of solutions, if it is known.
-    pub fn exactly(&self) -> Option<usize> {
-        self.at_most.filter(|&most| most == self.at_least)
+    pub fn exactly(&self) -> Option<&Number> {
+        self.at_most.as_ref().filter(|&most| *most == self.at_least)
     }
+}
+
+/// A factor of Corollary 10.17.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Factor {
+    /// The shared nodes of its members, as nodes of the graph.
+    pub members: Vec<Vec<u32>>,
+    /// Pairs of nodes in which it hangs together with others and that are members like those, as far
+    /// as `solutions` goes.
+    pub pairs: Vec<[u32; 2]>,
+    /// Where u = 1 shows that it is finite solvable without the pairs, if there are any.
+    pub rigid: Option<Place>,
+    /// How many solutions it has.
+    pub solutions: Solutions,
 }
 
 /// Where the evidence holds: the scales that are unknown, the prime, and the centres.

@@ -1,19 +1,32 @@
 //! Members: uniquely determined parts, merged until no rule applies (docs/theory.md, section 10).
 //!
-//! In: the bodies and loose edges of a contraction. Out: members as sets of the nodes that lie in
+//! In: the nodes of the bodies and loose edges of a contraction. Out: members as sets of the nodes that lie in
 //! two of them, closed under rules 2 and 3 of Theorem 4.1 and under the rule of the bicliques
 //! K_{2,3} (Theorem 10.3), and every merge that led there.
 
 use super::evidence::{Merge, Rule, Solutions};
 use crate::contract::Contraction;
 use crate::geometry::model::Model;
-use crate::graph::Graph;
+use std::collections::BTreeMap;
 
 /// The most nodes that members may share: one bit for each.
 pub const MOST_NODES: usize = 128;
 
 /// A set of shared nodes, one bit for each.
 pub(super) type Set = u128;
+
+/// The nodes of some bodies and edges of a contracted graph.
+pub(crate) fn nodes_of(
+    contraction: &Contraction,
+    bodies: &[u32],
+    edges: &[(u32, u32)],
+) -> Vec<Vec<u32>> {
+    let bodies = bodies.iter();
+    let bodies = bodies.map(|&k| contraction.bodies[k as usize].nodes.clone());
+    bodies
+        .chain(edges.iter().map(|&(i, j)| vec![i, j]))
+        .collect()
+}
 
 /// Members of a graph, and how they came to be.
 #[derive(Clone, Debug)]
@@ -27,37 +40,36 @@ pub(super) struct Members {
 }
 
 impl Members {
-    /// The members of a contracted graph, merged; `None` if they share more than
-    /// [`MOST_NODES`] nodes, or if there are nodes without edges.
-    pub(super) fn new(graph: &Graph, contraction: &Contraction) -> Option<Self> {
-        let finals = contraction.finals.iter();
-        let bodies = finals.map(|&k| contraction.bodies[k as usize].nodes.clone());
-        let edges = contraction.loose.iter().map(|&(i, j)| vec![i, j]);
-        let all: Vec<Vec<u32>> = bodies.chain(edges).collect();
-        let mut count = vec![0u32; graph.nodes()];
+    /// Members with these nodes, merged; `None` if they share more than [`MOST_NODES`] nodes.
+    pub(super) fn new(all: &[Vec<u32>]) -> Option<Self> {
+        let mut members = Self::unmerged(all)?;
+        members.close();
+        Some(members)
+    }
+
+    /// The same as they are.
+    pub(super) fn unmerged(all: &[Vec<u32>]) -> Option<Self> {
+        let mut count: BTreeMap<u32, u32> = BTreeMap::new();
         for &v in all.iter().flatten() {
-            count[v as usize] += 1;
+            *count.entry(v).or_default() += 1;
         }
-        if count.contains(&0) {
-            return None;
-        }
-        let nodes: Vec<u32> = (0..)
-            .zip(&count)
-            .filter(|&(_, &k)| k > 1)
-            .map(|(v, _)| v)
-            .collect();
+        let shared = count.into_iter().filter(|&(_, k)| k > 1);
+        let nodes: Vec<u32> = shared.map(|(v, _)| v).collect();
         if nodes.len() > MOST_NODES {
             return None;
         }
         let bit = |v: &u32| nodes.binary_search(v).ok().map(|k| 1 << k);
         let set = |member: &Vec<u32>| member.iter().filter_map(bit).sum();
-        let mut members = Self {
+        Some(Self {
             sets: all.iter().map(set).collect(),
             nodes,
             merges: Vec::new(),
-        };
-        members.close();
-        Some(members)
+        })
+    }
+
+    /// The shared nodes of the members that are left, as nodes of the graph.
+    pub(super) fn lists(&self) -> Vec<Vec<u32>> {
+        self.sets.iter().map(|&set| self.named(set)).collect()
     }
 
     /// The nodes of a set, as nodes of the graph.

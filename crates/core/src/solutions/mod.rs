@@ -4,8 +4,9 @@
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
 //! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). Every bound is a proof; what it rests on
-//! is in `evidence`. A second solution can be looked at (`witness`).
+//! simple points of tight cores (`simple`, Theorem 10.10). What hangs together in a few nodes only
+//! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
+//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`).
 
 mod chart;
 mod count;
@@ -14,8 +15,10 @@ mod exponents;
 mod linear;
 mod members;
 mod minors;
+mod number;
 mod outside;
 mod points;
+mod product;
 mod roots;
 mod simple;
 mod support;
@@ -25,11 +28,13 @@ mod tests;
 mod witness;
 mod zeros;
 
-pub(crate) use count::count_in;
 pub use count::{Effort, count};
+pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
-    AtMost, Chart, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule, Scale,
-    Solutions, Upper,
+    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule,
+    Scale, Solutions, Upper,
 };
 pub use members::MOST_NODES;
+pub(crate) use members::nodes_of;
+pub use number::Number;
 pub use witness::Witness;

@@ -1,12 +1,12 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
 use super::evidence::{Limit, Part, Rule};
-use super::members::{Members, bits};
+use super::members::{Members, bits, nodes_of};
 use super::outside::is_outside;
 use super::simple;
 use super::support::MinorSpan;
 use super::system::{System, Values};
-use super::{Effort, Solutions, count};
+use super::{Effort, Number, Solutions, count};
 use crate::contract::Contraction;
 use crate::geometry::camera::{Camera, normal_form};
 use crate::geometry::draw::{DrawKey, centres_mod};
@@ -29,8 +29,13 @@ fn graph(name: &str) -> Graph {
     graph6::decode(name.as_bytes()).unwrap()
 }
 
+fn all(contraction: &Contraction) -> Vec<Vec<u32>> {
+    nodes_of(contraction, &contraction.finals, &contraction.loose)
+}
+
 fn members(graph: &Graph) -> Members {
-    Members::new(graph, &Contraction::new(graph, Model::Projective)).unwrap()
+    let contraction = Contraction::new(graph, Model::Projective);
+    Members::new(&all(&contraction)).unwrap()
 }
 
 fn centres(nodes: usize, draw: u64) -> Vec<[u64; 3]> {
@@ -87,7 +92,8 @@ fn the_biclique_is_rigid_and_when_not() {
 fn members_are_merged_by_the_rule_of_the_biclique() {
     // Of a contraction nothing would be left to merge.
     let biclique = graph("D]o");
-    let found = Members::new(&biclique, &Contraction::none(&biclique)).unwrap();
+    let edges = all(&Contraction::none(&biclique));
+    let found = Members::new(&edges).unwrap();
     assert_eq!(found.sets.len(), 1);
     let rules: Vec<Rule> = found.merges.iter().map(|merge| merge.rule).collect();
     assert_eq!(rules, [Rule::Biclique]);
@@ -244,7 +250,7 @@ fn explicit_cameras_of_a_second_solution() {
     for name in TWO.into_iter().chain(OUTSIDE) {
         let graph = graph(name);
         let found = count(&graph, Effort::default(), 1).unwrap();
-        assert_eq!(found.exactly(), Some(2), "{name}");
+        assert_eq!(found.exactly(), Some(&2.into()), "{name}");
         let (lower, core) = lower_and_core(&graph, &found);
         let at = residues(&field, &lower.place.centres);
         let system = System::new(field, &core, &at).unwrap();
@@ -355,7 +361,7 @@ fn counts_by_merging_and_by_scales() {
         ("HBQkcP_", 2),
     ] {
         let found = count(&graph(name), Effort::default(), 3).unwrap();
-        assert_eq!(found.exactly(), Some(solutions), "{name}");
+        assert_eq!(found.exactly(), Some(&solutions.into()), "{name}");
     }
     // Not finite solvable: a path, a hexagon; a node without edges.
     let path = Graph::from_edges([(0, 1), (1, 2)]).unwrap();
@@ -382,7 +388,7 @@ fn a_part_with_one_solution_becomes_a_member() {
     // The new node has two pairs, so it is in no part that is finite solvable without merging.
     let found: Vec<u32> = bits(inside).map(|v| members.nodes[v]).collect();
     assert!(found.len() > 5 && !found.contains(&8), "{found:?}");
-    assert_eq!(evidence.exactly(), Some(1));
+    assert_eq!(evidence.exactly(), Some(&Number::one()));
     members.grow(inside, evidence);
     // Each further node makes a triangle with its two pairs.
     assert_eq!(members.sets, [(1 << members.nodes.len()) - 1]);
@@ -404,7 +410,7 @@ fn points_outside_do_not_count() {
         let mut kinds = Vec::new();
         let mut free = Vec::new();
         for found in &found {
-            assert_eq!(found.exactly(), Some(2), "{name}");
+            assert_eq!(found.exactly(), Some(&2.into()), "{name}");
             let (place, points) = found.upper.as_ref().unwrap().points.as_ref().unwrap();
             assert_eq!(
                 (points.points.len(), points.outside.len()),
@@ -440,4 +446,80 @@ fn points_outside_do_not_count() {
         free.sort_unstable();
         assert!(free.windows(2).all(|pair| pair[0] != pair[1]), "{name}");
     }
+}
+
+/// A graph, and others glued to it: each time one with these nodes on those of what is there.
+fn glued(first: &Graph, others: &[(&Graph, [u32; 2], [u32; 2])]) -> Graph {
+    let mut nodes = first.nodes() as u32;
+    let mut pairs = first.edges().to_vec();
+    for (other, own, to) in others {
+        let mut next = nodes;
+        let names: Vec<u32> = (0..other.nodes() as u32)
+            .map(|v| match own.iter().position(|&w| w == v) {
+                Some(k) => to[k],
+                None => {
+                    next += 1;
+                    next - 1
+                }
+            })
+            .collect();
+        nodes = next;
+        let named = |&(i, j): &(u32, u32)| (names[i as usize], names[j as usize]);
+        pairs.extend(other.edges().iter().map(named).filter(|&(i, j)| {
+            // What both have is there once.
+            [i, j] != *to && [j, i] != *to
+        }));
+    }
+    Graph::from_edges(pairs).unwrap()
+}
+
+/// A core with two solutions: 101 of them in a row, each glued to the one before it with an edge.
+#[test]
+fn numbers_multiply_along_edges() {
+    let core = graph("HBQkcP_");
+    let (i, j) = core.edges()[0];
+    let apart = |&&(k, l): &&(u32, u32)| [k, l].iter().all(|v| ![i, j].contains(v));
+    let &(k, l) = core.edges().iter().find(apart).unwrap();
+    let mut row = core.clone();
+    let mut last = [k, l];
+    for _ in 1..101 {
+        // Nodes that are not glued are numbered on.
+        let next = row.nodes() as u32;
+        let place = |v: u32| next + v - u32::from(v > i) - u32::from(v > j);
+        row = glued(&row, &[(&core, [i, j], last)]);
+        last = [place(k), place(l)];
+    }
+    assert_eq!(row.nodes(), 9 + 100 * 7);
+    let found = count(&row, Effort::default(), 1).unwrap();
+    let power = "2535301200456458802993406410752";
+    assert_eq!(
+        found.exactly().map(Number::to_string).as_deref(),
+        Some(power)
+    );
+    assert_eq!(found.product.len(), 101);
+    assert!(found.product.iter().all(|factor| factor.rigid.is_none()));
+}
+
+/// Two solutions each, glued at two nodes that are not adjacent: these settle both cores.
+#[test]
+fn nodes_that_are_not_adjacent() {
+    let core = graph("HBQkcP_");
+    let all = (0..9).flat_map(|j| (0..j).map(move |i| (i, j)));
+    let mut seen = 0;
+    for (i, j) in all.filter(|&(i, j)| core.edge_number(i, j).is_none()) {
+        let edges = core.edges().iter().copied();
+        let more = Graph::from_edges(edges.chain([(i, j)])).unwrap();
+        let one = count(&more, Effort::default(), 1).unwrap();
+        let two = glued(&core, &[(&core, [i, j], [i, j])]);
+        let found = count(&two, Effort::default(), 1).unwrap();
+        let Some(one) = one.exactly().cloned() else {
+            continue;
+        };
+        let expected: Number = [one.clone(), one].into_iter().product();
+        assert_eq!(found.exactly(), Some(&expected), "{i} {j}");
+        // With two common neighbours in each they are in a K_{2,4}, which is a member.
+        let joints = found.product.iter().filter(|factor| factor.rigid.is_some());
+        seen += joints.count() / 2;
+    }
+    assert!(seen > 10, "{seen}");
 }

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use viewcert::certificate::hex;
 use viewcert::decide::{Value, Verdict};
 use viewcert::geometry::model::Model;
+use viewcert::solutions::Number;
 use viewcert::wording::counted;
 
 /// Why a row has no claim that can be decided.
@@ -361,11 +362,12 @@ fn judge_number(claimed: usize, found: &Verdict) -> Judged {
     let Some(count) = &found.solutions else {
         return Judged::Wrong;
     };
+    let claimed = Number::from(claimed);
     match count.exactly() {
-        Some(exactly) if exactly == claimed => Judged::Right,
+        Some(exactly) if *exactly == claimed => Judged::Right,
         Some(_) => Judged::Wrong,
         None if claimed < count.at_least => Judged::Wrong,
-        None if count.at_most.is_some_and(|most| claimed > most) => Judged::Wrong,
+        None if count.at_most.as_ref().is_some_and(|most| claimed > *most) => Judged::Wrong,
         None => Judged::Open,
     }
 }
