@@ -1,5 +1,5 @@
 //! docs/formulas.md says what there is: its files and names exist, what it calls a test is one,
-//! and no numbered statement is left out.
+//! and no numbered statement is left out. Links into docs/theory.md lead somewhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -159,6 +159,30 @@ fn statements(theory: &str) -> BTreeSet<String> {
     found
 }
 
+/// Where links into a page can lead: its headings, as GitHub names them, and what `<a id="..">` names.
+fn targets(page: &str) -> BTreeSet<String> {
+    let headings = page.lines().filter(|line| line.starts_with('#'));
+    let of_headings = headings.map(|line| {
+        let text = line.trim_start_matches('#').trim().to_lowercase();
+        let kept = text
+            .chars()
+            .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    });
+    let named = page.split("<a id=\"").skip(1);
+    let of_anchors = named.filter_map(|rest| Some(rest.split_once('"')?.0.to_owned()));
+    of_headings.chain(of_anchors).collect()
+}
+
+/// What the links `](PAGE#..)` of a text name, `page` being empty for links within it.
+fn names<'a>(text: &'a str, page: &str) -> Vec<&'a str> {
+    let start = format!("]({page}#");
+    let links = text.split(start.as_str()).skip(1);
+    links
+        .filter_map(|rest| Some(rest.split_once(')')?.0))
+        .collect()
+}
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -185,6 +209,38 @@ fn every_statement_of_the_theory_is_listed_once() {
     let stated = statements(&page("theory.md"));
     assert!(stated.len() > 60, "theory.md states {}", stated.len());
     assert_eq!(listed, stated.into_iter().collect::<Vec<_>>());
+}
+
+/// Statements of the sections that were rearranged have their number as anchor, and the headings
+/// that are gone are still anchors.
+#[test]
+fn links_into_the_theory_lead_somewhere() {
+    let theory = page("theory.md");
+    let targets = targets(&theory);
+    let of_old_sections = statements(&theory).into_iter().filter_map(|statement| {
+        let number = statement.split_once(' ')?.1.to_owned();
+        ["10.", "13."]
+            .iter()
+            .any(|section| number.starts_with(section))
+            .then_some(number)
+    });
+    let gone = [
+        "13-affine-cameras-centres-in-a-plane-known-displacements",
+        "displacements-and-what-counting-rests-on",
+    ];
+    let gone = gone.map(str::to_owned);
+    let within = names(&theory, "").into_iter().map(str::to_owned);
+    let mut wanted: Vec<String> = of_old_sections.chain(gone).chain(within).collect();
+    for file in std::fs::read_dir(root().join("docs")).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|end| end == "md") {
+            let text = std::fs::read_to_string(path).unwrap();
+            wanted.extend(names(&text, "theory.md").into_iter().map(str::to_owned));
+        }
+    }
+    assert!(wanted.len() > 50, "{} links", wanted.len());
+    wanted.retain(|name| !targets.contains(name));
+    assert!(wanted.is_empty(), "lead nowhere: {wanted:?}");
 }
 
 #[test]
@@ -228,5 +284,14 @@ fn mistakes_are_found() {
     assert_eq!(
         stated.into_iter().collect::<Vec<_>>(),
         ["(1.2)", "Lemma 1.1", "Theorem 10.3"]
+    );
+    let text = "## 3. Plane flows, twice\n<a id=\"3.1\"></a>\n[a](#3.1), [b](other.md#x)\n";
+    assert_eq!(
+        targets(text).into_iter().collect::<Vec<_>>(),
+        ["3-plane-flows-twice", "3.1"]
+    );
+    assert_eq!(
+        (names(text, ""), names(text, "other.md")),
+        (vec!["3.1"], vec!["x"])
     );
 }
