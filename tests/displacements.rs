@@ -1,4 +1,4 @@
-//! `--displacements`: rigs and positions, through the real binary.
+//! Known displacements: rigs and positions, through the real binary.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! `--html` and `--svg` through the binary; the page in a real browser without a window.
+//! `verify draw` through the binary; the page in a real browser without a window.
 
 mod common;
 

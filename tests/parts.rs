@@ -1,4 +1,4 @@
-//! `--parts`: known parts through the real binary, against graphs with all pairs of each part, and
+//! Known parts through the real binary, against graphs with all pairs of each part, and
 //! through both checkers.
 
 mod common;

@@ -38,11 +38,11 @@ pub(crate) fn check(folder: &Path) -> Result<()> {
     let name = folder.display();
     ensure!(
         found.is_dir(),
-        "--export {name}: this is not a folder; name another place"
+        "export {name}: this is not a folder; name another place"
     );
-    if let Some(foreign) = foreign(folder).with_context(|| format!("--export {name}"))? {
+    if let Some(foreign) = foreign(folder).with_context(|| format!("export {name}"))? {
         bail!(
-            "--export {name}: {} is there, which no export has written; name another folder",
+            "export {name}: {} is there, which no export has written; name another folder",
             foreign.display()
         );
     }
@@ -64,7 +64,7 @@ pub(crate) fn ensure_outside(
         let inside = fs::canonicalize(input).is_ok_and(|input| input.starts_with(&real));
         ensure!(
             !inside,
-            "--export {name}: the input {} is in this folder, which would be replaced; name another \
+            "export {name}: the input {} is in this folder, which would be replaced; name another \
              folder",
             input.display()
         );
@@ -73,7 +73,7 @@ pub(crate) fn ensure_outside(
         let inside = path.is_some_and(|path| resolved(path).starts_with(&real));
         ensure!(
             !inside,
-            "{option} {}: this is in the folder of --export {name}, which holds nothing else; name \
+            "{option} {}: this is in the folder of export {name}, which holds nothing else; name \
              another place",
             path.unwrap_or(Path::new("")).display()
         );
@@ -239,7 +239,7 @@ fn ensure_expressible(folder: &Path, task: &Task, exported: &[Exported]) -> Resu
     };
     ensure!(
         bad.is_empty(),
-        "--export {}: COLMAP's lists cannot hold the names {}{more}: {why}; rename these images",
+        "export {}: COLMAP's lists cannot hold the names {}{more}: {why}; rename these images",
         folder.display(),
         shown.join(", ")
     );

@@ -44,13 +44,13 @@ impl Request {
     pub fn too_many(&self, what: &str) -> Option<String> {
         let folder = self.export.as_ref()?.display();
         Some(format!(
-            "--export {folder}: a folder holds the components of one graph, and there are {what}; \
+            "export {folder}: a folder holds the components of one graph, and there are {what}; \
              run them one by one"
         ))
     }
 
     /// The first option that weighs the pairs of a graph and nothing else, if there is one.
-    pub fn asked_of_pairs(&self) -> Option<&'static str> {
+    fn asked_of_pairs(&self) -> Option<&'static str> {
         let asked = [
             (self.weak.is_some(), "--weak"),
             (self.suggest.is_some(), "--suggest"),
@@ -80,16 +80,9 @@ impl Request {
         Ok(())
     }
 
-    /// One of the options that is there, for whoever has no use for it; and whether there is one.
-    pub fn asked(&self) -> (&'static str, bool) {
-        let export = self.export.is_some().then_some("--export");
-        let asked = self.asked_of_pairs().or(export);
-        (asked.unwrap_or_default(), asked.is_some())
-    }
-
     /// Whether more than the joints is asked for.
     pub fn asks(&self) -> bool {
-        self.asked().1
+        self.asked_of_pairs().is_some() || self.export.is_some()
     }
 
     /// Does what is asked for; joints are always looked for, but with known displacements, which

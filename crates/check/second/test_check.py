@@ -1488,6 +1488,15 @@ class Program(unittest.TestCase):
             )
             return done.returncode, done.stdout, done.stderr
 
+    def test_what_is_no_certificate(self):
+        """It is neither verified nor rejected."""
+        good = json.dumps(by_hand()).encode()
+        check.need_certificate("good.json", good, b"Cl")
+        for data, graph, words in ((b"0 1", good, "the other file is one"), (b"0 1", b"Cl", "this is no certificate"), (b"", None, "no certificate")):
+            with self.subTest(data=data), self.assertRaises(check.Unreadable) as caught:
+                check.need_certificate("bad.json", data, graph)
+            self.assertIn(words, str(caught.exception))
+
     def test_exit_codes(self):
         for arguments, code, out, err in (
             (["good.json"], 0, "VERIFIED components: 4 maximal (proof)\n", ""),

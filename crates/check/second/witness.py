@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks what `verify --witness FILE` writes: two solutions of one graph, modulo a prime.
+"""Checks what `verify witness GRAPH FILE` writes: two solutions of one graph, modulo a prime.
 
     witness.py FILE...
 

@@ -11,7 +11,7 @@ use viewcert::watch::{Stopped, Watch};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
-/// What `--displacements` rests on.
+/// What known displacements rest on.
 const DISPLACEMENTS: &str = "displacements are vectors in the frame of the directions: positions \
                              (GPS) need the rotation between the two frames; they are in general \
                              position, and so in no relation";

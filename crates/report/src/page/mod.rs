@@ -1,4 +1,4 @@
-//! `--html`: the report of one graph as one page, which needs no network and no other file.
+//! The report of one graph as one page, which needs no network and no other file.
 //!
 //! In: what `verify --json` prints, and a picture of the graph. Out: the template filled with both,
 //! with its style and its script. The script reads all numbers from the JSON, so that the page and

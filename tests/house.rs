@@ -1,0 +1,161 @@
+//! docs/house.md against the code: who imports whom, and what no crate may have.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A row of the table of floors.
+struct Room {
+    floor: u32,
+    imports: Vec<String>,
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The crates by their folders; `.` is the program.
+fn rooms() -> BTreeMap<String, Room> {
+    let page = fs::read_to_string(root().join("docs/house.md")).unwrap();
+    let rows = page
+        .lines()
+        .filter(|line| line.starts_with("| ") && line.contains('`'));
+    let cells = rows.map(|row| row.split('|').map(str::trim).collect::<Vec<_>>());
+    let rooms = cells.filter_map(|cells| {
+        let [_, floor, name, _, imports, _] = cells[..] else {
+            return None;
+        };
+        let folder = name.split('`').nth(1)?.trim_end_matches('/');
+        let folder = if folder == "src" { "." } else { folder };
+        let imports = imports.split(',').map(|name| name.trim().to_owned());
+        let room = Room {
+            floor: floor.parse().ok()?,
+            imports: imports.filter(|name| !name.is_empty()).collect(),
+        };
+        Some((folder.to_owned(), room))
+    });
+    rooms.collect()
+}
+
+/// The names of the table for packages of this workspace.
+fn short(package: &str) -> &str {
+    match package.strip_prefix("viewcert") {
+        Some("") => "core",
+        Some(rest) => rest.trim_start_matches('-'),
+        None => package,
+    }
+}
+
+/// The packages that the section `[dependencies]` of a crate names.
+fn dependencies(folder: &str) -> Vec<String> {
+    let manifest = fs::read_to_string(root().join(folder).join("Cargo.toml")).unwrap();
+    let section = manifest.split("\n[dependencies]\n").nth(1).unwrap_or("");
+    let lines = section.lines().take_while(|line| !line.starts_with('['));
+    let names = lines.filter_map(|line| line.split_once(" = "));
+    names.map(|(name, _)| name.to_owned()).collect()
+}
+
+/// The product code of a crate: all Rust files but those of tests.
+fn sources(folder: &str) -> Vec<PathBuf> {
+    fn visit(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                visit(&path, found);
+            } else if path.extension().is_some_and(|kind| kind == "rs")
+                && path.file_name().is_some_and(|name| name != "tests.rs")
+            {
+                found.push(path);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    visit(&root().join(folder).join("src"), &mut found);
+    assert!(!found.is_empty(), "{folder}");
+    found
+}
+
+#[test]
+fn the_table_names_every_crate() {
+    let workspace = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let members = workspace.split("members = [").nth(1).unwrap();
+    let members = members.split(']').next().unwrap().split(',');
+    let members = members.map(|name| name.trim().trim_matches('"').to_owned());
+    let rooms = rooms();
+    for member in members
+        .filter(|name| !name.is_empty())
+        .chain([".".to_owned()])
+    {
+        assert!(rooms.contains_key(&member), "{member} is not in the table");
+    }
+}
+
+#[test]
+fn nobody_imports_upward() {
+    let rooms = rooms();
+    let floors: BTreeMap<String, u32> = rooms
+        .iter()
+        .map(|(folder, room)| {
+            let name = folder.trim_start_matches("crates/");
+            let name = if name == "." { "cli" } else { name };
+            (name.to_owned(), room.floor)
+        })
+        .collect();
+    for (folder, room) in rooms.iter().filter(|(folder, _)| *folder != "proofs") {
+        let found = dependencies(folder);
+        let own = found.iter().filter(|name| name.starts_with("viewcert"));
+        let mut own: Vec<&str> = own.map(|name| short(name)).collect();
+        for name in &own {
+            assert!(floors[*name] < room.floor, "{folder} imports {name} upward");
+        }
+        let mut listed: Vec<&str> = room.imports.iter().map(String::as_str).collect();
+        own.sort_unstable();
+        listed.sort_unstable();
+        assert_eq!(own, listed, "{folder}");
+    }
+}
+
+#[test]
+fn libraries_know_neither_arguments_nor_floats_nor_databases() {
+    for (folder, refused) in [
+        (
+            "crates/core",
+            &["clap", "lexopt", "rusqlite", "faer", "anyhow", "tempfile"][..],
+        ),
+        ("crates/check", &["clap", "viewcert", "rusqlite"]),
+        ("crates/formats", &["clap"]),
+        ("crates/session", &["clap"]),
+        ("crates/advice", &["clap"]),
+        ("crates/report", &["clap"]),
+        ("crates/catalog", &["clap"]),
+        ("crates/studies", &["clap"]),
+    ] {
+        let found = dependencies(folder);
+        let wrong = found.iter().find(|name| refused.contains(&name.as_str()));
+        assert_eq!(wrong, None, "{folder}");
+    }
+}
+
+/// A value that is made once and never changes is no global state.
+#[test]
+fn a_run_is_a_value() {
+    let crates = [
+        "core", "formats", "session", "advice", "catalog", "report", "studies",
+    ];
+    let folders = crates.map(|name| format!("crates/{name}"));
+    for folder in folders.iter().map(String::as_str).chain([".", "paper"]) {
+        for path in sources(folder) {
+            let text = fs::read_to_string(&path).unwrap();
+            let product = text.split("#[cfg(test)]\nmod ").next().unwrap();
+            for line in product.lines().map(str::trim_start) {
+                let declared = line
+                    .trim_start_matches("pub ")
+                    .trim_start_matches("pub(crate) ");
+                let is_static = declared.starts_with("static ");
+                let changes = ["Mutex", "RwLock", "OnceLock", "Atomic", "static mut"];
+                let is_state = is_static && changes.iter().any(|word| line.contains(word));
+                assert!(!is_state, "{}: {line}", path.display());
+            }
+        }
+    }
+}
