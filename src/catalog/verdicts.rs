@@ -34,9 +34,8 @@ pub(super) fn run(
         );
         let blocks = blocks.context("--verdicts counts candidates of a size")?;
         let mut print = |lines: Vec<String>| -> Result<()> {
-            let each = lines.iter();
-            each.map(|line| writeln!(out, "{line}"))
-                .collect::<std::io::Result<()>>()
+            let mut each = lines.iter();
+            each.try_for_each(|line| writeln!(out, "{line}"))
                 .context("standard output")
         };
         let progress = session.progress("kernels", Some(blocks.kernels()));

@@ -1,6 +1,6 @@
 //! The part files of a shard: written whole or not at all, found again by the next run.
 //!
-//! A run splits its candidates into shards, block by block of [`BLOCK`] candidates in
+//! A run splits its candidates into shards, block by block of 64 candidates in
 //! turn; a shard splits its own ones into parts. `shard-I-of-K/part-000000.tsv` holds, in this
 //! order, the description of the run, the header of the table, a line for each entry,
 //! and the counts with a digest of the candidates. Since a part takes its name only when it

@@ -4,7 +4,7 @@
 //! drawn as a disc cut into their colours. Components that are single pairs are grey, unless there
 //! are no others: they join larger ones. Few nodes have their names beside them. Of graphs too large
 //! for that with one large component some nodes are drawn, each in the place of those near it
-//! ([`sample`]); others are drawn component by component.
+//! (`sample`); others are drawn component by component.
 
 mod sample;
 
