@@ -151,7 +151,7 @@ pub(crate) fn count_in(
     Ok((found, draws.left_out.get()))
 }
 
-/// Leaves of each member the nodes that lie in two at least.
+/// Leaves of each member the nodes that lie in two at least, increasing.
 fn retain_shared(members: &mut [Vec<u32>]) {
     let mut count: BTreeMap<u32, usize> = BTreeMap::new();
     for &v in members.iter().flatten() {
@@ -159,6 +159,7 @@ fn retain_shared(members: &mut [Vec<u32>]) {
     }
     for nodes in members {
         nodes.retain(|v| count[v] > 1);
+        nodes.sort_unstable();
     }
 }
 
@@ -267,7 +268,7 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
             }
         };
         is_open |= plan.quick.is_some() && counted.as_ref().is_some_and(|of| of.at_most.is_none());
-        let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(&all)));
+        let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(excess_of(&all))));
         let Some(solutions) = known else {
             return Some(None);
         };
@@ -283,6 +284,10 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
         });
     }
     Some(Some(Solutions::product(members, found)))
+}
+
+fn excess_of(members: &[Vec<u32>]) -> Option<i64> {
+    Some(product::excess(members.iter().map(Vec::as_slice)))
 }
 
 /// Where u = 1 shows that members form what is finite solvable (Lemma 10.9).
@@ -432,18 +437,13 @@ impl Solutions {
     /// Nothing is known beyond the merges.
     fn none(members: &Members) -> Self {
         Self {
-            at_least: Number::one(),
-            at_most: None,
             merges: members.merges.clone(),
-            upper: None,
-            lower: None,
-            product: Vec::new(),
-            excess: (members.sets.len() > 1).then(|| members.excess()),
+            ..Self::nothing((members.sets.len() > 1).then(|| members.excess()))
         }
     }
 
-    /// Nothing is known of members with these nodes.
-    fn nothing(members: &[Vec<u32>]) -> Self {
+    /// Nothing is known.
+    fn nothing(excess: Option<i64>) -> Self {
         Self {
             at_least: Number::one(),
             at_most: None,
@@ -451,7 +451,7 @@ impl Solutions {
             upper: None,
             lower: None,
             product: Vec::new(),
-            excess: Some(product::excess(members.iter().map(Vec::as_slice))),
+            excess,
         }
     }
 
@@ -465,7 +465,7 @@ impl Solutions {
                 .collect::<Option<Vec<_>>>()
                 .map(|most| most.into_iter().product()),
             product: factors,
-            ..Self::nothing(members)
+            ..Self::nothing(excess_of(members))
         }
     }
 
