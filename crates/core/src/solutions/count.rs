@@ -17,7 +17,7 @@ use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
 use std::cell::Cell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,13 +72,11 @@ pub(crate) struct Size {
 impl Size {
     /// Of members with these nodes.
     fn of(members: &[Vec<u32>]) -> Self {
-        let mut count: BTreeMap<u32, usize> = BTreeMap::new();
-        for &v in members.iter().flatten() {
-            *count.entry(v).or_default() += 1;
-        }
-        let shared = count.values().filter(|&&count| count > 1);
-        let places: usize = shared.clone().sum();
-        let nodes = shared.count();
+        let mut all = members.concat();
+        all.sort_unstable();
+        let times = all.chunk_by(|v, w| v == w).map(<[u32]>::len);
+        let shared: Vec<usize> = times.filter(|&times| times > 1).collect();
+        let (nodes, places) = (shared.len(), shared.iter().sum::<usize>());
         Self {
             nodes,
             unknowns: (places + 1).saturating_sub(nodes + members.len()),
@@ -153,12 +151,12 @@ pub(crate) fn count_in(
 
 /// Leaves of each member the nodes that lie in two at least, increasing.
 fn retain_shared(members: &mut [Vec<u32>]) {
-    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
-    for &v in members.iter().flatten() {
-        *count.entry(v).or_default() += 1;
-    }
+    let mut all = members.concat();
+    all.sort_unstable();
+    let chunks = all.chunk_by(|v, w| v == w).filter(|chunk| chunk.len() > 1);
+    let shared: Vec<u32> = chunks.map(|chunk| chunk[0]).collect();
     for nodes in members {
-        nodes.retain(|v| count[v] > 1);
+        nodes.retain(|v| shared.binary_search(v).is_ok());
         nodes.sort_unstable();
     }
 }
