@@ -66,7 +66,7 @@ impl From<u64> for Number {
 
 impl PartialEq<u64> for Number {
     fn eq(&self, other: &u64) -> bool {
-        *self == Number::from(*other)
+        self.cmp(&Number::from(*other)) == Ordering::Equal
     }
 }
 
@@ -108,7 +108,8 @@ impl Visitor<'_> for IntOrBig {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Number, E> {
-        let large = |number: &Number| *number >= Number::from(INT_LIMIT);
+        let limit = Number::from(INT_LIMIT);
+        let large = |number: &Number| *number >= limit;
         let number = Number::from_decimal(text).filter(large);
         number.ok_or_else(|| E::invalid_value(Unexpected::Str(text), &self))
     }
@@ -154,7 +155,8 @@ mod tests {
             "10000000010000000000",
         ];
         let numbers = texts.map(|text| Number::from_decimal(text).unwrap());
-        assert!(numbers.is_sorted() && numbers[0] > Number::from(5));
+        let five = Number::from(5);
+        assert!(numbers.is_sorted() && five < numbers[0]);
         assert!(
             numbers
                 .iter()

@@ -195,7 +195,16 @@ impl Live {
         for chart in charts.chain(lower.map(|lower| &lower.place.chart)) {
             self.see_to(chart)?;
         }
-        let factors = solutions.product.iter().map(|factor| self.factor(factor));
+        let numbers: BTreeMap<&[u32], usize> = match solutions.product.is_empty() {
+            true => BTreeMap::new(),
+            false => self
+                .members
+                .iter()
+                .map(|(&k, nodes)| (&nodes[..], k))
+                .collect(),
+        };
+        let factors = solutions.product.iter();
+        let factors = factors.map(|factor| self.factor(factor, &numbers));
         let factors = factors.collect::<Result<Vec<_>, _>>()?;
         Ok(SolutionsView {
             merges,
@@ -213,8 +222,14 @@ impl Live {
         found.map(|(&number, _)| number).ok_or(ForeignSolutions)
     }
 
-    fn factor<'a>(&self, factor: &'a Factor) -> Result<FactorView<'a>, ForeignSolutions> {
-        let with = factor.members.iter().map(|nodes| self.number(nodes));
+    /// A factor, with the numbers of the members that are left, which are found by their nodes.
+    fn factor<'a>(
+        &self,
+        factor: &'a Factor,
+        numbers: &BTreeMap<&[u32], usize>,
+    ) -> Result<FactorView<'a>, ForeignSolutions> {
+        let with = factor.members.iter();
+        let with = with.map(|nodes| numbers.get(&nodes[..]).copied().ok_or(ForeignSolutions));
         let mut with = with.collect::<Result<Vec<usize>, _>>()?;
         with.sort_unstable();
         let members = with.iter().map(|number| self.members[number].clone());

@@ -145,6 +145,9 @@ fn check_known(graph: &Graph, known: &Known) -> Result<(), VerdictError> {
     }
 }
 
+/// How many components with several members a quick count looks at.
+const MOST_COMPONENTS: usize = 16;
+
 /// What is known of a graph, piece by piece.
 struct Found<'a> {
     graph: &'a Graph,
@@ -283,13 +286,13 @@ impl Found<'_> {
     }
 
     /// The numbers of solutions of components, each by itself. A quick count ends with the first that
-    /// stays open.
+    /// stays open, or after some of the largest.
     fn count_in_components(
         &self,
         components: &mut [Component],
         contraction: &Contraction,
     ) -> Result<(), Stopped> {
-        let mut effort = self.effort(contraction);
+        let (mut effort, mut counted) = (self.effort(contraction), 0);
         for component in components {
             let (bodies, edges) = (&component.members.bodies, &component.members.edges);
             let is_one = self.model() != Model::Projective
@@ -299,7 +302,8 @@ impl Found<'_> {
                 false => self.count(contraction, bodies, edges, effort)?,
             };
             let is_open = count.at_most.is_none() && count.evidence.is_some();
-            if effort == CountSolutions::Quick && is_open {
+            counted += usize::from(!is_one);
+            if effort == CountSolutions::Quick && (is_open || counted == MOST_COMPONENTS) {
                 effort = CountSolutions::Off;
             }
             component.solutions = Some(count);

@@ -17,7 +17,7 @@ use crate::graph::{Graph, sha256};
 use crate::linalg::prime::PrimeField;
 use crate::watch::{Step, Stopped, Task, Work, unwatched};
 use std::cell::Cell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,13 +72,11 @@ pub(crate) struct Size {
 impl Size {
     /// Of members with these nodes.
     fn of(members: &[Vec<u32>]) -> Self {
-        let mut count: BTreeMap<u32, usize> = BTreeMap::new();
-        for &v in members.iter().flatten() {
-            *count.entry(v).or_default() += 1;
-        }
-        let shared = count.values().filter(|&&count| count > 1);
-        let places: usize = shared.clone().sum();
-        let nodes = shared.count();
+        let mut all = members.concat();
+        all.sort_unstable();
+        let times = all.chunk_by(|v, w| v == w).map(<[u32]>::len);
+        let shared: Vec<usize> = times.filter(|&times| times > 1).collect();
+        let (nodes, places) = (shared.len(), shared.iter().sum::<usize>());
         Self {
             nodes,
             unknowns: (places + 1).saturating_sub(nodes + members.len()),
@@ -151,14 +149,15 @@ pub(crate) fn count_in(
     Ok((found, draws.left_out.get()))
 }
 
-/// Leaves of each member the nodes that lie in two at least.
+/// Leaves of each member the nodes that lie in two at least, increasing.
 fn retain_shared(members: &mut [Vec<u32>]) {
-    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
-    for &v in members.iter().flatten() {
-        *count.entry(v).or_default() += 1;
-    }
+    let mut all = members.concat();
+    all.sort_unstable();
+    let chunks = all.chunk_by(|v, w| v == w).filter(|chunk| chunk.len() > 1);
+    let shared: Vec<u32> = chunks.map(|chunk| chunk[0]).collect();
     for nodes in members {
-        nodes.retain(|v| count[v] > 1);
+        nodes.retain(|v| shared.binary_search(v).is_ok());
+        nodes.sort_unstable();
     }
 }
 
@@ -267,7 +266,7 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
             }
         };
         is_open |= plan.quick.is_some() && counted.as_ref().is_some_and(|of| of.at_most.is_none());
-        let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(&all)));
+        let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(excess_of(&all))));
         let Some(solutions) = known else {
             return Some(None);
         };
@@ -283,6 +282,10 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
         });
     }
     Some(Some(Solutions::product(members, found)))
+}
+
+fn excess_of(members: &[Vec<u32>]) -> Option<i64> {
+    Some(product::excess(members.iter().map(Vec::as_slice)))
 }
 
 /// Where u = 1 shows that members form what is finite solvable (Lemma 10.9).
@@ -432,18 +435,13 @@ impl Solutions {
     /// Nothing is known beyond the merges.
     fn none(members: &Members) -> Self {
         Self {
-            at_least: Number::one(),
-            at_most: None,
             merges: members.merges.clone(),
-            upper: None,
-            lower: None,
-            product: Vec::new(),
-            excess: (members.sets.len() > 1).then(|| members.excess()),
+            ..Self::nothing((members.sets.len() > 1).then(|| members.excess()))
         }
     }
 
-    /// Nothing is known of members with these nodes.
-    fn nothing(members: &[Vec<u32>]) -> Self {
+    /// Nothing is known.
+    fn nothing(excess: Option<i64>) -> Self {
         Self {
             at_least: Number::one(),
             at_most: None,
@@ -451,7 +449,7 @@ impl Solutions {
             upper: None,
             lower: None,
             product: Vec::new(),
-            excess: Some(product::excess(members.iter().map(Vec::as_slice))),
+            excess,
         }
     }
 
@@ -465,7 +463,7 @@ impl Solutions {
                 .collect::<Option<Vec<_>>>()
                 .map(|most| most.into_iter().product()),
             product: factors,
-            ..Self::nothing(members)
+            ..Self::nothing(excess_of(members))
         }
     }
 
