@@ -142,6 +142,19 @@ block 3 0 3 4
 end
 """
 
+# Two triangles that share a pair, and one more pair: 18 + 18 - 7 + 7.
+KITE = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (3, 4)]
+KITE_PROOF = """viewcert proof 1
+graph 5 6
+claim 0 36
+block 3 0 1 2
+other 3 1 2 3
+shared 2 0 0
+free 1
+one 2 1 0
+end
+"""
+
 
 def by_hand(program):
     def case(name, code, graph, proof, says=""):
@@ -170,6 +183,24 @@ def by_hand(program):
     case("a node twice", 1, text_of(BOW), BOW_PROOF.replace("one 5 4 0", "one 3 4 0"))
     case("a body that comes later", 2, text_of(BOW), BOW_PROOF.replace("one 1 0 0", "one 1 0 3", 1))
     case("a block with one node", 1, text_of(BOW), BOW_PROOF.replace("block 3 0 1 2", "block 1 0"))
+    kite = text_of(KITE)
+    case("overlap", 0, kite, KITE_PROOF, "is at most 36")
+    # the pair that is shared is not in this graph, whose rank is 35
+    open_kite, open_proof = text_of([e for e in KITE if e != (1, 2)]), KITE_PROOF.replace("5 6", "5 5")
+    case("added pair", 0, open_kite, open_proof, "is at most 36")
+    case("overlap, less", 1, kite, KITE_PROOF.replace("0 36", "0 35"))
+    case("overlap, less", 1, open_kite, open_proof.replace("0 36", "0 35"))
+    outside = "shared 3 0 0\nfree 1\none 2 1 0\none {} 2 0\nend"
+    for v in (0, 3):
+        shared = KITE_PROOF[: KITE_PROOF.index("shared")] + outside.format(v) + "\n"
+        case("a pair in one list of blocks alone", 2, kite, shared, "are not both in a block and in one of the others")
+    case("shared, by a body", 2, kite, KITE_PROOF.replace("one 2 1 0", "one 2 1 1"))
+    case("shared, two times", 2, kite, KITE_PROOF.replace("end", "shared 0 0 0\nend"))
+    case("nothing shared", 2, kite, KITE_PROOF[: KITE_PROOF.index("shared")] + "end\n")
+    case("shared without others", 2, kite, KITE_PROOF.replace("other", "block"))
+    case("blocks behind the others", 2, kite, KITE_PROOF.replace("shared", "block 2 0 1\nshared", 1))
+    case("an other block with one node", 1, kite, KITE_PROOF.replace("other 3", "other 1 0\nother 3"))
+    case("a shared node twice", 1, kite, KITE_PROOF.replace("one 2 1 0", "two 2 1 0 1 0"))
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -287,6 +318,7 @@ def main():
     program = Program(asked.program)
     by_hand(program)
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
+    base.append((text_of(KITE), KITE_PROOF))
     if asked.catalog:
         files = catalog(program, asked.catalog, 6515)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]

@@ -30,8 +30,8 @@ let check graph_path proof_path =
     (proof.lower = 0 || Array.length proof.bodies > 0)
     && Checker.verify n m first second by_pair
          (fun b -> proof.bodies.(b)) last proof.lower
-         (fun c -> proof.blocks.(c)) (Array.length proof.blocks)
-         (fun k -> proof.place.(k)) proof.upper
+         (fun c -> proof.blocks.(c)) proof.half proof.shared (Array.length proof.blocks)
+         proof.place proof.upper
   in
   say "%s: %d nodes, %d pairs, MD5 %s: %s\n" graph_path n m graph.md5
     (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");

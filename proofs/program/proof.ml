@@ -8,7 +8,9 @@ type t = {
   upper : int;
   bodies : Checker.body array;
   blocks : Checker.block array;
-  place : ((int * int) * int) option array;
+  half : int;  (** where the second list of blocks begins *)
+  shared : Checker.body;
+  place : int -> (int * (int -> int)) option;
 }
 
 module Table = Hashtbl.Make (struct
@@ -84,7 +86,7 @@ let read path (graph : Graph.t) =
       | Some s, Some t when c < count -> Checker.Inside (c, s, t)
       | _ -> fail (Printf.sprintf "%d and %d are not both in body %d" i j c)
   in
-  let body count =
+  let body reason =
     let size = number () in
     let core_size = number () in
     let rows = number () in
@@ -106,7 +108,7 @@ let read path (graph : Graph.t) =
       let j = node () in
       let mask = number () in
       let why = number () in
-      (((position i, position j), mask), reason count i j why)
+      (((position i, position j), mask), reason i j why)
     in
     let core = List.init rows row in
     for s = core_size to size - 1 do
@@ -115,7 +117,7 @@ let read path (graph : Graph.t) =
       let join () =
         let a = node () in
         let why = number () in
-        (position a, reason count v a why)
+        (position a, reason v a why)
       in
       joins.(s - core_size) <-
         (match kind with
@@ -127,7 +129,6 @@ let read path (graph : Graph.t) =
         | _ -> fail "free, one or two expected");
       add s v
     done;
-    Array.iteri (fun s v -> Table.replace body_at ((count * n) + v) s) nodes;
     let order = by_key size (fun s -> nodes.(s)) in
     {
       Checker.body_size = size;
@@ -139,39 +140,70 @@ let read path (graph : Graph.t) =
       joins = (fun s -> joins.(s - core_size));
     }
   in
-  let bodies = ref [] and count = ref 0 and blocks = ref [] and block_count = ref 0 in
+  let bodies = ref [] and count = ref 0 and blocks = ref [] and block_count = ref 0 and half = ref 0 in
   let block_at = Table.create 1024 in
   let blocks_of = Array.make n [] in
-  let rec items () =
-    match word () with
-    | "body" -> bodies := body !count :: !bodies; incr count; items ()
-    | "block" ->
-        let size = number () in
-        if size > n then fail "sizes out of range";
-        let nodes = Array.init size (fun _ -> node ()) in
-        let b = !block_count in
-        Array.iteri (fun s v -> Table.replace block_at ((b * n) + v) s; blocks_of.(v) <- b :: blocks_of.(v)) nodes;
-        blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)) } :: !blocks;
-        incr block_count;
-        items ()
-    | "end" -> if not (finished ()) then fail "something after the end"
-    | _ -> fail "body, block or end expected"
+  let block () =
+    let size = number () in
+    if size > n then fail "sizes out of range";
+    let nodes = Array.init size (fun _ -> node ()) in
+    let b = !block_count in
+    Array.iteri (fun s v -> Table.replace block_at ((b * n) + v) s; blocks_of.(v) <- b :: blocks_of.(v)) nodes;
+    blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)) } :: !blocks;
+    incr block_count
   in
-  items ();
-  let place k =
-    let i = graph.first.(k) and j = graph.second.(k) in
+  (* one of some blocks that holds two nodes, and their positions in it *)
+  let block_with suits i j =
     let short = if List.compare_lengths blocks_of.(i) blocks_of.(j) < 0 then blocks_of.(i) else blocks_of.(j) in
     let both b =
       match (Table.find_opt block_at ((b * n) + i), Table.find_opt block_at ((b * n) + j)) with
-      | Some s, Some t -> Some ((b, s), t)
+      | Some s, Some t when suits b -> Some (b, s, t)
       | _ -> None
     in
     List.find_map both short
+  in
+  let in_both i j why =
+    match (block_with (fun b -> b < !half) i j, block_with (fun b -> b >= !half) i j) with
+    | Some (b, s, t), Some (b', s', t') when why = 0 -> Checker.Both (b, s, t, b', s', t')
+    | _ -> fail (Printf.sprintf "%d and %d are not both in a block and in one of the others" i j)
+  in
+  let shared = ref None in
+  let rec others () =
+    match word () with
+    | "other" -> block (); others ()
+    | "shared" -> shared := Some (body in_both); expect "end"
+    | _ -> fail "other or shared expected"
+  in
+  let rec items () =
+    match word () with
+    | "body" ->
+        let read = body (reason !count) in
+        for s = 0 to read.Checker.body_size - 1 do Table.replace body_at ((!count * n) + read.node s) s done;
+        bodies := read :: !bodies;
+        incr count;
+        items ()
+    | "block" -> block (); half := !block_count; items ()
+    | "other" -> block (); others ()
+    | "end" -> ()
+    | _ -> fail "body, block, other or end expected"
+  in
+  items ();
+  if not (finished ()) then fail "something after the end";
+  let place k =
+    match block_with (fun _ -> true) graph.first.(k) graph.second.(k) with
+    | Some (b, s, t) -> Some (b, fun end_ -> if end_ = 0 then s else t)
+    | None -> None
+  in
+  let nothing =
+    { Checker.body_size = 0; node = Fun.id; by_node = Fun.id; core_size = 0; core = []; centre = (fun _ _ -> 0);
+      joins = (fun _ -> []) }
   in
   {
     lower;
     upper;
     bodies = Array.of_list (List.rev !bodies);
     blocks = Array.of_list (List.rev !blocks);
-    place = Array.init m place;
+    half = !half;
+    shared = Option.value !shared ~default:nothing;
+    place;
   }

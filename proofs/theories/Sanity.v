@@ -83,12 +83,13 @@ Definition at_ (s : seq (nat * nat)) k := nth (0%N, 0%N) s k.
 Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body :=
   Body k id id 0 [::] (fun _ _ => 0%N) joins.
 Definition no_block (_ : nat) : block := Block 0 id.
+Definition nothing : body := chain 0 (fun _ => [::]) 0.
 
 Theorem pair : full_rank 2 [:: (0, 1)]%N.
 Proof.
 apply: (has_full_rank (u := 7)); pose G := [:: (0, 1)]%N.
 have := @verify_sound 2 1 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) 0 7 no_block 0 (fun _ => None) 7.
+  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) 0 7 no_block 0 nothing 0 (fun _ => None) 7.
 by apply; vm_compute.
 Qed.
 
@@ -97,7 +98,7 @@ Proof.
 apply: (has_full_rank (u := 18)); pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
 have := @verify_sound 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
   (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) 0 18
-  no_block 0 (fun _ => None) 18.
+  no_block 0 nothing 0 (fun _ => None) 18.
 by apply; vm_compute.
 Qed.
 
@@ -105,6 +106,6 @@ Theorem four_cycle : ~ full_rank 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 Proof.
 apply: (@lacks_full_rank 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 have := @verify_sound 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 0 (fun _ => [::])) 0 0 no_block 0 (fun _ => None) 28.
+  (chain 0 (fun _ => [::])) 0 0 no_block 0 nothing 0 (fun _ => None) 28.
 by apply; vm_compute.
 Qed.

@@ -4,19 +4,17 @@
 use super::Unproved;
 use super::core::eliminate;
 use super::text::{Listed, Reason};
-use crate::contract::piece::Core;
 use crate::contract::{Contraction, Merge, Part, Seed};
 use crate::graph::Graph;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 /// The rank of a K_{2,3}.
 const BICLIQUE_RANK: usize = 40;
 
-/// The bodies of a proof that the rank is at least `rank`; `core` is that of all members.
+/// The bodies of a proof that the rank is at least `rank`.
 pub(super) fn all(
     graph: &Graph,
     contraction: &Contraction,
-    core: &Core,
     rank: usize,
 ) -> Result<Vec<Listed>, Unproved> {
     let mut record = Record::new(graph, contraction.bodies.len());
@@ -35,44 +33,39 @@ pub(super) fn all(
         }
         record.growing[k] = Some(growing);
     }
-    let is_whole = contraction.loose.is_empty() && core.nodes.is_empty();
-    let finals: Vec<Reason> = contraction
-        .finals
-        .iter()
-        .map(|&k| record.reason(Part::Body(k)))
-        .collect::<Result<_, _>>()?;
-    if !is_whole || finals.len() != 1 {
-        let whole = whole(&record.done, contraction, &finals, core, rank)?;
-        record.done.push(whole);
+    let mut sets = Vec::with_capacity(contraction.finals.len() + contraction.loose.len());
+    for &k in &contraction.finals {
+        sets.push(record.part(Part::Body(k))?);
+    }
+    sets.extend(contraction.loose.iter().map(|&(i, j)| (vec![i, j], 0)));
+    if contraction.finals.is_empty() || sets.len() > 1 {
+        record.done.push(of_sets(&sets, rank)?);
     }
     Ok(record.done)
 }
 
-/// The last body: the core, then the nodes that lie in one member only.
-fn whole(
-    done: &[Listed],
-    contraction: &Contraction,
-    finals: &[Reason],
-    core: &Core,
-    rank: usize,
-) -> Result<Listed, Unproved> {
-    if core.nodes.len() > super::LARGEST_CORE {
-        return Err(Unproved::Core(core.nodes.len()));
+/// A body on some sets of nodes, all pairs in each of which may be used for the reason given, that has
+/// the rank `rank` at least: a core of the nodes that lie in two sets, then the others.
+pub(super) fn of_sets(sets: &[(Vec<u32>, Reason)], rank: usize) -> Result<Listed, Unproved> {
+    let core = core_nodes(sets);
+    if core.len() > super::LARGEST_CORE {
+        return Err(Unproved::Core(core.len()));
     }
-    let placed: HashSet<u32> = core.nodes.iter().copied().collect();
+    let place = |v: &u32| core.binary_search(v).ok();
     let mut joins = Vec::new();
-    for &why in finals {
-        let body = &done[why as usize - 1];
-        let mut before: Vec<(u32, Reason)> = body
-            .nodes()
-            .filter(|v| placed.contains(v))
-            .take(2)
-            .map(|v| (v, why))
-            .collect();
-        for v in body.nodes().filter(|v| !placed.contains(v)) {
+    let mut pairs = BTreeMap::new();
+    for (nodes, why) in sets {
+        let (inner, outer): (Vec<u32>, Vec<u32>) = nodes.iter().partition(|v| place(v).is_some());
+        for step in [1, 2] {
+            let chain = inner.iter().zip(inner.iter().skip(step));
+            let local = chain.filter_map(|(i, j)| place(i).zip(place(j)));
+            pairs.extend(local.map(|(i, j)| ((i.min(j) as u32, i.max(j) as u32), *why)));
+        }
+        let mut before: Vec<(u32, Reason)> = inner.iter().take(2).map(|&v| (v, *why)).collect();
+        for v in outer {
             joins.push((v, before.clone()));
             if before.len() < 2 {
-                before.push((v, why));
+                before.push((v, *why));
             }
         }
     }
@@ -80,30 +73,31 @@ fn whole(
         .iter()
         .map(|(_, before)| [0, 7, 11][before.len()])
         .sum();
-    let wanted = rank.checked_sub(added).ok_or(Unproved::Unlucky)?;
-    let found = eliminate(&core.graph, wanted).ok_or(Unproved::Unlucky)?;
-    let reason = |member: u32| finals.get(member as usize).copied().unwrap_or(0);
-    debug_assert_eq!(contraction.finals.len(), finals.len());
-    let edges = core.graph.edges().iter().zip(&core.owner).zip(&found.masks);
+    let graph = Graph::new(core.len() as u32, pairs.keys().copied()).expect("pairs of core nodes");
+    let found = eliminate(&graph, rank.saturating_sub(added)).ok_or(Unproved::Unlucky)?;
+    let node = |v: u32| core[v as usize];
+    let rows = pairs.iter().zip(&found.masks);
     Ok(Listed {
-        core: found
-            .order
-            .iter()
-            .map(|&(v, centre)| (core.nodes[v as usize], centre))
-            .collect(),
-        rows: edges
+        core: found.order.iter().map(|&(v, at)| (node(v), at)).collect(),
+        rows: rows
             .filter(|&(_, &mask)| mask != 0)
-            .map(|((&(i, j), &member), &mask)| {
-                (
-                    core.nodes[i as usize],
-                    core.nodes[j as usize],
-                    mask,
-                    reason(member),
-                )
-            })
+            .map(|((&(i, j), &why), &mask)| (node(i), node(j), mask, why))
             .collect(),
         joins,
     })
+}
+
+/// The nodes that lie in two of the sets at least, increasing.
+fn core_nodes(sets: &[(Vec<u32>, Reason)]) -> Vec<u32> {
+    let mut nodes: Vec<u32> = sets.iter().flat_map(|(set, _)| set).copied().collect();
+    nodes.sort_unstable();
+    let mut twice: Vec<u32> = nodes
+        .windows(2)
+        .filter(|pair| pair[0] == pair[1])
+        .map(|pair| pair[0])
+        .collect();
+    twice.dedup();
+    twice
 }
 
 /// A body in the making.

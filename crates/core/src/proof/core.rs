@@ -24,7 +24,7 @@ const ENTRIES: [(usize, usize); 10] = [
     (3, 3),
 ];
 
-/// A core with the rank that was asked for.
+/// A core with the rank that was asked for, or a larger one.
 pub(super) struct Eliminated {
     /// Its nodes in the order of elimination, with their centres.
     pub(super) order: Vec<(u32, [u32; 3])>,
@@ -32,7 +32,7 @@ pub(super) struct Eliminated {
     pub(super) masks: Vec<u32>,
 }
 
-/// Looks for centres at which the rank is `rank`, and for so many independent rows there. `None` if
+/// Looks for centres at which the rank is `rank` at least, and for so many independent rows there. `None` if
 /// some centres fail.
 pub(super) fn eliminate(graph: &Graph, rank: usize) -> Option<Eliminated> {
     let order = order(graph);
@@ -96,7 +96,7 @@ fn order(graph: &Graph) -> Vec<u32> {
 /// A row: columns and entries, by increasing columns.
 type Row = Vec<(u32, u64)>;
 
-/// For every edge its rows that are independent of those before, if they are `rank` in all.
+/// For every edge its rows that are independent of those before, if they are `rank` in all or more.
 fn independent(
     graph: &Graph,
     place: &[usize],
@@ -131,7 +131,7 @@ fn independent(
             }
         }
     }
-    (found == rank).then_some(masks)
+    (found >= rank).then_some(masks)
 }
 
 /// Entry (a, b) of the equation of nodes i, j at cameras [I | -c] (docs/theory.md, 2.1).

@@ -31,7 +31,7 @@ pub enum Unproved {
     Known,
     /// A graph with one node.
     OneNode,
-    /// An upper bound by a hub, by parts that overlap, or by added pairs.
+    /// An upper bound by a hub.
     UpperBound,
     /// The rank rests on draws, with an error bound.
     ErrorBound,
@@ -51,9 +51,7 @@ impl fmt::Display for Unproved {
             Self::Model => f.write_str("only verdicts of the projective model"),
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
-            Self::UpperBound => {
-                f.write_str("an upper bound by a hub, by overlapping parts or by added pairs")
-            }
+            Self::UpperBound => f.write_str("an upper bound by a hub"),
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
             Self::ByRank => f.write_str("a body by rank"),
@@ -96,18 +94,16 @@ impl Verdict {
             return Err(Unproved::OneNode);
         }
         let full = Model::Projective.required(graph.nodes());
-        let assembly = Assembly::new(graph, &self.contraction);
-        let (upper, blocks) = if self.value == Value::NotFiniteSolvable {
-            upper_bound(self, &assembly)?
+        let refuted = self.value == Value::NotFiniteSolvable;
+        let (upper, blocks) = if refuted {
+            upper_bound(self, &Assembly::new(graph, &self.contraction))?
         } else {
             (full, Vec::new())
         };
-        if self.value == Value::NotFiniteSolvable && upper >= full {
+        if refuted && upper >= full {
             return Err(Unproved::ErrorBound);
         }
-        let core = assembly.core(&assembly.all());
-        let refuted = self.value == Value::NotFiniteSolvable;
-        let (lower, bodies) = match bodies::all(graph, &self.contraction, &core, self.rank) {
+        let (lower, bodies) = match bodies::all(graph, &self.contraction, self.rank) {
             Ok(bodies) => (self.rank, bodies),
             Err(Unproved::Core(_)) if refuted => (0, Vec::new()),
             Err(unproved) => return Err(unproved),
@@ -140,6 +136,9 @@ fn upper_bound(verdict: &Verdict, assembly: &Assembly) -> Result<(usize, Vec<Vec
 }
 
 /// The blocks by which the bound of a piece is counted.
+///
+/// Parts that overlap and added pairs never give less than a partition does where no block has a
+/// hub: the smallest sum over partitions is submodular in the pairs, and grows with them.
 fn piece_blocks(piece: &PieceVerdict, assembly: &Assembly) -> Result<Vec<Members>, Unproved> {
     let required = assembly.required(Model::Projective, &piece.members);
     if piece.upper >= required {

@@ -53,7 +53,7 @@ impl Listed {
 impl fmt::Display for Listed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.core.len() + self.joins.len();
-        writeln!(f, "body {size} {} {}", self.core.len(), self.rows.len())?;
+        writeln!(f, " {size} {} {}", self.core.len(), self.rows.len())?;
         for (v, [x, y, z]) in &self.core {
             writeln!(f, "{v} {x} {y} {z}")?;
         }
@@ -76,9 +76,9 @@ impl fmt::Display for Proof {
         writeln!(f, "viewcert proof 1")?;
         writeln!(f, "graph {} {}", self.nodes, self.pairs)?;
         writeln!(f, "claim {} {}", self.lower, self.upper)?;
-        self.bodies
-            .iter()
-            .try_for_each(|body| write!(f, "{body}"))?;
+        for body in &self.bodies {
+            write!(f, "body{body}")?;
+        }
         for block in &self.blocks {
             write!(f, "block {}", block.len())?;
             block.iter().try_for_each(|v| write!(f, " {v}"))?;
