@@ -112,6 +112,7 @@ impl Answer<'_> {
             time: self.time,
             acted: &self.found.acted,
             scope: &self.found.scope,
+            proof: None,
         }
     }
 

@@ -164,6 +164,7 @@ fn overview(
         time: Duration::ZERO,
         acted,
         scope: &any_scope,
+        proof: None,
     };
     let mut found = Overview {
         name: &input.name,

@@ -12,8 +12,8 @@ use super::parts::{self, PartArguments};
 use super::plane::{Asked, Scope};
 use super::{GOOD, NOT, atomic, certificates, running, witness};
 use crate::report;
-use crate::report::Report;
 use crate::report::many::{self, Table};
+use crate::report::{Report, WrittenProof};
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
@@ -432,7 +432,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         .map(|target| target.write(input, &verdict))
         .transpose()?;
     let proof = arguments.proof.as_deref();
-    let proved = proof
+    let proof = proof
         .map(|path| write_proof(path, input, &verdict))
         .transpose()?;
     let witness = arguments.witness.as_deref();
@@ -459,6 +459,7 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         time,
         acted: &acted,
         scope: &scope,
+        proof: proof.as_ref(),
     };
     arguments.pages.write(&report)?;
     if let Some(table) = table {
@@ -471,12 +472,8 @@ fn decide(work: Work, input: &NamedGraph, start: Instant, out: &mut impl Write) 
         if let Some(path) = certificate {
             writeln!(out, "  certificate {}", path.display())?;
         }
-        if let Some((path, [lower, upper])) = proof.zip(proved) {
-            let path = path.display();
-            writeln!(
-                out,
-                "  proof       {path} (rank {lower} at least, {upper} at most)"
-            )?;
+        if let Some(proof) = report.proof {
+            writeln!(out, "  proof       {proof}")?;
         }
         if let Some((path, witness::Found::Written)) = witness.zip(shown.as_ref()) {
             writeln!(out, "  witness     {}", path.display())?;
@@ -504,12 +501,11 @@ fn asked_scope(arguments: &VerifyArguments) -> Asked {
     }
 }
 
-/// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
-/// none for this verdict.
-fn write_proof(path: &Path, input: &NamedGraph, verdict: &Verdict) -> Result<[usize; 2]> {
+/// Writes the explicit proof, and returns what it shows; nothing if there is none for this verdict.
+fn write_proof(path: &Path, input: &NamedGraph, verdict: &Verdict) -> Result<WrittenProof> {
     let proof = verdict
         .proof(&input.graph)
         .with_context(|| format!("{}: {PROOF}: no explicit proof", input.name))?;
     atomic::write(path, |out| write!(out, "{proof}"))?;
-    Ok([proof.lower(), proof.upper()])
+    Ok(WrittenProof::new(path, &proof))
 }

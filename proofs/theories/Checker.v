@@ -100,30 +100,34 @@ End Machine.
 Section Lower.
 Variable bodies : nat -> body.
 
-Definition pair_ok b x y (why : reason) : bool :=
+Definition pair_ok (mate : nat -> bool) b x y (why : reason) : bool :=
   match why with
   | Pair k => if k < m then
       if eqn (first k) x then eqn (second k) y else if eqn (first k) y then eqn (second k) x else false
     else false
   | Inside c s t => if c < b then
-      if s < body_size (bodies c) then
-        if t < body_size (bodies c) then
-          if eqn (node (bodies c) s) x then eqn (node (bodies c) t) y else false
+      if mate c then
+        if s < body_size (bodies c) then
+          if t < body_size (bodies c) then
+            if eqn (node (bodies c) s) x then eqn (node (bodies c) t) y else false
+          else false
         else false
       else false
     else false
   | Both _ _ _ _ _ _ => false
   end.
 
+(* A body has an owner, a later body or itself, and uses only bodies that have the same one. *)
+Variable owner : nat -> nat.
 Definition rigid b : bool :=
   if 1 < body_size (bodies b) then
-    if body_rank (pair_ok b) (bodies b) is Some r then 11 * body_size (bodies b) - 15 <= r else false
+    if body_rank (pair_ok (fun c => eqn (owner c) (owner b)) b) (bodies b) is Some r then 11 * body_size (bodies b) - 15 <= r else false
   else false.
 Fixpoint all_rigid b : bool := if b is b'.+1 then if rigid b' then all_rigid b' else false else true.
 
-(* bodies 0 .. b-1 are rigid, and body b has the rank r *)
+(* bodies 0 .. b-1 are rigid, and body b, which may use all of them, has the rank r *)
 Definition lower_ok b r : bool :=
-  if all_rigid b then if body_rank (pair_ok b) (bodies b) is Some s then r <= s else false else false.
+  if all_rigid b then if body_rank (pair_ok (fun _ => true) b) (bodies b) is Some s then r <= s else false else false.
 End Lower.
 
 (* Upper bounds for the pairs in some sets of nodes, by two lists of blocks, of which the second one begins at [half]. A
@@ -185,15 +189,15 @@ End Upper.
 End Program.
 
 (* The whole check: a lower bound of 0 and an upper one of 11 n - 15 need no proof. *)
-Definition lower_part n m first second bodies b r : bool :=
-  if eqn r 0 then true else lower_ok n m first second bodies b r.
+Definition lower_part n m first second bodies owner b r : bool :=
+  if eqn r 0 then true else lower_ok n m first second bodies owner b r.
 Definition end_of (first second : nat -> nat) k s : nat := if eqn s 0 then first k else second k.
 Definition upper_part n m first second blocks half shared c place r : bool :=
   if 11 * n - 15 <= r then true
   else upper_ok n m (fun _ => 2) (end_of first second) blocks half shared place c r.
-Definition verify n m first second by_pair bodies b lower blocks half shared c place upper : bool :=
+Definition verify n m first second by_pair bodies owner b lower blocks half shared c place upper : bool :=
   if graph_ok n m first second by_pair then
-    if lower_part n m first second bodies b lower then upper_part n m first second blocks half shared c place upper
+    if lower_part n m first second bodies owner b lower then upper_part n m first second blocks half shared c place upper
     else false
   else false.
 
@@ -271,12 +275,12 @@ have /and3P [_ /allP /(_ _ kG) /andP [/= fs sn] _] := good.
 by apply: edges_mem; rewrite !valV // (ltn_trans fs).
 Qed.
 
-Lemma pair_okP b x y why : pair_ok m first second bodies b x y why -> either (usable b) (V x, V y).
+Lemma pair_okP mate b x y why : pair_ok m first second bodies mate b x y why -> either (usable b) (V x, V y).
 Proof.
 case: why => [k | c s t | //] /=.
   case: ifP => // /edge_of /(usable_edge b) kE; case: eqnP => [<- /eqnP <- | _]; first by rewrite /either kE.
   by case: eqnP => // <- /eqnP <-; rewrite /either /swap /= kE orbT.
-case: ifP => // cb; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
+case: ifP => // cb; case: ifP => // _; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
 apply/orP; left; apply: usable_body cb _.
 by rewrite /inside /nodes; apply/andP; split; apply: map_f; rewrite mem_iota.
 Qed.
@@ -379,19 +383,49 @@ by move/(joinedP u lt base) => []; rewrite subnKC // => v -> h; rewrite addnC.
 Qed.
 End Machine.
 
-Lemma all_rigidP b r : all_rigid n m first second bodies b -> attained (usable b) r -> attained (edges n G) r.
+(* A motion that all pairs of the core allow, but that of its nodes i and j does not: that pair raises the rank. *)
+Lemma body_motionP (allowed : nat -> nat -> reason -> bool) B U motion i j r :
+  (forall x y why, allowed x y why -> either U (V x, V y)) -> body_rank n allowed B = Some r ->
+  all_solved the_prime (centre B) motion (core_rows (core B)) -> i < core_size B -> j < core_size B ->
+  ~~ solved the_prime (centre B) motion i j entries10 ->
+  exists T, [/\ all (inside (mkseq (fun k => V (node B k)) (body_size B))) T,
+    all (either ((V (node B i), V (node B j)) :: U)) T & attained T r.+1].
+Proof.
+move=> ok; rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
+case: ifP => // cok; have -> : (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B)))
+  = core_rank the_prime (centre B) (core_size B) (core_rows (core B)) by case: (core B).
+move=> jo sol ic jc nij; set U' := _ :: U; have le' : core_size B + (body_size B - core_size B) <= body_size B by rewrite subnKC.
+have ok' x y why : allowed x y why -> either U' (V x, V y).
+  by move/ok; rewrite /either !inE => /orP [] ->; rewrite ?orbT.
+suff base : shown B U' (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B))).+1.
+  by have [v -> h] := joinedP ok' u lt base le' jo; move: h; rewrite subnKC // addSn addnC.
+have [clt el] := core_okP ok' cok.
+have a := motion_sound the_prime_is_prime (i := Ordinal ic) (j := Ordinal jc) clt sol nij.
+pose s (k : 'I_(core_size B)) := V (node B k).
+have s_inj : injective s.
+  by move=> k k' /(N_inj u lt) kk; apply/val_inj/kk; apply: leq_trans le.
+exists (moved s ((Ordinal ic, Ordinal jc) :: edges (core_size B) (pairs_of (core_rows (core B))))); split.
+- by apply/allP=> _ /mapP [[k k'] _ ->]; rewrite /inside /= !N_in.
+- apply/allP=> _ /mapP [[k k'] + ->] /=; rewrite inE => /predU1P [[-> ->]|]; first by rewrite /either mem_head.
+  rewrite mem_pmap => /mapP [[x y] /mapP [g gL xy]] /=.
+  case: insubP => // k1 _ ex; case: insubP => // k2 _ ey [-> ->].
+  by have := el _ gL; rewrite -xy /= -ex -ey.
+- exact: attained_moved s_inj a.
+Qed.
+
+Lemma all_rigidP owner b r : all_rigid n m first second bodies owner b -> attained (usable b) r -> attained (edges n G) r.
 Proof.
 elim: b => //= b ih; case: ifP => // rig /ih {}ih a; apply: ih; move: rig; rewrite /rigid.
-case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT [P aT]]] := body_rankP (@pair_okP b) e.
+case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT [P aT]]] := body_rankP (@pair_okP _ b) e.
 apply: (theorem_4_1 (T := T) (b := nodes b)) a => //; first by rewrite size_mkseq.
 - by apply/allP=> _ /allpairsP [[x y] [xb yb ->]]; rewrite /inside xb.
 - by exists P; rewrite size_mkseq; apply: leq_trans les aT.
 Qed.
 
-Theorem lower_ok_sound b r : lower_ok n m first second bodies b r -> rank_at_least n G r.
+Theorem lower_ok_sound owner b r : lower_ok n m first second bodies owner b r -> rank_at_least n G r.
 Proof.
 rewrite /lower_ok; case: ifP => // rig; case e: body_rank => [s|//] rs.
-have [T [_ eT aT]] := body_rankP (@pair_okP b) e; have [P h] := all_rigidP rig (attained_either eT aT).
+have [T [_ eT aT]] := body_rankP (@pair_okP _ b) e; have [P h] := all_rigidP rig (attained_either eT aT).
 by exists P; apply: leq_trans rs h.
 Qed.
 
@@ -514,8 +548,8 @@ Qed.
 End Upper.
 End Sound.
 
-Theorem verify_sound n m first second by_pair bodies b lower blocks half shared c place upper :
-  verify n m first second by_pair bodies b lower blocks half shared c place upper ->
+Theorem verify_sound n m first second by_pair bodies owner b lower blocks half shared c place upper :
+  verify n m first second by_pair bodies owner b lower blocks half shared c place upper ->
   let G := pairs m first second in
   [/\ well_formed n G, rank_at_least n G lower & rank_at_most n G upper].
 Proof.

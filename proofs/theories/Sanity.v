@@ -78,6 +78,20 @@ Proof. by case=> /and3P [n1 _ _] [P a] _; apply: leq_trans a (lemma_1_1 _ _ n1).
 
 Local Close Scope ring_scope.
 
+(* A graph of full rank is one component. *)
+Theorem full_rank_component n G : full_rank n G -> components n G [:: iota 0 n].
+Proof.
+case=> /and3P [n1 /allP lt _] low _.
+have in_iota x : (x \in iota 0 n) = (x < n) by rewrite mem_iota.
+have whole : part n G (iota 0 n).
+  split; rewrite ?size_iota ?iota_uniq //; first by apply/allP=> x; rewrite in_iota.
+  suff -> : within (iota 0 n) G = G by [].
+  by apply/all_filterP/allP=> e /lt /andP [e12 en]; rewrite !in_iota en (ltn_trans e12 en).
+have sub b : part n G b -> {subset b <= iota 0 n} by case=> _ _ /allP bn _ x /bn; rewrite in_iota.
+split=> [b | b [pb maxb]]; first by rewrite inE => /eqP ->; split=> // b' /sub.
+by exists (iota 0 n); rewrite ?mem_head // => x; apply/idP/idP=> [/(maxb _ whole (sub _ pb))|/(sub _ pb)].
+Qed.
+
 (* Small graphs, as the program checks them: a pair and a triangle have full rank, a 4-cycle has not. *)
 Definition at_ (s : seq (nat * nat)) k := nth (0%N, 0%N) s k.
 Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body :=
@@ -89,15 +103,18 @@ Theorem pair : full_rank 2 [:: (0, 1)]%N.
 Proof.
 apply: (has_full_rank (u := 7)); pose G := [:: (0, 1)]%N.
 have := @verify_sound 2 1 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) 0 7 no_block 0 nothing 0 (fun _ => None) 7.
+  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) id 0 7 no_block 0 nothing 0 (fun _ => None) 7.
 by apply; vm_compute.
 Qed.
+
+Theorem one_pair_has_rank_7 : generic_rank 2 [:: (0, 1)]%N 7.
+Proof. exact: pair. Qed.
 
 Theorem triangle : full_rank 3 [:: (0, 1); (0, 2); (1, 2)]%N.
 Proof.
 apply: (has_full_rank (u := 18)); pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
 have := @verify_sound 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) 0 18
+  (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) id 0 18
   no_block 0 nothing 0 (fun _ => None) 18.
 by apply; vm_compute.
 Qed.
@@ -106,6 +123,6 @@ Theorem four_cycle : ~ full_rank 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 Proof.
 apply: (@lacks_full_rank 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 have := @verify_sound 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 0 (fun _ => [::])) 0 0 no_block 0 nothing 0 (fun _ => None) 28.
+  (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 28.
 by apply; vm_compute.
 Qed.

@@ -5,10 +5,13 @@
 //! pivots is written out here: centres, rows, the nodes of every body and what joins them.
 
 mod bodies;
+mod components;
 mod core;
 mod text;
 
 pub use text::Proof;
+
+use bodies::Record;
 
 use crate::contract::Body;
 use crate::contract::piece::{Assembly, Members};
@@ -103,20 +106,41 @@ impl Verdict {
         if refuted && upper >= full {
             return Err(Unproved::ErrorBound);
         }
-        let (lower, bodies) = match bodies::all(graph, &self.contraction, self.rank) {
-            Ok(bodies) => (self.rank, bodies),
-            Err(Unproved::Core(_)) if refuted => (0, Vec::new()),
-            Err(unproved) => return Err(unproved),
-        };
+        let mut record = Record::of(graph, &self.contraction)?;
+        let last = record.last(&self.contraction);
+        let wanted = refuted && self.components_claim().is_proved();
+        let mut lower = self.rank;
+        let mut components = None;
+        if !last.is_empty() {
+            match bodies::of_sets(&last, self.rank) {
+                Ok(whole) => {
+                    components = wanted
+                        .then(|| components::of(self, &mut record).ok())
+                        .flatten();
+                    record.done.push(whole);
+                }
+                Err(Unproved::Core(_)) if refuted => {
+                    lower = 0;
+                    record.done.clear();
+                }
+                Err(unproved) => return Err(unproved),
+            }
+        }
         Ok(Proof {
             nodes: graph.nodes(),
             pairs: graph.edges().len(),
             lower,
             upper,
-            bodies,
+            bodies: record.done,
             blocks,
+            components,
         })
     }
+}
+
+/// What a set of nodes has to have to be of full rank.
+fn required(nodes: &[u32]) -> usize {
+    Model::Projective.required(nodes.len())
 }
 
 /// An upper bound by counting, and its blocks of three nodes or more.
@@ -127,8 +151,7 @@ fn upper_bound(verdict: &Verdict, assembly: &Assembly) -> Result<(usize, Vec<Vec
     }
     let nodes = |part: &Members| part.nodes(&verdict.contraction.bodies);
     let blocks: Vec<Vec<u32>> = parts.iter().map(nodes).collect();
-    let required = |block: &Vec<u32>| Model::Projective.required(block.len());
-    let upper = blocks.iter().map(required).sum();
+    let upper = blocks.iter().map(|block| required(block)).sum();
     Ok((
         upper,
         blocks.into_iter().filter(|block| block.len() > 2).collect(),
