@@ -1,11 +1,15 @@
-"""Tests of viewcert-proved: python3 tests.py PROGRAM [--catalog PROVE] [--mutants N] [--seed S].
+"""Tests of viewcert-proved: python3 tests.py PROGRAM [--catalog PROVE] [--checkers VERIFY CHECK] [--data FOLDER]
+[--mutants N] [--seed S].
 
 By hand: small graphs, hostile files. --catalog: every published graph, proofs written by the example
 `prove`; ranks are those of the published certificates. Mutants of proofs and graphs: what is accepted
-is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone."""
+is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone; and the other two
+checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
 
 import argparse
+import csv
 import gzip
+import hashlib
 import itertools
 import json
 import pathlib
@@ -249,6 +253,10 @@ def by_hand(program):
     refuted = "viewcert proof 1\ngraph 4 4\nclaim 0 28\nend\n"
     case("names in comments", 0, "# 0 left.jpg\n#\n" + t + "# 3 4\n", TRIANGLE_PROOF)
     case("upper bound alone", 0, c, refuted, "not of full rank")
+    # the digest, on both sides of a block's end
+    for length in range(50, 70):
+        graph = "# " + "x" * length + "\n" + t
+        case("digest", 0, graph, TRIANGLE_PROOF, hashlib.sha256(graph.encode()).hexdigest())
     # every condition, broken
     case("more than is shown", 1, t, TRIANGLE_PROOF.replace("claim 18", "claim 19"))
     case("upper too small", 1, c, refuted.replace("28", "27"))
@@ -392,7 +400,54 @@ def catalog(program, prove, required, draw):
     return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in range(400)]
 
 
-def mutants(program, base, count, draw):
+def published(program, verify, data):
+    """Table 3 of the paper: 29 graphs, with as many components as it says."""
+    folder = program.place / "published"
+    folder.mkdir()
+    rows = list(csv.DictReader((data / "table3.csv").open()))
+    for row in rows:
+        graph, proof = (folder / f"{row['file']}.{end}" for end in ("txt", "proof"))
+        done = subprocess.run([verify, "convert", data / "table3" / row["file"], "-o", graph], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        done = subprocess.run([verify, graph, "--proof", proof], capture_output=True, text=True)
+        assert done.returncode in (0, 1) and proof.exists(), done.stderr
+    (folder / "list").write_text("".join(f"{folder}/{row['file']}.txt {folder}/{row['file']}.proof\n" for row in rows))
+    start = time.time()
+    code, out, err = program.list(folder / "list")
+    seconds = time.time() - start
+    verdicts = out.split(str(folder) + "/")[1:]
+    assert code == 0 and len(verdicts) == len(rows) == 29, (code, err)
+    several = 0
+    for row, verdict in zip(rows, verdicts):
+        found, parts = listed(verdict), int(row["components_edge_based"])
+        low, high = bounds(verdict)
+        assert verdict.startswith(row["file"]) and "VERIFIED" in verdict and low == high, verdict[:400]
+        assert (1 if found is None else len(found)) == parts and (found is None) == ("full rank\n" in verdict and "not of" not in verdict), (row, verdict[:400])
+        several += parts > 1
+    assert several == 5
+    print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s")
+
+
+def others_agree(program, checkers, graph, out):
+    """The other two checkers accept a certificate, which claims what this program has printed."""
+    verify, check = checkers
+    pairs, certificate = program.place / "graph.txt", program.place / "certificate.json"
+    pairs.write_text(graph)
+    done = subprocess.run([verify, pairs, "--certificate", certificate], capture_output=True, text=True)
+    assert done.returncode in (0, 1), (graph, done.stderr)
+    second = HERE.parent / "crates" / "check" / "second" / "check.py"
+    for command in ([check], [sys.executable, second]):
+        done = subprocess.run([*command, certificate], capture_output=True, text=True)
+        assert done.returncode == 0, (graph, done.stdout, done.stderr)
+    claim = json.loads(certificate.read_text())["claim"]
+    low, high = bounds(out)
+    found = listed(out)
+    assert (low or 0) <= claim["rank"]["value"] and (high is None or claim["rank"]["value"] <= high), (graph, out, claim)
+    assert (claim["verdict"]["value"] == "not-finite-solvable") or "not of full rank" not in out, (graph, out, claim)
+    assert found is None or len(found) == claim["components"]["value"], (graph, out, claim)
+
+
+def mutants(program, base, count, draw, checkers):
     """Changed files: never a crash, and what is accepted is true."""
     accepted = {0: 0, 1: 0, 2: 0}
     parts = 0
@@ -411,6 +466,8 @@ def mutants(program, base, count, draw):
             true = generic_rank(n, [pair for pair in pairs if len(pair) == 2], draw)
             low, high = bounds(out)
             assert (low or 0) <= true and (high is None or true <= high), (graph, proof, out, true)
+            if checkers:
+                others_agree(program, checkers, graph, out)
             found = listed(out)
             if found is not None and n < 8:
                 assert found == components(n, [pair for pair in pairs if len(pair) == 2], draw), (graph, proof, out)
@@ -443,6 +500,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("--catalog", metavar="PROVE")
+    parser.add_argument("--checkers", nargs=2, metavar=("VERIFY", "CHECK"))
+    parser.add_argument("--data", metavar="FOLDER", type=pathlib.Path)
     parser.add_argument("--mutants", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args()
@@ -455,7 +514,9 @@ def main():
     if asked.catalog:
         files = catalog(program, asked.catalog, 6515, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]
-    mutants(program, base, asked.mutants, draw)
+    if asked.data:
+        published(program, asked.checkers[0], asked.data)
+    mutants(program, base, asked.mutants, draw, asked.checkers)
 
 
 if __name__ == "__main__":

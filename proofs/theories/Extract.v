@@ -31,6 +31,10 @@ Print Assumptions derivative.
 Print Assumptions edges_all.
 Print Assumptions one_rank.
 Print Assumptions largest.
+Print Assumptions a_rank.
+Print Assumptions rational_cameras.
+Print Assumptions renamed.
+Print Assumptions only_trivial_motions.
 Print Assumptions full_rank_component.
 Print Assumptions one_pair_has_rank_7.
 Print Assumptions pair.
