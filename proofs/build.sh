@@ -1,15 +1,25 @@
 #!/usr/bin/env bash
 # Compiles the proofs, extracts the checker, builds it and tests it: proofs/build/viewcert-proved.
-# Installs Debian's packages where they are missing; says SKIPPED, and ends with 0, where there are none.
+# Installs Debian's packages where they are missing; says SKIPPED, and ends with 0, where there are none (with 1 if
+# VIEWCERT_REQUIRE_DATA=1).
 set -euo pipefail
 cd "$(dirname "$0")"
 export LC_ALL=C.UTF-8
+
+# Continuous integration sets VIEWCERT_REQUIRE_DATA=1: then nothing is left out.
+absent() {
+    if [ "${VIEWCERT_REQUIRE_DATA:-}" = 1 ]; then
+        echo "VIEWCERT_REQUIRE_DATA is set, but $1"
+        exit 1
+    fi
+    echo "SKIPPED: $1"
+}
 
 if ! command -v coqc >/dev/null || ! command -v ocamlfind >/dev/null ||
     ! [ -d "$(coqc -where)/user-contrib/mathcomp/algebra_tactics" ]; then
     { apt-get update -qq && apt-get install -y -qq --no-install-recommends coq libcoq-mathcomp \
         libcoq-mathcomp-algebra-tactics libcoq-mathcomp-zify ocaml-nox ocaml-findlib make >/dev/null; } || {
-        echo "SKIPPED: the proofs need Coq 8.16 with MathComp and algebra-tactics, and OCaml (Debian 12)"
+        absent "the proofs need Coq 8.16 with MathComp and algebra-tactics, and OCaml (Debian 12)"
         exit 0
     }
 fi
@@ -41,15 +51,22 @@ coqchk -silent -o -Q ../theories Viewcert $modules >coqchk.log 2>&1 || { tail -n
 
 echo "-- building"
 cp ../program/*.ml .
-ocamlfind ocamlopt -w -a checker.mli checker.ml graph.ml proof.ml main.ml -o viewcert-proved
+ocamlfind ocamlopt -w -a checker.mli checker.ml sha256.ml graph.ml proof.ml main.ml -o viewcert-proved
 cd ..
 
 echo "-- testing"
-# The whole catalog, where the example that writes its proofs is built.
-prove=../target/debug/examples/prove
-if [ -x "$prove" ]; then
-    python3 tests.py build/viewcert-proved --catalog "$prove" --mutants "${MUTANTS:-300}"
+# The whole catalog and the published graphs, where the programs are built that write their proofs.
+prove=../target/debug/examples/prove verify=../target/debug/verify checker=../target/debug/viewcert-check
+data=${VIEWCERT_DATA:-../../shared/data}
+more=()
+if [ -x "$prove" ]; then more+=(--catalog "$prove"); else absent "$prove is not built, so the catalog is not tested"; fi
+if [ -x "$verify" ] && [ -x "$checker" ]; then
+    more+=(--checkers "$verify" "$checker")
+    if [ -d "$data" ]; then more+=(--data "$data"); else absent "the published data are not at $data"; fi
 else
-    echo "SKIPPED: the catalog ($prove is not built)"
-    python3 tests.py build/viewcert-proved --mutants "${MUTANTS:-300}"
+    absent "verify and viewcert-check are not built, so neither published graphs nor the other checkers are tested"
 fi
+python3 tests.py build/viewcert-proved "${more[@]}" --mutants "${MUTANTS:-300}"
+
+echo "-- hostile files, for ${FUZZ_SECONDS:-10} s"
+python3 fuzz.py build/viewcert-proved --seconds "${FUZZ_SECONDS:-10}"

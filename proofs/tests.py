@@ -1,11 +1,16 @@
-"""Tests of viewcert-proved: python3 tests.py PROGRAM [--catalog PROVE] [--mutants N] [--seed S].
+"""Tests of viewcert-proved: python3 tests.py PROGRAM [--catalog PROVE] [--checkers VERIFY CHECK] [--data FOLDER]
+[--mutants N] [--seed S].
 
 By hand: small graphs, hostile files. --catalog: every published graph, proofs written by the example
 `prove`; ranks are those of the published certificates. Mutants of proofs and graphs: what is accepted
-is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone."""
+is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone; and the other two
+checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
 
 import argparse
+import csv
 import gzip
+import hashlib
+import itertools
 import json
 import pathlib
 import random
@@ -96,6 +101,30 @@ def bounds(text):
     return low and int(low[1]), high and int(high[1])
 
 
+def listed(text):
+    """The components that are printed, None if none are."""
+    lines = text.splitlines()
+    at = next((k for k, line in enumerate(lines) if "the largest sets of two nodes or more" in line), None)
+    if at is None:
+        return None
+    sets = [frozenset(map(int, line.split())) for line in itertools.takewhile(lambda l: l.startswith("    "), lines[at + 1 :])]
+    assert len(sets) == int(lines[at].split()[-1]) == len(set(sets)), text
+    return set(sets)
+
+
+def components(n, pairs, draw):
+    """The largest sets of nodes whose pairs have full rank among themselves: all sets are tried, the largest first."""
+    found = []
+    for size in range(n, 1, -1):
+        for nodes in map(frozenset, itertools.combinations(range(n), size)):
+            inside = [pair for pair in pairs if nodes.issuperset(pair)]
+            # 7 for each pair, and Lemma 1.1: most sets are out
+            if 7 * len(inside) >= 11 * size - 15 and not any(nodes <= larger for larger in found):
+                if generic_rank(n, inside, draw) == 11 * size - 15:
+                    found.append(nodes)
+    return set(found)
+
+
 def text_of(pairs):
     return "".join(f"{i} {j}\n" for i, j in pairs)
 
@@ -142,6 +171,72 @@ block 3 0 3 4
 end
 """
 
+BOW_PARTS = """body 2 0 0
+free 4
+one 5 4 0
+{}components 3 0 1 2
+cut 3 1 2 3
+end
+"""
+BOW_LAST = BOW_PROOF[BOW_PROOF.index("body 6") : BOW_PROOF.index("block")]
+BOW_APART = BOW_PROOF.replace(BOW_LAST, "").replace("end\n", "").replace(
+    "block 3 0 1 2", BOW_PARTS.split("{}")[0] + BOW_LAST + "block 3 0 1 2"
+) + BOW_PARTS.split("{}")[1]
+# The four pairs of a 4-cycle, told apart by a motion.
+PAIRS_PROOF = """viewcert proof 1
+graph 4 4
+claim 28 28
+body 2 0 0
+free 0
+one 1 0 0
+body 2 0 0
+free 0
+one 3 0 0
+body 2 0 0
+free 1
+one 2 1 0
+body 2 0 0
+free 2
+one 3 2 0
+body 4 4 4
+0 47658 55560 54360
+2 64119 1151 14969
+1 63796 60163 49194
+3 31981 23705 28284
+0 1 127 0
+0 3 127 0
+1 2 127 0
+2 3 127 0
+components 4 0 1 2 3
+apart 4 1 2 3 4
+4 4 4
+0 47658 55560 54360
+2 64119 1151 14969
+1 63796 60163 49194
+3 31981 23705 28284
+0 1 127 1
+0 3 127 2
+1 2 127 3
+2 3 127 4
+55704 34498 36051 24321 13930 9158 45375 6241 55966 52243 5616 63166
+12727 31509 49734 1818 61724 28925 56835 10901 51493 3600 58630 19250
+44654 37835 48481 57543 41541 29743 43756 10363 32152 60318 35931 3672
+42 29517 56807 1464 36806 23605 24491 64587 34499 26513 54105 39819
+end
+"""
+# Two triangles that share a pair, and one more pair: 18 + 18 - 7 + 7.
+KITE = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (3, 4)]
+KITE_PROOF = """viewcert proof 1
+graph 5 6
+claim 0 36
+block 3 0 1 2
+other 3 1 2 3
+shared 2 0 0
+free 1
+one 2 1 0
+end
+"""
+
 
 def by_hand(program):
     def case(name, code, graph, proof, says=""):
@@ -158,6 +253,10 @@ def by_hand(program):
     refuted = "viewcert proof 1\ngraph 4 4\nclaim 0 28\nend\n"
     case("names in comments", 0, "# 0 left.jpg\n#\n" + t + "# 3 4\n", TRIANGLE_PROOF)
     case("upper bound alone", 0, c, refuted, "not of full rank")
+    # the digest, on both sides of a block's end
+    for length in range(50, 70):
+        graph = "# " + "x" * length + "\n" + t
+        case("digest", 0, graph, TRIANGLE_PROOF, hashlib.sha256(graph.encode()).hexdigest())
     # every condition, broken
     case("more than is shown", 1, t, TRIANGLE_PROOF.replace("claim 18", "claim 19"))
     case("upper too small", 1, c, refuted.replace("28", "27"))
@@ -170,6 +269,66 @@ def by_hand(program):
     case("a node twice", 1, text_of(BOW), BOW_PROOF.replace("one 5 4 0", "one 3 4 0"))
     case("a body that comes later", 2, text_of(BOW), BOW_PROOF.replace("one 1 0 0", "one 1 0 3", 1))
     case("a block with one node", 1, text_of(BOW), BOW_PROOF.replace("block 3 0 1 2", "block 1 0"))
+    b = text_of(BOW)
+    case("components", 0, b, BOW_APART, "full rank among themselves: 3\n    0 1 2\n    0 3 4\n    4 5\n")
+    case("components, told apart", 0, c, PAIRS_PROOF, "full rank among themselves: 4\n    0 1\n    0 3\n    1 2\n    2 3\n")
+    case("a component left out", 2, b, BOW_APART.replace("components 3 0 1 2\ncut 3 1 2 3", "components 2 0 1\ncut 2 1 2"), "4 5 is in no component")
+    case("a component twice", 1, b, BOW_APART.replace("components 3 0 1 2\ncut 3 1 2 3", "components 4 0 1 2 2\ncut 4 1 2 3 4"))
+    case("a component that is no body", 2, b, BOW_APART.replace("components 3 0 1 2", "components 3 0 1 9"))
+    case("the last body as a component", 1, b, BOW_APART.replace("components 3 0 1 2\ncut 3 1 2 3", "components 1 3"))
+    case("not cut far enough", 1, b, BOW_APART.replace("cut 3 1 2 3", "cut 2 1 3"))
+    case("cut in two steps", 0, b, BOW_APART.replace("cut 3 1 2 3", "cut 2 1 3\ncut 2 2 3"))
+    case("cut, and again", 2, b, BOW_APART.replace("cut 3 1 2 3", "cut 3 1 2 3\ncut 3 1 2 3"))
+    case("cut past the end", 2, b, BOW_APART.replace("cut 3 1 2 3", "cut 3 1 2 4"))
+    case("cut short of the end", 1, b, BOW_APART.replace("cut 3 1 2 3", "cut 2 1 2"))
+    case("an empty interval", 1, b, BOW_APART.replace("cut 3 1 2 3", "cut 3 1 1 3"))
+    ring = PAIRS_PROOF[: PAIRS_PROOF.index("apart")]
+    case("cut at two nodes", 1, c, ring + "cut 4 1 2 3 4\nend\n")
+    case("two nodes shared", 1, c, ring + "cut 2 2 4\ncut 2 3 4\ncut 2 1 2\nend\n")
+    case("no motion", 1, c, re.sub(r"(?m)^(\d+ ){11}\d+$", "0 " * 11 + "0", PAIRS_PROOF))
+    case("a motion that a pair forbids", 1, c, PAIRS_PROOF.replace("55704 34498", "55705 34498"))
+    case("a core that lacks rank", 1, c, PAIRS_PROOF.replace("0 1 127 1", "0 1 63 1"))
+    case("a pair in another component", 2, c, PAIRS_PROOF.replace("0 1 127 1", "0 1 127 2"), "are not both in the component")
+    case("components without a lower bound", 1, c, PAIRS_PROOF.replace("claim 28", "claim 0"))
+    # a triangle's pair is rigid, but no component; one that uses the triangle is not rigid by itself
+    less = "components 3 {}\ncut 3 1 2 3\nend\n"
+    pairs = "".join(f"body 2 0 0\nfree {i}\none {j} {i} {{}}\n" for i, j in TRIANGLE)
+    tailed = text_of(TRIANGLE + [(2, 3)])
+    tail = "body 2 0 0\nfree 2\none 3 2 0\n"
+    last = "body 4 0 0\nfree 0\none 1 0 1\ntwo 2 0 1 1 1\none 3 2 0\nblock 3 0 1 2\n"
+    head = TRIANGLE_PROOF.replace("graph 3 3\nclaim 18 18", "graph 4 4\nclaim 25 25").replace("end\n", "")
+    good = head + tail + last + "components 2 0 1\ncut 2 1 2\nend\n"
+    case("a triangle and a pair", 0, tailed, good, "themselves: 2\n    0 1 2\n    2 3\n")
+    for k in 0, 1:
+        parts = head + pairs.format(k, k, k) + tail + last + "components 4 1 2 3 4\ncut 4 1 2 3 4\nend\n"
+        case("components that are not the largest", 1, tailed, parts)
+    # a 4-cycle with a chord holds another one, whose diagonal it knows; without the chord it is not rigid
+    chord = [(0, 1), (0, 3), (1, 2), (1, 3), (2, 3), (3, 4)]
+    whole = "body 4 0 0\nfree 1\none 3 1 0\ntwo 0 1 0 3 0\ntwo 2 1 0 3 0\n"
+    by_it = "body 3 0 0\nfree 0\none 1 0 0\ntwo 2 0 1 1 0\n"
+    rest = "body 2 0 0\nfree 3\none 4 3 0\n" + "body 5 0 0\nfree 0\none 1 0 1\ntwo 2 0 1 1 1\ntwo 3 0 1 1 1\none 4 3 0\nblock 4 0 1 2 3\n"
+    head = "viewcert proof 1\ngraph 5 6\nclaim 36 36\n" + whole + by_it + rest
+    alone = head.replace(by_it, "") + "components 2 0 1\ncut 2 1 2\nend\n"
+    case("a 4-cycle with a chord", 0, text_of(chord), alone, "themselves: 2\n    1 3 0 2\n    3 4\n")
+    case("uses what lies outside", 1, text_of(chord), head + "components 3 0 1 2\ncut 3 1 2 3\nend\n")
+    kite = text_of(KITE)
+    case("overlap", 0, kite, KITE_PROOF, "is at most 36")
+    # the pair that is shared is not in this graph, whose rank is 35
+    open_kite, open_proof = text_of([e for e in KITE if e != (1, 2)]), KITE_PROOF.replace("5 6", "5 5")
+    case("added pair", 0, open_kite, open_proof, "is at most 36")
+    case("overlap, less", 1, kite, KITE_PROOF.replace("0 36", "0 35"))
+    case("overlap, less", 1, open_kite, open_proof.replace("0 36", "0 35"))
+    outside = "shared 3 0 0\nfree 1\none 2 1 0\none {} 2 0\nend"
+    for v in (0, 3):
+        shared = KITE_PROOF[: KITE_PROOF.index("shared")] + outside.format(v) + "\n"
+        case("a pair in one list of blocks alone", 2, kite, shared, "are not both in a block and in one of the others")
+    case("shared, by a body", 2, kite, KITE_PROOF.replace("one 2 1 0", "one 2 1 1"))
+    case("shared, two times", 2, kite, KITE_PROOF.replace("end", "shared 0 0 0\nend"))
+    case("nothing shared", 2, kite, KITE_PROOF[: KITE_PROOF.index("shared")] + "end\n")
+    case("shared without others", 2, kite, KITE_PROOF.replace("other", "block"))
+    case("blocks behind the others", 2, kite, KITE_PROOF.replace("shared", "block 2 0 1\nshared", 1))
+    case("an other block with one node", 1, kite, KITE_PROOF.replace("other 3", "other 1 0\nother 3"))
+    case("a shared node twice", 1, kite, KITE_PROOF.replace("one 2 1 0", "two 2 1 0 1 0"))
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -203,7 +362,7 @@ def by_hand(program):
     assert code == 1 and out.count("VERIFIED") == 2 and out.count("REJECTED") == 1, out
 
 
-def catalog(program, prove, required):
+def catalog(program, prove, required, draw):
     """All published graphs but those whose refutation needs a hub; returns their proofs."""
     folder = program.place / "catalog"
     folder.mkdir()
@@ -213,7 +372,8 @@ def catalog(program, prove, required):
         for line in gzip.open(file, "rt"):
             document = json.loads(line)
             lines.append(document["graph"]["graph6"])
-            ranks.append((document["graph"]["nodes"], document["claim"]["rank"]["value"]))
+            claim = document["claim"]
+            ranks.append((document["graph"]["nodes"], claim["rank"]["value"], claim["components"]["value"]))
     done = subprocess.run([prove, folder], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True)
     refused = done.stdout.count("by a hub")
     assert refused == len(done.stdout.splitlines()) == 10, done.stdout
@@ -221,21 +381,76 @@ def catalog(program, prove, required):
     code, out, err = program.list(folder / "list")
     seconds = time.time() - start
     assert code == 0, (code, err)
-    seen = 0
+    seen = tried = 0
     for verdict in out.split(str(folder) + "/")[1:]:
         number = int(verdict.split(".")[0])
-        n, value = ranks[number]
+        n, value, parts = ranks[number]
         assert "VERIFIED" in verdict and f"generic rank of J is {value}" in verdict, verdict
         assert ("full rank\n" in verdict and "not of" not in verdict) == (value == 11 * n - 15), verdict
+        found = listed(verdict)
+        assert (found is None) == (value == 11 * n - 15) and (found is None or len(found) == parts), verdict
+        if found and (n < 7 or (n == 7 and number % 4 == 0)):
+            pairs = [tuple(map(int, line.split())) for line in (folder / f"{number}.txt").read_text().splitlines()]
+            assert found == components(n, pairs, draw), verdict
+            tried += 1
         seen += 1
+    assert tried > 10
     assert seen == len(ranks) - refused == required, seen
-    print(f"catalog: {seen} graphs, rank and verdict, {seconds:.1f} s")
+    print(f"catalog: {seen} graphs, rank, verdict and components, {seconds:.1f} s")
     return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in range(400)]
 
 
-def mutants(program, base, count, draw):
+def published(program, verify, data):
+    """Table 3 of the paper: 29 graphs, with as many components as it says."""
+    folder = program.place / "published"
+    folder.mkdir()
+    rows = list(csv.DictReader((data / "table3.csv").open()))
+    for row in rows:
+        graph, proof = (folder / f"{row['file']}.{end}" for end in ("txt", "proof"))
+        done = subprocess.run([verify, "convert", data / "table3" / row["file"], "-o", graph], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        done = subprocess.run([verify, graph, "--proof", proof], capture_output=True, text=True)
+        assert done.returncode in (0, 1) and proof.exists(), done.stderr
+    (folder / "list").write_text("".join(f"{folder}/{row['file']}.txt {folder}/{row['file']}.proof\n" for row in rows))
+    start = time.time()
+    code, out, err = program.list(folder / "list")
+    seconds = time.time() - start
+    verdicts = out.split(str(folder) + "/")[1:]
+    assert code == 0 and len(verdicts) == len(rows) == 29, (code, err)
+    several = 0
+    for row, verdict in zip(rows, verdicts):
+        found, parts = listed(verdict), int(row["components_edge_based"])
+        low, high = bounds(verdict)
+        assert verdict.startswith(row["file"]) and "VERIFIED" in verdict and low == high, verdict[:400]
+        assert (1 if found is None else len(found)) == parts and (found is None) == ("full rank\n" in verdict and "not of" not in verdict), (row, verdict[:400])
+        several += parts > 1
+    assert several == 5
+    print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s")
+
+
+def others_agree(program, checkers, graph, out):
+    """The other two checkers accept a certificate, which claims what this program has printed."""
+    verify, check = checkers
+    pairs, certificate = program.place / "graph.txt", program.place / "certificate.json"
+    pairs.write_text(graph)
+    done = subprocess.run([verify, pairs, "--certificate", certificate], capture_output=True, text=True)
+    assert done.returncode in (0, 1), (graph, done.stderr)
+    second = HERE.parent / "crates" / "check" / "second" / "check.py"
+    for command in ([check], [sys.executable, second]):
+        done = subprocess.run([*command, certificate], capture_output=True, text=True)
+        assert done.returncode == 0, (graph, done.stdout, done.stderr)
+    claim = json.loads(certificate.read_text())["claim"]
+    low, high = bounds(out)
+    found = listed(out)
+    assert (low or 0) <= claim["rank"]["value"] and (high is None or claim["rank"]["value"] <= high), (graph, out, claim)
+    assert (claim["verdict"]["value"] == "not-finite-solvable") or "not of full rank" not in out, (graph, out, claim)
+    assert found is None or len(found) == claim["components"]["value"], (graph, out, claim)
+
+
+def mutants(program, base, count, draw, checkers):
     """Changed files: never a crash, and what is accepted is true."""
     accepted = {0: 0, 1: 0, 2: 0}
+    parts = 0
     for _ in range(count):
         graph, proof = draw.choice(base)
         if draw.random() < 0.2:
@@ -251,7 +466,13 @@ def mutants(program, base, count, draw):
             true = generic_rank(n, [pair for pair in pairs if len(pair) == 2], draw)
             low, high = bounds(out)
             assert (low or 0) <= true and (high is None or true <= high), (graph, proof, out, true)
-    print(f"{count} mutants: {accepted[0]} accepted and true, {accepted[1]} rejected, {accepted[2]} unreadable")
+            if checkers:
+                others_agree(program, checkers, graph, out)
+            found = listed(out)
+            if found is not None and n < 8:
+                assert found == components(n, [pair for pair in pairs if len(pair) == 2], draw), (graph, proof, out)
+                parts += 1
+    print(f"{count} mutants: {accepted[0]} accepted and true, {accepted[1]} rejected, {accepted[2]} unreadable; {parts} times components")
     assert accepted[0] and accepted[1] and accepted[2]
 
 
@@ -279,6 +500,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
     parser.add_argument("--catalog", metavar="PROVE")
+    parser.add_argument("--checkers", nargs=2, metavar=("VERIFY", "CHECK"))
+    parser.add_argument("--data", metavar="FOLDER", type=pathlib.Path)
     parser.add_argument("--mutants", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args()
@@ -287,10 +510,13 @@ def main():
     program = Program(asked.program)
     by_hand(program)
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
+    base += [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF)]
     if asked.catalog:
-        files = catalog(program, asked.catalog, 6515)
+        files = catalog(program, asked.catalog, 6515, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]
-    mutants(program, base, asked.mutants, draw)
+    if asked.data:
+        published(program, asked.checkers[0], asked.data)
+    mutants(program, base, asked.mutants, draw, asked.checkers)
 
 
 if __name__ == "__main__":

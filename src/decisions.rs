@@ -13,10 +13,10 @@ use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
-use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::graph_picture::{self, Picture};
 use viewcert_report::many::Table;
+use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::{Outputs, Session, outputs};
@@ -92,6 +92,7 @@ impl Work<'_> {
             time,
             advice: &advice,
             scope: &scope,
+            proof: written.proof.as_ref(),
         };
         draw(session, &plan.products, &report)?;
         match (&mut self.table, &plan.form) {
@@ -123,11 +124,9 @@ impl Work<'_> {
                 .push(format!("certificate {}", path.display()));
         }
         if let Some(path) = &products.proof {
-            let [lower, upper] = write_proof(outputs, path, input, verdict)?;
-            let path = path.display();
-            written.lines.push(format!(
-                "proof       {path} (rank {lower} at least, {upper} at most)"
-            ));
+            let proof = write_proof(outputs, path, input, verdict)?;
+            written.lines.push(format!("proof       {proof}"));
+            written.proof = Some(proof);
         }
         if let Some(path) = &products.witness {
             match witness::write(outputs, path, input, verdict, self.plan.seed)? {
@@ -158,6 +157,8 @@ impl Work<'_> {
 struct Written {
     /// What the report says of it.
     lines: Vec<String>,
+    /// What the explicit proof shows, if one was asked for.
+    proof: Option<WrittenProof>,
     /// Why there is no witness, if one was asked for.
     no_witness: Option<&'static str>,
 }
@@ -177,19 +178,21 @@ impl Written {
     }
 }
 
-/// Writes the explicit proof, and returns the bounds for the rank that it shows; nothing if there is
-/// none for this verdict.
+/// Writes the explicit proof, and returns what it shows.
+///
+/// # Errors
+/// If there is none for this verdict; those of the file.
 fn write_proof(
     outputs: &Outputs,
     path: &Path,
     input: &NamedGraph,
     verdict: &Verdict,
-) -> Result<[usize; 2]> {
+) -> Result<WrittenProof> {
     let proof = verdict
         .proof(&input.graph)
         .with_context(|| format!("{}: --proof: no explicit proof", input.name))?;
     outputs.write(path, |out| write!(out, "{proof}"))?;
-    Ok([proof.lower(), proof.upper()])
+    Ok(WrittenProof::new(path, &proof))
 }
 
 /// Writes the picture and the page.

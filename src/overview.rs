@@ -176,6 +176,7 @@ fn overview(
         time: Duration::ZERO,
         advice,
         scope: &any_scope,
+        proof: None,
     };
     let mut found = Overview {
         name: &input.name,

@@ -22,9 +22,27 @@ fn a_refutation_is_written_with_its_bounds() {
     std::fs::write(&graph, "0 1\n1 2\n2 3\n0 3\n").unwrap();
     let run = verify(&[graph.to_str().unwrap(), "--proof", proof.to_str().unwrap()]);
     assert_eq!(run.status.code(), Some(1));
-    assert!(text(&run.stdout).contains("(rank 28 at least, 28 at most)"));
+    assert!(text(&run.stdout).contains("(rank 28 at least, 28 at most; 4 components)"));
     let written = std::fs::read_to_string(proof).unwrap();
     assert!(written.starts_with("viewcert proof 1\ngraph 4 4\nclaim 28 28\n"));
+}
+
+/// The same in JSON, which the schema describes.
+#[test]
+fn json_says_what_was_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, proof] = ["graph.txt", "proof"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, "0 1\n1 2\n2 3\n0 3\n").unwrap();
+    let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
+    let run = verify(&[graph, "--proof", file, "--json"]);
+    let line: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+    let schema = serde_json::from_str(include_str!("../docs/report.schema.json")).unwrap();
+    assert!(jsonschema::validator_for(&schema).unwrap().is_valid(&line));
+    let shown = serde_json::json!({
+        "file": file, "rank_at_least": 28, "rank_at_most": 28, "components": 4
+    });
+    assert_eq!(line["proof"], shown);
+    assert!(std::path::Path::new(file).exists());
 }
 
 /// Bad usage, a message that says what is missing, and no file.

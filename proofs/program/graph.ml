@@ -6,7 +6,7 @@
 
 exception Unreadable of string
 
-type t = { nodes : int; first : int array; second : int array; md5 : string }
+type t = { nodes : int; first : int array; second : int array; sha256 : string }
 
 let largest = 1 lsl 30
 
@@ -63,4 +63,4 @@ let read path =
   List.iter (fun v -> occurs.(v) <- true) !seen;
   if not (Array.for_all Fun.id occurs) then raise (Unreadable (path ^ ": some node numbers do not occur"));
   let array list = Array.of_list (List.rev list) in
-  { nodes; first = array !first; second = array !second; md5 = Digest.to_hex (Digest.string text) }
+  { nodes; first = array !first; second = array !second; sha256 = Sha256.hex text }

@@ -16,6 +16,16 @@ let theorem n lower upper =
   if upper < full then say "  full rank would be 11 n - 15 = %d: not of full rank\n" full;
   if lower = 0 && upper >= full then say "  nothing is claimed\n"
 
+(* what verify_components says of these bodies *)
+let components bodies =
+  say "  the largest sets of two nodes or more whose pairs have full rank among themselves: %d\n" (Array.length bodies);
+  Array.iter
+    (fun body ->
+      say "   ";
+      for s = 0 to body.Checker.body_size - 1 do say " %d" (body.Checker.node s) done;
+      say "\n")
+    bodies
+
 let check graph_path proof_path =
   let graph = Graph.read graph_path in
   let n = graph.nodes and m = Array.length graph.first in
@@ -26,16 +36,28 @@ let check graph_path proof_path =
     raise (Graph.Unreadable (graph_path ^ ": not a simple graph with two nodes or more, smaller node of a pair first"));
   let proof = Proof.read proof_path graph in
   let last = max 0 (Array.length proof.bodies - 1) in
+  let bound = proof.bound in
+  let place k = bound.place [| first k; second k |] in
   let accepted =
     (proof.lower = 0 || Array.length proof.bodies > 0)
     && Checker.verify n m first second by_pair
-         (fun b -> proof.bodies.(b)) last proof.lower
-         (fun c -> proof.blocks.(c)) (Array.length proof.blocks)
-         (fun k -> proof.place.(k)) proof.upper
+         (fun b -> proof.bodies.(b)) proof.owner last proof.lower
+         (fun c -> bound.blocks.(c)) bound.half bound.shared (Array.length bound.blocks) place proof.upper
+    &&
+    match proof.components with
+    | None -> true
+    | Some c ->
+        proof.lower > 0
+        && Checker.components_ok n m first second
+             (fun b -> proof.bodies.(b)) last proof.owner c.in_owner (Array.length c.numbers)
+             (fun k -> c.numbers.(k)) c.pair_at c.steps
   in
-  say "%s: %d nodes, %d pairs, MD5 %s: %s\n" graph_path n m graph.md5
+  say "%s: %d nodes, %d pairs, SHA-256 of the file %s: %s\n" graph_path n m graph.sha256
     (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");
-  if accepted then theorem n proof.lower proof.upper;
+  if accepted then begin
+    theorem n proof.lower proof.upper;
+    Option.iter (fun c -> components (Array.map (fun b -> proof.bodies.(b)) c.Proof.numbers)) proof.components
+  end;
   if accepted then 0 else 1
 
 let guarded graph proof =

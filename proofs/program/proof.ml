@@ -3,12 +3,28 @@
 
 exception Unreadable of string
 
+(* an upper bound: blocks, where the second list of them begins, what the two lists share *)
+type bound = {
+  blocks : Checker.block array;
+  half : int;
+  shared : Checker.body;
+  place : int array -> (int * (int -> int)) option;  (** a block that holds some nodes, and where *)
+}
+
+type components = {
+  numbers : int array;  (** of the bodies that are components *)
+  in_owner : int -> int -> int;
+  pair_at : int -> (int * int) * int;
+  steps : Checker.step list;
+}
+
 type t = {
   lower : int;
   upper : int;
   bodies : Checker.body array;
-  blocks : Checker.block array;
-  place : ((int * int) * int) option array;
+  owner : int -> int;
+  bound : bound;
+  components : components option;
 }
 
 module Table = Hashtbl.Make (struct
@@ -51,6 +67,268 @@ let words path =
   in
   (word, number, finished, fail)
 
+(* what is read of nodes, bodies and blocks, whatever they are for *)
+type reader = {
+  word : unit -> string;
+  number : unit -> int;
+  node : unit -> int;
+  fail : 'a. string -> 'a;
+  nodes : int;
+}
+
+let key reader k v = (k * reader.nodes) + v
+
+let body { word; number; node; fail; nodes = n } reason =
+  let size = number () in
+  let core_size = number () in
+  let rows = number () in
+  if size > n || core_size > size || rows > 1 lsl 24 then fail "sizes out of range";
+  let nodes = Array.make size 0 and centres = Array.make core_size (0, 0, 0) in
+  let joins = Array.make (size - core_size) [] in
+  let here = Table.create (2 * size) in
+  let position v = match Table.find_opt here v with Some s -> s | None -> fail "a node that is not in the body yet" in
+  let add s v = nodes.(s) <- v; Table.replace here v s in
+  for s = 0 to core_size - 1 do
+    add s (node ());
+    let x = number () in
+    let y = number () in
+    let z = number () in
+    centres.(s) <- (x, y, z)
+  done;
+  let row _ =
+    let i = node () in
+    let j = node () in
+    let mask = number () in
+    let why = number () in
+    (((position i, position j), mask), reason i j why)
+  in
+  let core = List.init rows row in
+  for s = core_size to size - 1 do
+    let kind = word () in
+    let v = node () in
+    let join () =
+      let a = node () in
+      let why = number () in
+      (position a, reason v a why)
+    in
+    joins.(s - core_size) <-
+      (match kind with
+      | "free" -> []
+      | "one" -> [ join () ]
+      | "two" ->
+          let first = join () in
+          [ first; join () ]
+      | _ -> fail "free, one or two expected");
+    add s v
+  done;
+  let order = by_key size (fun s -> nodes.(s)) in
+  {
+    Checker.body_size = size;
+    node = (fun s -> nodes.(s));
+    by_node = (fun s -> order.(s));
+    core_size;
+    core;
+    centre = (fun s k -> let x, y, z = centres.(s) in match k with 0 -> x | 1 -> y | _ -> z);
+    joins = (fun s -> joins.(s - core_size));
+  }
+
+let nothing =
+  { Checker.body_size = 0; node = Fun.id; by_node = Fun.id; core_size = 0; core = []; centre = (fun _ _ -> 0);
+    joins = (fun _ -> []) }
+
+(* blocks, other blocks and what they share, from the word [first] on; and the word that comes next *)
+let bound reader first =
+  let { word; number; node; fail; nodes = n } = reader in
+  let blocks = ref [] and count = ref 0 and half = ref 0 and shared = ref nothing in
+  let at = Table.create 1024 and of_node = Table.create 1024 in
+  let around v = Option.value (Table.find_opt of_node v) ~default:[] in
+  let block () =
+    let size = number () in
+    if size > n then fail "sizes out of range";
+    let nodes = Array.init size (fun _ -> node ()) in
+    let b = !count in
+    Array.iteri (fun s v -> Table.replace at (key reader b v) s; Table.replace of_node v (b :: around v)) nodes;
+    blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)) } :: !blocks;
+    incr count
+  in
+  let block_with suits nodes =
+    let shorter list v = if List.compare_lengths (around v) list < 0 then around v else list in
+    let holds b v = Table.mem at (key reader b v) in
+    let candidates = Array.fold_left shorter (around nodes.(0)) nodes in
+    List.find_opt (fun b -> suits b && Array.for_all (holds b) nodes) candidates
+  in
+  let position b v = Table.find at (key reader b v) in
+  let in_both i j why =
+    match (block_with (fun b -> b < !half) [| i; j |], block_with (fun b -> b >= !half) [| i; j |]) with
+    | Some b, Some b' when why = 0 -> Checker.Both (b, position b i, position b j, b', position b' i, position b' j)
+    | _ -> fail (Printf.sprintf "%d and %d are not both in a block and in one of the others" i j)
+  in
+  let rec others = function
+    | "other" -> block (); others (word ())
+    | "shared" -> shared := body reader in_both; word ()
+    | _ -> fail "other or shared expected"
+  in
+  let rec all = function
+    | "block" -> block (); half := !count; all (word ())
+    | "other" as first -> others first
+    | next -> next
+  in
+  let next = all first in
+  let place nodes = Option.map (fun b -> (b, fun s -> position b nodes.(s))) (block_with (fun _ -> true) nodes) in
+  ({ blocks = Array.of_list (List.rev !blocks); half = !half; shared = !shared; place }, next)
+
+(* a step that tells the components lo .. hi-1 apart; [nodes] are those of a component *)
+let cut lo hi ends nodes =
+  let home = Table.create 64 and attached = Table.create 64 in
+  let of_interval lo hi =
+    for k = lo to hi - 1 do
+      let see v =
+        match Table.find_opt home v with
+        | None -> Table.replace home v lo
+        | Some first -> if first < lo then Table.replace attached lo v
+      in
+      Array.iter see (nodes k)
+    done;
+    hi
+  in
+  ignore (List.fold_left of_interval lo ends);
+  Checker.Cut (ends, { Checker.home = Table.find home; attached = Table.find_opt attached })
+
+let apart reader lo hi ends nodes =
+  let { number; fail; word; _ } = reader in
+  let at = Table.create 64 in
+  for k = lo to hi - 1 do Array.iteri (fun s v -> Table.replace at (key reader k v) s) (nodes k) done;
+  let reason i j why =
+    let k = why - 1 in
+    match (Table.find_opt at (key reader k i), Table.find_opt at (key reader k j)) with
+    | Some s, Some t when why > 0 -> Checker.Inside (k, s, t)
+    | _ -> fail (Printf.sprintf "%d and %d are not both in the component" i j)
+  in
+  let frame = body reader reason in
+  let motion = Array.init (12 * frame.core_size) (fun _ -> number ()) in
+  let bound, next = bound reader (word ()) in
+  let position = Table.create 64 in
+  for q = 0 to frame.body_size - 1 do Table.replace position (frame.node q) q done;
+  let there = Array.make frame.body_size [||] in
+  let place = Array.init (hi - lo) (fun k -> Array.make (Array.length (nodes (lo + k))) 0) in
+  let meeting = Array.make frame.body_size [] and count = Array.make frame.body_size 0 in
+  for k = lo to hi - 1 do
+    let see s v =
+      match Table.find_opt position v with
+      | None -> fail (Printf.sprintf "%d is in a component and not in the body that tells it apart" v)
+      | Some q ->
+          place.(k - lo).(s) <- count.(q);
+          count.(q) <- count.(q) + 1;
+          meeting.(q) <- k :: meeting.(q)
+    in
+    Array.iteri see (nodes k)
+  done;
+  Array.iteri (fun q list -> there.(q) <- Array.of_list (List.rev list)) meeting;
+  let interval = Array.make (hi - lo) lo in
+  let mark first last =
+    if last <= first || last > hi then fail "intervals out of range";
+    for k = first to last - 1 do interval.(k - lo) <- first done;
+    last
+  in
+  ignore (List.fold_left mark lo ends);
+  (* positions of a component's core nodes, in the core and in it *)
+  let core_of k =
+    List.filter (fun (q, _) -> q < frame.core_size)
+      (List.mapi (fun s v -> (Table.find position v, s)) (Array.to_list (nodes k)))
+  in
+  let tells (i, _) (j, _) =
+    not (Checker.solved Checker.the_prime frame.centre (fun c -> motion.(c)) i j Checker.entries10)
+  in
+  let cores = Array.init (hi - lo) (fun k -> core_of (lo + k)) in
+  let witness c d =
+    let first (i, s) =
+      Option.map (fun (j, t) -> (((i, s), j), t)) (List.find_opt (fun y -> fst y <> i && tells (i, s) y) cores.(d - lo))
+    in
+    Option.value (List.find_map first cores.(c - lo)) ~default:(((0, 0), 0), 0)
+  in
+  ( Checker.Apart
+      ( ends,
+        {
+          Checker.frame;
+          motion = (fun c -> motion.(c));
+          interval = (fun k -> interval.(k - lo));
+          position = (fun k s -> Table.find position (nodes k).(s));
+          place_there = (fun k s -> place.(k - lo).(s));
+          meeting = (fun q -> Array.length there.(q));
+          there = (fun q i -> there.(q).(i));
+          witness;
+          blocks_ = (fun b -> bound.blocks.(b));
+          block_count = Array.length bound.blocks;
+          half_ = bound.half;
+          shared_ = bound.shared;
+          in_ = (fun k -> bound.place (nodes (lo + k)));
+        } ),
+    next )
+
+(* the steps, up to the word "end" *)
+let steps reader count nodes =
+  let { number; word; fail; _ } = reader in
+  let ends () =
+    let size = number () in
+    if size > count then fail "sizes out of range";
+    List.init size (fun _ -> number ())
+  in
+  let rec go word_ intervals done_ =
+    match (word_, intervals) with
+    | "end", _ -> List.rev done_
+    | "cut", (lo, hi) :: rest ->
+        let ends = ends () in
+        if List.exists (fun x -> x > hi) ends then fail "intervals out of range";
+        go (word ()) (Checker.cells lo ends rest) (cut lo hi ends nodes :: done_)
+    | "apart", (lo, hi) :: rest ->
+        let ends = ends () in
+        let step, next = apart reader lo hi ends nodes in
+        go next (Checker.cells lo ends rest) (step :: done_)
+    | _ -> fail "cut, apart or end expected, and no more than it takes"
+  in
+  go (word ()) (Checker.cells 0 [ count ] []) []
+
+(* For every body the component that it is part of: itself, or that of the body that uses it. *)
+let owners bodies numbers =
+  let owner = Array.make (Array.length bodies) (-1) in
+  Array.iter (fun b -> owner.(b) <- b) numbers;
+  for b = Array.length bodies - 2 downto 0 do
+    if owner.(b) < 0 then owner.(b) <- b;
+    let use = function Checker.Inside (c, _, _) -> if owner.(c) < 0 then owner.(c) <- owner.(b) | _ -> () in
+    List.iter (fun (_, why) -> use why) bodies.(b).Checker.core;
+    for s = bodies.(b).core_size to bodies.(b).body_size - 1 do
+      List.iter (fun (_, why) -> use why) (bodies.(b).joins s)
+    done
+  done;
+  owner
+
+let components reader (graph : Graph.t) bodies body_at =
+  let count = reader.number () in
+  if count > Array.length bodies then reader.fail "sizes out of range";
+  let number _ =
+    let b = reader.number () in
+    if b >= Array.length bodies then reader.fail "no such body";
+    b
+  in
+  let numbers = Array.init count number in
+  let nodes_of b = Array.init bodies.(b).Checker.body_size bodies.(b).node in
+  let nodes = Array.map nodes_of numbers in
+  let around = Table.create 1024 in
+  let of_node v = Option.value (Table.find_opt around v) ~default:[] in
+  Array.iteri (fun k -> Array.iter (fun v -> Table.replace around v (k :: of_node v))) nodes;
+  let position k v = Table.find_opt body_at (key reader numbers.(k) v) in
+  let pair_at e =
+    let i = graph.first.(e) and j = graph.second.(e) in
+    let short = if List.compare_lengths (of_node i) (of_node j) < 0 then of_node i else of_node j in
+    let both k = match (position k i, position k j) with Some s, Some t -> Some ((k, s), t) | _ -> None in
+    match List.find_map both short with
+    | Some found -> found
+    | None -> reader.fail (Printf.sprintf "%d %d is in no component" i j)
+  in
+  let owner = owners bodies numbers in
+  let in_owner b s = Table.find body_at (key reader owner.(b) (bodies.(b).Checker.node s)) in
+  (owner, { numbers; in_owner; pair_at; steps = steps reader count (fun k -> nodes.(k)) })
+
 let read path (graph : Graph.t) =
   let word, number, finished, fail = words path in
   let expect w = if word () <> w then fail (w ^ " expected") in
@@ -64,114 +342,51 @@ let read path (graph : Graph.t) =
   expect "claim";
   let lower = number () in
   let upper = number () in
-  let pair_at = Table.create (2 * m) in
-  for k = 0 to m - 1 do Table.replace pair_at ((graph.first.(k) * n) + graph.second.(k)) k done;
-  let body_at = Table.create 1024 in
   let node () =
     let v = number () in
     if v >= n then fail "no such node";
     v
   in
+  let reader = { word; number; node; fail; nodes = n } in
+  let pair_number = Table.create (2 * m) in
+  for k = 0 to m - 1 do Table.replace pair_number (key reader graph.first.(k) graph.second.(k)) k done;
+  let body_at = Table.create 1024 in
   (* reason 0: a pair of the graph; c + 1: body c *)
   let reason count i j why =
     if why = 0 then
-      match Table.find_opt pair_at ((min i j * n) + max i j) with
+      match Table.find_opt pair_number (key reader (min i j) (max i j)) with
       | Some k -> Checker.Pair k
       | None -> fail (Printf.sprintf "%d %d is no pair" i j)
     else
       let c = why - 1 in
-      match (Table.find_opt body_at ((c * n) + i), Table.find_opt body_at ((c * n) + j)) with
+      match (Table.find_opt body_at (key reader c i), Table.find_opt body_at (key reader c j)) with
       | Some s, Some t when c < count -> Checker.Inside (c, s, t)
       | _ -> fail (Printf.sprintf "%d and %d are not both in body %d" i j c)
   in
-  let body count =
-    let size = number () in
-    let core_size = number () in
-    let rows = number () in
-    if size > n || core_size > size || rows > 1 lsl 24 then fail "sizes out of range";
-    let nodes = Array.make size 0 and centres = Array.make core_size (0, 0, 0) in
-    let joins = Array.make (size - core_size) [] in
-    let here = Table.create (2 * size) in
-    let position v = match Table.find_opt here v with Some s -> s | None -> fail "a node that is not in the body yet" in
-    let add s v = nodes.(s) <- v; Table.replace here v s in
-    for s = 0 to core_size - 1 do
-      add s (node ());
-      let x = number () in
-      let y = number () in
-      let z = number () in
-      centres.(s) <- (x, y, z)
-    done;
-    let row _ =
-      let i = node () in
-      let j = node () in
-      let mask = number () in
-      let why = number () in
-      (((position i, position j), mask), reason count i j why)
-    in
-    let core = List.init rows row in
-    for s = core_size to size - 1 do
-      let kind = word () in
-      let v = node () in
-      let join () =
-        let a = node () in
-        let why = number () in
-        (position a, reason count v a why)
-      in
-      joins.(s - core_size) <-
-        (match kind with
-        | "free" -> []
-        | "one" -> [ join () ]
-        | "two" ->
-            let first = join () in
-            [ first; join () ]
-        | _ -> fail "free, one or two expected");
-      add s v
-    done;
-    Array.iteri (fun s v -> Table.replace body_at ((count * n) + v) s) nodes;
-    let order = by_key size (fun s -> nodes.(s)) in
-    {
-      Checker.body_size = size;
-      node = (fun s -> nodes.(s));
-      by_node = (fun s -> order.(s));
-      core_size;
-      core;
-      centre = (fun s k -> let x, y, z = centres.(s) in match k with 0 -> x | 1 -> y | _ -> z);
-      joins = (fun s -> joins.(s - core_size));
-    }
+  let bodies = ref [] and count = ref 0 in
+  let rec all next =
+    if next <> "body" then next
+    else begin
+      let read = body reader (reason !count) in
+      for s = 0 to read.Checker.body_size - 1 do Table.replace body_at (key reader !count (read.node s)) s done;
+      bodies := read :: !bodies;
+      incr count;
+      all (word ())
+    end
   in
-  let bodies = ref [] and count = ref 0 and blocks = ref [] and block_count = ref 0 in
-  let block_at = Table.create 1024 in
-  let blocks_of = Array.make n [] in
-  let rec items () =
-    match word () with
-    | "body" -> bodies := body !count :: !bodies; incr count; items ()
-    | "block" ->
-        let size = number () in
-        if size > n then fail "sizes out of range";
-        let nodes = Array.init size (fun _ -> node ()) in
-        let b = !block_count in
-        Array.iteri (fun s v -> Table.replace block_at ((b * n) + v) s; blocks_of.(v) <- b :: blocks_of.(v)) nodes;
-        blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)) } :: !blocks;
-        incr block_count;
-        items ()
-    | "end" -> if not (finished ()) then fail "something after the end"
-    | _ -> fail "body, block or end expected"
+  let next = all (word ()) in
+  let bodies = Array.of_list (List.rev !bodies) in
+  let bound, next = bound reader next in
+  let components =
+    match next with
+    | "end" -> None
+    | "components" -> Some (components reader graph bodies body_at)
+    | _ -> fail "body, block, other, components or end expected"
   in
-  items ();
-  let place k =
-    let i = graph.first.(k) and j = graph.second.(k) in
-    let short = if List.compare_lengths blocks_of.(i) blocks_of.(j) < 0 then blocks_of.(i) else blocks_of.(j) in
-    let both b =
-      match (Table.find_opt block_at ((b * n) + i), Table.find_opt block_at ((b * n) + j)) with
-      | Some s, Some t -> Some ((b, s), t)
-      | _ -> None
-    in
-    List.find_map both short
+  if not (finished ()) then fail "something after the end";
+  let owner, components =
+    match components with
+    | None -> ((fun _ -> 0), None)
+    | Some (owner, components) -> ((fun b -> owner.(b)), Some components)
   in
-  {
-    lower;
-    upper;
-    bodies = Array.of_list (List.rev !bodies);
-    blocks = Array.of_list (List.rev !blocks);
-    place = Array.init m place;
-  }
+  { lower; upper; bodies; owner; bound; components }

@@ -17,8 +17,8 @@ Fixpoint increasing (s : nat) (at_ : nat -> nat) (key : nat -> nat) (k : nat) : 
   else true.
 
 (* Why a pair of nodes may be used: it is a pair of the graph, by its number; or both nodes are in an earlier body,
-   at these positions. *)
-Inductive reason := Pair of nat | Inside of nat & nat & nat.
+   at these positions; or both are in two blocks, at these positions. *)
+Inductive reason := Pair of nat | Inside of nat & nat & nat | Both of nat & nat & nat & nat & nat & nat.
 
 (* A body: its nodes one after the other, a core of the first ones with its rows (two positions, rows used, reason)
    and centres; each later node is joined to at most two nodes before it. *)
@@ -42,51 +42,38 @@ Definition graph_ok (by_pair : nat -> nat) : bool :=
     if pairs_ok m then increasing m by_pair (fun k => n * first k + second k) m else false
   else false.
 
-Section Lower.
-Variable bodies : nat -> body.
+(* The rank that a body shows, where pairs may be used as [allowed] says. *)
+Section Machine.
+Variables (allowed : nat -> nat -> reason -> bool) (B : body).
 
-Definition pair_ok b x y (why : reason) : bool :=
-  match why with
-  | Pair k => if k < m then
-      if eqn (first k) x then eqn (second k) y else if eqn (first k) y then eqn (second k) x else false
-    else false
-  | Inside c s t => if c < b then
-      if s < body_size (bodies c) then
-        if t < body_size (bodies c) then
-          if eqn (node (bodies c) s) x then eqn (node (bodies c) t) y else false
-        else false
-      else false
-    else false
-  end.
-
-Fixpoint core_ok b (B : body) (L : seq (nat * nat * nat * reason)) : bool :=
+Fixpoint core_ok (L : seq (nat * nat * nat * reason)) : bool :=
   if L is (i, j, _, why) :: L' then
     if i < core_size B then
       if j < core_size B then
-        if pair_ok b (node B i) (node B j) why then core_ok b B L' else false
+        if allowed (node B i) (node B j) why then core_ok L' else false
       else false
     else false
   else true.
 
-Fixpoint nodes_ok (B : body) (k : nat) : bool :=
-  if k is k'.+1 then if node B k' < n then nodes_ok B k' else false else true.
+Fixpoint nodes_ok (k : nat) : bool :=
+  if k is k'.+1 then if node B k' < n then nodes_ok k' else false else true.
 
 (* what the nodes behind the core add *)
-Fixpoint joined b (B : body) (d acc : nat) : option nat :=
+Fixpoint joined (d acc : nat) : option nat :=
   if d is d'.+1 then
     let s := core_size B + d' in
     match joins B s with
-    | [::] => joined b B d' acc
+    | [::] => joined d' acc
     | [:: (t, why)] =>
       if t < s then
-        if pair_ok b (node B s) (node B t) why then joined b B d' (7 + acc) else None
+        if allowed (node B s) (node B t) why then joined d' (7 + acc) else None
       else None
     | [:: (t, why); (t', why')] =>
       if t < s then
         if t' < s then
           if eqn t t' then None
-          else if pair_ok b (node B s) (node B t) why then
-            if pair_ok b (node B s) (node B t') why' then joined b B d' (11 + acc) else None
+          else if allowed (node B s) (node B t) why then
+            if allowed (node B s) (node B t') why' then joined d' (11 + acc) else None
           else None
         else None
       else None
@@ -97,32 +84,58 @@ Fixpoint joined b (B : body) (d acc : nat) : option nat :=
 Fixpoint core_rows (L : seq (nat * nat * nat * reason)) : seq (nat * nat * nat) :=
   if L is (e, _) :: L' then e :: core_rows L' else [::].
 
-Definition body_rank b : option nat :=
-  let B := bodies b in
+Definition body_rank : option nat :=
   if core_size B <= body_size B then
-    if nodes_ok B (body_size B) then
+    if nodes_ok (body_size B) then
       if increasing (body_size B) (by_node B) (node B) (body_size B) then
-        if core_ok b B (core B) then
-          joined b B (body_size B - core_size B)
+        if core_ok (core B) then
+          joined (body_size B - core_size B)
             (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B)))
         else None
       else None
     else None
   else None.
+End Machine.
 
+Section Lower.
+Variable bodies : nat -> body.
+
+Definition pair_ok (mate : nat -> bool) b x y (why : reason) : bool :=
+  match why with
+  | Pair k => if k < m then
+      if eqn (first k) x then eqn (second k) y else if eqn (first k) y then eqn (second k) x else false
+    else false
+  | Inside c s t => if c < b then
+      if mate c then
+        if s < body_size (bodies c) then
+          if t < body_size (bodies c) then
+            if eqn (node (bodies c) s) x then eqn (node (bodies c) t) y else false
+          else false
+        else false
+      else false
+    else false
+  | Both _ _ _ _ _ _ => false
+  end.
+
+(* A body has an owner, a later body or itself, and uses only bodies that have the same one. *)
+Variable owner : nat -> nat.
 Definition rigid b : bool :=
   if 1 < body_size (bodies b) then
-    if body_rank b is Some r then 11 * body_size (bodies b) - 15 <= r else false
+    if body_rank (pair_ok (fun c => eqn (owner c) (owner b)) b) (bodies b) is Some r then 11 * body_size (bodies b) - 15 <= r else false
   else false.
 Fixpoint all_rigid b : bool := if b is b'.+1 then if rigid b' then all_rigid b' else false else true.
 
-(* bodies 0 .. b-1 are rigid, and body b has the rank r *)
+(* bodies 0 .. b-1 are rigid, and body b, which may use all of them, has the rank r *)
 Definition lower_ok b r : bool :=
-  if all_rigid b then if body_rank b is Some s then r <= s else false else false.
+  if all_rigid b then if body_rank (pair_ok (fun _ => true) b) (bodies b) is Some s then r <= s else false else false.
 End Lower.
 
+(* Upper bounds for the pairs in some sets of nodes, by two lists of blocks, of which the second one begins at [half]. A
+   set lies in a block, at these positions, or is a block of its own. What the blocks of the two lists share has the
+   rank at least that a body shows. *)
 Section Upper.
-Variables (blocks : nat -> block) (place : nat -> option (nat * nat * nat)).
+Variables (sets : nat) (set_size : nat -> nat) (member : nat -> nat -> nat).
+Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * (nat -> nat))).
 
 Fixpoint block_ok (B : block) (k : nat) : bool :=
   if k is k'.+1 then if block_node B k' < n then block_ok B k' else false else true.
@@ -133,36 +146,58 @@ Fixpoint blocks_sum (b acc : nat) : option nat :=
       if block_ok B (block_size B) then blocks_sum b' (11 * block_size B - 15 + acc) else None
     else None
   else Some acc.
-(* pairs in no block are blocks of their own *)
+
+Fixpoint in_block (B : block) (at_ : nat -> nat) (k s : nat) : bool :=
+  if s is s'.+1 then
+    if at_ s' < block_size B then
+      if eqn (block_node B (at_ s')) (member k s') then in_block B at_ k s' else false
+    else false
+  else true.
 Fixpoint placed (b k acc : nat) : option nat :=
   if k is k'.+1 then
     match place k' with
-    | None => placed b k' (7 + acc)
-    | Some (c, s, t) =>
-      if c < b then
-        if s < block_size (blocks c) then
-          if t < block_size (blocks c) then
-            if eqn (block_node (blocks c) s) (first k') then
-              if eqn (block_node (blocks c) t) (second k') then placed b k' acc else None
-            else None
-          else None
-        else None
-      else None
+    | None => if 1 < set_size k' then placed b k' (11 * set_size k' - 15 + acc) else None
+    | Some (c, at_) =>
+      if c < b then if in_block (blocks c) at_ k' (set_size k') then placed b k' acc else None else None
     end
   else Some acc.
+
+Definition two_in (c s t x y : nat) : bool :=
+  if s < block_size (blocks c) then
+    if t < block_size (blocks c) then
+      if eqn (block_node (blocks c) s) x then eqn (block_node (blocks c) t) y else false
+    else false
+  else false.
+Definition both_ok b x y (why : reason) : bool :=
+  if why is Both c s t c' s' t' then
+    if c < half then
+      if half <= c' then
+        if c' < b then if two_in c s t x y then two_in c' s' t' x y else false else false
+      else false
+    else false
+  else false.
+
 Definition upper_ok b r : bool :=
-  if blocks_sum b 0 is Some acc then if placed b m acc is Some s then s <= r else false else false.
+  if blocks_sum b 0 is Some acc then
+    if placed b sets acc is Some s then
+      if half < b then
+        if body_rank (both_ok b) shared is Some l then s <= r + l else false
+      else s <= r
+    else false
+  else false.
 End Upper.
 End Program.
 
 (* The whole check: a lower bound of 0 and an upper one of 11 n - 15 need no proof. *)
-Definition lower_part n m first second bodies b r : bool :=
-  if eqn r 0 then true else lower_ok n m first second bodies b r.
-Definition upper_part n m first second blocks c place r : bool :=
-  if 11 * n - 15 <= r then true else upper_ok n m first second blocks place c r.
-Definition verify n m first second by_pair bodies b lower blocks c place upper : bool :=
+Definition lower_part n m first second bodies owner b r : bool :=
+  if eqn r 0 then true else lower_ok n m first second bodies owner b r.
+Definition end_of (first second : nat -> nat) k s : nat := if eqn s 0 then first k else second k.
+Definition upper_part n m first second blocks half shared c place r : bool :=
+  if 11 * n - 15 <= r then true
+  else upper_ok n m (fun _ => 2) (end_of first second) blocks half shared place c r.
+Definition verify n m first second by_pair bodies owner b lower blocks half shared c place upper : bool :=
   if graph_ok n m first second by_pair then
-    if lower_part n m first second bodies b lower then upper_part n m first second blocks c place upper
+    if lower_part n m first second bodies owner b lower then upper_part n m first second blocks half shared c place upper
     else false
   else false.
 
@@ -240,20 +275,23 @@ have /and3P [_ /allP /(_ _ kG) /andP [/= fs sn] _] := good.
 by apply: edges_mem; rewrite !valV // (ltn_trans fs).
 Qed.
 
-Lemma pair_okP b x y why : pair_ok m first second bodies b x y why -> either (usable b) (V x, V y).
+Lemma pair_okP mate b x y why : pair_ok m first second bodies mate b x y why -> either (usable b) (V x, V y).
 Proof.
-case: why => [k | c s t] /=.
+case: why => [k | c s t | //] /=.
   case: ifP => // /edge_of /(usable_edge b) kE; case: eqnP => [<- /eqnP <- | _]; first by rewrite /either kE.
   by case: eqnP => // <- /eqnP <-; rewrite /either /swap /= kE orbT.
-case: ifP => // cb; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
+case: ifP => // cb; case: ifP => // _; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
 apply/orP; left; apply: usable_body cb _.
 by rewrite /inside /nodes; apply/andP; split; apply: map_f; rewrite mem_iota.
 Qed.
 
-Section Body.
-Variable b : nat.
-Let B := bodies b.
+(* What a body shows: some pairs that may be used have this rank. *)
+Section Machine.
+Variables (allowed : nat -> nat -> reason -> bool) (B : body) (U : seq ('I_n * 'I_n)).
+Hypothesis allowedP : forall x y why, allowed x y why -> either U (V x, V y).
 Let N i := V (node B i).
+
+Section Body.
 Hypothesis uniqB : uniq (mkseq (node B) (body_size B)).
 Hypothesis ltB : forall i, i < body_size B -> node B i < n.
 
@@ -275,13 +313,13 @@ Lemma N_in k i : i < k -> N i \in mkseq N k.
 Proof. by move=> ik; apply: map_f; rewrite mem_iota. Qed.
 
 Definition shown k r := exists T : seq ('I_n * 'I_n),
-  [/\ all (inside (mkseq N k)) T, all (either (usable b)) T & attained T r].
+  [/\ all (inside (mkseq N k)) T, all (either (U)) T & attained T r].
 
 Lemma shown_S k r : shown k r -> shown k.+1 r.
 Proof. by case=> T [i e a]; exists T; split=> //; apply: sub_all i => e'; apply: inside_S. Qed.
 
 Lemma joinedP l d acc r : shown (core_size B) l -> core_size B + d <= body_size B ->
-  joined m first second bodies b B d acc = Some r ->
+  joined allowed B d acc = Some r ->
   exists2 v, r = v + acc & shown (core_size B + d) (l + v).
 Proof.
 move=> base; elim: d acc => [|d ih] acc le /=; first by move=> [<-]; exists 0; rewrite ?addn0.
@@ -291,7 +329,7 @@ case: (joins B s) => [|[t why] [|[t' why'] [|? ?]]] //.
 - case: ifP => // ts; case: ifP => // ok /(ih _ (ltnW le)) [v -> [T [iT eT aT]]]; exists (v + 7); first by lia.
   exists ((N s, N t) :: T); split.
   + rewrite /= {1}/inside /= !N_in // ?(ltnW ts) ?(leqW ts) //=; apply: sub_all iT => e'; exact: inside_S.
-  + by apply/andP; split; [exact: pair_okP ok | exact: eT].
+  + by apply/andP; split; [exact: allowedP ok | exact: eT].
   + rewrite addnA; apply: grow_one aT.
       exact: N_neq.
     by apply: sub_all iT => e'; apply: inside_out.
@@ -299,7 +337,7 @@ case: (joins B s) => [|[t why] [|[t' why'] [|? ?]]] //.
   case/(ih _ (ltnW le)) => v -> [T [iT eT aT]]; exists (v + 11); first by lia.
   exists ((N s, N t) :: (N s, N t') :: T); split.
   + rewrite /= {1 2}/inside /= !N_in ?(leqW ts) ?(leqW ts') //=; apply: sub_all iT => e'; exact: inside_S.
-  + by apply/and3P; split; [exact: pair_okP ok | exact: pair_okP ok' | exact: eT].
+  + by apply/and3P; split; [exact: allowedP ok | exact: allowedP ok' | exact: eT].
   + rewrite addnA; apply: grow_two aT.
     * exact: N_neq.
     * exact: N_neq.
@@ -307,15 +345,15 @@ case: (joins B s) => [|[t why] [|[t' why'] [|? ?]]] //.
     by apply: sub_all iT => e'; apply: inside_out.
 Qed.
 
-Lemma core_okP L : core_ok m first second bodies b B L ->
+Lemma core_okP L : core_ok allowed B L ->
   all (fun e => (e.1.1 < core_size B) && (e.1.2 < core_size B)) (core_rows L) /\
-  (forall e, e \in core_rows L -> either (usable b) (N e.1.1, N e.1.2)).
+  (forall e, e \in core_rows L -> either (U) (N e.1.1, N e.1.2)).
 Proof.
-elim: L => [|[[[i j] k] why] L ih] //=; case: ifP => // ic; case: ifP => // jc; case: ifP => // /pair_okP ok.
+elim: L => [|[[[i j] k] why] L ih] //=; case: ifP => // ic; case: ifP => // jc; case: ifP => // /allowedP ok.
 case/ih => lt el; rewrite /= lt; split=> // e; rewrite inE => /predU1P [-> | /el] //.
 Qed.
 
-Lemma core_shown : core_size B <= body_size B -> core_ok m first second bodies b B (core B) ->
+Lemma core_shown : core_size B <= body_size B -> core_ok allowed B (core B) ->
   shown (core_size B) (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B))).
 Proof.
 move=> le /core_okP [lt el]; case e: (core B) => [|c L]; first by exists [::]; split=> //; exists (0%R).
@@ -331,32 +369,63 @@ by have := el _ kL; rewrite -xy /= -ex -ey.
 Qed.
 End Body.
 
-Lemma nodes_okP B k : nodes_ok n B k -> forall i, i < k -> node B i < n.
+Lemma nodes_okP k : nodes_ok n B k -> forall i, i < k -> node B i < n.
 Proof.
 elim: k => [|k ih] //=; case: ifP => // kn /ih {}ih i.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih].
 Qed.
 
-Lemma body_rankP b r : body_rank n m first second bodies b = Some r -> shown b (body_size (bodies b)) r.
+Lemma body_rankP r : body_rank n allowed B = Some r -> shown (body_size B) r.
 Proof.
 rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
 case: ifP => // ok; have base := core_shown u lt le ok.
 by move/(joinedP u lt base) => []; rewrite subnKC // => v -> h; rewrite addnC.
 Qed.
+End Machine.
 
-Lemma all_rigidP b r : all_rigid n m first second bodies b -> attained (usable b) r -> attained (edges n G) r.
+(* A motion that all pairs of the core allow, but that of its nodes i and j does not: that pair raises the rank. *)
+Lemma body_motionP (allowed : nat -> nat -> reason -> bool) B U motion i j r :
+  (forall x y why, allowed x y why -> either U (V x, V y)) -> body_rank n allowed B = Some r ->
+  all_solved the_prime (centre B) motion (core_rows (core B)) -> i < core_size B -> j < core_size B ->
+  ~~ solved the_prime (centre B) motion i j entries10 ->
+  exists T, [/\ all (inside (mkseq (fun k => V (node B k)) (body_size B))) T,
+    all (either ((V (node B i), V (node B j)) :: U)) T & attained T r.+1].
+Proof.
+move=> ok; rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
+case: ifP => // cok; have -> : (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B)))
+  = core_rank the_prime (centre B) (core_size B) (core_rows (core B)) by case: (core B).
+move=> jo sol ic jc nij; set U' := _ :: U; have le' : core_size B + (body_size B - core_size B) <= body_size B by rewrite subnKC.
+have ok' x y why : allowed x y why -> either U' (V x, V y).
+  by move/ok; rewrite /either !inE => /orP [] ->; rewrite ?orbT.
+suff base : shown B U' (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B))).+1.
+  by have [v -> h] := joinedP ok' u lt base le' jo; move: h; rewrite subnKC // addSn addnC.
+have [clt el] := core_okP ok' cok.
+have a := motion_sound the_prime_is_prime (i := Ordinal ic) (j := Ordinal jc) clt sol nij.
+pose s (k : 'I_(core_size B)) := V (node B k).
+have s_inj : injective s.
+  by move=> k k' /(N_inj u lt) kk; apply/val_inj/kk; apply: leq_trans le.
+exists (moved s ((Ordinal ic, Ordinal jc) :: edges (core_size B) (pairs_of (core_rows (core B))))); split.
+- by apply/allP=> _ /mapP [[k k'] _ ->]; rewrite /inside /= !N_in.
+- apply/allP=> _ /mapP [[k k'] + ->] /=; rewrite inE => /predU1P [[-> ->]|]; first by rewrite /either mem_head.
+  rewrite mem_pmap => /mapP [[x y] /mapP [g gL xy]] /=.
+  case: insubP => // k1 _ ex; case: insubP => // k2 _ ey [-> ->].
+  by have := el _ gL; rewrite -xy /= -ex -ey.
+- exact: attained_moved s_inj a.
+Qed.
+
+Lemma all_rigidP owner b r : all_rigid n m first second bodies owner b -> attained (usable b) r -> attained (edges n G) r.
 Proof.
 elim: b => //= b ih; case: ifP => // rig /ih {}ih a; apply: ih; move: rig; rewrite /rigid.
-case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT [P aT]]] := body_rankP e.
+case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT [P aT]]] := body_rankP (@pair_okP _ b) e.
 apply: (theorem_4_1 (T := T) (b := nodes b)) a => //; first by rewrite size_mkseq.
 - by apply/allP=> _ /allpairsP [[x y] [xb yb ->]]; rewrite /inside xb.
 - by exists P; rewrite size_mkseq; apply: leq_trans les aT.
 Qed.
 
-Theorem lower_ok_sound b r : lower_ok n m first second bodies b r -> rank_at_least n G r.
+Theorem lower_ok_sound owner b r : lower_ok n m first second bodies owner b r -> rank_at_least n G r.
 Proof.
 rewrite /lower_ok; case: ifP => // rig; case e: body_rank => [s|//] rs.
-have [T [_ eT aT]] := body_rankP e; have [P h] := all_rigidP rig (attained_either eT aT).
+have [T [_ eT aT]] := body_rankP (@pair_okP _ b) e; have [P h] := all_rigidP rig (attained_either eT aT).
 by exists P; apply: leq_trans rs h.
 Qed.
 
@@ -368,60 +437,128 @@ by congr (_, _); apply: val_inj; rewrite valV.
 Qed.
 
 Section Upper.
-Variables (blocks : nat -> block) (place : nat -> option (nat * nat * nat)).
+Variables (sets : nat) (set_size : nat -> nat) (member : nat -> nat -> nat).
+Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * (nat -> nat))).
 Definition of_block c : seq 'I_n := mkseq (fun i => V (block_node (blocks c) i)) (block_size (blocks c)).
+Definition set_ k : seq 'I_n := mkseq (fun i => V (member k i)) (set_size k).
+Definition count (A : seq (seq 'I_n)) := \sum_(B <- A) (11 * size B - 15).
+Lemma count_cat A1 A2 : count (A1 ++ A2) = count A1 + count A2.
+Proof. by rewrite /count big_cat. Qed.
+Local Notation A b := [seq of_block c | c <- iota 0 b].
+
+Lemma iotaS b : iota 0 b.+1 = rcons (iota 0 b) b.
+Proof. by rewrite -[b.+1]addn1 iotaD cats1. Qed.
 
 Lemma blocks_sumP b acc r : blocks_sum n blocks b acc = Some r ->
-  all (fun B => 1 < size B) [seq of_block c | c <- iota 0 b]
-  /\ r = (\sum_(B <- [seq of_block c | c <- iota 0 b]) (11 * size B - 15)) + acc.
+  all (fun B => 1 < size B) (A b) /\ r = count (A b) + acc.
 Proof.
-elim: b acc => [|b ih] acc; first by move=> [<-]; rewrite big_nil.
+rewrite /count; elim: b acc => [|b ih] acc; first by move=> [<-]; rewrite big_nil.
 rewrite [blocks_sum _ _ _ _]/=; case: ifP => // s1; case: ifP => // _ /ih [a ->].
-rewrite (_ : iota 0 b.+1 = iota 0 b ++ [:: b]); last by rewrite -[b.+1]addn1 iotaD.
-by rewrite map_cat all_cat a big_cat big_seq1 /= size_mkseq s1 addnA.
+by rewrite iotaS map_rcons -cats1 all_cat a big_cat big_seq1 /= size_mkseq s1 addnA.
 Qed.
 
-Lemma placedP b k acc r : placed first second blocks place b k acc = Some r -> exists L : seq (seq 'I_n),
-  [/\ r = 7 * size L + acc, all (fun B => size B == 2) L
-    & forall i, i < k -> has (fun B => inside B (V (first i), V (second i))) ([seq of_block c | c <- iota 0 b] ++ L)].
+Lemma in_blockP c at_ k : in_block member (blocks c) at_ k (set_size k) -> {subset set_ k <= of_block c}.
 Proof.
-elim: k acc => [|k ih] acc /=; first by move=> [<-]; exists [::].
-case: (place k) => [[[c s] t]|].
-  case: ifP => // cb; case: ifP => // sc; case: ifP => // tc; case: eqnP => // e1; case: eqnP => // e2.
+move=> h _ /mapP [i + ->]; rewrite mem_iota /=; elim: (set_size k) h => //= s ih.
+case: ifP => // lt; case: eqnP => // e /ih {}ih.
+by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih //]; rewrite -e; apply: map_f; rewrite mem_iota.
+Qed.
+
+Lemma placedP b k acc r : placed set_size member blocks place b k acc = Some r -> exists L : seq (seq 'I_n),
+  [/\ r = count L + acc, all (fun B => 1 < size B) L
+    & forall i, i < k -> exists2 B, B \in A b ++ L & {subset set_ i <= B}].
+Proof.
+elim: k acc => [|k ih] acc /=; first by move=> [<-]; exists [::]; rewrite /count big_nil.
+case: (place k) => [[c at_]|].
+  case: ifP => // cb; case: ifP => // /in_blockP sub.
   case/ih=> L [-> two cov]; exists L; split=> // i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov //].
-  rewrite has_cat; apply/orP; left; apply/hasP; exists (of_block c).
-    by apply: map_f; rewrite mem_iota.
-  by rewrite /inside -e1 -e2; apply/andP; split; apply: map_f; rewrite mem_iota.
-case/ih=> L [-> two cov]; exists ([:: V (first k); V (second k)] :: L); split=> //=; first by lia.
-move=> i; rewrite ltnS leq_eqVlt has_cat /= => /predU1P [-> | /cov].
-  by rewrite /inside /= !inE !eqxx !orbT.
-by rewrite has_cat => /orP [->|->]; rewrite ?orbT.
+  by exists (of_block c) => //; rewrite mem_cat; apply/orP; left; apply: map_f; rewrite mem_iota.
+case: ifP => // s1 /ih [L [-> two cov]]; exists (set_ k :: L); split=> //=.
+- by rewrite /count big_cons size_mkseq; lia.
+- by rewrite size_mkseq s1.
+move=> i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov [B BL sub]].
+  by exists (set_ k) => //; rewrite mem_cat mem_head orbT.
+by exists B => //; move: BL; rewrite !mem_cat inE => /orP [->|->]; rewrite ?orbT.
 Qed.
 
-Theorem upper_ok_sound c r : upper_ok n m first second blocks place c r -> rank_at_most n G r.
+(* the pairs of nodes that one of some sets holds; those that blocks of both lists hold *)
+Definition within_some (D : seq (seq 'I_n)) : seq ('I_n * 'I_n) :=
+  [seq e : 'I_n * 'I_n <- enum {: 'I_n * 'I_n} | has (fun B => inside B e) D].
+Definition both c : seq ('I_n * 'I_n) :=
+  [seq e <- within_some (A half) | has (fun B => inside B e) [seq of_block k | k <- iota half (c - half)]].
+Lemma within_someE D e : (e \in within_some D) = has (fun B => inside B e) D.
+Proof. by rewrite mem_filter mem_enum andbT. Qed.
+Lemma bothE c e : (e \in both c) = has (fun B => inside B e) (A half) && has (fun B => inside B e) [seq of_block k | k <- iota half (c - half)].
+Proof. by rewrite mem_filter within_someE andbC. Qed.
+
+Lemma two_inP c s t x y : two_in blocks c s t x y -> inside (of_block c) (V x, V y).
 Proof.
-rewrite /upper_ok; case e: blocks_sum => [acc|//]; have [s1 es] := blocks_sumP e.
-case e': placed => [s|//] sr F P; have [L [el two cov]] := placedP e'.
-apply: leq_trans sr; set A := [seq of_block c | c <- iota 0 c] in s1 es cov.
-apply: leq_trans (theorem_5_1 (B := A ++ L) P _ _) _.
-- by rewrite all_cat s1; apply/allP=> B /(allP two) /eqP ->.
-- by apply/allP=> e2 /edges_V [k km ->]; apply: cov.
-rewrite big_cat /= el es addn0 addnC leq_add2r.
-elim: L two {el cov} => [|B L ih] /=; first by rewrite big_nil.
-by case/andP=> /eqP sB /ih; rewrite big_cons sB; lia.
+rewrite /two_in; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
+by apply/andP; split; apply: map_f; rewrite mem_iota.
+Qed.
+
+Lemma both_okP c x y why : both_ok blocks half c x y why -> either (both c) (V x, V y).
+Proof.
+case: why => //= d s t d' s' t'; case: ifP => // dh; case: ifP => // hd; case: ifP => // dc.
+case: ifP => // /two_inP i1 /two_inP i2; rewrite /either bothE; apply/orP; left.
+apply/andP; split; apply/hasP.
+  by exists (of_block d) => //; apply: map_f; rewrite mem_iota.
+by exists (of_block d') => //; apply: map_f; rewrite mem_iota hd subnKC // (leq_trans hd) // ltnW.
+Qed.
+
+Lemma either_both c (e : 'I_n * 'I_n) : either (both c) e -> e \in both c.
+Proof.
+case: e => x y /orP [//|]; rewrite !bothE /swap /=.
+by case/andP=> /hasP [B BA /andP [xB yB]] /hasP [B' BA' /andP [xB' yB']]; apply/andP; split; apply/hasP;
+  [exists B | exists B'] => //; apply/andP.
+Qed.
+
+Theorem upper_ok_sound c r (E : seq ('I_n * 'I_n)) :
+  upper_ok n sets set_size member blocks half shared place c r ->
+  (forall e, e \in E -> exists2 k, k < sets & inside (set_ k) e) ->
+  forall (F : numFieldType) (P : cameras F n), \rank (J E P) <= r.
+Proof.
+rewrite /upper_ok; case e: blocks_sum => [acc|//]; have [s1 ->{acc e}] := blocks_sumP e => /=.
+case e: placed => [s|//]; have [L [-> two cov]] := placedP e => {e s} + EC F P; rewrite addn0.
+have cover f : f \in E -> has (fun B => inside B f) (A c ++ L).
+  by move/EC=> [] k /cov [B BA sub] /andP [xk yk]; apply/hasP; exists B; rewrite // /inside !sub.
+case: ifP => [hc|_ le]; last first.
+  apply: leq_trans le; apply: leq_trans (theorem_5_1 (B := A c ++ L) P _ _) _; first by rewrite all_cat s1.
+    exact/allP.
+  by rewrite -/(count _) count_cat addnC.
+case e: body_rank => [l|//] le; have [T [_ eT [P0 aT]]] := body_rankP (@both_okP c) e.
+set A2 := [seq of_block k | k <- iota half (c - half)].
+have cA : A c = A half ++ A2 by rewrite /A2 -map_cat -iotaD subnKC // ltnW.
+have T1 : {subset T <= within_some (A half ++ L)}.
+  by move=> f /(allP eT)/either_both; rewrite bothE within_someE has_cat => /andP [->].
+have T2 : {subset T <= within_some A2}.
+  by move=> f /(allP eT)/either_both; rewrite bothE within_someE => /andP [_ ->].
+have lT : l <= \rank (J T (map_mx (ratr : rat -> F) P0 : cameras F n)).
+  by rewrite -(map_J (ratr_rmorphism F)) mxrank_map.
+have bound D : all (fun B => 1 < size B) D -> forall Q : cameras F n, \rank (J (within_some D) Q) <= count D.
+  by move=> sD Q; apply: theorem_5_1 => //; apply: filter_all.
+move: s1; rewrite cA all_cat => /andP [s1 s2].
+have h := corollary_5_11 T1 T2 lT (bound _ _) (bound _ s2) P.
+have /h {}h : all (fun B => 1 < size B) (A half ++ L) by rewrite all_cat s1.
+have sub : {subset E <= within_some (A half ++ L) ++ within_some A2}.
+  move=> f /cover; rewrite cA mem_cat !within_someE !has_cat.
+  by case/orP=> [/orP [->|->]|->]; rewrite ?orbT.
+have := J_mono P sub; move: h le; rewrite cA !count_cat; move: (count L) (count A2) (count _) (\rank _) (\rank _); lia.
 Qed.
 End Upper.
 End Sound.
 
-Theorem verify_sound n m first second by_pair bodies b lower blocks c place upper :
-  verify n m first second by_pair bodies b lower blocks c place upper ->
+Theorem verify_sound n m first second by_pair bodies owner b lower blocks half shared c place upper :
+  verify n m first second by_pair bodies owner b lower blocks half shared c place upper ->
   let G := pairs m first second in
   [/\ well_formed n G, rank_at_least n G lower & rank_at_most n G upper].
 Proof.
 rewrite /verify; case: ifP => // /graph_ok_sound good; case: ifP => // lo up; split=> //.
   move: lo; rewrite /lower_part; case: eqnP => [-> _|_]; first by exists 0%R.
   exact: (lower_ok_sound good).
-move: up; rewrite /upper_part; case: ifP => [le _ F P | _]; last exact: (upper_ok_sound good).
+move: up; rewrite /upper_part; case: ifP => [le _ F P | _ up F P]; last first.
+  apply: (upper_ok_sound (good := good) up) => _ /(edges_V good) [k km ->]; exists k => //.
+  by rewrite /inside /set_ /= !inE !eqxx orbT.
 by apply: leq_trans le; apply: lemma_1_1; case/and3P: good.
 Qed.
 

@@ -100,6 +100,18 @@ Definition core_rank k (L : seq (nat * nat * nat)) : nat :=
       if staircase N Z then size Z else 0
     else 0
   end.
+
+(* what the equation of nodes i and j says of a motion, by its entries *)
+Section Motion.
+Variable motion : nat -> nat.
+Fixpoint dot (y : sparse) : nat := if y is (k, x) :: t then addp (mulp x (motion k)) (dot t) else 0.
+Fixpoint solved i j (ab : seq (nat * nat)) : bool :=
+  if ab is (a, b) :: ab' then
+    if eqn (dot (combination 0 addp mulp oppp (cs i) (cs j) i j a b)) 0 then solved i j ab' else false
+  else true.
+Fixpoint all_solved (L : seq (nat * nat * nat)) : bool :=
+  if L is (i, j, _) :: L' then if solved i j entries10 then all_solved L' else false else true.
+End Motion.
 End Rows.
 End Program.
 Arguments power : simpl never.
@@ -294,12 +306,10 @@ case: (ltnP k (12 * n)) => kn.
 by rewrite /coord insubF // ltnNge leq_divRL // mulnC kn.
 Qed.
 
-(* Proposition 1.4 *)
-Theorem core_rank_sound L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
-  attained (edges n (pairs_of L)) (core_rank p cs n L).
+(* Proposition 1.4. A rank at these centres modulo p is one of rational cameras. *)
+Lemma lifted E r : (r <= \rank (J E (normal n csF)))%N -> attained E r.
 Proof.
-move/core_rank_modp => h.
-pose cZ v k : int := (cs v k)%:Z.
+move=> h; pose cZ v k : int := (cs v k)%:Z.
 exists (normal n (fun v k => (cZ v k)%:~R)); apply: leq_trans h _.
 have e (R : comRingType) : normal n (fun v k => (cZ v k)%:~R : R) = map_mx intr (normal n cZ).
   apply/row_matrixP=> v; rewrite -map_row !rowK.
@@ -310,4 +320,75 @@ have -> : normal n csF = map_mx intr (normal n cZ).
 rewrite e -(map_J (intmul1_rmorphism [comRingType of Fp])) -(map_J (intmul1_rmorphism rat_comRing)).
 exact: proposition_1_4.
 Qed.
+
+Theorem core_rank_sound L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+  attained (edges n (pairs_of L)) (core_rank p cs n L).
+Proof.
+by move/core_rank_modp/lifted. Qed.
+
+(* A motion in numbers that all these pairs allow, and the pair of i and j does not: that pair raises the rank. *)
+Section Motion.
+Variable motion_of : nat -> nat.
+Definition motion_u : motion := \matrix_v mxvec (\matrix_(h < 3, b < 4) (motion_of (key v h b))%:R).
+
+Lemma coord_motion (v : 'I_n) (h : 'I_3) (b : 'I_4) : coord motion_u (key v h b) = (motion_of (key v h b))%:R.
+Proof. by rewrite coord_key /cam rowK mxvecK mxE. Qed.
+
+Lemma dot_lt y : (dot p motion_of y < p)%N.
+Proof. by case: y => [|[k x] y] /=; rewrite ?ltn_mod prime_gt0. Qed.
+
+Lemma dot_row (i j : 'I_n) (a b : 'I_4) :
+  (dot p motion_of (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b))%:R
+  = equation (normal n csF) (i, j) motion_u a b.
+Proof.
+rewrite -row_sound /combination /eval !big_cons big_nil /=.
+pose h0 : 'I_3 := ord0; pose h1 : 'I_3 := lift ord0 ord0; pose h2 : 'I_3 := lift ord0 (lift ord0 ord0).
+have e (v : 'I_n) (c : 'I_4) := And3 (coord_motion v h0 c) (coord_motion v h1 c) (coord_motion v h2 c).
+have [-> -> ->] := e i a; have [-> -> ->] := e i b; have [-> -> ->] := e j a; have [-> -> ->] := e j b.
+by rewrite !addpE !mulpE.
+Qed.
+
+Lemma symmetric (R : comRingType) (P dP : cameras R n) e a b : equation P e dP a b = equation P e dP b a.
+Proof. by rewrite [LHS]mxE [RHS]mxE [X in _ + X = _]mxE [X in _ = _ + X]mxE addrC. Qed.
+
+Lemma solvedP (i j : 'I_n) : solved p cs motion_of i j entries10 = (equation (normal n csF) (i, j) motion_u == 0).
+Proof.
+have zero (a b : 'I_4) : eqn (dot p motion_of (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b)) 0
+    = (equation (normal n csF) (i, j) motion_u a b == 0).
+  rewrite -dot_row -(dvdn_charf (char_Fp p_prime)); have := dot_lt (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b).
+  by case: dot => [|d] lt; rewrite ?dvdn0 // gtnNdvd.
+pose o k : 'I_4 := inord k; have oE k : (k < 4)%N -> nat_of_ord (o k) = k by move=> ?; rewrite inordK.
+have all_ab : solved p cs motion_of i j entries10 = all (fun ab => equation (normal n csF) (i, j) motion_u (o ab.1) (o ab.2) == 0) entries10.
+  have : all (fun ab => (ab.1 < 4)%N && (ab.2 < 4)%N) entries10 by [].
+  elim: entries10 => //= -[a b] L ih /andP [/andP [/= a4 b4] /ih <-].
+  by have := zero (o a) (o b); rewrite !oE // => ->; case: eqP.
+rewrite all_ab; apply/allP/eqP => [h | -> ab _]; last by rewrite mxE.
+apply/matrixP=> a b; rewrite [RHS]mxE.
+wlog ab : a b / (a <= b)%N.
+  by move=> w; case: (leqP a b) => [|/ltnW] ab; [exact: w | rewrite symmetric; exact: w].
+have /h /eqP : (val a, val b) \in entries10.
+  by case: a b ab => [[|[|[|[|//]]]] ?] [[|[|[|[|//]]]] ?].
+by rewrite /= /o !inord_val.
+Qed.
+
+Theorem motion_sound L (i j : 'I_n) : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+  all_solved p cs motion_of L -> ~~ solved p cs motion_of i j entries10 ->
+  attained ((i, j) :: edges n (pairs_of L)) (core_rank p cs n L).+1.
+Proof.
+move=> lt sol nij; apply: lifted; apply: leq_ltn_trans (core_rank_modp lt) _.
+set P := normal n csF; set E := edges n _; rewrite solvedP -/P in nij.
+have EP : {subset E <= (i, j) :: E} by move=> e eE; rewrite inE eE orbT.
+have sub := ker_mono P EP.
+have uE : (mxvec motion_u <= kermx (J E P))%MS.
+  rewrite J_kerP mxvecK; apply/allP=> -[x y]; rewrite mem_pmap => /mapP [[x' y'] /mapP [[[k l] mask] kL [-> ->]] /=].
+  case: insubP => // x'' _ ex; case: insubP => // y'' _ ey [-> ->]; rewrite -solvedP ex ey.
+  elim: L sol kL {lt E EP sub} => //= -[[k' l'] mask'] L ih; case: ifP => // kl /ih {}ih.
+  by rewrite inE => /predU1P [[-> -> _]|/ih].
+have nuE : ~~ (mxvec motion_u <= kermx (J ((i, j) :: E) P))%MS.
+  by rewrite J_kerP mxvecK /= (negbTE nij).
+have /rank_ltmx : (kermx (J ((i, j) :: E) P) < kermx (J E P))%MS.
+  by rewrite ltmxE sub /=; apply: contra nuE; apply: submx_trans.
+by rewrite !mxrank_ker; move: (\rank _) (\rank _) => r1 r2; lia.
+Qed.
+End Motion.
 End Sound.

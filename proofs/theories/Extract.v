@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Generic Counting Rigid Checker Sanity.
+From Viewcert Require Import Statement Generic Counting Rigid Components Elimination Checker Separation Sanity.
 
 Extract Inlined Constant muln => "(( * ) : int -> int -> int)".
 Extract Inlined Constant addn => "((+) : int -> int -> int)".
@@ -11,9 +11,10 @@ Extract Inlined Constant leq => "((<=) : int -> int -> bool)".
 Extract Inlined Constant eqn => "((=) : int -> int -> bool)".
 Extract Inlined Constant modn => "(fun (a : int) (b : int) -> if b = 0 then a else a mod b)".
 Extract Inlined Constant divn => "(fun (a : int) (b : int) -> if b = 0 then 0 else a / b)".
-Extraction "checker.ml" graph_ok verify.
+Extraction "checker.ml" graph_ok verify components_ok cells solved the_prime entries10.
 
 Print Assumptions verify_sound.
+Print Assumptions verify_components.
 Print Assumptions exact_rank.
 Print Assumptions has_full_rank.
 Print Assumptions lacks_full_rank.
@@ -24,11 +25,18 @@ Print Assumptions theorem_5_1.
 Print Assumptions theorem_5_9.
 Print Assumptions corollary_5_11.
 Print Assumptions separation.
+Print Assumptions components_are.
 Print Assumptions epipolar.
 Print Assumptions derivative.
 Print Assumptions edges_all.
 Print Assumptions one_rank.
 Print Assumptions largest.
+Print Assumptions a_rank.
+Print Assumptions rational_cameras.
+Print Assumptions renamed.
+Print Assumptions only_trivial_motions.
+Print Assumptions full_rank_component.
+Print Assumptions one_pair_has_rank_7.
 Print Assumptions pair.
 Print Assumptions triangle.
 Print Assumptions four_cycle.

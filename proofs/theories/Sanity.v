@@ -76,28 +76,139 @@ Qed.
 Theorem largest n G r : generic_rank n G r -> (r <= 11 * n - 15)%N.
 Proof. by case=> /and3P [n1 _ _] [P a] _; apply: leq_trans a (lemma_1_1 _ _ n1). Qed.
 
+(* There is one. Natural numbers suffice as entries of cameras, whatever the field, *)
+Lemma on_line (F : numFieldType) n E (P D : cameras F n) (c : F) :
+  exists k : nat, (\rank (J E P) <= \rank (J E (P + (k%:R - c) *: D)%R))%N.
+Proof.
+have [Q [n1 h]] := rank_open (J E (line P (P + D))) 0.
+have n2 : Q \Po ('X - c%:P) != 0 by rewrite comp_poly_eq0 // size_XsubC.
+have [k hk] := nonroot n2; exists k; move: hk; rewrite horner_comp !hornerE => /h.
+by rewrite !map_J !ev_line scale0r addr0 [P + D]addrC addrK.
+Qed.
+
+Theorem natural_cameras (F : numFieldType) n E (P : cameras F n) :
+  exists Z : 'M[nat]_(n, 3 * 4), (\rank (J E P) <= \rank (J E (map_mx (fun k => k%:R : F) Z)))%N.
+Proof.
+suff : forall s : seq ('I_n * 'I_(3 * 4)), exists Q : cameras F n, (\rank (J E P) <= \rank (J E Q))%N
+    /\ forall x, x \in s -> exists k : nat, Q x.1 x.2 = k%:R.
+  case/(_ (enum {: 'I_n * 'I_(3 * 4)})) => Q [le h].
+  have h' i j : exists k : nat, Q i j == k%:R.
+    by have [|k e] := h (i, j); [rewrite mem_enum | exists k; apply/eqP].
+  exists (\matrix_(i, j) xchoose (h' i j)).
+  suff -> : map_mx (fun k => k%:R : F) (\matrix_(i, j) xchoose (h' i j)) = Q by [].
+  by apply/matrixP=> i j; rewrite !mxE -(eqP (xchooseP (h' i j))).
+elim=> [|[i j] s [Q [le h]]]; first by exists P.
+have [k hk] := on_line E Q (delta_mx i j) (Q i j).
+exists (Q + (k%:R - Q i j) *: delta_mx i j)%R; split; first exact: leq_trans hk.
+move=> [a b]; rewrite !mxE /=; case: (boolP ((a, b) == (i, j))) => [/eqP [-> ->] _|ne].
+  by exists k; rewrite !eqxx mulr1 addrC subrK.
+rewrite inE (negbTE ne) /= => /h /= [l e]; exists l.
+have -> : (a == i) && (b == j) = false by apply: negbTE; rewrite -xpair_eqE.
+by rewrite mulr0 addr0.
+Qed.
+
+(* so no field has larger ranks than the rationals, *)
+Theorem rational_cameras (F : numFieldType) n E (P : cameras F n) :
+  exists Q : cameras rat_comRing n, (\rank (J E P) <= \rank (J E Q : 'M[rat]_(_, _)))%N.
+Proof.
+have [Z le] := natural_cameras E P; pose Q : cameras rat_comRing n := map_mx (fun k => k%:R : rat) Z; exists Q.
+have e : map_mx (fun k => k%:R : F) Z = map_mx (ratr : rat -> F) Q by apply/matrixP=> i j; rewrite !mxE rmorph_nat.
+by move: le; rewrite e -(map_J (ratr_rmorphism F)) mxrank_map.
+Qed.
+
+(* and it cannot be that no number is the generic rank. (Which one it is takes a search; no axiom is used here.) *)
+Theorem a_rank n G : well_formed n G -> ~ (forall r, ~ generic_rank n G r).
+Proof.
+move=> good none; have n1 : (1 < n)%N by case/and3P: good.
+suff no d r : (r + d)%N = (11 * n - 15)%N -> ~ rank_at_least n G r by apply: (no (11 * n - 15)%N 0%N); [| exists 0].
+elim: d r => [|d ih] r e low; apply: (none r); split=> // F P.
+  by rewrite -[r]addn0 e; exact: lemma_1_1.
+rewrite leqNgt; apply/negP=> more; have [Q le] := rational_cameras (edges n G) P.
+by apply: (ih r.+1); [rewrite addSnnS | exists Q; exact: leq_trans more le].
+Qed.
+
+(* The graph with its nodes renamed has the same ranks. *)
+Theorem renamed (F : fieldType) n (s : 'I_n -> 'I_n) E (P : cameras F n) : injective s ->
+  \rank (J (moved s E) (place F s *m P)) = \rank (J E P).
+Proof.
+move=> i; apply/eqP; rewrite eqn_leq J_place // andbT; apply: leq_trans (J_local s E _) _.
+suff -> : rowsub s (place F s *m P) = P by [].
+apply/row_matrixP=> v; rewrite row_rowsub -[LHS]vec_mxK -[RHS]vec_mxK; congr mxvec.
+exact: cam_place.
+Qed.
+
+(* Full rank means that, at some cameras, the trivial motions of Lemma 1.1 are the only ones. *)
+Lemma rank_T (F : numFieldType) n (P : cameras F n) : (\rank (T P) <= n + 15)%N.
+Proof.
+have k : (row_mx (mxvec (1%:M : 'M_4)) (const_mx (-1) : 'rV_n) <= kermx (T P))%MS.
+  apply/sub_kermxP; rewrite mul_rV_lin1 /= /trivial_fun row_mxKl row_mxKr mxvecK.
+  apply/eqP; rewrite mxvec_eq0; apply/eqP/row_matrixP=> v; rewrite rowK row0 mulmx1 mxE scaleN1r subrr.
+  by rewrite linear0.
+have n0 : row_mx (mxvec (1%:M : 'M_4)) (const_mx (-1) : 'rV_n) != 0 :> 'rV[F]_(4 * 4 + n).
+  apply/eqP=> /(congr1 lsubmx); rewrite row_mxKl linear0 => /eqP; rewrite mxvec_eq0 => /eqP/matrixP/(_ ord0 ord0).
+  by rewrite !mxE /= => /eqP; rewrite oner_eq0.
+have := mxrankS k; rewrite rank_rV n0 mxrank_ker; have := rank_leq_row (T P); lia.
+Qed.
+
+Theorem only_trivial_motions n G : well_formed n G ->
+  full_rank n G <-> exists P : cameras rat_comRing n, (kermx (J (edges n G) P : 'M[rat]_(_, _)) == T P)%MS.
+Proof.
+move=> good; have n1 : (1 < n)%N by case/and3P: good.
+have TJ (P : cameras rat_comRing n) : (T P <= kermx (J (edges n G) P : 'M[rat]_(_, _)))%MS by apply/sub_kermxP; exact: T_J.
+split=> [[_ [P0 low] _] | [P /eqmxP ker]]; last first.
+  split=> // [|F Q]; last exact: lemma_1_1.
+  exists P; have := rank_T (P : cameras [numFieldType of rat] n); rewrite -ker mxrank_ker.
+  have := rank_leq_row (J (edges n G) P : 'M[rat]_(_, _)); lia.
+case: n n1 G good P0 low TJ => [|[|n]] // _ G good P0 low TJ.
+have [||P [r1 r2]] := @Generic.both [numFieldType of rat] _ _ _ _ _ (fun R U => T U) (fun R U => J (edges _ G) U) (@Generic.good [numFieldType of rat] n) P0.
+- by move=> t; rewrite map_T.
+- by move=> t; rewrite map_J.
+exists P; rewrite andbC -(geq_leqif (mxrank_leqif_eq (TJ P))) mxrank_ker.
+apply: leq_trans (leq_trans (@rank_good [numFieldType of rat] n) r1).
+rewrite leq_subLR; apply: leq_trans (leq_add (leq_trans low r2) (leqnn _)).
+by clear; lia.
+Qed.
+
 Local Close Scope ring_scope.
+
+(* A graph of full rank is one component. *)
+Theorem full_rank_component n G : full_rank n G -> components n G [:: iota 0 n].
+Proof.
+case=> /and3P [n1 /allP lt _] low _.
+have in_iota x : (x \in iota 0 n) = (x < n) by rewrite mem_iota.
+have whole : part n G (iota 0 n).
+  split; rewrite ?size_iota ?iota_uniq //; first by apply/allP=> x; rewrite in_iota.
+  suff -> : within (iota 0 n) G = G by [].
+  by apply/all_filterP/allP=> e /lt /andP [e12 en]; rewrite !in_iota en (ltn_trans e12 en).
+have sub b : part n G b -> {subset b <= iota 0 n} by case=> _ _ /allP bn _ x /bn; rewrite in_iota.
+split=> [b | b [pb maxb]]; first by rewrite inE => /eqP ->; split=> // b' /sub.
+by exists (iota 0 n); rewrite ?mem_head // => x; apply/idP/idP=> [/(maxb _ whole (sub _ pb))|/(sub _ pb)].
+Qed.
 
 (* Small graphs, as the program checks them: a pair and a triangle have full rank, a 4-cycle has not. *)
 Definition at_ (s : seq (nat * nat)) k := nth (0%N, 0%N) s k.
 Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body :=
   Body k id id 0 [::] (fun _ _ => 0%N) joins.
 Definition no_block (_ : nat) : block := Block 0 id.
+Definition nothing : body := chain 0 (fun _ => [::]) 0.
 
 Theorem pair : full_rank 2 [:: (0, 1)]%N.
 Proof.
 apply: (has_full_rank (u := 7)); pose G := [:: (0, 1)]%N.
 have := @verify_sound 2 1 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) 0 7 no_block 0 (fun _ => None) 7.
+  (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) id 0 7 no_block 0 nothing 0 (fun _ => None) 7.
 by apply; vm_compute.
 Qed.
+
+Theorem one_pair_has_rank_7 : generic_rank 2 [:: (0, 1)]%N 7.
+Proof. exact: pair. Qed.
 
 Theorem triangle : full_rank 3 [:: (0, 1); (0, 2); (1, 2)]%N.
 Proof.
 apply: (has_full_rank (u := 18)); pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
 have := @verify_sound 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) 0 18
-  no_block 0 (fun _ => None) 18.
+  (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) id 0 18
+  no_block 0 nothing 0 (fun _ => None) 18.
 by apply; vm_compute.
 Qed.
 
@@ -105,6 +216,6 @@ Theorem four_cycle : ~ full_rank 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 Proof.
 apply: (@lacks_full_rank 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 have := @verify_sound 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (chain 0 (fun _ => [::])) 0 0 no_block 0 (fun _ => None) 28.
+  (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 28.
 by apply; vm_compute.
 Qed.

@@ -53,3 +53,13 @@ Definition generic_rank n G r : Prop := [/\ well_formed n G, rank_at_least n G r
 
 (* the criterion of Theorem 1.3 *)
 Definition full_rank n G : Prop := generic_rank n G (11 * n - 15).
+
+(* Sets of two nodes or more whose pairs have full rank among themselves, *)
+Definition within (b : seq nat) (G : seq (nat * nat)) := [seq e <- G | (e.1 \in b) && (e.2 \in b)].
+Definition part n G b : Prop :=
+  [/\ (1 < size b)%N, uniq b, all (fun v => v < n)%N b & rank_at_least n (within b G) (11 * size b - 15)].
+
+(* the largest of them, and all of these *)
+Definition component n G b : Prop := part n G b /\ forall b', part n G b' -> {subset b <= b'} -> {subset b' <= b}.
+Definition components n G (C : seq (seq nat)) : Prop :=
+  (forall b, b \in C -> component n G b) /\ (forall b, component n G b -> exists2 c, c \in C & c =i b).

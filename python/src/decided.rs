@@ -369,6 +369,7 @@ impl Decided {
                 time,
                 advice: &advice,
                 scope: &scope,
+                proof: None,
             };
             let mut text = Vec::new();
             match &kind[..] {

@@ -1,11 +1,11 @@
 //! One JSON object a line.
 
-use super::Report;
 use super::database::DatabaseLine;
 use super::read::ReadLine;
 use super::text::{self, several};
 use super::tracks;
 use super::tracks::TrackLine;
+use super::{Report, WrittenProof};
 use crate::assumptions::Planar;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -69,6 +69,8 @@ struct Line<'a> {
     seconds: f64,
     #[serde(flatten)]
     advice: &'a Advice,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proof: Option<&'a WrittenProof>,
 }
 
 /// Which graph it is.
@@ -250,6 +252,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         advice: report.advice,
+        proof: report.proof,
     };
     write_line(out, &line)
 }

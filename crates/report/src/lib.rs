@@ -26,10 +26,13 @@ pub mod tracks;
 
 use assumptions::Scope;
 use graph_picture::{Picture, document, draw};
+use std::fmt;
 use std::io::{self, Write};
+use std::path::Path;
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert::graph::Graph;
+use viewcert::proof::Proof;
 use viewcert_advice::Advice;
 use viewcert_formats::NamedGraph;
 
@@ -81,6 +84,50 @@ pub struct Report<'a> {
     pub advice: &'a Advice,
     /// What the answer holds for, beyond generic cameras of the model.
     pub scope: &'a Scope,
+    /// The explicit proof that was written.
+    pub proof: Option<&'a WrittenProof>,
+}
+
+/// An explicit proof that was written to a file, and what it shows.
+#[derive(Debug, serde::Serialize)]
+pub struct WrittenProof {
+    file: String,
+    rank_at_least: usize,
+    rank_at_most: usize,
+    /// How many components there are; left out if that is not shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    components: Option<usize>,
+}
+
+impl WrittenProof {
+    /// A proof in this file.
+    pub fn new(file: &Path, proof: &Proof) -> Self {
+        Self {
+            file: file.display().to_string(),
+            rank_at_least: proof.lower(),
+            rank_at_most: proof.upper(),
+            components: proof.components(),
+        }
+    }
+}
+
+impl fmt::Display for WrittenProof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            file,
+            rank_at_least,
+            rank_at_most,
+            ..
+        } = self;
+        write!(
+            f,
+            "{file} (rank {rank_at_least} at least, {rank_at_most} at most"
+        )?;
+        if let Some(components) = self.components {
+            write!(f, "; {}", counted(components, "component"))?;
+        }
+        f.write_str(")")
+    }
 }
 
 impl Report<'_> {

@@ -2,108 +2,144 @@
 //! (docs/theory.md, Theorem 4.1).
 
 use super::Unproved;
-use super::core::eliminate;
+use super::core::{Eliminated, eliminate};
 use super::text::{Listed, Reason};
-use crate::contract::piece::Core;
-use crate::contract::{Contraction, Merge, Part, Seed};
+use crate::contract::{Contraction, Members, Merge, Part, Seed};
 use crate::graph::Graph;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 /// The rank of a K_{2,3}.
 const BICLIQUE_RANK: usize = 40;
 
-/// The bodies of a proof that the rank is at least `rank`; `core` is that of all members.
-pub(super) fn all(
-    graph: &Graph,
-    contraction: &Contraction,
-    core: &Core,
-    rank: usize,
-) -> Result<Vec<Listed>, Unproved> {
-    let mut record = Record::new(graph, contraction.bodies.len());
-    for (k, body) in contraction.bodies.iter().enumerate() {
-        let mut growing = match body.seed {
-            Seed::Edge(i, j) => Growing::edge(i, j),
-            Seed::Body(k) => record.growing[k as usize].take().ok_or(Unproved::Record)?,
-            Seed::Known => return Err(Unproved::Known),
-            Seed::Rank(_) => return Err(Unproved::ByRank),
-        };
-        for &[v, a, b] in &body.add {
-            growing.join(v, [(a, 0), (b, 0)]);
-        }
-        for merge in &body.merge {
-            record.merge(&mut growing, merge)?;
-        }
-        record.growing[k] = Some(growing);
-    }
-    let is_whole = contraction.loose.is_empty() && core.nodes.is_empty();
-    let finals: Vec<Reason> = contraction
-        .finals
-        .iter()
-        .map(|&k| record.reason(Part::Body(k)))
-        .collect::<Result<_, _>>()?;
-    if !is_whole || finals.len() != 1 {
-        let whole = whole(&record.done, contraction, &finals, core, rank)?;
-        record.done.push(whole);
-    }
-    Ok(record.done)
+/// Nodes, all pairs of which may be used for the reason given.
+pub(super) type Set = (Vec<u32>, Reason);
+
+/// A body that has the rank `rank` at least: a core of the nodes that lie in two sets, then the
+/// others.
+pub(super) fn of_sets(sets: &[Set], rank: usize) -> Result<Listed, Unproved> {
+    let frame = Frame::of(sets)?;
+    let found = eliminate(&frame.graph, frame.of_core(rank), |_| true);
+    Ok(frame.listed(&found.ok_or(Unproved::Unlucky)?))
 }
 
-/// The last body: the core, then the nodes that lie in one member only.
-fn whole(
-    done: &[Listed],
-    contraction: &Contraction,
-    finals: &[Reason],
-    core: &Core,
+/// The same, and a motion of its core that moves sets which share a node differently, unless they
+/// are in one interval: for some nodes of the core in the one and in the other, the pair of these
+/// forbids it.
+pub(super) fn of_sets_told_apart(
+    sets: &[Set],
     rank: usize,
-) -> Result<Listed, Unproved> {
-    if core.nodes.len() > super::LARGEST_CORE {
-        return Err(Unproved::Core(core.nodes.len()));
+    interval: impl Fn(usize) -> usize,
+) -> Result<(Listed, Vec<u32>), Unproved> {
+    let frame = Frame::of(sets)?;
+    let cores: Vec<Vec<usize>> = sets.iter().map(|(nodes, _)| frame.places(nodes)).collect();
+    let mut of_node = vec![Vec::new(); frame.core.len()];
+    for (k, core) in cores.iter().enumerate() {
+        core.iter().for_each(|&v| of_node[v].push(k));
     }
-    let placed: HashSet<u32> = core.nodes.iter().copied().collect();
-    let mut joins = Vec::new();
-    for &why in finals {
-        let body = &done[why as usize - 1];
-        let mut before: Vec<(u32, Reason)> = body
-            .nodes()
-            .filter(|v| placed.contains(v))
-            .take(2)
-            .map(|v| (v, why))
-            .collect();
-        for v in body.nodes().filter(|v| !placed.contains(v)) {
-            joins.push((v, before.clone()));
-            if before.len() < 2 {
-                before.push((v, why));
+    let told_apart = |found: &Eliminated| {
+        let differ = |k: usize, l: usize| {
+            let mut pairs = cores[k]
+                .iter()
+                .flat_map(|&x| cores[l].iter().map(move |&y| (x, y)));
+            interval(k) == interval(l) || pairs.any(|(x, y)| x != y && !found.allows(x, y))
+        };
+        of_node.iter().all(|near| {
+            let pairs = near.iter().enumerate();
+            pairs
+                .into_iter()
+                .all(|(at, &k)| near[..at].iter().all(|&l| differ(k, l)))
+        })
+    };
+    let found = eliminate(&frame.graph, frame.of_core(rank), told_apart);
+    let found = found.ok_or(Unproved::Unlucky)?;
+    Ok((frame.listed(&found), found.motion()))
+}
+
+/// The core of some sets, and the other nodes.
+struct Frame {
+    /// Nodes that lie in two sets, increasing.
+    core: Vec<u32>,
+    /// On their places: as many pairs in each set as it takes to make its nodes one body.
+    graph: Graph,
+    reasons: Vec<Reason>,
+    joins: Vec<(u32, Vec<(u32, Reason)>)>,
+}
+
+impl Frame {
+    fn of(sets: &[Set]) -> Result<Self, Unproved> {
+        let core = core_nodes(sets);
+        if core.len() > super::LARGEST_CORE {
+            return Err(Unproved::Core(core.len()));
+        }
+        let place = |v: &u32| core.binary_search(v).ok();
+        let mut joins = Vec::new();
+        let mut pairs = BTreeMap::new();
+        for (nodes, why) in sets {
+            let (inner, outer): (Vec<u32>, Vec<u32>) =
+                nodes.iter().partition(|v| place(v).is_some());
+            for step in [1, 2] {
+                let chain = inner.iter().zip(inner.iter().skip(step));
+                let local = chain.filter_map(|(i, j)| place(i).zip(place(j)));
+                pairs.extend(local.map(|(i, j)| ((i.min(j) as u32, i.max(j) as u32), *why)));
+            }
+            let mut before: Vec<(u32, Reason)> = inner.iter().take(2).map(|&v| (v, *why)).collect();
+            for v in outer {
+                joins.push((v, before.clone()));
+                if before.len() < 2 {
+                    before.push((v, *why));
+                }
             }
         }
+        let graph = Graph::new(core.len() as u32, pairs.keys().copied());
+        Ok(Self {
+            graph: graph.expect("pairs of core nodes"),
+            reasons: pairs.into_values().collect(),
+            core,
+            joins,
+        })
     }
-    let added: usize = joins
-        .iter()
-        .map(|(_, before)| [0, 7, 11][before.len()])
-        .sum();
-    let wanted = rank.checked_sub(added).ok_or(Unproved::Unlucky)?;
-    let found = eliminate(&core.graph, wanted).ok_or(Unproved::Unlucky)?;
-    let reason = |member: u32| finals.get(member as usize).copied().unwrap_or(0);
-    debug_assert_eq!(contraction.finals.len(), finals.len());
-    let edges = core.graph.edges().iter().zip(&core.owner).zip(&found.masks);
-    Ok(Listed {
-        core: found
-            .order
+
+    /// Where nodes stand in the core, those that do.
+    fn places(&self, nodes: &[u32]) -> Vec<usize> {
+        let place = |v| self.core.binary_search(v).ok();
+        nodes.iter().filter_map(place).collect()
+    }
+
+    /// What the core has to have of a rank.
+    fn of_core(&self, rank: usize) -> usize {
+        let added = self
+            .joins
             .iter()
-            .map(|&(v, centre)| (core.nodes[v as usize], centre))
-            .collect(),
-        rows: edges
-            .filter(|&(_, &mask)| mask != 0)
-            .map(|((&(i, j), &member), &mask)| {
-                (
-                    core.nodes[i as usize],
-                    core.nodes[j as usize],
-                    mask,
-                    reason(member),
-                )
-            })
-            .collect(),
-        joins,
-    })
+            .map(|(_, before)| [0, 7, 11][before.len()]);
+        rank.saturating_sub(added.sum())
+    }
+
+    fn listed(&self, found: &Eliminated) -> Listed {
+        let node = |v: u32| self.core[v as usize];
+        let rows = self.graph.edges().iter().zip(&self.reasons);
+        Listed {
+            core: found.order.iter().map(|&(v, at)| (node(v), at)).collect(),
+            rows: rows
+                .zip(&found.masks)
+                .filter(|&(_, &mask)| mask != 0)
+                .map(|((&(i, j), &why), &mask)| (node(i), node(j), mask, why))
+                .collect(),
+            joins: self.joins.clone(),
+        }
+    }
+}
+
+/// The nodes that lie in two of the sets at least, increasing.
+fn core_nodes(sets: &[Set]) -> Vec<u32> {
+    let mut nodes: Vec<u32> = sets.iter().flat_map(|(set, _)| set).copied().collect();
+    nodes.sort_unstable();
+    let mut twice: Vec<u32> = nodes
+        .windows(2)
+        .filter(|pair| pair[0] == pair[1])
+        .map(|pair| pair[0])
+        .collect();
+    twice.dedup();
+    twice
 }
 
 /// A body in the making.
@@ -139,20 +175,90 @@ impl Growing {
 }
 
 /// Bodies of the contraction in the making, and those of the proof.
-struct Record<'a> {
-    graph: &'a Graph,
+pub(super) struct Record {
+    edges: Vec<(u32, u32)>,
     growing: Vec<Option<Growing>>,
     number: Vec<Option<Reason>>,
-    done: Vec<Listed>,
+    pub(super) done: Vec<Listed>,
 }
 
-impl<'a> Record<'a> {
-    fn new(graph: &'a Graph, bodies: usize) -> Self {
-        Self {
-            graph,
+impl Record {
+    /// The bodies of a contraction, the final ones written down.
+    pub(super) fn of(graph: &Graph, contraction: &Contraction) -> Result<Self, Unproved> {
+        let bodies = contraction.bodies.len();
+        let mut record = Self {
+            edges: graph.edges().to_vec(),
             growing: (0..bodies).map(|_| None).collect(),
             number: vec![None; bodies],
             done: Vec::new(),
+        };
+        for (k, body) in contraction.bodies.iter().enumerate() {
+            let mut growing = match body.seed {
+                Seed::Edge(i, j) => Growing::edge(i, j),
+                Seed::Body(k) => record.growing[k as usize].take().ok_or(Unproved::Record)?,
+                Seed::Known => return Err(Unproved::Known),
+                Seed::Rank(_) => return Err(Unproved::ByRank),
+            };
+            for &[v, a, b] in &body.add {
+                growing.join(v, [(a, 0), (b, 0)]);
+            }
+            for merge in &body.merge {
+                record.merge(&mut growing, merge)?;
+            }
+            record.growing[k] = Some(growing);
+        }
+        for &k in &contraction.finals {
+            record.reason(Part::Body(k))?;
+        }
+        Ok(record)
+    }
+
+    /// Members of the contraction, each with the reason by which its pairs may be used.
+    fn sets(&self, members: &Members) -> Vec<Set> {
+        let body = |&k: &u32| {
+            let why = self.number[k as usize].expect("a final body is written down");
+            (self.done[why as usize - 1].nodes().collect(), why)
+        };
+        let bodies = members.bodies.iter().map(body);
+        bodies
+            .chain(members.edges.iter().map(|&(i, j)| (vec![i, j], 0)))
+            .collect()
+    }
+
+    /// The nodes of some members, increasing.
+    pub(super) fn nodes(&self, members: &Members) -> Vec<u32> {
+        let sets = self.sets(members).into_iter();
+        let mut nodes: Vec<u32> = sets.flat_map(|(nodes, _)| nodes).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// The nodes of members that are rigid together, and the reason by which all their pairs may be
+    /// used; a body is written down for it.
+    pub(super) fn rigid(&mut self, members: &Members) -> Result<Set, Unproved> {
+        let mut sets = self.sets(members);
+        if let ([(_, why)], 1) = (&sets[..], members.bodies.len()) {
+            let why = *why;
+            return Ok((sets.swap_remove(0).0, why));
+        }
+        let nodes = self.nodes(members);
+        let body = match &members.edges[..] {
+            &[(i, j)] if members.bodies.is_empty() => Growing::edge(i, j).listed,
+            _ => of_sets(&sets, super::required(&nodes))?,
+        };
+        Ok((nodes, self.push(body)))
+    }
+
+    /// All members, for the last body, which shows the rank; none if there is one body, which does.
+    pub(super) fn last(&self, contraction: &Contraction) -> Vec<Set> {
+        let all = Members {
+            bodies: contraction.finals.clone(),
+            edges: contraction.loose.clone(),
+        };
+        match (all.bodies.len(), all.edges.len()) {
+            (1, 0) => Vec::new(),
+            _ => self.sets(&all),
         }
     }
 
@@ -209,11 +315,7 @@ impl<'a> Record<'a> {
         parts: [Part; 5],
         [a, b, v1, v2, v3]: [u32; 5],
     ) -> Result<(), Unproved> {
-        let is_edge = self
-            .graph
-            .edges()
-            .binary_search(&(a.min(v1), a.max(v1)))
-            .is_ok();
+        let is_edge = self.edges.binary_search(&(a.min(v1), a.max(v1))).is_ok();
         let own = if is_edge {
             0
         } else {
@@ -228,7 +330,7 @@ impl<'a> Record<'a> {
         let five = [a, b, v1, v2, v3];
         let local =
             Graph::new(5, [(0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4)]).expect("K_{2,3}");
-        let found = eliminate(&local, BICLIQUE_RANK).ok_or(Unproved::Unlucky)?;
+        let found = eliminate(&local, BICLIQUE_RANK, |_| true).ok_or(Unproved::Unlucky)?;
         let row = |(&(i, j), &mask): (&(u32, u32), &u32)| {
             let (i, j) = (five[i as usize], five[j as usize]);
             let at = pairs

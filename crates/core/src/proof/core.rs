@@ -24,17 +24,44 @@ const ENTRIES: [(usize, usize); 10] = [
     (3, 3),
 ];
 
-/// A core with the rank that was asked for.
+/// A core with the rank that was asked for, or a larger one.
 pub(super) struct Eliminated {
     /// Its nodes in the order of elimination, with their centres.
     pub(super) order: Vec<(u32, [u32; 3])>,
     /// For every edge of the graph the rows that are used.
     pub(super) masks: Vec<u32>,
+    place: Vec<usize>,
+    centres: Vec<[u64; 3]>,
+    motion: Vec<u64>,
 }
 
-/// Looks for centres at which the rank is `rank`, and for so many independent rows there. `None` if
-/// some centres fail.
-pub(super) fn eliminate(graph: &Graph, rank: usize) -> Option<Eliminated> {
+impl Eliminated {
+    /// A motion that all edges of the graph allow: entry `12 k + 4 h + b` is that in row h and column b of
+    /// dP for the k-th node in the order.
+    pub(super) fn motion(&self) -> Vec<u32> {
+        self.motion.iter().map(|&x| x as u32).collect()
+    }
+
+    /// Whether the pair of two nodes of the graph allows the motion as well.
+    pub(super) fn allows(&self, x: usize, y: usize) -> bool {
+        let (i, j) = (self.place[x], self.place[y]);
+        ENTRIES.iter().all(|&(a, b)| {
+            let row = entry_row(i, j, self.centres[i], self.centres[j], a, b);
+            let terms = row
+                .iter()
+                .map(|&(k, x)| x * self.motion[k as usize] % PRIME);
+            terms.sum::<u64>() % PRIME == 0
+        })
+    }
+}
+
+/// Looks for centres at which the rank is `rank` at least, and for so many independent rows there,
+/// and a motion, that are accepted. `None` if some centres fail.
+pub(super) fn eliminate(
+    graph: &Graph,
+    rank: usize,
+    accepts: impl Fn(&Eliminated) -> bool,
+) -> Option<Eliminated> {
     let order = order(graph);
     let mut place = vec![0; graph.nodes()];
     for (k, &v) in order.iter().enumerate() {
@@ -46,15 +73,38 @@ pub(super) fn eliminate(graph: &Graph, rank: usize) -> Option<Eliminated> {
             .iter()
             .map(|_| [(); 3].map(|()| next(&mut state)))
             .collect();
-        let masks = independent(graph, &place, &centres, rank)?;
+        let (masks, pivots) = independent(graph, &place, &centres, rank)?;
         let small = |c: &[u64; 3]| c.map(|x| x as u32);
-        let order = order
-            .iter()
-            .copied()
-            .zip(centres.iter().map(small))
-            .collect();
-        Some(Eliminated { order, masks })
+        let found = Eliminated {
+            order: order
+                .iter()
+                .copied()
+                .zip(centres.iter().map(small))
+                .collect(),
+            masks,
+            place: place.clone(),
+            motion: motion(&pivots, &mut state),
+            centres,
+        };
+        accepts(&found).then_some(found)
     })
+}
+
+/// A solution of the equations of all pivots, its free entries chosen.
+fn motion(pivots: &[Option<Row>], state: &mut u64) -> Vec<u64> {
+    let mut motion = vec![0; pivots.len()];
+    for column in (0..pivots.len()).rev() {
+        motion[column] = match &pivots[column] {
+            None => next(state),
+            Some(row) => {
+                let terms = row[1..]
+                    .iter()
+                    .map(|&(k, x)| x * motion[k as usize] % PRIME);
+                (PRIME - terms.sum::<u64>() % PRIME) % PRIME
+            }
+        };
+    }
+    motion
 }
 
 /// A residue; SplitMix64. Nothing depends on how centres are chosen.
@@ -96,13 +146,14 @@ fn order(graph: &Graph) -> Vec<u32> {
 /// A row: columns and entries, by increasing columns.
 type Row = Vec<(u32, u64)>;
 
-/// For every edge its rows that are independent of those before, if they are `rank` in all.
+/// For every edge its rows that are independent of those before, if they are `rank` in all or more,
+/// and the pivots.
 fn independent(
     graph: &Graph,
     place: &[usize],
     centres: &[[u64; 3]],
     rank: usize,
-) -> Option<Vec<u32>> {
+) -> Option<(Vec<u32>, Vec<Option<Row>>)> {
     let mut pivots: Vec<Option<Row>> = vec![None; 12 * graph.nodes()];
     let mut found = 0;
     let mut masks = vec![0; graph.edges().len()];
@@ -131,7 +182,7 @@ fn independent(
             }
         }
     }
-    (found == rank).then_some(masks)
+    (found >= rank).then_some((masks, pivots))
 }
 
 /// Entry (a, b) of the equation of nodes i, j at cameras [I | -c] (docs/theory.md, 2.1).

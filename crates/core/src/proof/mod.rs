@@ -5,10 +5,13 @@
 //! pivots is written out here: centres, rows, the nodes of every body and what joins them.
 
 mod bodies;
+mod components;
 mod core;
 mod text;
 
 pub use text::Proof;
+
+use bodies::Record;
 
 use crate::contract::Body;
 use crate::contract::piece::{Assembly, Members};
@@ -31,7 +34,7 @@ pub enum Unproved {
     Known,
     /// A graph with one node.
     OneNode,
-    /// An upper bound by a hub, by parts that overlap, or by added pairs.
+    /// An upper bound by a hub.
     UpperBound,
     /// The rank rests on draws, with an error bound.
     ErrorBound,
@@ -51,9 +54,7 @@ impl fmt::Display for Unproved {
             Self::Model => f.write_str("only verdicts of the projective model"),
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
-            Self::UpperBound => {
-                f.write_str("an upper bound by a hub, by overlapping parts or by added pairs")
-            }
+            Self::UpperBound => f.write_str("an upper bound by a hub"),
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
             Self::ByRank => f.write_str("a body by rank"),
@@ -96,31 +97,50 @@ impl Verdict {
             return Err(Unproved::OneNode);
         }
         let full = Model::Projective.required(graph.nodes());
-        let assembly = Assembly::new(graph, &self.contraction);
-        let (upper, blocks) = if self.value == Value::NotFiniteSolvable {
-            upper_bound(self, &assembly)?
+        let refuted = self.value == Value::NotFiniteSolvable;
+        let (upper, blocks) = if refuted {
+            upper_bound(self, &Assembly::new(graph, &self.contraction))?
         } else {
             (full, Vec::new())
         };
-        if self.value == Value::NotFiniteSolvable && upper >= full {
+        if refuted && upper >= full {
             return Err(Unproved::ErrorBound);
         }
-        let core = assembly.core(&assembly.all());
-        let refuted = self.value == Value::NotFiniteSolvable;
-        let (lower, bodies) = match bodies::all(graph, &self.contraction, &core, self.rank) {
-            Ok(bodies) => (self.rank, bodies),
-            Err(Unproved::Core(_)) if refuted => (0, Vec::new()),
-            Err(unproved) => return Err(unproved),
-        };
+        let mut record = Record::of(graph, &self.contraction)?;
+        let last = record.last(&self.contraction);
+        let wanted = refuted && self.components_claim().is_proved();
+        let mut lower = self.rank;
+        let mut components = None;
+        if !last.is_empty() {
+            match bodies::of_sets(&last, self.rank) {
+                Ok(whole) => {
+                    components = wanted
+                        .then(|| components::of(self, &mut record).ok())
+                        .flatten();
+                    record.done.push(whole);
+                }
+                Err(Unproved::Core(_)) if refuted => {
+                    lower = 0;
+                    record.done.clear();
+                }
+                Err(unproved) => return Err(unproved),
+            }
+        }
         Ok(Proof {
             nodes: graph.nodes(),
             pairs: graph.edges().len(),
             lower,
             upper,
-            bodies,
+            bodies: record.done,
             blocks,
+            components,
         })
     }
+}
+
+/// What a set of nodes has to have to be of full rank.
+fn required(nodes: &[u32]) -> usize {
+    Model::Projective.required(nodes.len())
 }
 
 /// An upper bound by counting, and its blocks of three nodes or more.
@@ -131,8 +151,7 @@ fn upper_bound(verdict: &Verdict, assembly: &Assembly) -> Result<(usize, Vec<Vec
     }
     let nodes = |part: &Members| part.nodes(&verdict.contraction.bodies);
     let blocks: Vec<Vec<u32>> = parts.iter().map(nodes).collect();
-    let required = |block: &Vec<u32>| Model::Projective.required(block.len());
-    let upper = blocks.iter().map(required).sum();
+    let upper = blocks.iter().map(|block| required(block)).sum();
     Ok((
         upper,
         blocks.into_iter().filter(|block| block.len() > 2).collect(),
@@ -140,6 +159,9 @@ fn upper_bound(verdict: &Verdict, assembly: &Assembly) -> Result<(usize, Vec<Vec
 }
 
 /// The blocks by which the bound of a piece is counted.
+///
+/// Parts that overlap and added pairs never give less than a partition does where no block has a
+/// hub: the smallest sum over partitions is submodular in the pairs, and grows with them.
 fn piece_blocks(piece: &PieceVerdict, assembly: &Assembly) -> Result<Vec<Members>, Unproved> {
     let required = assembly.required(Model::Projective, &piece.members);
     if piece.upper >= required {

@@ -13,6 +13,28 @@ pub struct Proof {
     pub(super) bodies: Vec<Listed>,
     /// Pairs in none of them are blocks by themselves.
     pub(super) blocks: Vec<Vec<u32>>,
+    pub(super) components: Option<Components>,
+}
+
+/// The components, and how they are told apart.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Components {
+    /// Their bodies, by number.
+    pub(super) bodies: Vec<u32>,
+    pub(super) steps: Vec<Step>,
+}
+
+/// A step cuts an interval of components into smaller ones, which end there.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    /// Each shares a node at most with those before.
+    Cut(Vec<usize>),
+    /// A motion of the core of a body tells them apart.
+    Apart {
+        ends: Vec<usize>,
+        frame: Listed,
+        motion: Vec<u32>,
+    },
 }
 
 impl Proof {
@@ -24,6 +46,12 @@ impl Proof {
     /// What the rank is proved to be at most.
     pub fn upper(&self) -> usize {
         self.upper
+    }
+
+    /// How many components there are, if it is proved which they are.
+    pub fn components(&self) -> Option<usize> {
+        let components = self.components.as_ref();
+        components.map(|components| components.bodies.len())
     }
 }
 
@@ -53,7 +81,7 @@ impl Listed {
 impl fmt::Display for Listed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.core.len() + self.joins.len();
-        writeln!(f, "body {size} {} {}", self.core.len(), self.rows.len())?;
+        writeln!(f, "{size} {} {}", self.core.len(), self.rows.len())?;
         for (v, [x, y, z]) in &self.core {
             writeln!(f, "{v} {x} {y} {z}")?;
         }
@@ -76,14 +104,44 @@ impl fmt::Display for Proof {
         writeln!(f, "viewcert proof 1")?;
         writeln!(f, "graph {} {}", self.nodes, self.pairs)?;
         writeln!(f, "claim {} {}", self.lower, self.upper)?;
-        self.bodies
+        for body in &self.bodies {
+            write!(f, "body {body}")?;
+        }
+        self.blocks
             .iter()
-            .try_for_each(|body| write!(f, "{body}"))?;
-        for block in &self.blocks {
-            write!(f, "block {}", block.len())?;
-            block.iter().try_for_each(|v| write!(f, " {v}"))?;
-            writeln!(f)?;
+            .try_for_each(|block| numbers(f, "block", block))?;
+        if let Some(Components { bodies, steps }) = &self.components {
+            numbers(f, "components", bodies)?;
+            steps.iter().try_for_each(|step| write!(f, "{step}"))?;
         }
         writeln!(f, "end")
     }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cut(ends) => numbers(f, "cut", ends),
+            Self::Apart {
+                ends,
+                frame,
+                motion,
+            } => {
+                numbers(f, "apart", ends)?;
+                write!(f, "{frame}")?;
+                for node in motion.chunks(12) {
+                    let node: Vec<String> = node.iter().map(u32::to_string).collect();
+                    writeln!(f, "{}", node.join(" "))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A word, how many numbers there are, and these.
+fn numbers<T: fmt::Display>(f: &mut fmt::Formatter<'_>, word: &str, list: &[T]) -> fmt::Result {
+    write!(f, "{word} {}", list.len())?;
+    list.iter().try_for_each(|x| write!(f, " {x}"))?;
+    writeln!(f)
 }
