@@ -14,8 +14,8 @@ const BICLIQUE_RANK: usize = 40;
 /// Nodes, all pairs of which may be used for the reason given.
 pub(super) type Set = (Vec<u32>, Reason);
 
-/// A body that has the rank `rank` at least: a core of the nodes that lie in two sets, then the
-/// others.
+/// A body that has the rank `rank` at least: a core of the nodes that lie in two sets (those
+/// that hang on one node left aside), then the others.
 pub(super) fn of_sets(sets: &[Set], rank: usize) -> Result<Listed, Unproved> {
     let frame = Frame::of(sets)?;
     let found = eliminate(&frame.graph, frame.of_core(rank), |_| true);
@@ -67,14 +67,19 @@ struct Frame {
 
 impl Frame {
     fn of(sets: &[Set]) -> Result<Self, Unproved> {
-        let core = core_nodes(sets);
+        let Ends { core, leaves } = Ends::of(sets);
         if core.len() > super::LARGEST_CORE {
             return Err(Unproved::Core(core.len()));
         }
         let place = |v: &u32| core.binary_search(v).ok();
         let mut joins = Vec::new();
         let mut pairs = BTreeMap::new();
-        for (nodes, why) in sets {
+        let is_leaf: HashSet<usize> = leaves.iter().map(|&(k, _)| k).collect();
+        for (_, (nodes, why)) in sets
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| !is_leaf.contains(k))
+        {
             let (inner, outer): (Vec<u32>, Vec<u32>) =
                 nodes.iter().partition(|v| place(v).is_some());
             for step in [1, 2] {
@@ -82,13 +87,12 @@ impl Frame {
                 let local = chain.filter_map(|(i, j)| place(i).zip(place(j)));
                 pairs.extend(local.map(|(i, j)| ((i.min(j) as u32, i.max(j) as u32), *why)));
             }
-            let mut before: Vec<(u32, Reason)> = inner.iter().take(2).map(|&v| (v, *why)).collect();
-            for v in outer {
-                joins.push((v, before.clone()));
-                if before.len() < 2 {
-                    before.push((v, *why));
-                }
-            }
+            join_all(&mut joins, inner.into_iter().take(2), outer, *why);
+        }
+        for &(k, at) in leaves.iter().rev() {
+            let (nodes, why) = &sets[k];
+            let others = nodes.iter().copied().filter(|&v| Some(v) != at);
+            join_all(&mut joins, at.into_iter(), others, *why);
         }
         let graph = Graph::new(core.len() as u32, pairs.keys().copied());
         Ok(Self {
@@ -125,6 +129,76 @@ impl Frame {
                 .map(|((&(i, j), &why), &mask)| (node(i), node(j), mask, why))
                 .collect(),
             joins: self.joins.clone(),
+        }
+    }
+}
+
+/// Joins nodes of a set to two of those before.
+fn join_all(
+    joins: &mut Vec<(u32, Vec<(u32, Reason)>)>,
+    first: impl Iterator<Item = u32>,
+    others: impl IntoIterator<Item = u32>,
+    why: Reason,
+) {
+    let mut before: Vec<(u32, Reason)> = first.map(|v| (v, why)).collect();
+    for v in others {
+        joins.push((v, before.clone()));
+        if before.len() < 2 {
+            before.push((v, why));
+        }
+    }
+}
+
+/// Sets that are taken off one after the other, as long as there is one that shares at most one
+/// node with those that are left, and what is left then.
+struct Ends {
+    /// The nodes that lie in two of the sets that are left at least, increasing.
+    core: Vec<u32>,
+    /// The sets that were taken off, with that node.
+    leaves: Vec<(usize, Option<u32>)>,
+}
+
+impl Ends {
+    fn of(sets: &[Set]) -> Self {
+        // For every node that two sets share: how many are left, and the sum of their numbers.
+        let mut near: BTreeMap<u32, (usize, usize)> =
+            core_nodes(sets).into_iter().map(|v| (v, (0, 0))).collect();
+        for (k, (nodes, _)) in sets.iter().enumerate() {
+            for v in nodes {
+                near.entry(*v)
+                    .and_modify(|(count, sum)| (*count, *sum) = (*count + 1, *sum + k));
+            }
+        }
+        let mut left: Vec<HashSet<u32>> = sets
+            .iter()
+            .map(|(nodes, _)| {
+                nodes
+                    .iter()
+                    .copied()
+                    .filter(|v| near.contains_key(v))
+                    .collect()
+            })
+            .collect();
+        let mut leaves = Vec::new();
+        let mut waiting: Vec<usize> = (0..sets.len()).filter(|&k| left[k].len() < 2).collect();
+        while let Some(k) = waiting.pop() {
+            let at = left[k].drain().next();
+            leaves.push((k, at));
+            let Some(v) = at else { continue };
+            let (count, sum) = near.get_mut(&v).expect("a shared node");
+            (*count, *sum) = (*count - 1, *sum - k);
+            if *count == 1 {
+                let last = *sum;
+                left[last].remove(&v);
+                if left[last].len() == 1 {
+                    waiting.push(last);
+                }
+            }
+        }
+        near.retain(|_, (count, _)| *count > 1);
+        Self {
+            core: near.into_keys().collect(),
+            leaves,
         }
     }
 }

@@ -80,3 +80,32 @@ fn a_core_is_written_with_its_centres() {
     assert_eq!((proof.lower(), proof.upper()), (84, 84));
     assert!(proof.to_string().contains("\nbody 9 9 12\n"));
 }
+
+/// Triangles in a chain, more than a core may have nodes: what hangs on one node is no core.
+#[test]
+fn parts_in_a_chain_are_components() {
+    let triangle = |k: u32| {
+        [
+            (2 * k, 2 * k + 1),
+            (2 * k, 2 * k + 2),
+            (2 * k + 1, 2 * k + 2),
+        ]
+    };
+    let graph = Graph::new(1201, (0..600).flat_map(triangle)).unwrap();
+    let proof = proof_of(&graph, Question::default()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (600 * 18, 600 * 18));
+    assert_eq!(proof.components(), Some(600));
+    assert!(proof.to_string().contains("\ncut 600 1 2 3 "));
+}
+
+/// The pairs of a 4-cycle are told apart by a motion; a graph of full rank needs no such steps.
+#[test]
+fn components_are_written_where_there_are_several() {
+    let cycle = Graph::new(4, [(0, 1), (1, 2), (2, 3), (0, 3)]).unwrap();
+    let proof = proof_of(&cycle, Question::default()).unwrap();
+    assert_eq!(proof.components(), Some(4));
+    assert!(proof.to_string().contains("\napart 4 1 2 3 4\n4 4 "));
+    let pair = Graph::new(2, [(0, 1)]).unwrap();
+    let proof = proof_of(&pair, Question::default()).unwrap();
+    assert_eq!(proof.components(), None);
+}
