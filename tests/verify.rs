@@ -294,7 +294,7 @@ fn synthetic_graphs_have_their_true_components() {
     for (name, counted, verdict) in [
         ("G9", "--solutions", "finite-solvable"),
         ("G90", "--solutions", "solvable"),
-        ("G90", "--no-solutions", "finite-solvable"),
+        ("G90", "--solutions=off", "finite-solvable"),
     ] {
         let path = data.join("synthetic").join(name).with_extension("mat");
         let run = verify(&[path.to_str().unwrap(), "--json", counted]);

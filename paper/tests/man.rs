@@ -63,6 +63,6 @@ fn the_manual_names_every_command_and_each_has_its_page() {
     assert!(
         wrong
             .err
-            .contains("chekc is not a command of verify; its commands are overview, check, ")
+            .contains("chekc is not a command of verify; its commands are overview, advise, ")
     );
 }

@@ -2,24 +2,34 @@
 //! a final name, and nothing lost that was complete.
 #![cfg(unix)]
 
+#[path = "../../tests/common/mod.rs"]
 mod common;
+
+use common::program;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 fn verify(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_verify"));
+    let mut command = Command::new(program("verify"));
+    command.args(arguments);
+    command
+}
+
+fn workshop(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_viewcert-paper"));
     command.args(arguments);
     command
 }
 
 /// With files of at most `blocks` blocks of 512 bytes. What goes beyond is not written,
 /// and with the signal ignored the program is told so: a partial write, then an error.
-fn limited(blocks: u64, arguments: &[&str]) -> Output {
+fn limited(blocks: u64, program: &Path, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
     Command::new("sh")
-        .args(["-c", &script, env!("CARGO_BIN_EXE_verify")])
+        .args(["-c", &script])
+        .arg(program)
         .args(arguments)
         .output()
         .unwrap()
@@ -97,7 +107,7 @@ fn finishes(out: &Path, whole: &Path) {
 }
 
 fn house() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/house.txt")
+    common::root().join("examples/house.txt")
 }
 
 /// A small file system in memory; `None`, with a reason, where it may not be mounted.
@@ -155,8 +165,8 @@ fn a_full_file_system_keeps_complete_parts() {
     refused(&run.unwrap(), "house.json", "No space left on device");
     assert!(!certificate.exists());
     let published = disk.0.path().join("published");
-    let publish = ["catalog", "publish", "--certified", "3", "--listed", "3"];
-    let run = verify(&publish).arg(&published).output().unwrap();
+    let publish = ["publish", "--certified", "3", "--listed", "3"];
+    let run = workshop(&publish).arg(&published).output().unwrap();
     refused(
         &run,
         "n03-finite-solvable.jsonl.gz",
@@ -186,7 +196,7 @@ fn a_partial_write_leaves_no_part() {
     assert!(complete < lengths.len(), "no part is too long: {lengths:?}");
 
     let folder = tempfile::tempdir().unwrap();
-    let stopped = limited(blocks, &run(folder.path()));
+    let stopped = limited(blocks, &program("verify"), &run(folder.path()));
     assert_eq!(intact(folder.path(), whole.path()), complete);
     let next = format!("part-{complete:06}.tsv");
     refused(&stopped, &next, "File too large");
@@ -199,10 +209,18 @@ fn a_partial_write_leaves_the_certificate_as_it_was() {
     let certificate = folder.path().join("house.json");
     let house = house();
     let arguments = [path(&house), "--certificate", path(&certificate)];
-    refused(&limited(1, &arguments), "house.json", "File too large");
+    refused(
+        &limited(1, &program("verify"), &arguments),
+        "house.json",
+        "File too large",
+    );
     assert_eq!(files(folder.path()), []);
     fs::write(&certificate, "an earlier one").unwrap();
-    refused(&limited(1, &arguments), "house.json", "File too large");
+    refused(
+        &limited(1, &program("verify"), &arguments),
+        "house.json",
+        "File too large",
+    );
     let earlier = ("house.json".to_string(), b"an earlier one".to_vec());
     assert_eq!(files(folder.path()), [earlier]);
 }
@@ -212,9 +230,13 @@ fn a_partial_write_leaves_the_certificate_as_it_was() {
 fn a_partial_write_leaves_no_published_file() {
     let folder = tempfile::tempdir().unwrap();
     let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
-    let publish = ["catalog", "publish", "--certified", "6", "--listed", "6"];
-    good(&verify(&publish).arg(&whole).output().unwrap());
-    let stopped = limited(2, &[&publish[..], &[path(&out)]].concat());
+    let publish = ["publish", "--certified", "6", "--listed", "6"];
+    good(&workshop(&publish).arg(&whole).output().unwrap());
+    let stopped = limited(
+        2,
+        Path::new(env!("CARGO_BIN_EXE_viewcert-paper")),
+        &[&publish[..], &[path(&out)]].concat(),
+    );
     let (found, expected) = (files(&out), files(&whole));
     assert!(!found.is_empty() && found.len() < expected.len());
     assert!(found.iter().all(|file| expected.contains(file)));
