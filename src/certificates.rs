@@ -1,6 +1,6 @@
 //! Where certificates go: one file, or a folder with a file a graph.
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, bail};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -9,7 +9,6 @@ use viewcert::decide::Verdict;
 use viewcert_catalog::manifest;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
-use viewcert_session::outputs;
 
 /// The option that names the target.
 const OPTION: &str = "--certificate";
@@ -33,22 +32,6 @@ impl Target {
         }
     }
 
-    /// The same of files with graphs, one graph at least each, which the certificates go with.
-    ///
-    /// # Errors
-    /// If a file is meant and there are several graphs, or it is one of the inputs.
-    pub(super) fn apart(path: &Path, inputs: &[PathBuf]) -> Result<Self> {
-        let target = Self::new(path, false);
-        if !target.folder {
-            let count = inputs.len();
-            let many = Self::too_many(path, &format!("{count} graphs"));
-            ensure!(count <= 1, "{many}");
-        }
-        let inputs = inputs.iter().map(PathBuf::as_path);
-        outputs::ensure_apart(&[(OPTION, Some(path))], inputs)?;
-        Ok(target)
-    }
-
     /// Why a file cannot be the target for many graphs.
     pub(super) fn too_many(file: &Path, what: &str) -> String {
         format!(
@@ -56,11 +39,6 @@ impl Target {
              existing folder",
             file.display()
         )
-    }
-
-    /// The file, if there is room for the certificate of one graph only.
-    pub(super) fn single(&self) -> Option<&Path> {
-        (!self.folder).then_some(&*self.path)
     }
 
     /// Writes the certificate of one graph and returns the path.

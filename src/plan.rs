@@ -230,7 +230,7 @@ impl Plan {
         let question = draft.question().context(given::OPTION)?;
         Ok(Options::default()
             .question(question)
-            .prime(self.prime.clone())
+            .prime(self.prime)
             .seed(self.seed))
     }
 

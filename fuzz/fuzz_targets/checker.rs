@@ -39,7 +39,7 @@ fuzz_target!(|data: &[u8]| {
         outcomes.map(|outcome| outcome.map(|verified| verified.to_string())),
         Certificate::parse(data).map(|certificate| certificate.graph_sha256().to_owned()),
     );
-    let _ = Graph::read(data, || None).map(|graph| graph.with_parts_of(data));
+    let _ = Graph::read(data, || None).map(|graph| graph.with_given(data));
 
     let mut bytes = data.iter().copied();
     let (valid, graph) = &VALID[usize::from(bytes.next().unwrap_or(0)) % VALID.len()];

@@ -25,7 +25,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;
     let mut target = arguments.target(&[path.to_owned()])?;
-    if let Some(file) = target.as_ref().and_then(Target::single)
+    if let Some(file) = arguments.single()
         && rows.len() > 1
     {
         bail!(Target::too_many(file, &counted(rows.len(), "claim")));

@@ -122,8 +122,22 @@ impl AuditArguments {
 
     /// The target of the certificates of graphs in these files.
     fn target(&self, inputs: &[PathBuf]) -> Result<Option<Target>> {
-        let path = self.certificate.as_deref();
-        path.map(|path| Target::apart(path, inputs)).transpose()
+        let Some(path) = self.certificate.as_deref() else {
+            return Ok(None);
+        };
+        if self.single().is_some() {
+            let count = inputs.len();
+            let many = Target::too_many(path, &format!("{count} graphs"));
+            ensure!(count <= 1, many);
+        }
+        let inputs = inputs.iter().map(PathBuf::as_path);
+        outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
+        Ok(Some(Target::new(path, false)))
+    }
+
+    /// The file for certificates, if there is room for that of one graph only.
+    fn single(&self) -> Option<&Path> {
+        self.certificate.as_deref().filter(|path| !path.is_dir())
     }
 }
 
@@ -140,8 +154,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitC
         return sweep::run(session, arguments);
     }
     let mut target = arguments.target(&arguments.graphs)?;
-    let single = target.as_ref().and_then(Target::single).map(Path::to_owned);
-    let too_many = |what: &str| Some(Target::too_many(single.as_ref()?, what));
+    let too_many = |what: &str| Some(Target::too_many(arguments.single()?, what));
     let mut out = outputs::text(&[arguments.certificate.as_deref()]);
     let each = |out: &mut _, input: &NamedGraph, _| {
         let agree = one(session, arguments, input, target.as_mut(), out)?;
