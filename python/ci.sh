@@ -28,7 +28,8 @@ step "the source distribution holds what cargo needs"
 "$out/build/bin/maturin" sdist --out "$out/sdist"
 mkdir "$out/source"
 tar -xzf "$out"/sdist/*.tar.gz -C "$out/source" --strip-components 1
-cargo metadata --quiet --locked --format-version 1 \
+# Its lock file names the workshop too, which is left out there: offline, so that it only gets shorter.
+cargo metadata --quiet --offline --format-version 1 \
     --manifest-path "$(find "$out/source" -path '*python/Cargo.toml')" >/dev/null
 
 step "the wheel in the clean environment"

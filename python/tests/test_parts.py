@@ -67,7 +67,7 @@ def test_what_is_no_part_is_refused() -> None:
     for wrong in (["ab"], [1], [[["a"]]]):
         with pytest.raises(viewcert.InputError, match="set of nodes"):
             viewcert.verify(RING, parts=wrong)  # type: ignore[arg-type]
-    with pytest.raises(viewcert.InputError, match="contraction"):
+    with pytest.raises(viewcert.InputError, match="the matrix of the whole graph"):
         viewcert.verify(RING, parts=RIGS, contraction=False)
     with pytest.raises(viewcert.InputError, match="known parts"):
         viewcert.suggest(viewcert.verify(RING, parts=RIGS))
