@@ -55,7 +55,7 @@ pub(super) fn given(head: &[u8]) -> Option<Problem> {
     if !text.ends_with('\n') {
         rest.pop();
     }
-    (is_given(first) && rest.into_iter().all(is_given)).then_some(Problem::Own {
+    (is_given(first) && rest.into_iter().all(is_given)).then_some(Problem::Foreign {
         what: "a file of what is given besides a graph",
         advice: "give it with the graph: verify GRAPH --given FILE; if its lines are pairs all the same, \
                  say --format edges",
