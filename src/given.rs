@@ -77,3 +77,11 @@ pub(super) fn read<'a>(
     input.notes.extend(given.notes);
     Ok((Cow::Owned(input), given.known))
 }
+
+/// Why a file that goes with one graph cannot go with many.
+pub(super) fn too_many(name: &str, path: &Path, what: &str) -> String {
+    format!(
+        "{name} {}: this is about one graph, and there are {what}; run the program on each",
+        path.display()
+    )
+}

@@ -43,13 +43,7 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<Exit
     let mut out = BufWriter::new(std::io::stdout().lock());
     let given = arguments.given.path();
     given::ensure_one_standard_input(given, &arguments.graphs)?;
-    let too_many = |what: &str| {
-        let path = given?.display();
-        Some(format!(
-            "{} {path}: this is about one graph, and there are {what}; run the program on each",
-            given::OPTION
-        ))
-    };
+    let too_many = |what: &str| Some(given::too_many(given::OPTION, given?, what));
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);
     }

@@ -188,10 +188,7 @@ impl Plan {
         let single = |&(name, path): &(&str, &Path)| name != CERTIFICATE || !path.is_dir();
         match files.find(single).or(given) {
             Some((CERTIFICATE, path)) => Some(Target::too_many(path, what)),
-            Some((name, path)) => Some(format!(
-                "{name} {}: this is about one graph, and there are {what}; run the program on each",
-                path.display()
-            )),
+            Some((name, path)) => Some(given::too_many(name, path, what)),
             None => self.request.too_many(what),
         }
     }

@@ -12,7 +12,7 @@ use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
 use viewcert::watch::Watch;
 use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
 /// What a certificate proves.
 #[pyclass(frozen, get_all, module = "viewcert._native")]
@@ -95,17 +95,10 @@ enum Problem {
 /// # Errors
 /// If the file cannot be read, or holds no graph.
 fn graph_in_file(certificate: &Certificate, path: &Path) -> anyhow::Result<viewcert_check::Graph> {
-    let (mut meant, mut first) = (None, None);
-    for input in read_graphs(path, &ReadOptions::default()) {
-        let input = input?;
-        if hex(&sha256(&input.graph)) == certificate.graph_sha256() {
-            meant = Some(input);
-            break;
-        }
-        first.get_or_insert(input);
-    }
+    let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == certificate.graph_sha256();
+    let found = read_meant(path, &ReadOptions::default(), is_meant)?;
     let no_graph = || format!("{}: the file holds no graph", path.display());
-    let input = meant.or(first).with_context(no_graph)?;
+    let input = found.with_context(no_graph)?;
     let pairs = input.graph.edges().iter().copied();
     Ok(viewcert_check::Graph::new(input.graph.nodes(), pairs)?)
 }

@@ -6,7 +6,7 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert_check::{Certificate, Failure, Graph, Verdict, Verified};
-use viewcert_formats::{NamedGraph, ReadOptions, read_given, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_given, read_meant};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -117,18 +117,11 @@ fn graph_at(
     given: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Graph> {
-    let (mut meant, mut first) = (None, None);
-    for input in read_graphs(path, options) {
-        let input = input?;
-        if hex(&sha256(&input.graph)) == certificate.graph_sha256() {
-            meant = Some(input);
-            break;
-        }
-        first.get_or_insert(input);
-    }
+    let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == certificate.graph_sha256();
+    let found = read_meant(path, options, is_meant)?;
     let name = || path.display().to_string();
     let no_graph = || format!("{}: the file holds no graph", name());
-    let input = meant.or(first).with_context(no_graph)?;
+    let input = found.with_context(no_graph)?;
     let pairs = input.graph.edges().iter().copied();
     let graph = Graph::new(input.graph.nodes(), pairs).with_context(name)?;
     with_given(graph, given, &input)

@@ -32,20 +32,8 @@ pub use request::Request;
 pub use suggest::{SuggestedMatch, Suggestion, suggest, suggest_matches};
 pub use sweep::{Row, sweep};
 pub use task::{Weak, named_joints};
+pub use viewcert_formats::OtherPair;
 pub use weak::{WeakImage, WeakPair, Why, weak_images, weak_pairs};
-
-/// A pair of images that is known and is no edge of the graph.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OtherPair {
-    /// The two images, the smaller node first.
-    pub images: (u32, u32),
-    /// How many matches were verified.
-    pub inliers: u32,
-    /// How many there were before verification, if that is known.
-    pub matches: Option<u32>,
-    /// Whether tracks are made of its matches; never in a graph of pairs.
-    pub used: bool,
-}
 
 /// What is known of pairs besides the graph: nothing, if both lists are empty.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,8 +1,8 @@
 //! What is asked about a verdict, and the answers to it.
 
 use crate::named::Advice;
-use crate::task::{Task, Weak, others};
-use crate::{OtherPair, Shapes, export};
+use crate::task::{Task, Weak};
+use crate::{Shapes, export};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
@@ -113,8 +113,7 @@ impl Request {
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Advice::whole());
         }
-        let others: Vec<OtherPair> = input.matching.iter().flat_map(others).collect();
-        let task = Task::new(input, verdict, &others, seed, watch);
+        let task = Task::new(input, verdict, seed, watch);
         let (mut advice, joints) = task.joints(shapes)?;
         if let Some(what) = self.weak {
             advice.weak = Some(task.weak(what)?);

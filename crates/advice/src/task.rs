@@ -21,17 +21,8 @@ pub fn named_joints(
     seed: u64,
     watch: Watch,
 ) -> Result<Advice> {
-    let task = Task::new(input, verdict, &[], seed, watch);
+    let task = Task::new(input, verdict, seed, watch);
     Ok(task.joints(&mut Shapes::default())?.0)
-}
-
-pub(crate) fn others(known: &viewcert_formats::Matching) -> impl Iterator<Item = OtherPair> + '_ {
-    known.others.iter().map(|pair| OtherPair {
-        images: pair.images,
-        inliers: pair.inliers,
-        matches: pair.matches,
-        used: pair.used,
-    })
 }
 
 /// What a component may hang on.
@@ -63,7 +54,6 @@ impl<'a> Task<'a> {
     pub(crate) fn new(
         input: &'a NamedGraph,
         verdict: &'a Verdict,
-        others: &'a [OtherPair],
         seed: u64,
         watch: Watch,
     ) -> Self {
@@ -71,10 +61,13 @@ impl<'a> Task<'a> {
             input,
             verdict,
             parts: Parts::new(&input.graph, verdict),
-            known: Known {
-                inliers: input.matching.as_ref().map_or(&[], |known| &known.inliers),
-                others,
-            },
+            known: input
+                .matching
+                .as_ref()
+                .map_or(Known::default(), |known| Known {
+                    inliers: &known.inliers,
+                    others: &known.others,
+                }),
             names: Names::new(input),
             options: Options::default()
                 .question(Question::without_solutions(verdict.model))

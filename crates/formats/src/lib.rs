@@ -33,7 +33,7 @@ pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
 pub use given::{Given, NamedParts, read_given};
 pub use matching::{Matching, OtherPair};
-pub use read::{Format, NamedGraph, ReadOptions, read_graphs};
+pub use read::{Format, NamedGraph, ReadOptions, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{TrackFacts, TrackOptions};
 

@@ -175,6 +175,26 @@ pub type Graphs = Box<dyn Iterator<Item = Result<NamedGraph, ReadError>>>;
 
 type Input = Box<dyn Read>;
 
+/// Of the graphs of an input the first one that is meant, or else the first; nothing if there is none.
+///
+/// # Errors
+/// Of the graphs before the one that is meant.
+pub fn read_meant(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+    is_meant: impl Fn(&NamedGraph) -> bool,
+) -> Result<Option<NamedGraph>, ReadError> {
+    let mut first = None;
+    for input in read_graphs(path, options) {
+        let input = input?;
+        if is_meant(&input) {
+            return Ok(Some(input));
+        }
+        first.get_or_insert(input);
+    }
+    Ok(first)
+}
+
 /// Streams the graphs of one input (`-` is standard input): one a line for graph6 and
 /// sparse6, else one. Nothing is read before the first item is asked for. What gzip, bzip2, xz
 /// or Zstandard has compressed is unpacked.
