@@ -19,7 +19,10 @@ import tempfile
 import time
 
 import check
+import graphs
 import make
+import notation
+from claim import stated
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "benches"))
 
@@ -261,7 +264,7 @@ TRUTHS = {}
 
 def contradiction(document):
     """What is wrong with an accepted certificate."""
-    graph = check.read_graph6(document["graph"]["graph6"])
+    graph = graphs.read_graph6(document["graph"]["graph6"])
     n, edges, model = graph.n, set(map(tuple, graph.edges)), document["model"]
     # A known part is as good as all its pairs (theory, Theorem 4.14).
     for part in document.get("parts", []):
@@ -635,7 +638,7 @@ def change_merge(document, rng):
         step["with"].reverse()
         step["at"].reverse()
     else:
-        edges = check.read_graph6(document["graph"]["graph6"]).edges
+        edges = graphs.read_graph6(document["graph"]["graph6"]).edges
         partner = rng.choice([list(rng.choice(edges)), rng.randrange(len(document["bodies"]))])
         step["with"][rng.randrange(len(step["with"]))] = partner
 
@@ -657,9 +660,9 @@ def change_claim(document, rng):
 def change_graph(document, rng):
     """An edge more or less, everything about the graph repaired; the evidence stays."""
     graph = document["graph"]
-    old = check.read_graph6(graph["graph6"])
+    old = graphs.read_graph6(graph["graph6"])
     pair = tuple(sorted(rng.sample(range(old.n), 2)))
-    new = check.Graph(old.n, set(old.edges) ^ {pair})
+    new = graphs.Graph(old.n, set(old.edges) ^ {pair})
     graph["sha256"], graph["edges"], graph["graph6"] = new.hash.hex(), len(new.edges), make.graph6_of(new)
     if rng.random() < 0.5 and pair in new.edge_set:
         rng.choice([document["rigid"], *document["pieces"]])["edges"].append(list(pair))
@@ -698,7 +701,7 @@ def change_vectors(document, rng):
 
 def remake(document, rng):
     """All evidence is made anew, honestly, for other bodies, pieces and primes, which may be bad ones."""
-    graph = check.read_graph6(document["graph"]["graph6"])
+    graph = graphs.read_graph6(document["graph"]["graph6"])
     prime = rng.choice([5, 7, 11, 13, 101, 1009, 65521, PRIME])
     maker = make.Maker(
         graph,
@@ -720,7 +723,7 @@ def remake(document, rng):
 
 def bad_cycles(document, rng):
     """All is made anew, honestly but for its cycles of four: they may share too few nodes, or be in the wrong model."""
-    graph = check.read_graph6(document["graph"]["graph6"])
+    graph = graphs.read_graph6(document["graph"]["graph6"])
     model = "calibrated" if rng.random() < 0.6 else rng.choice(["projective", "affine"])
     maker = make.Maker(graph, rng, model=model, variety=True, bad_cycles=True)
     document.clear()
@@ -750,7 +753,7 @@ def repair(document, rng):
         try:
             document["claim"] = check.Check(copy_of(document)).evidence_claim
             return
-        except check.Reject as error:
+        except notation.Reject as error:
             if not repair_count(document, str(error)):
                 return
         except Exception:
@@ -763,7 +766,7 @@ def put_in_order(document):
         if key in INCREASING and type(container[key]) is list:
             sort_if_possible(container[key])
     if "solutions" in document:
-        claim = {"at_least": 1, "at_most": None, **check.stated(None)}
+        claim = {"at_least": 1, "at_most": None, **stated(None)}
         document["claim"].setdefault("solutions", claim).pop("value", None)
     else:
         document["claim"].pop("solutions", None)
@@ -843,7 +846,7 @@ def mutant(text, rng):
         try:
             mutation(document, rng)
             done.append(mutation.__name__)
-        except (LookupError, ValueError, TypeError, AttributeError, RecursionError, check.Reject):
+        except (LookupError, ValueError, TypeError, AttributeError, RecursionError, notation.Reject):
             pass  # there is nothing of the kind in this document, or a draw was unlucky
     if rng.random() < 0.6 and type(document) is dict:
         repair(document, rng)
@@ -913,11 +916,11 @@ class Comparison:
         try:
             check.check(data, graph_data=graph_data)
             return 0, ""
-        except check.Unreadable as error:
+        except notation.Unreadable as error:
             return 2, str(error)
-        except check.Reject as error:
+        except notation.Reject as error:
             return 1, str(error)
-        except check.TooLarge as error:
+        except notation.TooLarge as error:
             return 3, str(error)
 
     def run(self, data, done=()):
@@ -945,11 +948,11 @@ class Comparison:
         """A graph file, with a certificate of the graph that the second checker reads in it."""
         self.count["graph files"] += 1
         try:
-            graph = check.read_graph(text, "")
-        except check.Unreadable:
+            graph = graphs.read_graph(text, "")
+        except notation.Unreadable:
             graph = None
         if graph is None or not 1 <= graph.n <= 12:
-            graph = check.Graph(2, [(0, 1)])
+            graph = graphs.Graph(2, [(0, 1)])
         document = make.Maker(graph).document()
         document["graph"]["graph6"] = None
         data = json.dumps(document).encode()
@@ -992,7 +995,7 @@ def bases(paths, sample, made, rng):
         )
         try:
             yield json.dumps(maker.document()).encode()
-        except (check.Reject, RecursionError):
+        except (notation.Reject, RecursionError):
             pass  # an unlucky draw modulo a small prime: it may part what moves as one, again and again
 
 

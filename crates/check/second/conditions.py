@@ -13,18 +13,31 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
+import bodies  # noqa: E402
 import check  # noqa: E402
+import claim  # noqa: E402
+import cores  # noqa: E402
+import document  # noqa: E402
+import draws  # noqa: E402
+import elimination  # noqa: E402
+import graphs  # noqa: E402
+import lower  # noqa: E402
+import matrices  # noqa: E402
 import notation  # noqa: E402
+import pieces  # noqa: E402
 import solutions  # noqa: E402
+import upper  # noqa: E402
 import test_check  # noqa: E402
 import test_displacements  # noqa: E402
 import test_parts  # noqa: E402
 import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
-CHECKER = (check, notation, solutions)
+CHECKER = (
+    bodies, check, claim, cores, document, draws, elimination, graphs, lower, matrices, notation, pieces, solutions, upper
+)
 TESTS = (test_check, test_displacements, test_parts, test_pebbles, test_solutions)
-REFUSALS = (check.Reject, check.Unreadable, check.TooLarge)
+REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 
 
 def places(source):
@@ -46,7 +59,7 @@ def watch(reached):
     def remember(self, *arguments):
         Exception.__init__(self, *arguments)
         frame = sys._getframe(1)
-        if frame.f_code is check.need.__code__:
+        if frame.f_code is notation.need.__code__:
             frame = frame.f_back
         reached.add((os.path.basename(frame.f_code.co_filename), frame.f_lineno))
 

@@ -18,7 +18,9 @@ import time
 
 import agree
 import check
+import graphs
 import make
+from claim import stated
 
 PRIMES = (1_000_003, 2**31 - 1, 2**61 - 1)
 
@@ -212,13 +214,13 @@ def nesting(evidence):
 
 def certificate(n, edges, solution, bounds, rng):
     """A certificate of a graph without bodies, with evidence for the number of its solutions."""
-    document = make.Maker(check.Graph(n, edges), rng, prime=rng.choice(PRIMES), use_bodies=False).document(check_it=False)
+    document = make.Maker(graphs.Graph(n, edges), rng, prime=rng.choice(PRIMES), use_bodies=False).document(check_it=False)
     rank = 11 * n - 15
     document["solutions"] = solution
     document["claim"] = {
-        "verdict": check.stated("solvable" if bounds[1] == 1 else "finite-solvable"),
-        "rank": {**check.stated(rank), "required": rank},
-        "components": check.stated(1),
+        "verdict": stated("solvable" if bounds[1] == 1 else "finite-solvable"),
+        "rank": {**stated(rank), "required": rank},
+        "components": stated(1),
         "solutions": {"at_least": bounds[0], "at_most": bounds[1], "strength": "proof", "error_log2": None},
     }
     return document
@@ -285,7 +287,7 @@ def grown_from(base, rng, most=15):
 
 def untrue(document, known):
     """What is wrong with a certificate that was accepted, or None; `known` is the number of solutions."""
-    graph = check.read_graph6(document["graph"]["graph6"])
+    graph = graphs.read_graph6(document["graph"]["graph6"])
     found = agree.full_camera_rank(graph.n, graph.edges, random.Random(1))
     if found != document["claim"]["rank"]["value"]:
         return f"the rank is {found}"
@@ -362,7 +364,7 @@ def main():
             print(f"{time.time() - start:.0f} s: {dict(seen)}", flush=True)
     print(f"{time.time() - start:.0f} s: {dict(seen)}")
     bad = comparison.count["reported"]
-    print(f"{bad} findings" if bad else f"all that was grown is accepted, and all that is accepted is true")
+    print(f"{bad} findings" if bad else "all that was grown is accepted, and all that is accepted is true")
     return 1 if bad or options.outside and not bases else 0
 
 

@@ -8,6 +8,13 @@ import itertools
 import random
 
 import check
+import cores
+import elimination
+import graphs
+import matrices
+import notation
+from claim import stated
+from draws import DRAW, FLOW, Stream, draw_centres, draws_of, integer_cameras, refuse_void
 
 PRIME = 2**61 - 1
 
@@ -24,8 +31,8 @@ def random_graph(n, m, rng):
     """A graph with n nodes and m edges, connected if there are enough of them."""
     pairs = list(itertools.combinations(range(n), 2))
     for _ in range(100):
-        graph = check.Graph(n, rng.sample(pairs, m))
-        if check.count_components([{node} for node in range(n)] + [set(edge) for edge in graph.edges]) == 1:
+        graph = graphs.Graph(n, rng.sample(pairs, m))
+        if cores.count_components([{node} for node in range(n)] + [set(edge) for edge in graph.edges]) == 1:
             break
     return graph
 
@@ -58,7 +65,7 @@ class Maker:
             while self.merge_once():
                 pass
 
-    # What check.Core asks for.
+    # What cores.Core asks for.
     def nodes(self, member):
         return self.bodies[member] if type(member) is int else member
 
@@ -160,7 +167,7 @@ class Maker:
 
     def points(self, core, seed, number):
         coordinates = 2 if self.model == "affine" else 3
-        return check.draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number, coordinates)
+        return draw_centres(self.graph.hash, core.hash, core.n, self.prime, seed, number, coordinates)
 
     def lower(self, core):
         """The best lower bound of a core at some draw, and its rank."""
@@ -169,7 +176,7 @@ class Maker:
     def plane_minor(self, core):
         """The best plane-minor evidence of a core at some draw, and its rank."""
         seed, number, points = self.draw(core)
-        pivots = check.find_pivots(check.plane_rows(core, points, self.prime), self.prime)
+        pivots = elimination.find_pivots(matrices.plane_rows(core, points, self.prime), self.prime)
         rows, cols = [r for r, _ in pivots], [c for _, c in pivots]
         found = {"kind": "plane-minor", "prime": str(self.prime), "seed": str(seed), "draw": number}
         return {**found, "rows": rows, "cols": cols}, 4 * len(rows)
@@ -178,8 +185,8 @@ class Maker:
         """The best plane-flow evidence of a core at some draw, and its rank."""
         seed, number, centres = self.draw(core)
         p = self.prime
-        n_rows, directions = check.bearing_rows(core, centres, p)
-        pivots = check.find_pivots(n_rows, p)
+        n_rows, directions = matrices.bearing_rows(core, centres, p)
+        pivots = elimination.find_pivots(n_rows, p)
         rows, cols = [r for r, _ in pivots], [c for _, c in pivots]
         free = sorted(set(range(2 * core.m)) - set(rows))
         evidence = {
@@ -188,13 +195,13 @@ class Maker:
         }
         if not self.projective:
             return evidence, len(rows)
-        factors = check.Elimination([n_rows[r] for r in rows], cols, p, "")
-        stream = check.Stream(check.FLOW, self.graph.hash, core.hash, seed, number)
+        factors = elimination.Elimination([n_rows[r] for r in rows], cols, p, "")
+        stream = Stream(FLOW, self.graph.hash, core.hash, seed, number)
         matrix = []
         for _ in free:
-            flow = check.flow_of(n_rows, free, [stream.below(p) for _ in free], factors, rows, p)
-            matrix += check.lambda_rows_of(core, centres, directions, flow, p)
-        pivots = check.find_pivots(matrix, p)
+            flow = matrices.flow_of(n_rows, free, [stream.below(p) for _ in free], factors, rows, p)
+            matrix += matrices.lambda_rows_of(core, centres, directions, flow, p)
+        pivots = elimination.find_pivots(matrix, p)
         evidence["lambda_rows"], evidence["lambda_cols"] = [r for r, _ in pivots], [c for _, c in pivots]
         evidence["flows"] = max([r // 4 + 1 for r, _ in pivots], default=0)
         return evidence, 4 * len(rows) + len(pivots) - core.m
@@ -204,13 +211,13 @@ class Maker:
         p = self.prime
         seed = self.rng.randrange(2**64)
         for number in itertools.count():
-            stream = check.Stream(check.DRAW, self.graph.hash, core.hash, seed, number)
+            stream = Stream(DRAW, self.graph.hash, core.hash, seed, number)
             cameras = [[[stream.below(p) for _ in range(4)] for _ in range(3)] for _ in range(core.n)]
             try:
-                check.refuse_void(cameras, p, "")
-            except check.Reject:
+                refuse_void(cameras, p, "")
+            except notation.Reject:
                 continue
-            pivots = check.find_pivots(check.jacobian_rows(core, cameras, range(10 * core.m)), p)
+            pivots = elimination.find_pivots(matrices.jacobian_rows(core, cameras, range(10 * core.m)), p)
             rows, cols = [r for r, _ in pivots], [c for _, c in pivots]
             found = {"kind": "minor", "prime": str(p), "seed": str(seed), "draw": number, "rows": rows, "cols": cols}
             return found, len(rows)
@@ -219,21 +226,21 @@ class Maker:
         """A largest minor of J_P at integer cameras, with its determinant or a prime, and vectors of the kernel."""
         seed, top, bottom = self.rng.randrange(2**64), self.rng.randrange(2, 12), self.rng.randrange(1, 5)
         for number in itertools.count():
-            cameras = check.integer_cameras(self.graph.hash, core, seed, number, top, bottom)
+            cameras = integer_cameras(self.graph.hash, core, seed, number, top, bottom)
             try:
-                check.refuse_void(cameras, None, "")
-            except check.Reject:
+                refuse_void(cameras, None, "")
+            except notation.Reject:
                 continue
-            matrix = [check.primitive(row) for row in check.jacobian_rows(core, cameras, range(10 * core.m))]
-            pivots = check.find_pivots(matrix, PRIME)
+            matrix = [elimination.primitive(row) for row in matrices.jacobian_rows(core, cameras, range(10 * core.m))]
+            pivots = elimination.find_pivots(matrix, PRIME)
             rows, cols = [r for r, _ in pivots], [c for _, c in pivots]
-            modulus = check.modulus_above([row.values() for row in matrix if row], "")
-            factors = check.Elimination([matrix[r] for r in rows], cols, modulus, "")
+            modulus = elimination.modulus_above([row.values() for row in matrix if row], "")
+            factors = elimination.Elimination([matrix[r] for r in rows], cols, modulus, "")
             determinant = signed(factors.determinant(), modulus)
             with_prime = self.rng.random() < 0.3
-            vectors, known = [], check.trivial_motions(cameras)
+            vectors, known = [], matrices.trivial_motions(cameras)
             transposed = [{k: matrix[r][c] for k, r in enumerate(rows) if c in matrix[r]} for c in cols]
-            back = check.Elimination(transposed, list(range(len(rows))), modulus, "")
+            back = elimination.Elimination(transposed, list(range(len(rows))), modulus, "")
             for free in sorted(set(range(12 * core.n)) - set(cols)):
                 # Cramer's rule: with the determinant in the free place, the others are minors.
                 solved = back.solve({k: -determinant * matrix[r].get(free, 0) for k, r in enumerate(rows)})
@@ -241,8 +248,8 @@ class Maker:
                 vector[free] = determinant
                 for c, x in zip(cols, solved):
                     vector[c] = signed(x, modulus)
-                tried = [check.primitive(dict(enumerate(v))) for v in known + [vector]]
-                if len(check.find_pivots(tried, PRIME)) == len(tried):
+                tried = [elimination.primitive(dict(enumerate(v))) for v in known + [vector]]
+                if len(elimination.find_pivots(tried, PRIME)) == len(tried):
                     known.append(vector)
                     vectors.append([str(x) for x in vector])
             return {
@@ -258,12 +265,12 @@ class Maker:
         """
         if self.projective:
             cameras = [[[1, 0, 0, -x], [0, 1, 0, -y], [0, 0, 1, -z]] for x, y, z in centres]
-            rows, width = check.jacobian_rows(core, cameras, range(10 * core.m)), 12 * core.n
+            rows, width = matrices.jacobian_rows(core, cameras, range(10 * core.m)), 12 * core.n
         elif self.model == "affine":
-            rows, width = check.plane_rows(core, centres, p), 2 * core.n
+            rows, width = matrices.plane_rows(core, centres, p), 2 * core.n
         else:
-            rows, width = check.bearing_rows(core, centres, p)[0], 3 * core.n
-        pivots = check.find_pivots(rows, p)
+            rows, width = matrices.bearing_rows(core, centres, p)[0], 3 * core.n
+        pivots = elimination.find_pivots(rows, p)
         chosen, cols = [r for r, _ in pivots], [c for _, c in pivots]
         taken = set(cols)
         free = [c for c in range(width) if c not in taken]
@@ -279,15 +286,15 @@ class Maker:
                     transposed[place[c]][k] = x
                 else:
                     right[k] = right.get(k, 0) - x * vector[c]
-        solved = check.Elimination(transposed, list(range(len(cols))), p, "").solve(right)
+        solved = elimination.Elimination(transposed, list(range(len(cols))), p, "").solve(right)
         for c, x in zip(cols, solved):
             vector[c] = x % p
         motion = {}
         for edge in core.edges:
             if self.projective:
-                moved = check.edge_motion(core, edge, centres, vector, p)
+                moved = matrices.edge_motion(core, edge, centres, vector, p)
             else:
-                moved = check.edge_translation(edge, centres, vector, p)
+                moved = matrices.edge_translation(edge, centres, vector, p)
             motion.setdefault(core.owner[edge], moved)
         evidence = {
             **{"kind": "kernel", "prime": str(p), "seed": str(seed), "draw": number},
@@ -297,7 +304,7 @@ class Maker:
 
     def evidence(self, group):
         """The evidence of a piece, and its components as lists of members."""
-        core = check.Core(self, group, "piece")
+        core = cores.Core(self, group, "piece")
         required = self.required(core.n)
         lower, rank = self.lower(core)
         found = [lower]
@@ -339,12 +346,12 @@ class Maker:
         if hub:
             return [*found, hub, kernel], components
         # Elsewhere counting gives the rank, unless it is too low at a draw modulo a small prime.
-        check.need(self.projective, "an unlucky draw")
+        notation.need(self.projective, "an unlucky draw")
         length = required.bit_length()
         count = -(-120 // (56 - length))
         seed = self.rng.randrange(2**64)
         found.append({"kind": "draws", "seed": str(seed), "count": count, "rank": rank})
-        for number, p, centres in check.draws_of(self.graph.hash, core.hash, core.n, seed, count):
+        for number, p, centres in draws_of(self.graph.hash, core.hash, core.n, seed, count):
             found.append(self.kernel(core, p, seed, number, centres)[0])
         if self.variety:
             self.rng.shuffle(found)
@@ -384,7 +391,7 @@ class Maker:
                 singles += block
                 total -= self.required(nodes)
             else:
-                core = check.Core(self, block, "shared")
+                core = cores.Core(self, block, "shared")
                 lower, rank = self.lower(core)
                 pieces.append({**listed(block), "evidence": [lower]})
                 total -= self.required(nodes) - (self.required(core.n) - rank)
@@ -404,7 +411,7 @@ class Maker:
                         {(v, t) if node == v and t in split else node for node in self.nodes(member)}
                         for t, member in enumerate(group)
                     ]
-                    kappa = check.count_components([*split_sets, {v}])
+                    kappa = cores.count_components([*split_sets, {v}])
                     surplus = sum(3 * len(s) - 4 for s in split_sets) - (3 * len(nodes) - 4)
                     less = size - (kappa - 1) - 3 * surplus
                     if less >= 1 and self.required(len(nodes)) - less == wanted:
@@ -422,7 +429,7 @@ class Maker:
         if len(inside) == 1:
             return one, [inside]
         if len(self.blocks_of(inside)) == 1:
-            core = check.Core(self, inside, "class")
+            core = cores.Core(self, inside, "class")
             lower, rank = self.lower(core)
             if rank == self.required(core.n):
                 one["evidence"] = [lower]
@@ -469,9 +476,9 @@ def listed_pairs(added):
 def empty_claim():
     """A claim of the right form, to be replaced by what the evidence gives."""
     return {
-        "verdict": check.stated("solvable"),
-        "rank": {**check.stated(0), "required": 0},
-        "components": check.stated(0),
+        "verdict": stated("solvable"),
+        "rank": {**stated(0), "required": 0},
+        "components": stated(0),
     }
 
 
@@ -513,4 +520,4 @@ def path_between(links, start, end):
 def make(edges, n=None, **options):
     """The certificate of a graph given by its edges."""
     n = n or 1 + max(itertools.chain.from_iterable(edges))
-    return Maker(check.Graph(n, edges), **options).document()
+    return Maker(graphs.Graph(n, edges), **options).document()

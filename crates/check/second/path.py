@@ -10,6 +10,8 @@ import os
 import sys
 
 import check
+import notation
+from claim import stated
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -56,8 +58,8 @@ def main():
     options = parser.parse_args()
     texts = [data for path in options.certificates for _, data in check.certificates_in(path)]
     if options.verdict:
-        stated = [check.parse(data)["claim"]["verdict"] for data in texts]
-        texts = [data for data, verdict in zip(texts, stated) if verdict == check.stated(options.verdict)]
+        verdicts = [notation.parse(data)["claim"]["verdict"] for data in texts]
+        texts = [data for data, verdict in zip(texts, verdicts) if verdict == stated(options.verdict)]
     seen, _ = traced(texts)
     found = functions(seen)
     for name, first, function, length in found:

@@ -19,8 +19,15 @@ sys.path.insert(0, HERE)
 
 import agree  # noqa: E402
 import check  # noqa: E402
+import cores  # noqa: E402
+import elimination  # noqa: E402
+import graphs  # noqa: E402
 import grow  # noqa: E402
 import make  # noqa: E402
+import matrices  # noqa: E402
+import notation  # noqa: E402
+from claim import bound_sum, stated  # noqa: E402
+from draws import DRAW, Stream, draw_centres, draws_of, refuse_void  # noqa: E402
 
 GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
 PSI = [edge for edge in GAMMA if edge != (0, 2)] + [(0, 9), (2, 9), (0, 10), (2, 10)]
@@ -47,7 +54,7 @@ class Case(unittest.TestCase):
         return check.check(json.dumps(document).encode(), **options)
 
     def rejects(self, document, *words, **options):
-        with self.assertRaises(check.Reject) as caught:
+        with self.assertRaises(notation.Reject) as caught:
             self.verifies(document, **options)
         for word in words:
             self.assertIn(word, str(caught.exception))
@@ -76,13 +83,13 @@ class Page(Case):
 
     def test_numbers_that_the_page_prints(self):
         text, document = page(), by_hand()
-        graph = check.read_graph6("Cl")
-        core = check.Core(make.Maker(graph), graph.edges, "")
+        graph = graphs.read_graph6("Cl")
+        core = cores.Core(make.Maker(graph), graph.edges, "")
         self.assertIn(core.hash.hex(), text)
-        centres = check.draw_centres(graph.hash, core.hash, 4, 11, int(evidence(document, "kernel")["seed"]), 0)
+        centres = draw_centres(graph.hash, core.hash, 4, 11, int(evidence(document, "kernel")["seed"]), 0)
         for node, centre in enumerate(centres):
             self.assertIn(f"c_{node} = {centre}", text)
-        rows, _ = check.bearing_rows(core, centres, 11)
+        rows, _ = matrices.bearing_rows(core, centres, 11)
         for k, row in enumerate(rows):
             cells = " | ".join(str(row.get(c, "")) for c in range(12))
             line = re.sub(" +", " ", "| %d | %d-%d | %s |" % (k, *core.edges[k // 2], cells))
@@ -95,7 +102,7 @@ class Notation(Case):
     def text_rejected(self, old, new, *words):
         text = json.dumps(by_hand())
         self.assertIn(old, text)
-        with self.subTest(new=new), self.assertRaises(check.Reject) as caught:
+        with self.subTest(new=new), self.assertRaises(notation.Reject) as caught:
             check.check(text.replace(old, new, 1).encode("utf-8", "surrogatepass"))
         for word in words:
             self.assertIn(word, str(caught.exception))
@@ -133,10 +140,10 @@ class Notation(Case):
             ("\x0c", "", "not JSON"),
             ("[", "]", "the document is not an object"),
         ):
-            with self.assertRaisesRegex(check.Reject, word):
+            with self.assertRaisesRegex(notation.Reject, word):
                 check.check((before + text + after).encode())
         check.check((" \t\r\n" + text + "\n ").encode())
-        with self.assertRaisesRegex(check.Reject, "UTF-8"):
+        with self.assertRaisesRegex(notation.Reject, "UTF-8"):
             check.check(text.encode().replace(b"by hand", b"by \xff hand"))
         self.text_rejected("by hand", "by \\ud83d hand", "surrogate")
         self.text_rejected("by hand", "by \x01 hand", "not JSON")
@@ -146,7 +153,7 @@ class Notation(Case):
         text = json.dumps(by_hand())
         for depth, word in ((126, "program is not a string"), (127, "127 deep"), (100000, "127 deep")):
             deep = text.replace('"by hand"', "[" * depth + "]" * depth)
-            with self.assertRaisesRegex(check.Reject, word):
+            with self.assertRaisesRegex(notation.Reject, word):
                 check.check(deep.encode())
         check.check(text.replace("by hand", "[" * 1000).encode())
 
@@ -155,7 +162,7 @@ class Graphs(Case):
     """Section 2."""
 
     def edges_of(self, data):
-        graph = check.read_graph(data, "")
+        graph = graphs.read_graph(data, "")
         return graph.n, graph.edges
 
     def test_readable(self):
@@ -201,14 +208,14 @@ class Graphs(Case):
             b"a b\nb c\n",
             b"Cm@\n",
         ]:
-            with self.subTest(data=data), self.assertRaises(check.Unreadable):
+            with self.subTest(data=data), self.assertRaises(notation.Unreadable):
                 self.edges_of(data)
 
     def test_long_lines_take_little_memory(self):
         """A line of 20 MB that is none of the two kinds."""
         for line in (b"1" * 20_000_000, b'"a ' * 7_000_000, b"1 x" * 7_000_000):
             tracemalloc.start()
-            with self.assertRaises(check.Unreadable):
+            with self.assertRaises(notation.Unreadable):
                 self.edges_of(b"0 1\n" + line)
             peak = tracemalloc.get_traced_memory()[1]
             tracemalloc.stop()
@@ -217,20 +224,20 @@ class Graphs(Case):
     def test_graph6(self):
         for n in (1, 2, 5, 40, 62, 63, 100):
             rng = random.Random(n)
-            graph = make.random_graph(n, min(n * (n - 1) // 2, 2 * n), rng) if n > 1 else check.Graph(1, [])
+            graph = make.random_graph(n, min(n * (n - 1) // 2, 2 * n), rng) if n > 1 else graphs.Graph(1, [])
             bits = [int((i, j) in graph.edge_set) for j in range(n) for i in range(j)]
             bits += [0] * (-len(bits) % 6)
             body = "".join(chr(63 + int("".join(map(str, bits[k : k + 6])), 2)) for k in range(0, len(bits), 6))
             head = chr(63 + n) if n <= 62 else "~" + "".join(chr(63 + (n >> s & 63)) for s in (12, 6, 0))
-            self.assertEqual(check.read_graph6(head + body).hash, graph.hash)
+            self.assertEqual(graphs.read_graph6(head + body).hash, graph.hash)
             if n <= 62:
                 self.assertEqual(make.graph6_of(graph), head + body)
-                self.assertIsNone(check.read_graph6("~??" + chr(63 + n) + body))
-                self.assertIsNone(check.read_graph6("~~?????" + chr(63 + n) + body))
-            self.assertIsNone(check.read_graph6(head + body + "?"))
-            self.assertIsNone(check.read_graph6((head + body)[:-1]) if body else None)
-        self.assertIsNone(check.read_graph6("Bx"))  # a bit behind the last pair
-        self.assertIsNotNone(check.read_graph6("Bw"))
+                self.assertIsNone(graphs.read_graph6("~??" + chr(63 + n) + body))
+                self.assertIsNone(graphs.read_graph6("~~?????" + chr(63 + n) + body))
+            self.assertIsNone(graphs.read_graph6(head + body + "?"))
+            self.assertIsNone(graphs.read_graph6((head + body)[:-1]) if body else None)
+        self.assertIsNone(graphs.read_graph6("Bx"))  # a bit behind the last pair
+        self.assertIsNotNone(graphs.read_graph6("Bw"))
 
     def test_the_given_graph(self):
         document = by_hand()
@@ -291,7 +298,7 @@ class Draws(unittest.TestCase):
     """Section 4."""
 
     def test_chacha20(self):
-        stream = check.Stream(b"", b"", b"", 0, 0)
+        stream = Stream(b"", b"", b"", 0, 0)
         stream.start[4:12] = [0] * 8
         data = b"".join(stream.word().to_bytes(8, "little") for _ in range(16))
         expected = "76b8e0ada0f13d90405d6ae55386bd28bdd219b8a08ded1aa836efcc8b770dc7da41597c5157488d7724e03fb8d84a37"
@@ -301,12 +308,12 @@ class Draws(unittest.TestCase):
 
     def test_primes(self):
         small = [p for p in range(2000) if all(p % d for d in range(2, p)) and p > 1]
-        self.assertEqual([p for p in range(2000) if check.is_prime(p)], small)
+        self.assertEqual([p for p in range(2000) if notation.is_prime(p)], small)
         for p, expected in ((2**61 - 1, True), (2**61 + 1, False), (3215031751, False), (3825123056546413051, False)):
-            self.assertEqual(check.is_prime(p), expected)
+            self.assertEqual(notation.is_prime(p), expected)
 
     def test_uniform_below_one_takes_a_word(self):
-        stream = check.Stream(b"", b"", b"", 0, 0)
+        stream = Stream(b"", b"", b"", 0, 0)
         self.assertEqual((stream.below(1), len(stream.words)), (0, 7))
 
     def test_void_cameras(self):
@@ -315,18 +322,18 @@ class Draws(unittest.TestCase):
         flat = [[1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 0, 0]]
         other = [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0]]
         for p in (None, 7):
-            check.refuse_void([unit, other], p, "")
-            with self.assertRaisesRegex(check.Reject, "two centres agree"):
-                check.refuse_void([unit, double], p, "")
-            with self.assertRaisesRegex(check.Reject, "rank below 3"):
-                check.refuse_void([unit, flat], p, "")
+            refuse_void([unit, other], p, "")
+            with self.assertRaisesRegex(notation.Reject, "two centres agree"):
+                refuse_void([unit, double], p, "")
+            with self.assertRaisesRegex(notation.Reject, "rank below 3"):
+                refuse_void([unit, flat], p, "")
 
 
 class Bodies(Case):
     """Section 5."""
 
     def test_conditions(self):
-        graph = check.Graph(6, [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (3, 4), (3, 5), (4, 5), (0, 4)])
+        graph = graphs.Graph(6, [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (3, 4), (3, 5), (4, 5), (0, 4)])
         maker = make.Maker(graph, use_bodies=False)
         maker.body_list = [
             {"seed": [0, 1], "add": [[2, 0, 1], [3, 1, 2]], "merge": []},
@@ -444,7 +451,7 @@ class Bodies(Case):
         self.broken(document, lambda other: other["bodies"].__setitem__(0, body), "section 12", "not shown to be unique")
 
     def test_two_bodies_that_share_two_nodes(self):
-        graph = check.Graph(4, [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3)])
+        graph = graphs.Graph(4, [(0, 1), (0, 2), (1, 2), (0, 3), (1, 3)])
         document = make.Maker(graph, use_bodies=False).document()
         document["bodies"] = [{"seed": [0, 1], "add": [[node, 0, 1]], "merge": []} for node in (2, 3)]
         self.rejects(document, "section 6", "covered twice")
@@ -456,7 +463,7 @@ class Bodies(Case):
     def test_bicliques(self):
         """K_{2,3} with the sides 0, 1 and 2, 3, 4, of which 0-2 is in a triangle with 5 and 3-1 in one with 6."""
         edges = [(0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4), (0, 5), (2, 5), (1, 6), (3, 6)]
-        graph = check.Graph(7, edges)
+        graph = graphs.Graph(7, edges)
         maker = make.Maker(graph, use_bodies=False)
         with_, at = [[1, 2], [0, 3], 1, [0, 4], [1, 4]], [0, 1, 2, 3, 4]
         maker.body_list = [
@@ -467,7 +474,7 @@ class Bodies(Case):
         maker.bodies = [{0, 2, 5}, {1, 3, 6}, set(range(7))]
         maker.members = [(2, maker.bodies[2])]
         document = maker.document()
-        self.assertEqual(document["claim"]["verdict"], check.stated("solvable"))
+        self.assertEqual(document["claim"]["verdict"], stated("solvable"))
         self.verifies(document)
 
         def merge(others, nodes, seed=0):
@@ -507,7 +514,7 @@ class Bodies(Case):
     def test_cycles_of_four(self):
         """Four triangles around the nodes 0, 1, 2, 3; and two more nodes, on a path from 0 to 2 and a path from 4 to 6."""
         triangles = [(0, 1), (0, 4), (1, 4), (1, 2), (1, 5), (2, 5), (2, 3), (2, 6), (3, 6), (0, 3), (0, 7), (3, 7)]
-        graph = check.Graph(10, triangles + [(0, 8), (8, 9), (2, 9)])
+        graph = graphs.Graph(10, triangles + [(0, 8), (8, 9), (2, 9)])
         maker = make.Maker(graph, model="calibrated", use_bodies=False)
         maker.body_list = [
             {"seed": [0, 1], "add": [[4, 0, 1]], "merge": []},
@@ -520,8 +527,8 @@ class Bodies(Case):
         maker.bodies = [{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {0, 3, 7}, set(range(8)), set(range(10))]
         maker.members = [(5, maker.bodies[5])]
         document = maker.document()
-        self.assertEqual(document["claim"]["verdict"], check.stated("solvable"))
-        self.assertEqual(document["claim"]["rank"], {**check.stated(26), "required": 26})
+        self.assertEqual(document["claim"]["verdict"], stated("solvable"))
+        self.assertEqual(document["claim"]["rank"], {**stated(26), "required": 26})
         self.verifies(document)
 
         def merge(k, others, at):
@@ -619,7 +626,7 @@ class Pieces(Case):
         self.rejects(document, "less than two nodes of the core")
         # Two bodies share the nodes 0 and 3, which are not adjacent.
         graph = [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3), (0, 4), (0, 5), (4, 5), (3, 4), (3, 5)]
-        document = make.Maker(check.Graph(6, graph), use_bodies=False).document()
+        document = make.Maker(graphs.Graph(6, graph), use_bodies=False).document()
         document["bodies"] = [
             {"seed": [0, 1], "add": [[2, 0, 1], [3, 1, 2]], "merge": []},
             {"seed": [0, 4], "add": [[5, 0, 4], [3, 4, 5]], "merge": []},
@@ -628,7 +635,7 @@ class Pieces(Case):
         self.rejects(document, "a core edge arises twice")
 
     def test_limit(self):
-        with self.assertRaises(check.TooLarge):
+        with self.assertRaises(notation.TooLarge):
             self.verifies(by_hand(), core_limit=3)
 
 
@@ -638,9 +645,9 @@ class LowerBounds(Case):
     @classmethod
     def setUpClass(cls):
         rng = random.Random(3)
-        maker = make.Maker(check.Graph(5, SQUARE + [(2, 4), (3, 4)]), rng, use_bodies=False)
+        maker = make.Maker(graphs.Graph(5, SQUARE + [(2, 4), (3, 4)]), rng, use_bodies=False)
         cls.base = maker.document()
-        core = check.Core(maker, maker.graph.edges, "")
+        core = cores.Core(maker, maker.graph.edges, "")
         cls.minor = maker.minor(core)[0]
         while True:
             cls.integer = maker.integer_minor(core)
@@ -660,11 +667,11 @@ class LowerBounds(Case):
         self.rejects(self.with_evidence({}), "has no kind")
 
     def test_numbers_that_are_too_large(self):
-        with self.assertRaisesRegex(check.TooLarge, "more than 100000 digits"):
+        with self.assertRaisesRegex(notation.TooLarge, "more than 100000 digits"):
             self.verifies(self.with_evidence({**self.integer, "determinant": "1" * 100001}))
-        self.assertEqual(check.modulus_above([[2**80000]], ""), 2**86243 - 1)
-        with self.assertRaisesRegex(check.TooLarge, "numbers of 90003 bits"):
-            check.modulus_above([[2**90000]], "")
+        self.assertEqual(elimination.modulus_above([[2**80000]], ""), 2**86243 - 1)
+        with self.assertRaisesRegex(notation.TooLarge, "numbers of 90003 bits"):
+            elimination.modulus_above([[2**90000]], "")
 
     def test_plane_flow(self):
         document = make.make(FINITE, use_bodies=False)
@@ -713,9 +720,9 @@ class LowerBounds(Case):
     def test_void_draw(self):
         document = by_hand()
         flow = evidence(document, "plane-flow")
-        graph = check.read_graph6("Cl")
-        core = check.Core(make.Maker(graph), graph.edges, "")
-        void = next(d for d in range(999) if not check.draw_centres(graph.hash, core.hash, 4, 5, 1, d))
+        graph = graphs.read_graph6("Cl")
+        core = cores.Core(make.Maker(graph), graph.edges, "")
+        void = next(d for d in range(999) if not draw_centres(graph.hash, core.hash, 4, 5, 1, d))
         flow.update(prime="5", draw=void)
         self.rejects(document, "plane-flow", "the draw is void")
 
@@ -791,13 +798,13 @@ class LowerBounds(Case):
         rng = random.Random(8)
         for n, m in ((5, 7), (6, 8), (7, 10), (8, 12)):
             graph = make.random_graph(n, m, rng)
-            core = check.Core(make.Maker(graph, use_bodies=False), graph.edges, "")
+            core = cores.Core(make.Maker(graph, use_bodies=False), graph.edges, "")
             p = 2**61 - 1
-            centres = check.draw_centres(graph.hash, core.hash, core.n, p, 1, 0)
+            centres = draw_centres(graph.hash, core.hash, core.n, p, 1, 0)
             cameras = [[[1, 0, 0, -x], [0, 1, 0, -y], [0, 0, 1, -z]] for x, y, z in centres]
-            rows = check.jacobian_rows(core, cameras, range(10 * core.m))
-            rank = check.jacobian_rank(core, centres, p)
-            self.assertEqual(len(check.find_pivots(rows, p)), rank)
+            rows = matrices.jacobian_rows(core, cameras, range(10 * core.m))
+            rank = matrices.jacobian_rank(core, centres, p)
+            self.assertEqual(len(elimination.find_pivots(rows, p)), rank)
             self.assertEqual(agree.generic_rank(range(n), graph.edges, "projective", rng), rank)
 
 
@@ -1003,7 +1010,7 @@ class Overlaps(Case):
         with open(os.path.join(HERE, "..", "tests", "certificates", "added.json"), encoding="utf-8") as file:
             document = json.load(file)
         self.assertEqual(self.verifies(document).statements()[1], "projective: not-finite-solvable (proof)")
-        edges = list(check.read_graph6(document["graph"]["graph6"]).edges)
+        edges = list(graphs.read_graph6(document["graph"]["graph6"]).edges)
         for more, expected in (([], 160), ([(2, 5), (6, 13)], 160), ([(5, 7)], 161)):
             self.assertEqual(agree.generic_rank(range(16), edges + more, "projective", random.Random(5)), expected)
         for wrong in (159, 161):
@@ -1066,16 +1073,16 @@ class ErrorBounds(Case):
     def test_a_kernel_of_a_draw_is_no_proof(self):
         """A lower bound with the prime, seed and number of a draw is at other centres than the draw."""
         rng = random.Random(4)
-        maker = make.Maker(check.Graph(4, SQUARE), rng, draws=True)
+        maker = make.Maker(graphs.Graph(4, SQUARE), rng, draws=True)
         document = maker.document()
-        core = check.Core(maker, maker.graph.edges, "")
+        core = cores.Core(maker, maker.graph.edges, "")
         draws = evidence(document, "draws")
-        number, prime, _ = check.draws_of(maker.graph.hash, core.hash, 4, int(draws["seed"]), draws["count"])[0]
+        number, prime, _ = draws_of(maker.graph.hash, core.hash, 4, int(draws["seed"]), draws["count"])[0]
         maker.prime = prime
         maker.draw = lambda core: (
             int(draws["seed"]),
             number,
-            check.draw_centres(maker.graph.hash, core.hash, 4, prime, int(draws["seed"]), number),
+            draw_centres(maker.graph.hash, core.hash, 4, prime, int(draws["seed"]), number),
         )
         found = document["pieces"][0]["evidence"]
         found.append(maker.plane_flow(core)[0])
@@ -1087,9 +1094,9 @@ class ErrorBounds(Case):
 
     def test_sums(self):
         for errors, total in (([-150], -150), ([-150, -160], -149), ([-150] * 3, -148), ([-120] * 5, -117)):
-            self.assertEqual(check.bound_sum(errors), total)
-        with self.assertRaisesRegex(check.Reject, "above 2"):
-            check.bound_sum([-102] * 6)
+            self.assertEqual(bound_sum(errors), total)
+        with self.assertRaisesRegex(notation.Reject, "above 2"):
+            bound_sum([-102] * 6)
         document = make.make(SQUARE + [(3, 4), (4, 5), (5, 6), (3, 6)], draws=True, rng=random.Random(11))
         error = document["claim"]["components"]["error_log2"]
         single = -evidence(document, "draws")["count"] * (56 - 5)
@@ -1165,9 +1172,9 @@ class Classes(Case):
 
     def test_a_lower_bound_elsewhere_does_not_separate(self):
         rng = random.Random(1)
-        maker = make.Maker(check.Graph(4, SQUARE), rng)
+        maker = make.Maker(graphs.Graph(4, SQUARE), rng)
         document = maker.document()
-        core = check.Core(maker, maker.graph.edges, "")
+        core = cores.Core(maker, maker.graph.edges, "")
         maker.rng, maker.variety = random.Random(5), True
         other = maker.plane_flow(core)[0]
         document["pieces"][0]["evidence"][0] = other
@@ -1389,17 +1396,17 @@ class Affine(Case):
 
     @staticmethod
     def drawn_points(p, seed):
-        graph = check.read_graph6("Cl")
-        core = check.Core(make.Maker(graph), graph.edges, "")
-        stream = check.Stream(check.DRAW, graph.hash, core.hash, seed, 0)
+        graph = graphs.read_graph6("Cl")
+        core = cores.Core(make.Maker(graph), graph.edges, "")
+        stream = Stream(DRAW, graph.hash, core.hash, seed, 0)
         return [(stream.below(p), stream.below(p)) for _ in range(4)]
 
     def test_a_row_by_hand(self):
         """The points (1, 2) and (4, 1): d = (-3, 1), and the row is orthogonal to motions along d."""
-        core = check.Core(make.Maker(check.Graph(2, [(0, 1)])), [(0, 1)], "")
-        self.assertEqual(check.plane_rows(core, [(1, 2), (4, 1)], 11), [{0: 1, 1: 3, 2: 10, 3: 8}])
-        self.assertEqual(check.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 2], 11), (2, 0, 0))
-        self.assertIsNone(check.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 3], 11))
+        core = cores.Core(make.Maker(graphs.Graph(2, [(0, 1)])), [(0, 1)], "")
+        self.assertEqual(matrices.plane_rows(core, [(1, 2), (4, 1)], 11), [{0: 1, 1: 3, 2: 10, 3: 8}])
+        self.assertEqual(matrices.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 2], 11), (2, 0, 0))
+        self.assertIsNone(matrices.edge_translation((0, 1), [(1, 2), (4, 1)], [2, 4, 8, 3], 11))
 
     def test_kernel(self):
         square = self.certificate("square")
@@ -1447,7 +1454,7 @@ class Claims(Case):
         for n, verdict, required in ((1, "solvable", 0), (2, "not-finite-solvable", 7)):
             document = make.make([], n=n)
             self.assertEqual(document["claim"]["verdict"]["value"], verdict)
-            self.assertEqual(document["claim"]["rank"], {**check.stated(0), "required": required})
+            self.assertEqual(document["claim"]["rank"], {**stated(0), "required": required})
             self.verifies(document)
 
     def test_an_unforeseen_exception_is_a_rejection(self):
@@ -1493,7 +1500,7 @@ class Program(unittest.TestCase):
         good = json.dumps(by_hand()).encode()
         check.need_certificate("good.json", good, b"Cl")
         for data, graph, words in ((b"0 1", good, "the other file is one"), (b"0 1", b"Cl", "this is no certificate"), (b"", None, "no certificate")):
-            with self.subTest(data=data), self.assertRaises(check.Unreadable) as caught:
+            with self.subTest(data=data), self.assertRaises(notation.Unreadable) as caught:
                 check.need_certificate("bad.json", data, graph)
             self.assertIn(words, str(caught.exception))
 
@@ -1563,7 +1570,7 @@ class Comparison(unittest.TestCase):
     def test_a_second_brute_force(self):
         """From the formula of the paper: a triangle, the 4-cycle, and a graph with two solutions."""
         rng = random.Random(5)
-        for edges, n, rank in (([(0, 1), (0, 2), (1, 2)], 3, 18), (SQUARE, 4, 28), (check.read_graph6("HBQkcP_").edges, 9, 84)):
+        for edges, n, rank in (([(0, 1), (0, 2), (1, 2)], 3, 18), (SQUARE, 4, 28), (graphs.read_graph6("HBQkcP_").edges, 9, 84)):
             self.assertEqual(agree.full_camera_rank(n, edges, rng), rank)
             self.assertEqual(agree.generic_rank(range(n), edges, "projective", rng), rank)
 

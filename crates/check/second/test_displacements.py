@@ -9,7 +9,6 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-import check  # noqa: E402
 from test_check import Case, by_hand, evidence  # noqa: E402
 
 CERTIFICATES = os.path.join(HERE, "..", "tests", "certificates")

@@ -8,7 +8,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-import check  # noqa: E402
+import notation  # noqa: E402
 import test_check  # noqa: E402
 
 
@@ -118,7 +118,7 @@ class Parts(test_check.Case):
             (b"displacements " + b"0" * 64 + b"\npart 0 1", "line 1: neither a part nor"),
             (b"part 0 1\ndisplacements " + b"0" * 64, "line 2: neither a part nor"),
         ]:
-            with self.subTest(data=data), self.assertRaises(check.Unreadable) as caught:
+            with self.subTest(data=data), self.assertRaises(notation.Unreadable) as caught:
                 self.verifies(document, given_data=data)
             self.assertIn(words, str(caught.exception))
 

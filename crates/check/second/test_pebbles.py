@@ -14,7 +14,9 @@ sys.path.insert(0, HERE)
 import agree  # noqa: E402
 import check  # noqa: E402
 import make  # noqa: E402
+import notation  # noqa: E402
 import pebbles  # noqa: E402
+import pieces  # noqa: E402
 
 P = 2**61 - 1
 COMPLETE = list(itertools.combinations(range(4), 2))
@@ -83,8 +85,8 @@ class Pebbles(unittest.TestCase):
         data = json.dumps(document).encode()
         check.check(data)
         for wrong in (9, 11):
-            with mock.patch.object(check, "counted_rank", lambda n, edges, model: wrong):
-                with self.assertRaises(check.Reject) as caught:
+            with mock.patch.object(pieces, "counted_rank", lambda n, edges, model: wrong):
+                with self.assertRaises(notation.Reject) as caught:
                     check.check(data)
             self.assertIn(f"the rank by counting is {wrong}", str(caught.exception))
 

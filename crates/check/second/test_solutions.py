@@ -16,6 +16,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import check  # noqa: E402
+import graphs  # noqa: E402
 import make  # noqa: E402
 import notation  # noqa: E402
 import solutions  # noqa: E402
@@ -916,7 +917,7 @@ class Lower(Case):
     """(S19) to (S23)."""
 
     def setUp(self):
-        self.edges = check.read_graph6(NINE).edges
+        self.edges = graphs.read_graph6(NINE).edges
 
     def test_two_solutions(self):
         self.assertEqual(bound(self.edges, lower=LOWER), (2, None))
@@ -985,7 +986,7 @@ class Program(Case):
     def setUp(self):
         with open(os.path.join(HERE, "two_solutions.json"), encoding="utf-8") as file:
             self.document = json.load(file)
-        self.edges = check.read_graph6(self.document["graph"]["graph6"]).edges
+        self.edges = graphs.read_graph6(self.document["graph"]["graph6"]).edges
 
     def test_it_is_verified(self):
         lines = check.check(json.dumps(self.document).encode()).statements()
