@@ -9,7 +9,9 @@
     python3 benches/measure.py tracks
     python3 benches/measure.py hubs
     python3 benches/measure.py readers
+    python3 benches/measure.py against OLD   [--data DIR]
 
+`against` holds the program against an older `verify`, built from another checkout.
 Needs the programs of `cargo build --release --workspace --bins --examples`; `rational` and
 `cores` also FLINT (Debian: libflint-dev) and gcc, and `rational` takes in the GMP build if
 `cargo build --release --features gmp --target-dir target/gmp` has been made.
@@ -429,17 +431,54 @@ def peers(arguments, folder):
         row(name, sec(its.cpu))
 
 
+def against(arguments, folder):
+    """The same commands by this program and by an older one, in turn: ratios of CPU time, run by run."""
+    graphs = Path(arguments.data) / "table3"
+    named, walk = folder / "named.csv", folder / "walk.db"
+    lines = (f"IMG_{a:06}.jpg,IMG_{a + d:06}.jpg,{15 + a % 900}\n" for a in range(100_000) for d in (1, 2, 3))
+    named.write_text("image1,image2,matches\n" + "".join(lines))
+    database = [sys.executable, ROOT / "benches" / "database.py", "--images", "1500", "--points", "110000", walk]
+    subprocess.run(list(map(str, database)), check=True)
+    sequence = generate(folder / "sequence.txt", "sequence", 200_000, 6, 1)
+    certificate = folder / "sequence.json"
+    Run([arguments.old, "--certificate", certificate, sequence])
+    pairs = folder / "pairs.txt"
+    Run([VERIFY, "convert", sequence], output=pairs)
+    commands = {
+        "sequence of 200,000 cameras": [sequence],
+        "its certificate, checked": ["check", certificate, pairs],
+        "300,000 pairs of names in a table": [named],
+        "Piccadilly": [graphs / "Piccadilly.mat"],
+        "Vienna Cathedral": [graphs / "Vienna_Cathedral.mat"],
+        "database of 1,500 images": [walk],
+        "its tracks": ["--tracks", walk],
+        "its overview": ["overview", walk],
+        "10 nodes, all candidates": ["catalog", "--nodes", "10"],
+        "published certificates, 10 nodes": ["check", ROOT / "certificates" / "n10-finite-solvable.jsonl.gz"],
+    }
+    head("", "CPU, s", "before", "ratio")
+    for name, command in commands.items():
+        # A run of a few milliseconds is repeated, as clocks are coarser.
+        times = 1 + int(0.2 / max(Run([VERIFY, *command]).cpu, 0.001))
+        runs = [[sum(Run([by, *command]).cpu for _ in range(times)) / times for by in (VERIFY, arguments.old)]
+                for _ in range(arguments.runs)]
+        new, old = (statistics.median(run[at] for run in runs) for at in (0, 1))
+        row(name, sec(new), sec(old), f"{statistics.median(new / old for new, old in runs):.2f}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="table3 | float | rational | cores | sparse | sequence | "
-                                         "tracks | hubs | readers | peers")
+                                         "tracks | hubs | readers | peers | against")
     for name, function, runs in [("table3", table3, 31), ("float", float_side, 3), ("rational", rational, 5),
                                  ("cores", cores, 3), ("sparse", sparse, 1), ("sequence", sequence, 3), ("tracks", tracks, 3),
-                                 ("hubs", hubs, 3), ("readers", readers, 5), ("peers", peers, 3)]:
+                                 ("hubs", hubs, 3), ("readers", readers, 5), ("peers", peers, 3), ("against", against, 7)]:
         command = commands.add_parser(name, help=function.__doc__)
         command.set_defaults(run=function)
         command.add_argument("--runs", type=int, default=runs, help="runs a median is taken of")
-        if name in ("table3", "float"):
+        if name == "against":
+            command.add_argument("old", help="the older `verify`")
+        if name in ("table3", "float", "against"):
             command.add_argument("--data", default=str(ROOT.parent / "shared" / "data"),
                                  help="folder of table3.csv and table3/*.mat")
         if name == "float":

@@ -169,7 +169,14 @@ fn quoted(bytes: &[u8], at: usize, separator: Option<u8>) -> Result<Field, Probl
 }
 
 /// Whether this is a decimal number: `[+-]?(d+(.d*)?|.d+)([eE][+-]?d+)?`.
+#[inline]
 pub(crate) fn is_number(field: &[u8]) -> bool {
+    // What most names begin with is seen without a call.
+    matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.')) && is_decimal(field)
+}
+
+/// The same, of what begins like a number.
+fn is_decimal(field: &[u8]) -> bool {
     let digits = |text: &[u8]| text.iter().take_while(|b| b.is_ascii_digit()).count();
     let unsigned = |text: &[u8]| usize::from(matches!(text.first(), Some(b'+' | b'-')));
     let rest = &field[unsigned(field)..];

@@ -531,11 +531,6 @@ impl Collector {
                 column: at + 3,
             });
         }
-        for field in labels.iter().filter(|field| !field.quoted) {
-            if let Some(problem) = unlike_a_label(field.raw(text)) {
-                return fault(problem);
-            }
-        }
         if self.pairs.len() < FIRST_LINES {
             if let Some(problem) = poses::problem(text, further) {
                 return fault(problem);
@@ -549,7 +544,16 @@ impl Collector {
             let third = further.first().and_then(|field| field.integer(text));
             self.doubts.third(ends.map(|(a, b)| [a, b]), third);
         }
-        self.named([&*texts[0], &*texts[1]])
+        let known = self.names.as_ref().map(|names| names.nodes.len());
+        self.named([&*texts[0], &*texts[1]])?;
+        // Labels that were there before have been looked at.
+        if self.names.as_ref().map(|names| names.nodes.len()) != known {
+            let mut plain = labels.iter().filter(|field| !field.quoted);
+            if let Some(problem) = plain.find_map(|field| unlike_a_label(field.raw(text))) {
+                return fault(problem);
+            }
+        }
+        Ok(())
     }
 
     /// The two labels as ends of a pair, in the meaning that `pairs` has then.
@@ -732,7 +736,9 @@ impl Collector {
                 let texts = &texts;
                 let column = |second| {
                     let end = move |pair: &(u32, u32)| if second { pair.1 } else { pair.0 };
-                    self.pairs.iter().map(move |pair| texts[end(pair) as usize])
+                    // Lines one after another mostly have their first ends in common.
+                    let runs = self.pairs.chunk_by(move |one, next| end(one) == end(next));
+                    runs.map(move |run| texts[end(&run[0]) as usize])
                 };
                 heads::look_unlike(labels, [false, true].map(column))
             }
@@ -931,6 +937,9 @@ fn unlike_a_label(field: &str) -> Option<Problem> {
 
 /// Whether every bracket in a field has its partner there.
 fn brackets_close(field: &str) -> bool {
+    if !field.bytes().any(|b| b"()[]{}".contains(&b)) {
+        return true;
+    }
     let mut open = Vec::new();
     for byte in field.bytes() {
         match byte {

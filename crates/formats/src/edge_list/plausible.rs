@@ -34,6 +34,17 @@ enum Kind {
     Other,
 }
 
+impl Kind {
+    fn of(label: &str) -> Self {
+        match () {
+            () if is_number(label.as_bytes()) => Self::Number,
+            () if is_time(label) => Self::Time,
+            () if is_image(label) => Self::Image,
+            () => Self::Other,
+        }
+    }
+}
+
 /// What is wrong with the pairs, if they are none.
 pub(super) fn problem(pairs: &[(u32, u32)], names: Option<&Index>) -> Option<Problem> {
     let doubt = |what| {
@@ -62,14 +73,16 @@ pub(super) fn problem(pairs: &[(u32, u32)], names: Option<&Index>) -> Option<Pro
 
 /// What tells that the two columns are not of the same kind, if they have no label in common.
 fn unlike_columns(pairs: &[(u32, u32)], names: &Index) -> Option<&'static str> {
+    // Most lists begin with a pair of one kind, and then nothing below can hold.
+    let of = |node| names.nodes.iter().find(|(_, at)| **at == node);
+    let [first, second] =
+        [pairs[0].0, pairs[0].1].map(|node| of(node).map(|(label, _)| Kind::of(label)));
+    if first == second && first != Some(Kind::Time) {
+        return None;
+    }
     let mut kinds = vec![Kind::Other; names.nodes.len()];
     for (label, &node) in &names.nodes {
-        kinds[node as usize] = match () {
-            () if is_number(label.as_bytes()) => Kind::Number,
-            () if is_time(label) => Kind::Time,
-            () if is_image(label) => Kind::Image,
-            () => Kind::Other,
-        };
+        kinds[node as usize] = Kind::of(label);
     }
     let kind = |node: u32| kinds[node as usize];
     let (first, second) = (kind(pairs[0].0), kind(pairs[0].1));

@@ -111,6 +111,7 @@ impl<'o> Matrix<'o> {
     ///
     /// # Errors
     /// A value that is no number.
+    #[inline]
     pub(super) fn entry(&mut self, row: u32, column: u32, value: f64) -> Result<(), Problem> {
         if value == 0.0 {
             self.zeros += 1;
@@ -404,7 +405,12 @@ impl Range {
         largest: 0.0,
     };
 
+    #[inline]
     fn take(&mut self, value: f64) {
+        // Most matrices are of ones.
+        if value == self.least && value == self.most {
+            return;
+        }
         self.least = self.least.min(value);
         self.most = self.most.max(value);
         self.integers &= value.fract() == 0.0;
