@@ -61,9 +61,10 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
     let output = arguments.output.as_deref();
     let inputs = [Some(&**path), file];
     outputs::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;
-    let options = match arguments.tracks {
-        true => arguments.input.of_tracks(),
-        false => arguments.input.of_pairs()?,
+    let options = if arguments.tracks {
+        arguments.input.of_tracks()
+    } else {
+        arguments.input.of_pairs()?
     };
     let mut graphs = read_graphs(path, &options);
     let name = path.display();
@@ -158,9 +159,10 @@ fn pairs(input: &NamedGraph) -> String {
 fn on_one_line(name: &str) -> String {
     let mut safe = String::new();
     for c in name.chars() {
-        match c.is_control() {
-            true => safe.extend(c.escape_unicode()),
-            false => safe.push(c),
+        if c.is_control() {
+            safe.extend(c.escape_unicode())
+        } else {
+            safe.push(c)
         }
     }
     safe

@@ -71,9 +71,10 @@ impl QuestionArguments {
     }
 
     fn read_options(&self) -> Result<ReadOptions> {
-        match self.tracks {
-            true => Ok(self.input.of_tracks()),
-            false => self.input.of_pairs(),
+        if self.tracks {
+            Ok(self.input.of_tracks())
+        } else {
+            self.input.of_pairs()
         }
     }
 }

@@ -54,9 +54,10 @@ fn state(folder: &Path) -> BTreeMap<PathBuf, (String, Vec<u8>)> {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let kind = fs::symlink_metadata(&path).unwrap().file_type();
-        let bytes = match kind.is_file() {
-            true => fs::read(&path).unwrap(),
-            false => Vec::new(),
+        let bytes = if kind.is_file() {
+            fs::read(&path).unwrap()
+        } else {
+            Vec::new()
         };
         if kind.is_dir() {
             found.extend(state(&path));

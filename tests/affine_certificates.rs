@@ -76,9 +76,10 @@ fn small_graphs_are_verified() {
             let name = graph6::encode(&graph);
             assert_eq!(verified.rank.0, 4 * rank as i64, "{name}");
             let is_solvable = nodes == 1 || rank == 2 * nodes as usize - 3;
-            let verdict = match is_solvable {
-                true => Verdict::Solvable,
-                false => Verdict::NotFiniteSolvable,
+            let verdict = if is_solvable {
+                Verdict::Solvable
+            } else {
+                Verdict::NotFiniteSolvable
             };
             assert_eq!(verified.verdict.0, verdict, "{name}");
             let components = components_by_definition(nodes, graph.edges());

@@ -159,3 +159,45 @@ fn a_run_is_a_value() {
         }
     }
 }
+
+#[test]
+fn there_is_one_version() {
+    let version = env!("CARGO_PKG_VERSION");
+    let read = |file: &str| fs::read_to_string(root().join(file)).unwrap();
+    let own = |line: &str| line.starts_with("version = ") || line.starts_with("viewcert");
+    let mut named = 0;
+    let folders = rooms().into_keys().chain(["python".to_owned()]);
+    let manifests = folders.map(|folder| format!("{folder}/Cargo.toml"));
+    for manifest in manifests.filter(|manifest| root().join(manifest).is_file()) {
+        let text = read(&manifest);
+        for line in text
+            .lines()
+            .filter(|line| own(line) && line.contains("version = \""))
+        {
+            assert!(
+                line.contains(&format!("version = \"{version}\"")),
+                "{manifest}: {line}"
+            );
+            named += 1;
+        }
+    }
+    assert!(named > 10, "{named}");
+    let lock = read("Cargo.lock");
+    let packages = lock
+        .split("[[package]]\n")
+        .filter(|package| package.starts_with("name = \"viewcert"));
+    for package in packages {
+        assert_eq!(
+            package.lines().nth(1),
+            Some(&*format!("version = \"{version}\"")),
+            "{package}"
+        );
+    }
+    assert!(read("CITATION.cff").contains(&format!("\nversion: {version}\n")));
+    let changes = read("CHANGELOG.md");
+    let newest = changes.lines().find(|line| line.starts_with("## "));
+    assert!(
+        newest.is_some_and(|line| line.starts_with(&format!("## {version} "))),
+        "{newest:?}"
+    );
+}

@@ -41,9 +41,12 @@ impl Files {
 
 /// What the lines of a text list, as known parts.
 fn given(parts: &str) -> String {
-    let line = |line: &str| match line.starts_with(['#']) || line.is_empty() {
-        true => format!("{line}\n"),
-        false => format!("part {line}\n"),
+    let line = |line: &str| {
+        if line.starts_with(['#']) || line.is_empty() {
+            format!("{line}\n")
+        } else {
+            format!("part {line}\n")
+        }
     };
     parts.lines().map(line).collect()
 }

@@ -41,10 +41,11 @@ fuzz_target!(|data: &[u8]| {
         certificate[member] = value;
     }
     // Draws may be void, or a pivot vanish, with probability below 2^-50.
-    let rank = match calibrated {
-        true => direction_rank(nodes, &pairs),
-        false => pivots(nodes, &pairs).len(),
-    } as i64;
+    let rank = if calibrated {
+direction_rank(nodes, &pairs)
+} else {
+pivots(nodes, &pairs).len()
+} as i64;
     for _ in 0..12 {
         match check(certificate.to_string().as_bytes(), Some(&graph)) {
             Ok(verified) => {

@@ -148,9 +148,10 @@ pub(crate) fn check(
                 let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
                 let graph = graph.and_then(|graph| graph.with_parts(parts));
                 let graph = graph.map_err(Problem::Graph)?;
-                Some(match known.is_empty() {
-                    true => graph,
-                    false => graph.with_displacements(hex(&known.sha256())),
+                Some(if known.is_empty() {
+                    graph
+                } else {
+                    graph.with_displacements(hex(&known.sha256()))
                 })
             }
             Given::File(path) => {

@@ -104,9 +104,10 @@ pub(crate) fn decide(
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
     let focal = model == "focal";
-    let model: Model = match focal {
-        true => Model::Calibrated,
-        false => model.parse().map_err(|error| wrong(&error))?,
+    let model: Model = if focal {
+        Model::Calibrated
+    } else {
+        model.parse().map_err(|error| wrong(&error))?
     };
     let solutions = match solutions {
         None => CountSolutions::Off,
@@ -140,9 +141,10 @@ pub(crate) fn decide(
     }
     let groups = displacements.unwrap_or_default();
     let displacements = known_displacements(nodes, &groups, vectors.as_deref())?;
-    let known = match displacements.is_empty() {
-        true => Known::Parts(known.parts),
-        false => Known::Displacements(displacements),
+    let known = if displacements.is_empty() {
+        Known::Parts(known.parts)
+    } else {
+        Known::Displacements(displacements)
     };
     let arithmetic = bounds.map_or(Arithmetic::Prime, |(numerator, denominator)| {
         Arithmetic::Rational {

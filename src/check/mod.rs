@@ -96,9 +96,10 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         (None, None) => checker::check(&text),
         (None, Some(given)) => checker::check_given(&text, given)?,
         (Some(graph), given) => {
-            let options = match arguments.tracks {
-                true => arguments.input.of_tracks(),
-                false => arguments.input.of_pairs()?,
+            let options = if arguments.tracks {
+                arguments.input.of_tracks()
+            } else {
+                arguments.input.of_pairs()?
             };
             checker::check_for(&text, graph, given, &options)?
         }

@@ -222,9 +222,10 @@ fn decide(
         && (piece.nodes as i64, piece.lower) == (nodes, required)
     {
         let unique = piece.is_unique || model != Model::Projective;
-        let verdict = match unique {
-            true => Verdict::Solvable,
-            false => Verdict::FiniteSolvable,
+        let verdict = if unique {
+            Verdict::Solvable
+        } else {
+            Verdict::FiniteSolvable
         };
         return Ok((verdict, Vec::new()));
     }

@@ -187,9 +187,10 @@ fn components(
     for (position, &member) in block.iter().enumerate() {
         for &node in structure.nodes_of(member) {
             let own = nodes.partition_point(|&other| other < node);
-            let at = match node == split {
-                true => nodes.len() + copy(position),
-                false => own,
+            let at = if node == split {
+                nodes.len() + copy(position)
+            } else {
+                own
             };
             unite(&mut forest, position, block.len() + at);
         }

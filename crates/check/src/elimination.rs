@@ -51,9 +51,10 @@ fn to_sums<const N: usize>(field: &Field, row: &mut [u64; N]) {
 
 /// The element that a sum of products stands for.
 fn settled(field: &Field, sum: u64) -> u64 {
-    match field.p < SMALL {
-        true => field.add_products(0, u128::from(sum)),
-        false => sum,
+    if field.p < SMALL {
+        field.add_products(0, u128::from(sum))
+    } else {
+        sum
     }
 }
 

@@ -116,9 +116,10 @@ fn rigid_piece(structure: &Structure, part: &Part) -> Piece {
 
 /// A component, if it holds a known displacement.
 fn scaled(structure: &Structure, component: &Part) -> Vec<Part> {
-    match structure.is_scaled(component) {
-        true => vec![component.clone()],
-        false => Vec::new(),
+    if structure.is_scaled(component) {
+        vec![component.clone()]
+    } else {
+        Vec::new()
     }
 }
 

@@ -67,9 +67,10 @@ fn shown(text: &str) -> String {
     let mut shown = String::new();
     for character in text.chars() {
         let printable = matches!(character, ' '..='~');
-        let piece = match printable {
-            true => character.to_string(),
-            false => character.escape_default().to_string(),
+        let piece = if printable {
+            character.to_string()
+        } else {
+            character.escape_default().to_string()
         };
         if shown.len() + piece.len() > LONGEST_REASON - 3 {
             return shown + "...";

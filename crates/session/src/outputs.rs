@@ -70,9 +70,10 @@ impl Outputs {
         let mut pending = unpoisoned(&self.pending);
         for path in std::mem::take(&mut *pending) {
             // There is nobody left to tell.
-            let _ = match path.is_dir() {
-                true => fs::remove_dir_all(path),
-                false => fs::remove_file(path),
+            let _ = if path.is_dir() {
+                fs::remove_dir_all(path)
+            } else {
+                fs::remove_file(path)
             };
         }
         pending

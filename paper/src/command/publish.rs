@@ -289,9 +289,10 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
 /// number of solutions among them if these are to be counted.
 fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
     let options = options(
-        match count {
-            true => CountSolutions::Full,
-            false => CountSolutions::Off,
+        if count {
+            CountSolutions::Full
+        } else {
+            CountSolutions::Off
         },
         out.session.watch(),
     );
@@ -421,9 +422,10 @@ fn readme(
     counted: u8,
     census: bool,
 ) -> String {
-    let (option, row) = match census {
-        true => (" --census connected.g6", CENSUS_ROW),
-        false => ("", ""),
+    let (option, row) = if census {
+        (" --census connected.g6", CENSUS_ROW)
+    } else {
+        ("", "")
     };
     let values = [
         ("{census-option}", option.to_owned()),

@@ -35,9 +35,10 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     let options = Options::default()
         .seed(arguments.seed)
         .watch(session.watch());
-    let source = match arguments.laman {
-        true => Source::Laman,
-        false => Source::FewestEdges,
+    let source = if arguments.laman {
+        Source::Laman
+    } else {
+        Source::FewestEdges
     };
     let mut out = outputs::text(&[]);
     writeln!(

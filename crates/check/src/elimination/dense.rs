@@ -28,10 +28,7 @@ impl<'f> Dense<'f> {
         mut rows: Vec<Vec<u64>>,
         before: usize,
     ) -> Checked<Dense<'f>> {
-        let height = match field.p < SMALL {
-            true => SMALL_LANES,
-            false => LANES,
-        };
+        let height = if field.p < SMALL { SMALL_LANES } else { LANES };
         let mut inverses = Vec::with_capacity(rows.len());
         let mut rest_rows = &mut rows[..];
         for first in (0..rest_rows.len()).step_by(height) {
@@ -90,10 +87,7 @@ impl<'f> Dense<'f> {
 }
 
 fn weight(field: &Field) -> u64 {
-    match field.p < SMALL {
-        true => DENSE_SMALL,
-        false => DENSE,
-    }
+    if field.p < SMALL { DENSE_SMALL } else { DENSE }
 }
 
 /// Subtracts multiples of rows of a block so that other rows would vanish at their pivots, the

@@ -195,13 +195,13 @@ impl Live {
         for chart in charts.chain(lower.map(|lower| &lower.place.chart)) {
             self.see_to(chart)?;
         }
-        let numbers: BTreeMap<&[u32], usize> = match solutions.product.is_empty() {
-            true => BTreeMap::new(),
-            false => self
-                .members
+        let numbers: BTreeMap<&[u32], usize> = if solutions.product.is_empty() {
+            BTreeMap::new()
+        } else {
+            self.members
                 .iter()
                 .map(|(&k, nodes)| (&nodes[..], k))
-                .collect(),
+                .collect()
         };
         let factors = solutions.product.iter();
         let factors = factors.map(|factor| self.factor(factor, &numbers));

@@ -297,9 +297,10 @@ impl Found<'_> {
             let (bodies, edges) = (&component.members.bodies, &component.members.edges);
             let is_one = self.model() != Model::Projective
                 || bodies.len() + edges.len() == 1 && contraction.by_rank.is_empty();
-            let count = match is_one {
-                true => SolutionCount::one(),
-                false => self.count(contraction, bodies, edges, effort)?,
+            let count = if is_one {
+                SolutionCount::one()
+            } else {
+                self.count(contraction, bodies, edges, effort)?
             };
             let is_open = count.at_most.is_none() && count.evidence.is_some();
             counted += usize::from(!is_one);

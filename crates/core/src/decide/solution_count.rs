@@ -99,9 +99,12 @@ impl SolutionCount {
 /// nothing but its finiteness is known is "finitely many solutions".
 impl fmt::Display for SolutionCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let solutions = |number: &Number| match *number == 1 {
-            true => format!("{number} solution"),
-            false => format!("{number} solutions"),
+        let solutions = |number: &Number| {
+            if *number == 1 {
+                format!("{number} solution")
+            } else {
+                format!("{number} solutions")
+            }
         };
         match (&self.at_least, &self.at_most) {
             (least, Some(most)) if least == most => write!(f, "exactly {}", solutions(least)),

@@ -258,12 +258,11 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
             .cloned()
             .chain(pairs.iter().map(|pair| pair.to_vec()));
         let all: Vec<Vec<u32>> = all.collect();
-        let counted = match is_open {
-            false => count_members(&all, plan, draws),
-            true => {
-                draws.leave_out(Size::of(&all));
-                None
-            }
+        let counted = if is_open {
+            draws.leave_out(Size::of(&all));
+            None
+        } else {
+            count_members(&all, plan, draws)
         };
         is_open |= plan.quick.is_some() && counted.as_ref().is_some_and(|of| of.at_most.is_none());
         let known = counted.or_else(|| plan.is_finite.then(|| Solutions::nothing(excess_of(&all))));
@@ -272,9 +271,10 @@ fn count_product(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
         };
         let slices: Vec<&[u32]> = lists.iter().map(Vec::as_slice).collect();
         found.push(Factor {
-            rigid: match pairs.is_empty() {
-                true => None,
-                false => Some(rigid(&slices, draws)?),
+            rigid: if pairs.is_empty() {
+                None
+            } else {
+                Some(rigid(&slices, draws)?)
             },
             members: lists,
             pairs,

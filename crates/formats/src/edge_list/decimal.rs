@@ -93,12 +93,13 @@ impl Ord for Decimal {
         // Digits without zeros in front, so that the larger power is the larger number.
         let size =
             |one: &Self, two: &Self| (one.exponent, &one.digits).cmp(&(two.exponent, &two.digits));
-        self.signed()
-            .cmp(&other.signed())
-            .then_with(|| match self.negative {
-                true => size(other, self),
-                false => size(self, other),
-            })
+        self.signed().cmp(&other.signed()).then_with(|| {
+            if self.negative {
+                size(other, self)
+            } else {
+                size(self, other)
+            }
+        })
     }
 }
 

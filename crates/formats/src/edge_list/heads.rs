@@ -295,9 +295,12 @@ where
     let shapes = labels.map(shape);
     let alike = |column: &I| column.clone().any(|other| shapes.contains(&shape(other)));
     // The marks of `img1` and `img2` are none of the names.
-    let stems = labels.map(|label| match perhaps {
-        true => label.trim_end_matches(['0', '1', '2']),
-        false => label,
+    let stems = labels.map(|label| {
+        if perhaps {
+            label.trim_end_matches(['0', '1', '2'])
+        } else {
+            label
+        }
     });
     let clear = [Feature::Number, Feature::Ending, Feature::Folder];
     let lacks = |at: usize, feature: Feature| {

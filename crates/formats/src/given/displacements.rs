@@ -102,9 +102,10 @@ impl Lines {
                 });
             }
         };
-        match *self.has_vectors.get_or_insert(vector.is_some()) == vector.is_some() {
-            true => Ok(vector),
-            false => Err(Problem::SomeVectors),
+        if *self.has_vectors.get_or_insert(vector.is_some()) == vector.is_some() {
+            Ok(vector)
+        } else {
+            Err(Problem::SomeVectors)
         }
     }
 

@@ -452,10 +452,11 @@ proptest! {
         big in any::<bool>(),
         deflate in any::<bool>(),
     ) {
-        let entry = |r: usize, c: usize| match mirror {
-            true => r != c && bits[7 * r.min(c) + r.max(c)],
-            false => bits[7 * r + c],
-        };
+        let entry = |r: usize, c: usize| if mirror {
+r != c && bits[7 * r.min(c) + r.max(c)]
+} else {
+bits[7 * r + c]
+};
         let writer = if big { BIG } else { LITTLE };
         let dense: Vec<i32> = (0..n * n).map(|k| i32::from(entry(k % n, k / n))).collect();
         let columns: Vec<Vec<i32>> = (0..n)

@@ -149,18 +149,15 @@ pub fn random_laman(nodes: u32, seed: u64) -> Graph {
     let mut below = |limit: u32| random.next_u32() % limit;
     let mut edges = vec![(0, 1)];
     for z in 2..nodes {
-        let (a, b) = match z > 2 && below(2) == 1 {
-            true => {
-                let pinched = below(edges.len() as u32) as usize;
-                let (a, b) = edges.swap_remove(pinched);
-                let others: Vec<u32> = (0..z).filter(|&c| c != a && c != b).collect();
-                edges.push((others[below(z - 2) as usize], z));
-                (a, b)
-            }
-            false => {
-                let a = below(z);
-                (a, (a + 1 + below(z - 1)) % z)
-            }
+        let (a, b) = if z > 2 && below(2) == 1 {
+            let pinched = below(edges.len() as u32) as usize;
+            let (a, b) = edges.swap_remove(pinched);
+            let others: Vec<u32> = (0..z).filter(|&c| c != a && c != b).collect();
+            edges.push((others[below(z - 2) as usize], z));
+            (a, b)
+        } else {
+            let a = below(z);
+            (a, (a + 1 + below(z - 1)) % z)
         };
         edges.extend([(a, z), (b, z)]);
     }

@@ -23,9 +23,10 @@ impl Agreement {
         let name = graph6::encode(graph);
         let conditions = decide(graph);
         // What the conditions prove is worth every effort; of the others only 'finite or not' counts.
-        let effort = match solvable(&conditions) {
-            true => CountSolutions::Full,
-            false => CountSolutions::Off,
+        let effort = if solvable(&conditions) {
+            CountSolutions::Full
+        } else {
+            CountSolutions::Off
         };
         let options = Options::default().question(Projective::with_solutions(effort));
         let verdict = viewcert::decide(graph, &options).unwrap();
