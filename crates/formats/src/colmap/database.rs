@@ -20,6 +20,10 @@ pub(super) const PAIR_FACTOR: i64 = 2_147_483_647;
 /// The tables of verified pairs; the second is that of versions before 2018.
 const VERIFIED: [&str; 2] = ["two_view_geometries", "inlier_matches"];
 
+/// What decides about tracks in global mapping and stands in no database.
+const NOT_KNOWN: &str = "not known from a database: the pairs that global mapping drops because their \
+                         rotations disagree, and the points that it drops once they are placed";
+
 /// The graph of a database in a file, called `name`: of its pairs, or of its tracks if options ask
 /// for them. O(images + pairs) and the sorting of both; tracks take the reading of all matches.
 ///
@@ -42,6 +46,8 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
             let (names, nodes) = (&database.names, &database.nodes);
             let connection = &opened.connection;
             let graph = tracks::read(connection, database.table, names, nodes, &pairs, tracks)?;
+            notes.extend(database.other_mapper());
+            notes.push(NOT_KNOWN.to_owned());
             NamedGraph {
                 matching: Some(database.between_cameras(&pairs, matching)),
                 ..graph
@@ -285,6 +291,23 @@ impl Tables {
             inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
             rigs: self.rigs,
             connected,
+        }
+    }
+
+    /// Pairs that tracks are made of and that global mapping may not take.
+    fn other_mapper(&self) -> Option<String> {
+        if self.pipeline == Pipeline::Global {
+            return None;
+        }
+        let others = self.pairs.iter().filter(|pair| pair.used);
+        let others = others.filter(|pair| !(2..=6).contains(&pair.config));
+        match others.count() {
+            0 => None,
+            used => Some(format!(
+                "{} of another configuration than 2 to 6: global mapping takes these only with a \
+                 stored relative pose (--pipeline global)",
+                counted(used, "used pair")
+            )),
         }
     }
 

@@ -10,6 +10,8 @@ mod database;
 mod error;
 mod facts;
 #[cfg(feature = "databases")]
+mod keypoints;
+#[cfg(feature = "databases")]
 mod open;
 #[cfg(feature = "databases")]
 mod tracks;
