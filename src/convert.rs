@@ -47,13 +47,15 @@ enum To {
     Pairs,
     /// A line for each graph, without names.
     Graph6,
+    /// What is given besides the pairs, by --given and by rigs.
+    Given,
 }
 
 /// Reads the graph and writes it.
 pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<ExitCode> {
     let (path, file) = (&arguments.graph, arguments.given.path());
     ensure!(
-        file.is_none() || arguments.to == To::Pairs,
+        file.is_none() || arguments.to != To::Graph6,
         "{}: graph6 holds nothing that is given; leave out --to graph6",
         given::OPTION
     );
@@ -73,24 +75,24 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
     let (noted, known) = given::read(file, &first)?;
     say_notes(&noted)?;
     let text = match arguments.to {
-        To::Pairs => {
+        To::Pairs | To::Given => {
             ensure!(
                 graphs.next().is_none(),
                 "{name}: there are several graphs, and a file of pairs holds one; --to graph6 writes a \
                  line for each"
             );
-            match file {
-                Some(file) => {
-                    let lines = lines_of(&known);
-                    ensure!(
-                        !lines.is_empty(),
-                        "{} {}: no part has two cameras, so that there is nothing to write",
-                        given::OPTION,
-                        file.display()
-                    );
-                    lines
-                }
-                None => pairs(&first),
+            if file.is_none() && arguments.to == To::Pairs {
+                pairs(&first)
+            } else {
+                let lines = lines_of(&known);
+                let from = file.map_or(name.to_string(), |file| {
+                    format!("{} {}", given::OPTION, file.display())
+                });
+                ensure!(
+                    !lines.is_empty(),
+                    "{from}: no part has two cameras, so that there is nothing to write"
+                );
+                lines
             }
         }
         To::Graph6 => {

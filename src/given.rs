@@ -8,7 +8,7 @@ use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use viewcert::Known;
-use viewcert_formats::{NamedGraph, read_given};
+use viewcert_formats::NamedGraph;
 
 /// The option.
 pub(super) const OPTION: &str = "--given";
@@ -61,7 +61,7 @@ pub(super) fn ensure_one_standard_input(given: Option<&Path>, graphs: &[PathBuf]
     Ok(())
 }
 
-/// The graph with the notes on the file, and what it gives; nothing without a file.
+/// The graph with the notes on the file, and what it gives and its rigs.
 ///
 /// # Errors
 /// Those of the file.
@@ -69,10 +69,10 @@ pub(super) fn read<'a>(
     given: Option<&Path>,
     input: &'a NamedGraph,
 ) -> Result<(Cow<'a, NamedGraph>, Known)> {
-    let Some(path) = given else {
-        return Ok((Cow::Borrowed(input), Known::default()));
-    };
-    let given = read_given(path, input)?;
+    let given = viewcert_formats::given(given, input)?;
+    if given.notes.is_empty() {
+        return Ok((Cow::Borrowed(input), given.known));
+    }
     let mut input = input.clone();
     input.notes.extend(given.notes);
     Ok((Cow::Owned(input), given.known))

@@ -56,6 +56,10 @@ pub(super) struct InputArguments {
     /// pixels apart; otherwise the track is dropped [default: 10, as in global mapping].
     #[arg(long, value_name = "PIXELS", help_heading = READING, hide = true)]
     max_spread: Option<u32>,
+    /// Leave the rigs of a COLMAP database out of account: every image has a centre of its own. Without
+    /// this the base lines within a frame are known where the rig has them.
+    #[arg(long, help_heading = READING, hide = true)]
+    no_rigs: bool,
 }
 
 /// The title of these options in the help.
@@ -150,6 +154,7 @@ impl InputArguments {
             tracks: Some(TrackOptions {
                 min_views: self.min_views.unwrap_or(default.min_views),
                 max_spread: self.max_spread.unwrap_or(default.max_spread),
+                rigs: !self.no_rigs,
             }),
             ..self.read_options()
         }
@@ -161,7 +166,8 @@ impl InputArguments {
         let spread = self
             .max_spread
             .map(|pixels| format!(" --max-spread {pixels}"));
-        views.into_iter().chain(spread).collect()
+        let rigs = self.no_rigs.then(|| " --no-rigs".to_owned());
+        views.into_iter().chain(spread).chain(rigs).collect()
     }
 
     /// How pairs are read.
@@ -179,6 +185,11 @@ impl InputArguments {
             "--max-spread says which tracks count, and pairs are decided here; leave it out, or say --tracks \
              where it can be said"
         );
+        ensure!(
+            !self.no_rigs,
+            "--no-rigs says how tracks count, and pairs are decided here, without rigs; leave it out, or say \
+             --tracks where it can be said"
+        );
         Ok(self.read_options())
     }
 
@@ -187,7 +198,7 @@ impl InputArguments {
         let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
         let file = self.format.is_some() || self.variable.is_some();
         let database = self.pipeline.is_some() || self.min_inliers.is_some();
-        let tracks = self.min_views.is_some() || self.max_spread.is_some();
+        let tracks = self.min_views.is_some() || self.max_spread.is_some() || self.no_rigs;
         list || file || database || tracks
     }
 

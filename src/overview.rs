@@ -11,6 +11,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
+use viewcert::Known;
 use viewcert::decide::{Options, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
@@ -18,7 +19,7 @@ use viewcert_advice::export::shell;
 use viewcert_advice::{Advice, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Next, Overview, Wanted};
@@ -142,7 +143,10 @@ fn overview(
     out: &mut impl Write,
 ) -> Result<u8> {
     let decided = |input: &NamedGraph, model: Model| {
-        let options = Options::default().model(model);
+        let mut options = Options::default().model(model);
+        if let Known::Displacements(rigs) = with_rigs(Known::default(), input)? {
+            options = options.displacements(rigs);
+        }
         let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
         session.hide();
         verdict.with_context(|| input.name.clone())
@@ -163,7 +167,12 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    let joints = named_joints(input, verdict, Options::default().seed, session.watch());
+    // There is no theory of joints between parts with known base lines.
+    let joints = if verdict.displacements.is_empty() {
+        named_joints(input, verdict, Options::default().seed, session.watch())
+    } else {
+        Ok(Advice::default())
+    };
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let no_joints = Advice::default();

@@ -129,11 +129,6 @@ impl Plan {
              model has; leave out --model, or say --model calibrated"
         );
         ensure!(
-            !of_tracks || self.given.is_none(),
-            "{}: tracks are decided by themselves; leave out --tracks or {0}",
-            given::OPTION
-        );
-        ensure!(
             !self.asked.planar || model != Model::Affine,
             "--planar: affine cameras have no centres that could lie in a plane; leave out --planar, \
              or --model affine"
@@ -212,12 +207,6 @@ impl Plan {
                 !self.asked.planar,
                 "--planar: in a plane nothing is proved about known displacements; leave out one of the \
                  two"
-            );
-            ensure!(
-                !self.request.asks(),
-                "known displacements join components in ways of their own, and nothing is said about \
-                 these; leave out {}",
-                given::OPTION
             );
         }
         let draft = Draft {

@@ -1094,3 +1094,189 @@ fn certificates_of_camera_point_graphs() {
         assert_eq!(check(&[text(&input), "--tracks", "--min-views", "2"]), 1);
     }
 }
+
+const RIGS: &str = "
+    create table rigs (rig_id integer primary key, ref_sensor_id integer, ref_sensor_type integer);
+    create table rig_sensors (rig_id integer, sensor_id integer, sensor_type integer, sensor_from_rig blob);
+    create table frames (frame_id integer primary key, rig_id integer);
+    create table frame_data (frame_id integer, data_id integer, sensor_id integer, sensor_type integer);
+    insert into rigs values (1, 1, 0);
+    insert into frames values (1, 1), (2, 1);
+    insert into frame_data values (1, 1, 1, 0), (1, 2, 2, 0), (2, 3, 1, 0), (2, 4, 2, 0);";
+
+/// Two frames of a rig with two sensors. The left images have five points in common, the right ones
+/// five others: without the rig two parts. The right sensor is where `place` says, turned nowhere.
+fn stereo(place: Option<[f64; 3]>) -> Made {
+    let images = [(1, "l1"), (2, "r1"), (3, "l2"), (4, "r2")];
+    let made = Made::new(&format!("{TABLES}{RIGS}"), &images);
+    let pose = place.map(|place| {
+        let translation = place.map(|x: f64| -x);
+        let numbers = [[0.0, 0.0, 0.0].as_slice(), &[1.0], &translation].concat();
+        numbers
+            .into_iter()
+            .flat_map(f64::to_le_bytes)
+            .collect::<Vec<u8>>()
+    });
+    let insert = "insert into rig_sensors values (1, 2, 0, ?)";
+    made.connection.execute(insert, params![pose]).unwrap();
+    made.pair(1, 3, &same(20), 2);
+    made.pair(2, 4, &same(20), 2);
+    made
+}
+
+const OF_TWO: [&str; 3] = ["--tracks", "--min-views", "2"];
+
+#[test]
+fn rigs_hold_parts_together() {
+    let made = stereo(Some([0.5, 0.0, 0.0]));
+    let path = made.path();
+    let line = json_of(&path, &OF_TWO);
+    assert_eq!(line["verdict"], "solvable", "{line}");
+    // Scale is determined as well: 3 * 44 - 3.
+    assert_eq!(line["required"], 129);
+    assert!(
+        notes(&line)
+            .iter()
+            .any(|note| note.starts_with("rigs: the base lines of 2 frames"))
+    );
+    let apart = json_of(&path, &[&OF_TWO[..], &["--no-rigs"]].concat());
+    assert_eq!(apart["component_count"], 2, "{apart}");
+    assert!(
+        notes(&apart)
+            .iter()
+            .any(|note| note.contains("not used here"))
+    );
+    // The certificate states the base lines, and both checkers ask for them.
+    let file = |name: &str| made.folder.path().join(name);
+    let [certificate, graph, given] = ["c.json", "g.txt", "given.txt"].map(file);
+    let written = |options: &[&str]| assert_eq!(verify(options).code, 0, "{options:?}");
+    let database = text(&path);
+    written(
+        &[
+            &OF_TWO[..],
+            &[database, "--certificate", text(&certificate)],
+        ]
+        .concat(),
+    );
+    written(&[&["convert", database, "-o", text(&graph)], &OF_TWO[..]].concat());
+    let to_given = ["convert", database, "--to", "given", "-o", text(&given)];
+    written(&[&to_given, &OF_TWO[..]].concat());
+    assert!(
+        fs::read_to_string(&given)
+            .unwrap()
+            .starts_with("displacements ")
+    );
+    written(&[&["check", text(&certificate), database], &OF_TWO[..]].concat());
+    let without = [
+        &["check", text(&certificate), database, "--no-rigs"],
+        &OF_TWO[..],
+    ]
+    .concat();
+    assert_eq!(verify(&without).code, 1);
+    let second =
+        common::second_checker(&[text(&certificate), text(&graph), "--given", text(&given)]);
+    assert_eq!(second.code, 0, "{}", second.err);
+}
+
+/// Images of one place are one camera; a place that is not known is said; nonsense is refused.
+#[test]
+fn what_rigs_can_be() {
+    let line = json_of(&stereo(Some([0.0; 3])).path(), &OF_TWO);
+    assert_eq!(line["graph"]["nodes"], 2 + 40);
+    assert_eq!(line["verdict"], "solvable");
+    assert!(
+        notes(&line)
+            .iter()
+            .any(|note| note.contains("2 images at the place of another one"))
+    );
+    let line = json_of(&stereo(None).path(), &OF_TWO);
+    assert_eq!(line["component_count"], 2);
+    assert!(
+        notes(&line)
+            .iter()
+            .any(|note| note.contains("whose place in the rig is not known"))
+    );
+    for (sql, phrases) in [
+        (
+            "insert into images values (5, 'x'); insert into frame_data values (1, 5, 2, 0)",
+            ["frame 1 has two images of sensor 2", "--no-rigs"],
+        ),
+        (
+            "update frame_data set sensor_id = 9 where data_id = 4",
+            ["sensor 9, which rig 1", "--no-rigs"],
+        ),
+        (
+            "delete from rigs",
+            ["rig 1, which is not there", "--no-rigs"],
+        ),
+        (
+            "update rig_sensors set sensor_from_rig = x'00'",
+            ["is not seven numbers", "--no-rigs"],
+        ),
+        (
+            "delete from frames where frame_id = 2",
+            ["frame 2, which is not there", "--no-rigs"],
+        ),
+    ] {
+        let made = stereo(Some([0.5, 0.0, 0.0]));
+        made.execute(sql);
+        refused(&made.path(), &OF_TWO, &phrases);
+        let code = verify(&[&OF_TWO[..], &["--no-rigs", text(&made.path())]].concat()).code;
+        assert_eq!(code, 1, "{sql}");
+    }
+    refused(
+        &stereo(Some([f64::NAN, 0.0, 0.0])).path(),
+        &OF_TWO,
+        &["numbers that are none", "--no-rigs"],
+    );
+}
+
+/// What incremental mapping gets right to 2e-3 was called two parts of ten images each.
+#[test]
+fn a_rig_joins_what_it_joins_for_mappers() {
+    let Some(folder) = samples() else { return };
+    let path = folder.join("rig_false_alarm.db");
+    let line = json_of(&path, &["--tracks"]);
+    assert_eq!(line["verdict"], "solvable", "{line}");
+    let apart = json_of(&path, &["--tracks", "--no-rigs"]);
+    assert_eq!(apart["verdict"], "not-finite-solvable");
+    let overview = verify(&["overview", text(&path)]);
+    assert!(
+        overview
+            .out
+            .contains("rigs: the base lines of 10 frames with 20 images"),
+        "{}",
+        overview.out
+    );
+}
+
+/// What is given in files and what rigs know is one thing.
+#[test]
+fn positions_and_tracks() {
+    let made = stereo(None);
+    let given = made.folder.path().join("gps.txt");
+    fs::write(&given, "position l1\nposition r1\nposition l2\n").unwrap();
+    let options = [&OF_TWO[..], &["--given", text(&given)]].concat();
+    let line = json_of(&made.path(), &options);
+    // The right part has one position: its size is not known.
+    assert_eq!(line["component_count"], 2, "{line}");
+    fs::write(
+        &given,
+        "position l1\nposition r1\nposition l2\nposition r2\n",
+    )
+    .unwrap();
+    assert_eq!(json_of(&made.path(), &options)["verdict"], "solvable");
+    let rigs = stereo(Some([0.5, 0.0, 0.0]));
+    fs::write(&given, "part l1 r1\n").unwrap();
+    refused(
+        &rigs.path(),
+        &options,
+        &["known parts do not go together", "--no-rigs"],
+    );
+    fs::write(&given, "displacement l1 l2 1 0 0\n").unwrap();
+    refused(
+        &rigs.path(),
+        &options,
+        &["displacements with vectors do not", "--no-rigs"],
+    );
+}

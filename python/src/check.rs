@@ -8,11 +8,12 @@ use anyhow::Context;
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
 use viewcert::watch::Watch;
 use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
-use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
+use viewcert_formats::{NamedGraph, ReadOptions, read_meant, with_rigs};
 
 /// What a certificate proves.
 #[pyclass(frozen, get_all, module = "viewcert._native")]
@@ -131,6 +132,11 @@ pub(crate) fn check(
             let nodes = graph.0.graph.nodes() as u32;
             let groups = displacements.unwrap_or_default();
             let known = known_displacements(nodes, &groups, vectors.as_deref())?;
+            let known = with_rigs(Known::Displacements(known), &graph.0);
+            let known = known.map_err(|error| InputError::new_err(error.to_string()))?;
+            let Known::Displacements(known) = known else {
+                unreachable!("displacements stay displacements")
+            };
             Given::Graph(Arc::clone(&graph.0), parts.unwrap_or_default(), known)
         }
         (None, Some(file)) => Given::File(file),

@@ -16,7 +16,7 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::{Request, Shapes, Weak};
-use viewcert_formats::{NamedGraph, NamedParts};
+use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
 use viewcert_session::Outputs;
@@ -146,6 +146,7 @@ pub(crate) fn decide(
     } else {
         Known::Displacements(displacements)
     };
+    let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
     let arithmetic = bounds.map_or(Arithmetic::Prime, |(numerator, denominator)| {
         Arithmetic::Rational {
             numerator,

@@ -213,7 +213,7 @@ fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
 #[pyfunction]
 #[pyo3(signature = (
     path, *, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
-    max_spread=None, columns=None, min_weight=None, skip_loops=false
+    max_spread=None, rigs=true, columns=None, min_weight=None, skip_loops=false
 ))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn read(
@@ -225,6 +225,7 @@ pub(crate) fn read(
     min_inliers: Option<u32>,
     min_views: Option<u32>,
     max_spread: Option<u32>,
+    rigs: bool,
     columns: Option<&str>,
     min_weight: Option<&str>,
     skip_loops: bool,
@@ -238,6 +239,7 @@ pub(crate) fn read(
             min_inliers,
             min_views,
             max_spread,
+            rigs,
         )?
     };
     let read = work::run(py, &Watch::default(), None, move || {
@@ -260,6 +262,7 @@ fn read_options(
     min_inliers: Option<u32>,
     min_views: Option<u32>,
     max_spread: Option<u32>,
+    rigs: bool,
 ) -> PyResult<ReadOptions> {
     let format = format.map(str::parse).transpose();
     let pipeline = match pipeline {
@@ -280,6 +283,7 @@ fn read_options(
         tracks: min_views.map(|min_views| TrackOptions {
             min_views,
             max_spread: max_spread.unwrap_or(TrackOptions::default().max_spread),
+            rigs,
         }),
         list: ListOptions::default(),
     })

@@ -6,7 +6,7 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert_check::{Certificate, Failure, Graph, Verdict, Verified};
-use viewcert_formats::{NamedGraph, ReadOptions, read_given, read_meant};
+use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
 /// What a certificate proves.
 pub(super) struct Proved {
@@ -52,13 +52,11 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
 
 /// The checker's graph with what is given of it, in node numbers.
 fn with_given(graph: Graph, given: Option<&Path>, input: &NamedGraph) -> Result<Graph> {
-    let Some(file) = given else {
-        return Ok(graph);
-    };
-    Ok(match read_given(file, input)?.known {
+    Ok(match viewcert_formats::given(given, input)?.known {
         Known::Parts(parts) => {
             let graph = graph.with_parts(parts.iter().map(<[u32]>::to_vec));
-            graph.with_context(|| file.display().to_string())?
+            let file = given.map_or(&*input.name, |file| file.to_str().unwrap_or_default());
+            graph.with_context(|| file.to_owned())?
         }
         Known::Displacements(known) => graph.with_displacements(hex(&known.sha256())),
     })

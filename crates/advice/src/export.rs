@@ -257,6 +257,15 @@ fn write_part(folder: &Path, task: &Task, part: &Exported) -> Result<()> {
     let mut images = file(&folder.join(LISTS[0]))?;
     for &v in &part.images {
         writeln!(images, "{}", labels.display(v))?;
+        // Images that are one camera, as those of a frame that were taken at one place.
+        let frames = task.input.frames.as_ref();
+        for name in frames
+            .and_then(|frames| frames.together.get(&v))
+            .into_iter()
+            .flatten()
+        {
+            writeln!(images, "{name}")?;
+        }
     }
     images.flush()?;
     if task.input.cameras.is_none() {

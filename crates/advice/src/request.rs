@@ -108,7 +108,17 @@ impl Request {
             );
         }
         if !verdict.displacements.is_empty() {
-            return Ok(Advice::without_joints(verdict.components.len() < 2));
+            ensure!(
+                self.asked_of_pairs().is_none(),
+                "known displacements join components in ways of their own, and nothing is said about \
+                 these; leave out --given, and rigs by --no-rigs"
+            );
+            let mut advice = Advice::without_joints(verdict.components.len() < 2);
+            if let Some(folder) = &self.export {
+                let task = Task::new(input, verdict, seed, watch);
+                advice.export = Some(export::write(outputs, folder, &task, &[])?);
+            }
+            return Ok(advice);
         }
         if verdict.components.len() < 2 && !self.asks() {
             return Ok(Advice::whole());

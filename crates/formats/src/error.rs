@@ -141,6 +141,11 @@ pub enum Problem {
     /// Parts and displacements in one such file.
     #[error("known parts stand beside known displacements, and there is no theorem about both")]
     PartsAndDisplacements,
+    /// What is given does not go together with the base lines of rigs.
+    #[error(
+        "the rigs of this input know base lines without their vectors, and {0} do not go together with these"
+    )]
+    BesideRigs(&'static str),
     /// A label that the graph does not have.
     #[error("`{}` is no camera of the graph", shown(.0))]
     UnknownCamera(String),
@@ -492,6 +497,7 @@ impl Problem {
                 "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"
             }
             Self::PartsAndDisplacements => "leave out one of the two",
+            Self::BesideRigs(_) => "leave the rigs out of account (--no-rigs), or what is given",
             Self::UnknownCamera(_) => {
                 "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
             }

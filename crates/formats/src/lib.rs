@@ -31,11 +31,11 @@ mod variables;
 pub use edge_list::decimal::{Decimal, NoDecimal};
 pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
-pub use given::{Given, NamedParts, read_given};
+pub use given::{Given, NamedParts, given, read_given, with_rigs};
 pub use matching::{Matching, OtherPair};
 pub use read::{Format, NamedGraph, ReadOptions, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
-pub use tracks::{TrackFacts, TrackOptions};
+pub use tracks::{Frames, TrackFacts, TrackOptions};
 
 /// A note about pairs that were merged, if any were.
 fn merged(count: usize) -> Option<String> {

@@ -80,6 +80,7 @@ pub fn of_nodes(
         cameras: None,
         database: None,
         tracks: None,
+        frames: None,
     })
 }
 

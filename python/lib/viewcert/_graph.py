@@ -299,6 +299,7 @@ def read(
     tracks: bool = False,
     min_views: int = 3,
     max_spread: int = 10,
+    rigs: bool = True,
     columns: Optional[Sequence[Union[str, int]]] = None,
     min_weight: Union[str, int, Decimal, None] = None,
     skip_loops: bool = False,
@@ -325,6 +326,8 @@ def read(
     max_spread : int
         Features of one track in one image of a database are one if they are at most so many pixels
         apart; otherwise the track is dropped.
+    rigs : bool
+        Whether the base lines of the rigs of a database are known, where its tracks are read.
     columns : sequence of str or int, optional
         The two columns of a table that hold the pairs, and perhaps that of the weights: names, or
         numbers from 1.
@@ -363,6 +366,7 @@ def read(
         min_inliers=min_inliers,
         min_views=min_views if tracks else None,
         max_spread=max_spread if tracks else None,
+        rigs=rigs,
         columns=None if columns is None else ",".join(map(str, columns)),
         min_weight=None if min_weight is None else str(min_weight),
         skip_loops=skip_loops,
@@ -414,6 +418,7 @@ def tracks_from_database(
     min_views: int = 3,
     *,
     max_spread: int = 10,
+    rigs: bool = True,
     min_inliers: int = 15,
     pipeline: str = "incremental",
 ) -> Graph:
@@ -428,6 +433,9 @@ def tracks_from_database(
     max_spread : int
         Features of one track in one image are one if they are at most so many pixels apart;
         otherwise the track is dropped. COLMAP's global mapper takes 10.
+    rigs : bool
+        Whether the base lines of the rigs are known: the images of a frame then know their places to
+        each other.
 
     Returns
     -------
@@ -440,7 +448,7 @@ def tracks_from_database(
         As of :func:`from_database`, and a database without lists of matches.
     """
     options: dict[str, Any] = {"min_inliers": min_inliers, "pipeline": pipeline}
-    options["max_spread"] = max_spread
+    options["max_spread"], options["rigs"] = max_spread, rigs
     return _read_one(path, tracks=True, min_views=min_views, **options)
 
 

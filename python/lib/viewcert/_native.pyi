@@ -62,6 +62,7 @@ def read(
     min_inliers: int | None = None,
     min_views: int | None = None,
     max_spread: int | None = None,
+    rigs: bool = True,
     columns: str | None = None,
     min_weight: str | None = None,
     skip_loops: bool = False,

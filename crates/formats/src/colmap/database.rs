@@ -7,10 +7,11 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
 use super::open::Opened;
+use super::rigs;
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
-use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
+use crate::{Frames, Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
 use viewcert::wording::counted;
 
@@ -45,11 +46,20 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
         Some(tracks) => {
             let (names, nodes) = (&database.names, &database.nodes);
             let connection = &opened.connection;
-            let graph = tracks::read(connection, database.table, names, nodes, &pairs, tracks)?;
+            let frames = if tracks.rigs {
+                rigs::read(connection, names, nodes).map_err(input)?
+            } else {
+                None
+            };
+            let table = database.table;
+            let graph = tracks::read(connection, table, names, nodes, &pairs, frames, tracks)?;
             notes.extend(database.other_mapper());
             notes.push(NOT_KNOWN.to_owned());
             NamedGraph {
-                matching: Some(database.between_cameras(&pairs, matching)),
+                matching: Some(match &graph.frames {
+                    Some(frames) => of_cameras(database.between_cameras(&pairs, matching), frames),
+                    None => database.between_cameras(&pairs, matching),
+                }),
                 ..graph
             }
         }
@@ -79,6 +89,8 @@ struct Tables {
     loops: usize,
     /// Rigs of several sensors.
     rigs: usize,
+    /// Whether they count: only where tracks are read.
+    rigs_count: bool,
     table: &'static str,
     pipeline: Pipeline,
     min_inliers: u32,
@@ -104,7 +116,8 @@ impl Tables {
             matches: Vec::new(),
             dangling: 0,
             loops: 0,
-            rigs: rigs(connection)?,
+            rigs: several_sensors(connection)?,
+            rigs_count: options.tracks.is_some_and(|tracks| tracks.rigs),
             table,
             pipeline: options.pipeline.unwrap_or_default(),
             min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
@@ -366,7 +379,7 @@ impl Tables {
             let images = counted(facts.images_without_pair, "image");
             notes.push(format!("{images} {these}: {they} that nothing determines"));
         }
-        if facts.rigs > 0 {
+        if facts.rigs > 0 && !self.rigs_count {
             notes.push(format!(
                 "{} of several cameras in the database: poses that are known within a rig are not \
                  used here",
@@ -375,6 +388,21 @@ impl Tables {
         }
         notes
     }
+}
+
+/// What is known of pairs of images, for cameras that may stand for several: of two cameras the pair
+/// with most inliers.
+fn of_cameras(matching: Matching, frames: &Frames) -> Matching {
+    let mut others = matching.others;
+    for pair in &mut others {
+        let (a, b) = pair.images;
+        let (a, b) = (frames.camera_of(a), frames.camera_of(b));
+        pair.images = (a.min(b), a.max(b));
+    }
+    others.retain(|pair| pair.images.0 != pair.images.1);
+    others.sort_unstable_by_key(|pair| (pair.images, std::cmp::Reverse(pair.inliers)));
+    others.dedup_by_key(|pair| pair.images);
+    Matching { others, ..matching }
 }
 
 /// The table of verified pairs.
@@ -438,7 +466,7 @@ fn images(connection: &Connection) -> Result<Images, DatabaseError> {
 }
 
 /// How many rigs have sensors besides their reference sensor.
-fn rigs(connection: &Connection) -> Result<usize, DatabaseError> {
+fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
     if !columns(connection, "rig_sensors")?
         .iter()
         .any(|name| name == "rig_id")

@@ -67,6 +67,9 @@ pub enum DatabaseError {
         /// What is wrong.
         why: String,
     },
+    /// Rigs and frames that contradict themselves.
+    #[error("the rigs of the database contradict themselves: {0}")]
+    Rigs(String),
     /// Matches were emptied.
     #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
@@ -106,6 +109,9 @@ impl DatabaseError {
             }
             Self::NotVerified(..) => {
                 "run the geometric verification: `colmap geometric_verifier --database_path FILE`, or in Python `pycolmap.geometric_verification(FILE)`; COLMAP 3.8 has neither, there match again, for example with `colmap exhaustive_matcher`"
+            }
+            Self::Rigs(_) => {
+                "configure them again (`colmap rig_configurator`), or leave them out of account: --no-rigs"
             }
             Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
             Self::NoLists(_) => {

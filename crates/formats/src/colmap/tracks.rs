@@ -10,14 +10,15 @@ use super::database::{NoPair, PAIR_FACTOR, columns, ends};
 use super::keypoints::Keypoints;
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
-use crate::tracks::{Joined, TrackGraph, TrackOptions};
+use crate::tracks::{Frames, Joined, TrackGraph, TrackOptions};
 use viewcert::graph::Graph;
 
 /// Bytes of a match: the numbers of two features.
 const MATCH: usize = 8;
 
 /// The camera-point graph of the pairs that are edges of `pairs`, whose nodes are the images
-/// `names`. Linear in the matches, but for nearly constant factors.
+/// `names`, of which those that frames say to be at one place are one camera. Linear in the matches,
+/// but for nearly constant factors.
 ///
 /// # Errors
 /// Lists of matches that are missing or damaged; damaged keypoints.
@@ -27,6 +28,7 @@ pub(super) fn read(
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
     pairs: &Graph,
+    frames: Option<Frames>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let input = |problem: Problem| Place::Input.fault(problem);
@@ -36,6 +38,9 @@ pub(super) fn read(
         join(connection, table, names, nodes, pairs, &keypoints).map_err(input)?;
     let mut graph = TrackGraph::new(names.to_vec(), options)?;
     graph.set_spread(options.max_spread);
+    if let Some(frames) = frames {
+        graph.set_frames(frames);
+    }
     let order: Vec<u32> = (0..names.len() as u32).collect();
     joined
         .tracks(&order, Some(&mut keypoints), &mut graph)

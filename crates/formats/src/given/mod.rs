@@ -1,4 +1,5 @@
-//! Files of what is given besides the pairs: known parts, and known displacements and positions.
+//! What is given besides the pairs: known parts, and known displacements and positions, from files
+//! and from the rigs of the input.
 //!
 //! In: a text, and the graph whose cameras it names. Out: [`Given`], with notes about what counts once
 //! or says nothing. Each line begins with the word that says what it is: `part`, `displacement` or
@@ -15,6 +16,7 @@ use crate::cameras::{for_each_line, read_file};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
 use viewcert::Known;
+use viewcert::graph::Displacements;
 
 pub use parts::NamedParts;
 
@@ -38,6 +40,55 @@ pub struct Given {
 pub fn read_given(path: impl AsRef<Path>, input: &NamedGraph) -> Result<Given, ReadError> {
     let read = |text: &mut dyn Read| read(text, input);
     read_file(path.as_ref(), read, |given| &mut given.notes)
+}
+
+/// What is given besides the pairs of a graph: by its rigs, and by a file if there is one; see
+/// [`read_given`]. O(nodes) more than that.
+///
+/// # Errors
+/// As there; what does not go together with base lines of rigs.
+pub fn given(path: Option<&Path>, input: &NamedGraph) -> Result<Given, ReadError> {
+    let given = match path {
+        Some(path) => read_given(path, input)?,
+        None => Given {
+            known: Known::default(),
+            notes: Vec::new(),
+        },
+    };
+    let known = with_rigs(given.known, input).map_err(|problem| ReadError {
+        file: path.unwrap_or(Path::new(&input.name)).display().to_string(),
+        place: Place::Input,
+        problem,
+    })?;
+    Ok(Given { known, ..given })
+}
+
+/// What is known, with the base lines of the graph's rigs.
+///
+/// # Errors
+/// Known parts, or displacements with vectors, beside these base lines, which have none.
+pub fn with_rigs(known: Known, input: &NamedGraph) -> Result<Known, Problem> {
+    let groups = input
+        .frames
+        .as_ref()
+        .map_or(&[][..], |frames| &frames.groups);
+    let displaced = match &known {
+        _ if groups.is_empty() => return Ok(known),
+        Known::Parts(parts) if !parts.is_empty() => {
+            return Err(Problem::BesideRigs("known parts"));
+        }
+        Known::Parts(_) => &[][..],
+        Known::Displacements(known) if known.vectors().is_some() => {
+            return Err(Problem::BesideRigs("displacements with vectors"));
+        }
+        Known::Displacements(known) => known.groups(),
+    };
+    let groups = displaced.iter().chain(groups);
+    let stars = groups.flat_map(|group| group[1..].iter().map(|&other| (group[0], other)));
+    let all = Displacements::new(input.graph.nodes() as u32, stars);
+    Ok(Known::Displacements(
+        all.expect("groups of nodes of the graph"),
+    ))
 }
 
 /// Reads what is given besides the pairs of a graph; see [`read_given`].

@@ -17,7 +17,7 @@ use crate::matching::Matching;
 use crate::read_as::{Parsed, ReadAs};
 use crate::recognise;
 use crate::recognise::Kind;
-use crate::tracks::{self, TrackFacts, TrackOptions};
+use crate::tracks::{self, Frames, TrackFacts, TrackOptions};
 use crate::{edge_list, lookalikes, matlab, matrix_market, numpy};
 use viewcert::graph::{Graph, Labels};
 
@@ -43,6 +43,8 @@ pub struct NamedGraph {
     pub database: Option<Box<DatabaseFacts>>,
     /// How many tracks there are, if this is a camera-point graph.
     pub tracks: Option<TrackFacts>,
+    /// What rigs say of cameras, if the input has rigs and they count.
+    pub frames: Option<Box<Frames>>,
 }
 
 impl NamedGraph {
@@ -58,6 +60,7 @@ impl NamedGraph {
             cameras: None,
             database: None,
             tracks: None,
+            frames: None,
         }
     }
 }

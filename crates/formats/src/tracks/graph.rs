@@ -2,6 +2,7 @@
 
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
+use crate::tracks::Frames;
 use viewcert::graph::{Graph, Labels};
 use viewcert::wording::counted;
 
@@ -13,6 +14,8 @@ pub struct TrackOptions {
     /// Features of one track in one image are one if they are at most so many pixels apart; it
     /// counts where their places are known, which is in databases.
     pub max_spread: u32,
+    /// Whether the rigs of the input count: then images of a frame know their base lines.
+    pub rigs: bool,
 }
 
 impl Default for TrackOptions {
@@ -22,6 +25,7 @@ impl Default for TrackOptions {
         Self {
             min_views: 3,
             max_spread: 10,
+            rigs: true,
         }
     }
 }
@@ -62,6 +66,8 @@ pub(crate) struct TrackGraph {
     views: Vec<u32>,
     /// Where the cameras of every point end.
     ends: Vec<usize>,
+    /// What is known of frames.
+    frames: Option<Frames>,
 }
 
 impl TrackGraph {
@@ -89,6 +95,7 @@ impl TrackGraph {
             track: 0,
             views: Vec::new(),
             ends: Vec::new(),
+            frames: None,
         })
     }
 
@@ -133,6 +140,11 @@ impl TrackGraph {
         self.spread = Some(pixels);
     }
 
+    /// Says what is known of frames.
+    pub(crate) fn set_frames(&mut self, frames: Frames) {
+        self.frames = Some(frames);
+    }
+
     /// Says that some of these places are missing, so that tracks were dropped unseen.
     pub(crate) fn set_places_missing(&mut self) {
         self.places_missing = true;
@@ -163,6 +175,7 @@ impl TrackGraph {
         if self.track == 0 {
             return Err(Place::Input.fault(Problem::Corrupt("it has no tracks".into())));
         }
+        self.unite();
         let cameras = self.cameras.len() as u32;
         let nodes = u32::try_from(self.cameras.len() + self.ends.len())
             .map_err(|_| Place::Input.fault(Problem::TooManyNodes))?;
@@ -192,6 +205,7 @@ impl TrackGraph {
             .map_err(|error| Place::Input.fault(Problem::Corrupt(error.to_string())))?;
         let labels = Labels::CamerasAndPoints(self.cameras);
         Ok(NamedGraph {
+            frames: self.frames.map(Box::new),
             notes,
             cameras: Some(cameras),
             tracks: Some(self.facts),
@@ -199,10 +213,43 @@ impl TrackGraph {
         })
     }
 
+    /// Images that are one camera are one node, called by the first of them. O(observations), if there
+    /// are any.
+    fn unite(&mut self) {
+        let Some(frames) = &mut self.frames else {
+            return;
+        };
+        let Some(first_of) = frames.number_anew(&self.cameras) else {
+            return;
+        };
+        // Cameras keep their order, so that a number is new where it is the next one.
+        let mut kept = 0;
+        let mut numbers = first_of.iter();
+        self.cameras.retain(|_| {
+            let is_first = numbers.next() == Some(&kept);
+            kept += u32::from(is_first);
+            is_first
+        });
+        self.degree = vec![0; self.cameras.len()];
+        let (mut views, mut from) = (Vec::with_capacity(self.views.len()), 0);
+        for end in &mut self.ends {
+            let start = views.len();
+            for &camera in &self.views[from..*end] {
+                let camera = first_of[camera as usize];
+                if !views[start..].contains(&camera) {
+                    views.push(camera);
+                    self.degree[camera as usize] += 1;
+                }
+            }
+            from = std::mem::replace(end, views.len());
+        }
+        self.views = views;
+    }
+
     /// What does not count, in words.
     fn notes(&self) -> Vec<String> {
         let facts = &self.facts;
-        let mut notes = Vec::new();
+        let mut notes = self.frames.as_ref().map_or_else(Vec::new, Frames::notes);
         if facts.merged > 0 {
             let has = if facts.merged == 1 { "has" } else { "have" };
             notes.push(format!(

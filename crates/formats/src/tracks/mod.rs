@@ -9,6 +9,7 @@
 mod bal;
 mod bundler;
 mod doubled;
+mod frames;
 mod graph;
 mod join;
 mod kind;
@@ -19,10 +20,13 @@ mod nvm;
 mod openmvg;
 mod words;
 
+pub use frames::Frames;
 pub use graph::{TrackFacts, TrackOptions};
 
 #[cfg(feature = "databases")]
 pub(crate) use doubled::Places;
+#[cfg(feature = "databases")]
+pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
