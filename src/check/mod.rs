@@ -75,7 +75,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         }
         ensure!(
             !listing.files.is_empty(),
-            "{}: no certificates (.json, .jsonl, .jsonl.gz)",
+            "{}: no certificates (.json, .jsonl, .jsonl.gz); name a folder that has some, or the files",
             path.display()
         );
         return check_files(path, &listing);

@@ -110,7 +110,7 @@ def need_certificate(where, data, other=None):
     if not says_so(data):
         if other is not None and says_so(other):
             raise Unreadable(f"{where}: this is no certificate, but the other file is one: the certificate comes first")
-        raise Unreadable(f'{where}: this is no certificate (JSON that says "format": "viewcert certificate")')
+        raise Unreadable(f'{where}: this is no certificate (JSON that says "format": "viewcert certificate"); `verify GRAPH --certificate FILE` writes one')
 
 
 def check_list(paths, **limits):

@@ -287,7 +287,8 @@ pub fn no_certificate(swapped: bool) -> &'static str {
         "this is no certificate, but the other file is one: did you swap them? The certificate comes \
          first"
     } else {
-        "this is no certificate (JSON that says \"format\": \"viewcert certificate\")"
+        "this is no certificate (JSON that says \"format\": \"viewcert certificate\"); one is written by \
+         `verify GRAPH --certificate FILE`"
     }
 }
 

@@ -482,6 +482,9 @@ impl Problem {
     /// What whoever gave the input can do about it.
     pub fn remedy(&self) -> &'static str {
         match self {
+            Self::Unreadable(error) if error.kind() == std::io::ErrorKind::IsADirectory => {
+                "name the files in it; a folder is read as a model of COLMAP alone, with --tracks"
+            }
             Self::Unreadable(_) => "check its path and permissions",
             Self::Foreign { advice, .. }
             | Self::Own { advice, .. }
@@ -569,7 +572,8 @@ impl Problem {
             Self::LineTooLong { .. } => "put one pair on a line, or name the format with --format",
             Self::LineTooLarge { .. } => "write the graph as an edge list or in sparse6",
             Self::Graph6(_) | Self::Sparse6(_) => {
-                "write the line again (where other formats are read, --format names them)"
+                "write the line again, or have it written: `verify convert GRAPH --to graph6` (where other \
+                 formats are read, --format names them)"
             }
             Self::MatrixMarket(_) => {
                 "write it again as `%%MatrixMarket matrix coordinate pattern symmetric`"
