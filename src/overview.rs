@@ -4,6 +4,7 @@
 //! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
 //! first; tracks are read again from the same file, since each is a graph of its own.
 
+use super::foreseen::foreseen;
 use super::input::{self, InputArguments, Read};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
@@ -166,6 +167,10 @@ fn overview(
     let joints = named_joints(input, verdict, Options::default().seed, session.watch());
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
+    let mappers = match &tracks {
+        Some((tracks, verdict)) => foreseen(path, tracks, verdict)?,
+        None => None,
+    };
     let no_joints = Advice::default();
     let any_scope = Scope::default();
     let report = |input, verdict, advice| Report {
@@ -191,6 +196,7 @@ fn overview(
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
         joints: &joints,
         wanted: Wanted::of(source.pairs.as_ref().unwrap_or(input)),
+        mappers,
         next: Vec::new(),
         time: Duration::ZERO,
     };

@@ -9,6 +9,7 @@
 pub mod explain;
 pub mod export;
 pub mod joints;
+pub mod mapper;
 pub mod margin;
 pub mod named;
 pub mod parts;

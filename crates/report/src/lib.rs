@@ -15,6 +15,7 @@ pub mod force_layout;
 pub mod graph_picture;
 pub mod json;
 pub mod many;
+mod mappers;
 pub mod models;
 pub mod overview;
 pub mod page;

@@ -8,12 +8,13 @@ use super::database::DatabaseLine;
 use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
-use super::{Report, counted, database, size_of, text, tracks};
+use super::{Report, counted, database, mappers, size_of, text, tracks};
 use crate::advice::joints as write_joints;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert_advice::Advice;
+use viewcert_advice::mapper::Foreseen;
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
@@ -41,6 +42,8 @@ pub struct Overview<'a> {
     pub joints: &'a Advice,
     /// The images that are to be determined.
     pub wanted: Wanted,
+    /// What mappers will probably do, if the tracks are from a database.
+    pub mappers: Option<Foreseen>,
     /// Commands that lead on from here.
     pub next: Vec<Next>,
     /// How long it took.
@@ -265,6 +268,9 @@ impl Overview<'_> {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}", self.name)?;
         writeln!(out, "  read as     {}", self.read)?;
+        if let Some(foreseen) = &self.mappers {
+            mappers::write(out, foreseen, wrapped)?;
+        }
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
                 Some(facts) => database::write(out, facts)?,
@@ -292,9 +298,9 @@ impl Overview<'_> {
         }
         self.write_joints(out)?;
         let follows = self.follows();
-        wrapped(out, "global", &follows.global)?;
-        wrapped(out, "incremental", &follows.incremental)?;
-        wrapped(out, "averaging", &follows.averaging)?;
+        wrapped(out, "follows", &format!("global: {}", follows.global))?;
+        wrapped(out, "", &format!("incremental: {}", follows.incremental))?;
+        wrapped(out, "", &format!("averaging {}", follows.averaging))?;
         for (k, next) in self.next.iter().enumerate() {
             let title = if k == 0 { "next" } else { "" };
             writeln!(out, "  {title:<12}{}", next.command)?;
@@ -365,6 +371,7 @@ impl Overview<'_> {
                 "pairs"
             },
             images: self.wanted.0.len(),
+            mappers: self.mappers.as_ref(),
             follows: self.follows(),
             next: &self.next,
             seconds: self.time.as_secs_f64(),
@@ -392,6 +399,8 @@ struct Line<'a> {
     determined: bool,
     determined_by: &'static str,
     images: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mappers: Option<&'a Foreseen>,
     follows: Follows,
     next: &'a [Next],
     seconds: f64,
@@ -422,7 +431,7 @@ struct PositionLine {
 }
 
 /// Writes words in lines of limited width.
-fn wrapped(out: &mut impl Write, title: &str, words: &str) -> io::Result<()> {
+fn wrapped<W: Write>(out: &mut W, title: &str, words: &str) -> io::Result<()> {
     let mut line = format!("  {title:<11}");
     for word in words.split(' ') {
         if line.len() > MARGIN && line.len() + 1 + word.len() > WIDTH {

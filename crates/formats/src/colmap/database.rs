@@ -355,7 +355,7 @@ impl Tables {
 }
 
 /// The table of verified pairs.
-fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
+pub(super) fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
     let needed = |table, needed: &[&str]| -> Result<Option<String>, DatabaseError> {
         let present = columns(connection, table)?;
         if present.is_empty() {
@@ -387,10 +387,10 @@ pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String
 }
 
 /// The images: names in bytewise order, and the node of every number.
-type Images = (Vec<Box<str>>, HashMap<i64, u32>);
+pub(super) type Images = (Vec<Box<str>>, HashMap<i64, u32>);
 
 /// Reads the table of images.
-fn images(connection: &Connection) -> Result<Images, DatabaseError> {
+pub(super) fn images(connection: &Connection) -> Result<Images, DatabaseError> {
     let mut statement = connection.prepare("select image_id, name from images")?;
     let mut rows = statement.query([])?;
     let mut images: Vec<(Box<str>, i64)> = Vec::new();

@@ -13,9 +13,15 @@ mod facts;
 mod open;
 #[cfg(feature = "databases")]
 mod tracks;
+mod two_views;
+#[cfg(feature = "databases")]
+mod views;
 
 pub use error::DatabaseError;
 pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
+pub use two_views::TwoViews;
+#[cfg(feature = "databases")]
+pub use views::Views;
 
 #[cfg(feature = "databases")]
 pub(crate) use database::read;
