@@ -3,38 +3,55 @@
 use anyhow::Result;
 use std::path::Path;
 use viewcert::Verdict;
-use viewcert_advice::mapper::{Foreseen, foresee};
+use viewcert_advice::mapper::{Foreseen, Geometry, foresee};
+use viewcert_advice::special::{Narrow, narrow};
 use viewcert_formats::NamedGraph;
 
-/// Simulates both mappers on the tracks of a database; nothing for other tracks.
+/// Simulates both mappers on the tracks of a database, and finds the narrow places of its pairs; of
+/// other inputs only the latter. A graph of cameras and points alone has no pairs.
 ///
 /// # Errors
 /// A database that cannot be read a third time, or was written to meanwhile.
 pub(super) fn foreseen(
     path: &Path,
-    tracks: &NamedGraph,
-    verdict: &Verdict,
-) -> Result<Option<Foreseen>> {
+    pairs: &NamedGraph,
+    tracks: Option<(&NamedGraph, &Verdict)>,
+) -> Result<(Option<Foreseen>, Narrow)> {
     #[cfg(feature = "databases")]
-    if tracks.database.is_some() {
+    if pairs.database.is_some() {
         let mut geometry = geometry::OfDatabase::open(path)?;
-        let found = foresee(tracks, verdict, &mut geometry)?;
+        let found = with_geometry(pairs, tracks, &mut geometry)?;
         geometry.finish()?;
         return Ok(found);
     }
     let _ = path;
-    foresee(tracks, verdict, &mut ())
+    if pairs.cameras.is_some() {
+        return Ok((None, Narrow::default()));
+    }
+    with_geometry(pairs, tracks, &mut ())
+}
+
+fn with_geometry(
+    pairs: &NamedGraph,
+    tracks: Option<(&NamedGraph, &Verdict)>,
+    geometry: &mut dyn Geometry,
+) -> Result<(Option<Foreseen>, Narrow)> {
+    let foreseen = match tracks {
+        Some((tracks, verdict)) => foresee(tracks, verdict, geometry)?,
+        None => None,
+    };
+    Ok((foreseen, narrow(pairs, tracks, geometry)?))
 }
 
 #[cfg(feature = "databases")]
-pub(super) mod geometry {
+mod geometry {
     use super::*;
     use anyhow::Context;
-    use viewcert_advice::mapper::{Estimate, Geometry, estimate};
+    use viewcert_advice::mapper::{Estimate, estimate};
     use viewcert_formats::colmap::Views;
 
     /// The geometry of pairs as a database has it.
-    pub(in super::super) struct OfDatabase {
+    pub(super) struct OfDatabase {
         views: Views,
         name: String,
     }
@@ -44,7 +61,7 @@ pub(super) mod geometry {
         ///
         /// # Errors
         /// A database that cannot be read.
-        pub(in super::super) fn open(path: &Path) -> Result<Self> {
+        pub(super) fn open(path: &Path) -> Result<Self> {
             let name = path.display().to_string();
             let views = Views::open(path).with_context(|| name.clone())?;
             Ok(Self { views, name })
@@ -54,7 +71,7 @@ pub(super) mod geometry {
         ///
         /// # Errors
         /// If somebody has written in between.
-        pub(in super::super) fn finish(self) -> Result<()> {
+        pub(super) fn finish(self) -> Result<()> {
             self.views.finish().with_context(|| self.name)
         }
     }

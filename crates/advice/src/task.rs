@@ -1,11 +1,13 @@
 //! One graph that advice is asked about: what the mathematics finds, in the user's names.
 
 use crate as advice;
+use crate::mapper::Thresholds;
 use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
 use crate::suggest::Wanted;
 use crate::{Known, OtherPair, Parts, Shapes, Thinning, words};
 use anyhow::{Context, Result};
+use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
@@ -289,6 +291,7 @@ impl<'a> Task<'a> {
                     reaches: link.reaches.into_iter().map(number).collect(),
                 })
                 .collect(),
+            sees: self.input.cameras.map(|_| self.sees(node)),
             unused: found
                 .others
                 .into_iter()
@@ -300,6 +303,26 @@ impl<'a> Task<'a> {
                 .collect(),
             suggestions,
         })
+    }
+
+    /// How many points of each component an image sees.
+    fn sees(&self, image: u32) -> Vec<named::SeesOf> {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for &(_, point) in self.input.graph.edges_from(image) {
+            for &part in self.parts.of(point) {
+                let component = self.parts.parts[part as usize].component;
+                *counts.entry(number(component)).or_default() += 1;
+            }
+        }
+        let needs = Thresholds::default().abs_pose_min_num_inliers;
+        let counts = counts.into_iter().map(|(component, points)| named::SeesOf {
+            component,
+            points,
+            needs,
+        });
+        let mut sees: Vec<named::SeesOf> = counts.collect();
+        sees.sort_by_key(|sees| std::cmp::Reverse(sees.points));
+        sees
     }
 
     pub(crate) fn sweep(&self, thresholds: &[u32]) -> Result<Vec<named::SweepRow>> {

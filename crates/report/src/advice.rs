@@ -291,6 +291,14 @@ fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
         let pairs = counted(found.pairs_inside, "pair");
         writeln!(out, "    {pairs} inside")?;
     }
+    for sees in found.sees.iter().flatten().take(SHOWN) {
+        let points = counted(sees.points, "point");
+        writeln!(
+            out,
+            "    sees {points} of component {}; an incremental mapper wants {}",
+            sees.component, sees.needs
+        )?;
+    }
     for pair in found.pairs_outside.iter().take(SHOWN) {
         let inliers = pair
             .inliers

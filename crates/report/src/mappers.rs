@@ -45,7 +45,10 @@ fn global(foreseen: &Foreseen) -> String {
     let sizes: Vec<usize> = global.parts.iter().map(Vec::len).collect();
     match sizes.len() {
         0 => format!("one model of {images}, and the tracks determine no two of them"),
-        1 => format!("one model of {images}, of which the tracks determine {}", sizes[0]),
+        1 => format!(
+            "one model of {images}, of which the tracks determine {}",
+            sizes[0]
+        ),
         count => format!(
             "one model of {images}, in which {count} parts ({}) are not determined against each \
              other: they may be silently misplaced",
@@ -58,10 +61,17 @@ fn global(foreseen: &Foreseen) -> String {
 fn incremental(foreseen: &Foreseen) -> String {
     let models = &foreseen.incremental;
     let simulated = "(simulated, not proved)";
-    let sizes: Vec<usize> = models.models.iter().map(|model| model.images.len()).collect();
+    let sizes: Vec<usize> = models
+        .models
+        .iter()
+        .map(|model| model.images.len())
+        .collect();
     let mut words = match sizes[..] {
         [] => return format!("likely no model: no pair is fit to begin with {simulated}"),
-        [size] => format!("likely one model of {} {simulated}", all_of(size, foreseen.global.of)),
+        [size] => format!(
+            "likely one model of {} {simulated}",
+            all_of(size, foreseen.global.of)
+        ),
         _ => format!("likely {} images {simulated}", several(&sizes, " + ")),
     };
     if let Some(stop) = stop(models) {
@@ -93,11 +103,22 @@ fn stop(models: &Models) -> Option<&Sees> {
 fn beginnings(models: &Models) -> Vec<String> {
     if models.starts.is_empty() {
         let needs = models.thresholds.init_min_num_inliers;
-        return vec![format!("no pair: none has {} matches", needs >> viewcert_advice::mapper::Thresholds::RELAXATIONS)];
+        return vec![format!(
+            "no pair: none has {} matches",
+            needs >> viewcert_advice::mapper::Thresholds::RELAXATIONS
+        )];
     }
-    let mut words: Vec<String> = models.starts.iter().take(BEGINNINGS).map(beginning).collect();
+    let mut words: Vec<String> = models
+        .starts
+        .iter()
+        .take(BEGINNINGS)
+        .map(beginning)
+        .collect();
     if models.starts.len() > BEGINNINGS {
-        words.push(format!("{} more looked at (--json)", models.starts.len() - BEGINNINGS));
+        words.push(format!(
+            "{} more looked at (--json)",
+            models.starts.len() - BEGINNINGS
+        ));
     }
     words
 }
@@ -106,10 +127,17 @@ fn beginning(start: &Beginning) -> String {
     let [one, other] = &start.images;
     let mut numbers = vec![counted(start.inliers as usize, "inlier")];
     numbers.extend(start.angle.map(|angle| format!("{angle:.1} degrees")));
-    numbers.extend(start.forward.map(|forward| format!("{:.0} % forward", 100.0 * forward)));
+    numbers.extend(
+        start
+            .forward
+            .map(|forward| format!("{:.0} % forward", 100.0 * forward)),
+    );
     let verdict = match start.unfit {
         None => "fit".to_owned(),
-        Some("points") => format!("unfit: {} seen by a third image", counted(start.points, "point")),
+        Some("points") => format!(
+            "unfit: {} seen by a third image",
+            counted(start.points, "point")
+        ),
         Some(unfit) => format!("unfit: {unfit}"),
     };
     format!("{one} {other} ({}): {verdict}", numbers.join(", "))

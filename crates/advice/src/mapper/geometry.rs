@@ -6,7 +6,6 @@
 //! matrix", 1990): with b a column of (1/2 tr E E^T) I - E E^T, cof(E) - [b] E = |b|^2 R.
 
 use anyhow::Result;
-use serde::Serialize;
 use viewcert_formats::colmap::TwoViews;
 
 /// What is known of pairs beyond their matches.
@@ -33,14 +32,31 @@ impl Geometry for () {
 }
 
 /// What a relative pose says of a pair: an estimate, in floats.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
+    /// The two images.
+    pub images: [u32; 2],
     /// The configuration of the database.
     pub config: i64,
     /// The median angle between the two rays to a point, in degrees.
     pub angle: Option<f64>,
     /// The part of the motion along the second camera's axis, from 0 to 1.
     pub forward: Option<f64>,
+    /// The direction of the second image as the first sees it, and of the first as the second does;
+    /// of length 1.
+    pub towards: Option<[[f64; 3]; 2]>,
+}
+
+impl Estimate {
+    /// The direction of the other image as one of the two sees it.
+    pub fn towards(&self, from: u32) -> Option<[f64; 3]> {
+        let [first, second] = self.towards?;
+        Some(if from == self.images[0] {
+            first
+        } else {
+            second
+        })
+    }
 }
 
 type Vector = [f64; 3];
@@ -55,9 +71,11 @@ struct Pose {
 /// What the database says of a pair. O(matches).
 pub fn estimate(views: &TwoViews) -> Estimate {
     let unknown = Estimate {
+        images: views.images,
         config: views.config,
         angle: None,
         forward: None,
+        towards: None,
     };
     let stored = views.pose.map(|(q, t)| Pose {
         rotation: rotation(q),
@@ -69,7 +87,10 @@ pub fn estimate(views: &TwoViews) -> Estimate {
     };
     let length = dot(pose.translation, pose.translation).sqrt();
     let forward = pose.translation[2].abs() / length;
+    let second = pose.translation.map(|x| x / length);
+    let first = [0, 1, 2].map(|j| -(0..3).map(|i| pose.rotation[i][j] * second[i]).sum::<f64>());
     Estimate {
+        towards: forward.is_finite().then_some([first, second]),
         forward: forward.is_finite().then_some(forward),
         angle: median_angle(&pose, &views.matches),
         ..unknown
@@ -137,9 +158,21 @@ fn rotation(q: [f64; 4]) -> Matrix {
     let square: f64 = q.iter().map(|x| x * x).sum();
     let [w, x, y, z] = q.map(|k| k / square.sqrt());
     [
-        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
-        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
-        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
     ]
 }
 

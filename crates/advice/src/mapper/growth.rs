@@ -40,7 +40,13 @@ impl<'a> Growth<'a> {
 
     /// How many points two images both see. O(points of both).
     pub(super) fn shared(&self, (a, b): (u32, u32)) -> usize {
-        let points = |image: u32| self.scene.tracks.edges_from(image).iter().map(|edge| edge.1);
+        let points = |image: u32| {
+            self.scene
+                .tracks
+                .edges_from(image)
+                .iter()
+                .map(|edge| edge.1)
+        };
         let mut others = points(b).peekable();
         points(a)
             .filter(|&point| {

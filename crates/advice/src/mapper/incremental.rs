@@ -92,7 +92,9 @@ pub fn incremental(
     let outside = (0..).zip(&run.registered).zip(&run.sees);
     let outside = outside.filter(|((_, models), _)| **models == 0);
     Ok(Incremental {
-        outside: outside.map(|((image, _), &sees)| Stop { image, sees }).collect(),
+        outside: outside
+            .map(|((image, _), &sees)| Stop { image, sees })
+            .collect(),
         kept_from: Thresholds::kept(run.starts.images()),
         models: run.models,
         starts: run.starts.seen,
@@ -114,7 +116,9 @@ impl Run<'_> {
         for _ in 0..self.thresholds.init_num_trials {
             let registered = &self.registered;
             let free = |image: u32| registered[image as usize] == 0;
-            let start = self.starts.next(&self.thresholds, &self.growth, geometry, free)?;
+            let start = self
+                .starts
+                .next(&self.thresholds, &self.growth, geometry, free)?;
             let Some(start) = start else {
                 return Ok(true);
             };

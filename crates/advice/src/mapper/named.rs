@@ -106,7 +106,10 @@ pub fn foresee(
     else {
         return Ok(None);
     };
-    let enough = matching.others.iter().filter(|pair| pair.inliers >= facts.min_inliers);
+    let enough = matching
+        .others
+        .iter()
+        .filter(|pair| pair.inliers >= facts.min_inliers);
     let pairs: Vec<((u32, u32), u32)> = enough.map(|pair| (pair.images, pair.inliers)).collect();
     let scene = Scene {
         tracks: &tracks.graph,

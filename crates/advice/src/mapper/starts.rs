@@ -176,7 +176,10 @@ impl Starts {
 
     /// Keeps what became of a pair last.
     fn note(&mut self, start: Start) {
-        let known = self.seen.iter_mut().find(|known| known.images == start.images);
+        let known = self
+            .seen
+            .iter_mut()
+            .find(|known| known.images == start.images);
         match known {
             Some(known) => *known = start,
             None => self.seen.push(start),
@@ -191,9 +194,14 @@ fn unfit(estimate: &Estimate, thresholds: &Thresholds) -> Option<Unfit> {
     if matches!(estimate.config, 1 | 5 | 7 | 8) {
         return Some(Unfit::Configuration);
     }
-    if estimate.forward.is_some_and(|forward| forward >= thresholds.init_max_forward_motion) {
+    if estimate
+        .forward
+        .is_some_and(|forward| forward >= thresholds.init_max_forward_motion)
+    {
         return Some(Unfit::Forward);
     }
-    let small = estimate.angle.is_some_and(|angle| angle <= thresholds.init_min_tri_angle);
+    let small = estimate
+        .angle
+        .is_some_and(|angle| angle <= thresholds.init_min_tri_angle);
     small.then_some(Unfit::Angle)
 }

@@ -38,7 +38,10 @@ impl Sample {
                 }
             }
         }
-        let pairs: Vec<_> = pairs.into_iter().filter(|&(_, count)| count >= 15).collect();
+        let pairs: Vec<_> = pairs
+            .into_iter()
+            .filter(|&(_, count)| count >= 15)
+            .collect();
         let scene = Scene {
             tracks: &graph,
             images: self.images,
@@ -54,14 +57,20 @@ fn joined(points: usize, from_both: bool) -> Sample {
         .seen(&[0, 1, 2], 120 - points)
         .seen(&[0, 1, 2, 3], points);
     if from_both {
-        sample.seen(&[3, 4, 5], 110 - points).seen(&[2, 3, 4, 5], points)
+        sample
+            .seen(&[3, 4, 5], 110 - points)
+            .seen(&[2, 3, 4, 5], points)
     } else {
         sample.seen(&[3, 4, 5], 110)
     }
 }
 
 fn sizes(found: &Incremental) -> Vec<usize> {
-    found.models.iter().map(|model| model.images.len()).collect()
+    found
+        .models
+        .iter()
+        .map(|model| model.images.len())
+        .collect()
 }
 
 #[test]
@@ -111,6 +120,8 @@ impl Geometry for Told {
 #[test]
 fn what_disqualifies_a_beginning() {
     let estimate = |config, angle, forward| Estimate {
+        images: [0, 0],
+        towards: None,
         config,
         angle: Some(angle),
         forward: Some(forward),
@@ -158,7 +169,13 @@ fn poses_of_essential_matrices() {
     let across = [[0.0, -t[2], t[1]], [t[2], 0.0, -t[0]], [-t[1], t[0], 0.0]];
     let product = |i: usize, j: usize| (0..3).map(|k| across[i][k] * rotation[k][j]).sum::<f64>();
     let essential = [0, 1, 2].map(|i| [0, 1, 2].map(|j| product(i, j)));
-    let points = (0..9).map(|k| [f64::from(k % 3) - 1.0, f64::from(k / 3) - 1.0, 5.0 + f64::from(k) / 9.0]);
+    let points = (0..9).map(|k| {
+        [
+            f64::from(k % 3) - 1.0,
+            f64::from(k / 3) - 1.0,
+            5.0 + f64::from(k) / 9.0,
+        ]
+    });
     let mut angles = Vec::new();
     let matches: Vec<_> = points
         .map(|x| {
@@ -184,8 +201,19 @@ fn poses_of_essential_matrices() {
     let of_essential = estimate(&views);
     views.pose = Some(([half.cos(), 0.0, half.sin(), 0.0], t));
     for found in [of_essential, estimate(&views)] {
-        assert!((found.angle.unwrap() - angles[4]).abs() < 1e-9, "{found:?} {angles:?}");
+        assert!(
+            (found.angle.unwrap() - angles[4]).abs() < 1e-9,
+            "{found:?} {angles:?}"
+        );
         assert!((found.forward.unwrap() - forward).abs() < 1e-9, "{found:?}");
+        // The second camera stands at -R^T t, and sees the first at t.
+        let length = (9.0f64 + 0.04 + 0.36).sqrt();
+        let [first, second] = found.towards.unwrap();
+        for k in 0..3 {
+            let centre = -(0..3).map(|i| rotation[i][k] * t[i]).sum::<f64>();
+            assert!((first[k] - centre / length).abs() < 1e-9, "{found:?}");
+            assert!((second[k] - t[k] / length).abs() < 1e-9, "{found:?}");
+        }
     }
     // Nothing is known without a pose.
     assert_eq!(estimate(&TwoViews::default()).angle, None);

@@ -73,6 +73,8 @@ struct Tables {
     loops: usize,
     /// Rigs of several sensors.
     rigs: usize,
+    /// The version of COLMAP that wrote it, if it says so.
+    version: Option<u32>,
     table: &'static str,
     pipeline: Pipeline,
     min_inliers: u32,
@@ -99,6 +101,7 @@ impl Tables {
             dangling: 0,
             loops: 0,
             rigs: rigs(connection)?,
+            version: version(connection)?,
             table,
             pipeline: options.pipeline.unwrap_or_default(),
             min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
@@ -284,6 +287,7 @@ impl Tables {
             configs: configs.into_values().collect(),
             inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
             rigs: self.rigs,
+            version: self.version,
             connected,
         }
     }
@@ -342,6 +346,12 @@ impl Tables {
             };
             let images = counted(facts.images_without_pair, "image");
             notes.push(format!("{images} {these}: {they} that nothing determines"));
+        }
+        let numbers = self.nodes.iter().map(|(&id, &node)| (node, id));
+        let mut numbers: Vec<(u32, i64)> = numbers.collect();
+        numbers.sort_unstable();
+        if !numbers.is_sorted_by_key(|&(_, id)| id) {
+            notes.push("the numbers of the images are not in the order of their names".to_owned());
         }
         if facts.rigs > 0 {
             notes.push(format!(
@@ -425,6 +435,12 @@ fn rigs(connection: &Connection) -> Result<usize, DatabaseError> {
     let query = "select count(distinct rig_id) from rig_sensors";
     let count: i64 = connection.query_row(query, [], |row| row.get(0))?;
     Ok(count.max(0) as usize)
+}
+
+/// The version that a database was written by.
+fn version(connection: &Connection) -> Result<Option<u32>, DatabaseError> {
+    let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    Ok(u32::try_from(version).ok().filter(|&version| version > 0))
 }
 
 /// Why a number of a pair gives no edge.

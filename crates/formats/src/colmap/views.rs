@@ -59,7 +59,9 @@ impl Views {
         }
         let mut cameras = vec![None; names.len()];
         if columns(connection, "cameras")?.len() > 5
-            && columns(connection, "images")?.iter().any(|c| c == "camera_id")
+            && columns(connection, "images")?
+                .iter()
+                .any(|c| c == "camera_id")
         {
             let query = "select image_id, model, params, prior_focal_length from images join cameras \
                          using (camera_id)";
@@ -109,7 +111,10 @@ impl Views {
         let mut images = [a, b];
         images.sort_unstable_by_key(|&image| self.ids[image as usize]);
         let [first, second] = images.map(|image| self.ids[image as usize]);
-        let Some(pair) = first.checked_mul(PAIR_FACTOR).and_then(|k| k.checked_add(second)) else {
+        let Some(pair) = first
+            .checked_mul(PAIR_FACTOR)
+            .and_then(|k| k.checked_add(second))
+        else {
             return Ok(None);
         };
         let [e, f, pose] = self.has;
@@ -129,7 +134,12 @@ impl Views {
             let list = row.get_ref(2)?.as_blob().unwrap_or(&[]).to_vec();
             let numbers = [3, 4, 5, 6].map(|k| row.get_ref(k).map(doubles));
             let [e, f, q, t] = numbers;
-            Ok((inliers.unwrap_or(0), config.unwrap_or(0), list, [e?, f?, q?, t?]))
+            Ok((
+                inliers.unwrap_or(0),
+                config.unwrap_or(0),
+                list,
+                [e?, f?, q?, t?],
+            ))
         };
         let mut statement = self.opened.connection.prepare_cached(&query)?;
         let Some((inliers, config, list, [e, f, q, t])) =
@@ -237,7 +247,12 @@ fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
     if !one && !matches!(model, 1 | 4 | 6) {
         return Ok(None);
     }
-    let at = |k: usize| parameters.get(k).copied().filter(|number| number.is_finite());
+    let at = |k: usize| {
+        parameters
+            .get(k)
+            .copied()
+            .filter(|number| number.is_finite())
+    };
     let found = if one {
         [at(0), at(0), at(1), at(2)]
     } else {
@@ -257,7 +272,10 @@ fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
 fn doubles(value: ValueRef) -> Vec<f64> {
     let bytes = value.as_blob().unwrap_or(&[]);
     let (numbers, _) = bytes.as_chunks();
-    numbers.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect()
+    numbers
+        .iter()
+        .map(|&bytes| f64::from_le_bytes(bytes))
+        .collect()
 }
 
 /// Nine numbers by rows, unless they are zeros or not finite.
@@ -291,5 +309,6 @@ fn points(columns: usize, data: &[u8]) -> Vec<[f32; 2]> {
     }
     let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
     let rows = data.chunks_exact(4 * columns);
-    rows.map(|row| [number(&row[..4]), number(&row[4..8])]).collect()
+    rows.map(|row| [number(&row[..4]), number(&row[4..8])])
+        .collect()
 }
