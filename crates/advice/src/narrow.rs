@@ -6,6 +6,7 @@
 //! what is determined does not change where it is narrow, but a wrong match or special geometry
 //! there can turn one side against the other.
 
+use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 use viewcert::Graph;
 use viewcert::graph::{Adjacency, UnionFind, biconnected_components};
@@ -91,7 +92,12 @@ pub fn cuts(graph: &Graph) -> Vec<Cut> {
             |&&(a, b): &&(u32, u32)| side[group_of[a as usize]] != side[group_of[b as usize]];
         let pairs: Vec<(u32, u32)> = graph.edges().iter().filter(crosses).copied().collect();
         if !pairs.is_empty() {
-            let smaller = 2 * within <= images;
+            // Of two sides of one size, that of the first image.
+            let smaller = match (2 * within).cmp(&images) {
+                Ordering::Less => true,
+                Ordering::Equal => side[group_of[0]],
+                Ordering::Greater => false,
+            };
             let all = 0..images as u32;
             let of_side = all
                 .filter(|&v| side[group_of[v as usize]] == smaller)
@@ -182,8 +188,8 @@ fn separated(between: &[BTreeMap<usize, usize>], from: usize, to: usize) -> Opti
     None
 }
 
-/// The pairs of images that hold groups of two images or more to the rest, if each two groups are
-/// connected by nothing else. Nothing, if there are too many images to look at. O(n (n + m')), where
+/// The pairs of images that hold groups of two images or more to the rest, and neither of which does
+/// so alone. Nothing, if there are too many images to look at. O(n (n + m')), where
 /// m' is at most three times the number n of images.
 pub fn hinges(graph: &Graph) -> Vec<Hinges> {
     let thin = thinned(graph);
@@ -191,20 +197,14 @@ pub fn hinges(graph: &Graph) -> Vec<Hinges> {
     if images < 4 || images * (images + thin.edges().len()) > STEPS {
         return Vec::new();
     }
+    let single = articulations(&thin);
     let mut found = BTreeSet::new();
-    for one in 0..images as u32 {
+    for one in (0..images as u32).filter(|one| !single.contains(one)) {
         let rest = thin.edges().iter().copied();
-        let rest: Vec<_> = rest.filter(|&(a, b)| a != one && b != one).collect();
-        let Ok((rest, _)) = Graph::from_pairs(images as u32, rest) else {
-            continue;
-        };
-        let mut blocks = vec![0u32; images];
-        biconnected_components(Adjacency::new(&rest).lists(), |block| {
-            for &node in block {
-                blocks[node as usize] += 1;
-            }
-        });
-        let joins = (0..images as u32).filter(|&other| blocks[other as usize] > 1);
+        let rest = rest.filter(|&(a, b)| a != one && b != one);
+        let rest = Graph::new(images as u32, rest).expect("edges of a graph");
+        let joins = articulations(&rest).into_iter();
+        let joins = joins.filter(|other| !single.contains(other));
         found.extend(joins.map(|other| [one.min(other), one.max(other)]));
     }
     let found = found.into_iter().map(|pair| Hinges {
@@ -213,6 +213,20 @@ pub fn hinges(graph: &Graph) -> Vec<Hinges> {
     });
     found
         .filter(|hinges| hinges.groups.iter().filter(|group| group.len() > 1).count() > 1)
+        .collect()
+}
+
+/// The images whose removal takes others apart. O(n + m).
+fn articulations(graph: &Graph) -> BTreeSet<u32> {
+    let mut blocks = vec![0u32; graph.nodes()];
+    biconnected_components(Adjacency::new(graph).lists(), |block| {
+        for &node in block {
+            blocks[node as usize] += 1;
+        }
+    });
+    let nodes = (0..).zip(blocks);
+    nodes
+        .filter_map(|(node, blocks)| (blocks > 1).then_some(node))
         .collect()
 }
 
@@ -238,7 +252,7 @@ fn without(graph: &Graph, hinges: [u32; 2]) -> Vec<Vec<u32>> {
         }
     }
     let mut groups: Vec<Vec<u32>> = groups.into_values().collect();
-    groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+    groups.sort_by_key(|group| Reverse(group.len()));
     groups
 }
 

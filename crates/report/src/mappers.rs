@@ -60,7 +60,13 @@ fn global(foreseen: &Foreseen) -> String {
 /// "likely 8 + 4 + 4, stops at DSC_0434 (sees 17 of the 30 points it needs)".
 fn incremental(foreseen: &Foreseen) -> String {
     let models = &foreseen.incremental;
-    let simulated = "(simulated, not proved)";
+    let simulated = match unfit(models) {
+        None => "(simulated, not proved)".to_owned(),
+        Some(unfit) => format!(
+            "(simulated, not proved; uncertain, as {unfit} of {} pairs to begin with are unfit)",
+            models.starts.len()
+        ),
+    };
     let sizes: Vec<usize> = models
         .models
         .iter()
@@ -90,6 +96,14 @@ fn incremental(foreseen: &Foreseen) -> String {
         );
     }
     words
+}
+
+/// How many pairs to begin with are unfit by their geometry, if these are nearly all: COLMAP estimates
+/// each anew, and what passes then is chance.
+fn unfit(models: &Models) -> Option<usize> {
+    let unfit = models.starts.iter().filter(|start| start.unfit.is_some());
+    let unfit = unfit.count();
+    (unfit >= 10 && 10 * unfit >= 9 * models.starts.len()).then_some(unfit)
 }
 
 /// The image that the models come nearest to: one that is in none, or else in another.

@@ -52,7 +52,7 @@ fn warnings(found: &Narrow) -> Vec<String> {
     let few = found.few.iter().filter(|few| few.special).map(|few| {
         let [one, other] = few.sides;
         format!(
-            "all pairs between {one} and {other} images are {SPECIAL} ({}); {MEANS}",
+            "what alone holds {one} and {other} images together is {SPECIAL} ({}); {MEANS}",
             pairs(&few.pairs)
         )
     });
@@ -61,11 +61,16 @@ fn warnings(found: &Narrow) -> Vec<String> {
         let looked = if between.count > between.pairs.len() {
             format!("the {} strongest of {}", between.pairs.len(), counted(between.count, "pair"))
         } else {
-            format!("all {}", counted(between.count, "pair"))
+            format!("all {} pairs", between.count)
+        };
+        let what = if between.count == 1 {
+            "the only pair is".to_owned()
+        } else {
+            format!("{looked} are")
         };
         format!(
-            "{looked} between components {one} and {other} are {SPECIAL}: more matches of the same \
-             images do not join them"
+            "components {one} and {other}: {what} {SPECIAL}; more matches of the same images do not \
+             join them"
         )
     });
     let hinges = found.hinges.iter().filter(|hinge| hinge.special).map(|hinge| {
