@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
 use super::open::Opened;
+use super::positions;
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
@@ -34,6 +35,11 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
     let opened = Opened::new(path).map_err(input)?;
     let database = Tables::read(&opened.connection, options).map_err(input)?;
     let (pairs, matching) = database.graph().map_err(input)?;
+    let positions = positions::read(&opened.connection, &database.nodes).map_err(input)?;
+    let matching = Matching {
+        positions,
+        ..matching
+    };
     let facts = database.facts(&pairs);
     let mut notes = Vec::from_iter(opened.note.clone());
     notes.extend(database.notes(&facts));
@@ -112,7 +118,8 @@ impl Tables {
         tables.read_pairs(connection)?;
         tables.read_matches(connection)?;
         if tables.pairs.is_empty() && tables.dangling == 0 {
-            return Err(match tables.matches.len() {
+            let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
+            return Err(match matched.count() {
                 0 => DatabaseError::NotMatched(tables.names.len()),
                 matched => DatabaseError::NotVerified(matched, table),
             });
@@ -167,9 +174,8 @@ impl Tables {
         let mut rows = statement.query([])?;
         while let Some(row) = rows.next()? {
             let matches = count(row, 1)?;
-            if let Ok(ends) = ends(row.get(0)?, &self.nodes)
-                && matches > 0
-            {
+            // A row without matches says that the pair was tried.
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes) {
                 self.matches.push((ends, matches));
             }
         }
@@ -211,32 +217,41 @@ impl Tables {
                 self.table
             )));
         }
-        let mut others: BTreeMap<(u32, u32), OtherPair> = BTreeMap::new();
-        for pair in self.pairs.iter().filter(|pair| !pair.used) {
-            others.insert(
-                pair.nodes,
-                OtherPair {
+        let mut others: Vec<OtherPair> = Vec::new();
+        others.extend(
+            self.pairs
+                .iter()
+                .filter(|pair| !pair.used)
+                .map(|pair| OtherPair {
                     images: pair.nodes,
                     inliers: pair.inliers,
                     matches: None,
+                    verified: true,
                     used: false,
-                },
-            );
-        }
-        for &(images, matches) in &self.matches {
-            if graph.edge_number(images.0, images.1).is_none() {
-                let other = others.entry(images).or_insert(OtherPair {
-                    images,
-                    inliers: 0,
-                    matches: None,
-                    used: false,
-                });
-                other.matches = Some(matches);
+                }),
+        );
+        let matched = self.matches.iter();
+        let matched = matched.filter(|(images, _)| graph.edge_number(images.0, images.1).is_none());
+        others.extend(matched.map(|&(images, matches)| OtherPair {
+            images,
+            inliers: 0,
+            matches: Some(matches),
+            verified: false,
+            used: false,
+        }));
+        // Of a pair with both, what was verified comes first and learns how many were matched.
+        others.sort_by_key(|pair| pair.images);
+        others.dedup_by(|later, first| {
+            let same = later.images == first.images;
+            if same {
+                first.matches = later.matches;
             }
-        }
+            same
+        });
         let matching = Matching {
             inliers: used.iter().map(|pair| pair.inliers).collect(),
-            others: others.into_values().collect(),
+            others,
+            positions: Vec::new(),
         };
         Ok((graph, matching))
     }
@@ -248,6 +263,7 @@ impl Tables {
             images,
             inliers,
             matches: self.matches_of(images),
+            verified: true,
             used: true,
         });
         let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
@@ -255,6 +271,7 @@ impl Tables {
         Matching {
             inliers: Vec::new(),
             others,
+            positions: matching.positions,
         }
     }
 

@@ -14,6 +14,8 @@ mod keypoints;
 #[cfg(feature = "databases")]
 mod open;
 #[cfg(feature = "databases")]
+mod positions;
+#[cfg(feature = "databases")]
 mod tracks;
 
 pub use error::DatabaseError;

@@ -128,11 +128,13 @@ impl TrackGraph {
         self.count(&cameras)
     }
 
+    #[cfg(any(feature = "databases", test))]
     /// Says that places of features are known, and how near they have to be.
     pub(crate) fn set_spread(&mut self, pixels: u32) {
         self.spread = Some(pixels);
     }
 
+    #[cfg(feature = "databases")]
     /// Says that some of these places are missing, so that tracks were dropped unseen.
     pub(crate) fn set_places_missing(&mut self) {
         self.places_missing = true;
