@@ -52,6 +52,10 @@ pub(super) struct InputArguments {
     /// In how many images a track has to be seen to count [default: 3, as in global mapping].
     #[arg(long, value_name = "N", help_heading = READING, hide = true)]
     pub(super) min_views: Option<u32>,
+    /// Features of one track in one image of a COLMAP database are one if they are at most so many
+    /// pixels apart; otherwise the track is dropped [default: 10, as in global mapping].
+    #[arg(long, value_name = "PIXELS", help_heading = READING, hide = true)]
+    max_spread: Option<u32>,
 }
 
 /// The title of these options in the help.
@@ -145,9 +149,19 @@ impl InputArguments {
         ReadOptions {
             tracks: Some(TrackOptions {
                 min_views: self.min_views.unwrap_or(default.min_views),
+                max_spread: self.max_spread.unwrap_or(default.max_spread),
             }),
             ..self.read_options()
         }
+    }
+
+    /// The options that say which tracks count, as they are written.
+    pub(super) fn words_of_tracks(&self) -> String {
+        let views = self.min_views.map(|count| format!(" --min-views {count}"));
+        let spread = self
+            .max_spread
+            .map(|pixels| format!(" --max-spread {pixels}"));
+        views.into_iter().chain(spread).collect()
     }
 
     /// How pairs are read.
@@ -160,6 +174,11 @@ impl InputArguments {
             "--min-views says which tracks count, and pairs are decided here; leave it out, or say --tracks \
              where it can be said"
         );
+        ensure!(
+            self.max_spread.is_none(),
+            "--max-spread says which tracks count, and pairs are decided here; leave it out, or say --tracks \
+             where it can be said"
+        );
         Ok(self.read_options())
     }
 
@@ -168,7 +187,8 @@ impl InputArguments {
         let list = self.columns.is_some() || self.min_weight.is_some() || self.skip_loops;
         let file = self.format.is_some() || self.variable.is_some();
         let database = self.pipeline.is_some() || self.min_inliers.is_some();
-        list || file || database || self.min_views.is_some()
+        let tracks = self.min_views.is_some() || self.max_spread.is_some();
+        list || file || database || tracks
     }
 
     /// The options of the readers, but for tracks.

@@ -219,12 +219,13 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
             notes.push(note.clone());
         }
     }
-    let pairs = source.pairs.as_ref();
-    notes.extend(
-        pairs
-            .and_then(|input| input.database.as_ref())
-            .and_then(|facts| other_mapper(facts)),
-    );
+    let facts = source
+        .pairs
+        .as_ref()
+        .and_then(|input| input.database.as_ref());
+    let other = facts.and_then(|facts| other_mapper(facts));
+    let other = other.filter(|note| !notes.contains(note));
+    notes.extend(other);
     if arguments.input.min_views.is_some() && source.tracks.is_err() {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }
@@ -262,8 +263,10 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         true => " --tracks",
         false => " --model calibrated",
     };
-    let min_views = arguments.input.min_views.filter(|_| with_tracks);
-    let min_views = min_views.map_or(String::new(), |count| format!(" --min-views {count}"));
+    let tracks = match with_tracks {
+        true => arguments.input.words_of_tracks(),
+        false => String::new(),
+    };
     let read = options_of(&arguments.input.read_options());
     let file = shell(&path.display().to_string());
     let command = |verb: &str, graph: &str, what: &str, purpose: &'static str| Next {
@@ -271,7 +274,7 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         purpose,
     };
     let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
-    let decided = format!("{graph}{min_views}");
+    let decided = format!("{graph}{tracks}");
     // How many tracks can be missing does not tell kept promises from broken ones
     // (docs/reconstruction.md, 'Margin').
     let few = "how many pairs can be missing before parts fall apart";

@@ -669,7 +669,7 @@ fn tracks_of_a_database() {
         line["tracks"],
         // Points 0, 1, 2 and 19 are seen from all three; 3 twice in a.jpg; 4 to 18 from two.
         json!({ "min_views": 3, "cameras": 4, "points": 4, "observations": 12,
-                "cameras_without_point": 1, "inconsistent": 1, "short": 15 })
+                "cameras_without_point": 1, "merged": 0, "inconsistent": 1, "short": 15 })
     );
     assert_eq!(line["verdict"], "not-finite-solvable");
     let components = json!([
@@ -678,7 +678,8 @@ fn tracks_of_a_database() {
     ]);
     assert_eq!(line["components"], components);
     for note in [
-        "dropped: 1 track with two features in one image",
+        "dropped: 1 track with two features in one image, more than 10 pixels apart, or not known \
+         where",
         "not counted: 15 tracks in fewer than 3 images (--min-views)",
         "1 camera sees no track that counts: a component of its own",
     ] {
@@ -712,6 +713,125 @@ fn tracks_of_a_database() {
 
 /// Three cameras and four points, of which the last is seen from two cameras only.
 const VIEWS: [&[u32]; 4] = [&[0, 1, 2], &[0, 1, 2], &[2, 1, 0], &[0, 2]];
+
+/// What COLMAP 4.2's global mapper itself says of six databases (`Established .. tracks`, `Kept ..
+/// tracks, discarded .. due to inconsistency`; rotation averaging told to drop no pair).
+#[test]
+fn tracks_are_those_that_global_mapping_keeps() {
+    let Some(folder) = samples() else { return };
+    for (name, established, kept, discarded, merged) in [
+        ("dup_false_alarm", 300, 300, 0, 80),
+        ("photos_lund", 6484, 2149, 31, 40),
+        ("photos_monstree", 6643, 3155, 10, 45),
+        ("photos_banana", 5798, 1889, 1, 12),
+        ("suggest_stuck", 5558, 1849, 0, 5),
+        ("rig_false_alarm", 1199, 1191, 0, 0),
+    ] {
+        let path = folder.join(format!("{name}.db"));
+        let line = json_of(&path, &["--tracks", "--pipeline", "global"]);
+        let count = |member: &str| line["tracks"][member].as_u64().unwrap();
+        assert_eq!(count("points"), kept, "{name}");
+        assert_eq!(count("inconsistent"), discarded, "{name}");
+        assert_eq!(count("merged"), merged, "{name}");
+        let all = count("points") + count("inconsistent") + count("short");
+        assert_eq!(all, established, "{name}");
+    }
+    let path = folder.join("dup_false_alarm.db");
+    let line = json_of(&path, &["--tracks"]);
+    assert_eq!(line["verdict"], "solvable");
+    let strict = json_of(&path, &["--tracks", "--max-spread", "0"]);
+    assert_eq!(strict["tracks"]["inconsistent"], 80);
+    assert_eq!(strict["verdict"], "not-finite-solvable");
+}
+
+/// Keypoints of an image: x and y a feature, and two numbers more.
+fn keypoints(made: &Made, image: i64, places: &[[f32; 2]]) {
+    let numbers = places.iter().flat_map(|&[x, y]| [x, y, 1.0, 0.0]);
+    let bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+    let insert = "insert into keypoints values (?, ?, 4, ?)";
+    let values = params![image, places.len() as i64, bytes];
+    made.connection.execute(insert, values).unwrap();
+}
+
+const KEYPOINTS: &str =
+    "create table keypoints (image_id integer primary key, rows integer, cols integer, data blob);";
+
+/// By hand: feature 0 of b.jpg is matched with 0 and 1 of a.jpg, feature 2 with 2 and 3.
+fn doubled() -> Made {
+    let made = Made::new(&format!("{TABLES}{KEYPOINTS}"), &THREE);
+    made.pair(1, 2, &[(0, 0), (1, 0), (2, 2), (3, 2), (5, 5)], 2);
+    made.pair(2, 3, &[(0, 0), (2, 2), (5, 5)], 2);
+    made
+}
+
+#[test]
+fn features_within_ten_pixels_are_one() {
+    let made = doubled();
+    let options = ["--tracks", "--min-inliers", "3"];
+    let near = [[100.0, 50.0], [106.0, 58.0], [10.0, 10.0], [16.0, 18.1]];
+    keypoints(&made, 1, &[&near[..], &[[0.0; 2]; 2]].concat());
+    keypoints(&made, 2, &[[0.0; 2]; 6]);
+    // One feature too few: COLMAP ignores the match, and so the track is short.
+    keypoints(&made, 3, &[[0.0; 2]; 5]);
+    let line = json_of(&made.path(), &options);
+    assert_eq!(
+        line["tracks"],
+        json!({ "min_views": 3, "cameras": 3, "points": 1, "observations": 3,
+                "cameras_without_point": 0, "merged": 1, "inconsistent": 1, "short": 1 })
+    );
+    for note in [
+        "1 track has several features in one image, at most 10 pixels apart: one observation there, as in global \
+         mapping",
+        "dropped: 1 track with two features in one image, more than 10 pixels apart",
+        "ignored: 1 match with a feature that its image does not have, first of b.jpg and c.jpg",
+    ] {
+        assert!(notes(&line).contains(&note), "{line}");
+    }
+    let wide = json_of(
+        &made.path(),
+        &[&options[..], &["--max-spread", "11"]].concat(),
+    );
+    assert_eq!(
+        (&wide["tracks"]["merged"], &wide["tracks"]["points"]),
+        (&json!(2), &json!(2))
+    );
+}
+
+#[test]
+fn keypoints_that_are_missing_or_damaged_are_said() {
+    let made = doubled();
+    let options = ["--tracks", "--min-inliers", "3"];
+    let line = json_of(&made.path(), &options);
+    assert_eq!(line["tracks"]["inconsistent"], 2);
+    let unknown = "1 image has matches and no keypoints in the database: whether two features of one \
+                   track are one is not known there, and tracks with two in it are dropped";
+    assert!(notes(&line).contains(&unknown), "{line}");
+    keypoints(&made, 1, &[[f32::NAN, 0.0]; 6]);
+    let phrases = [
+        "keypoints of the image a.jpg are damaged",
+        "feature 0 has no place",
+    ];
+    refused(&made.path(), &options, &phrases);
+    made.execute("update keypoints set cols = 5");
+    let phrases = [
+        "keypoints of the image a.jpg",
+        "6 features of 5 numbers are not 96 bytes",
+    ];
+    refused(&made.path(), &options, &phrases);
+    made.execute("update keypoints set rows = -1");
+    refused(
+        &made.path(),
+        &options,
+        &["keypoints of the image a.jpg", "there are -1"],
+    );
+    let run = verify(&["--max-spread", "3", text(&made.path())]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.err.contains("--max-spread says which tracks count"),
+        "{}",
+        run.err
+    );
+}
 
 fn doubles(bytes: &mut Vec<u8>, values: &[f64]) {
     bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));

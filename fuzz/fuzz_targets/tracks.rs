@@ -9,7 +9,10 @@ use viewcert_formats::read::graphs;
 use viewcert_formats::{ReadOptions, TrackOptions};
 
 fuzz_target!(|data: &[u8]| {
-    let tracks = TrackOptions { min_views: 2 };
+    let tracks = TrackOptions {
+        min_views: 2,
+        ..TrackOptions::default()
+    };
     let options = ReadOptions {
         tracks: Some(tracks),
         ..ReadOptions::default()

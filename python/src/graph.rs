@@ -213,7 +213,7 @@ fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {
 #[pyfunction]
 #[pyo3(signature = (
     path, *, format=None, variable=None, pipeline=None, min_inliers=None, min_views=None,
-    columns=None, min_weight=None, skip_loops=false
+    max_spread=None, columns=None, min_weight=None, skip_loops=false
 ))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn read(
@@ -224,13 +224,21 @@ pub(crate) fn read(
     pipeline: Option<&str>,
     min_inliers: Option<u32>,
     min_views: Option<u32>,
+    max_spread: Option<u32>,
     columns: Option<&str>,
     min_weight: Option<&str>,
     skip_loops: bool,
 ) -> PyResult<Vec<Graph>> {
     let options = ReadOptions {
         list: list_options(columns, min_weight, skip_loops)?,
-        ..read_options(format, variable, pipeline, min_inliers, min_views)?
+        ..read_options(
+            format,
+            variable,
+            pipeline,
+            min_inliers,
+            min_views,
+            max_spread,
+        )?
     };
     let read = work::run(py, &Watch::default(), None, move || {
         read_graphs(path, &options).collect::<Result<Vec<_>, _>>()
@@ -251,6 +259,7 @@ fn read_options(
     pipeline: Option<&str>,
     min_inliers: Option<u32>,
     min_views: Option<u32>,
+    max_spread: Option<u32>,
 ) -> PyResult<ReadOptions> {
     let format = format.map(str::parse).transpose();
     let pipeline = match pipeline {
@@ -268,7 +277,10 @@ fn read_options(
         variable,
         pipeline,
         min_inliers,
-        tracks: min_views.map(|min_views| TrackOptions { min_views }),
+        tracks: min_views.map(|min_views| TrackOptions {
+            min_views,
+            max_spread: max_spread.unwrap_or(TrackOptions::default().max_spread),
+        }),
         list: ListOptions::default(),
     })
 }

@@ -128,9 +128,26 @@ pub struct Suggestion {
     pub images: usize,
     /// How many images the largest of the components gains.
     pub gain: usize,
+    /// What has become of matching each pair so far: `not-tried`, `not-verified`, `left-out`, `few`,
+    /// `in-vain`, `used`; null if the input does not say.
+    pub tried: Option<Vec<&'static str>>,
+    /// Why each pair is worth trying, in words.
+    pub why: Vec<String>,
+    /// What COLMAP's mappers need, of a database.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub needs: Option<Needs>,
     /// In a camera-point graph: how much has to come of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<Enough>,
+}
+
+/// What COLMAP's mappers need by default, beside what is enough.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Needs {
+    /// Inliers of a pair.
+    pub inliers: u32,
+    /// Points with a place that an image sees when it is registered.
+    pub points: u32,
 }
 
 /// What is enough to join components of a camera-point graph.

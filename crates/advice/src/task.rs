@@ -4,8 +4,8 @@ use crate as advice;
 use crate::mapper::Thresholds;
 use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
-use crate::suggest::Wanted;
-use crate::{Known, OtherPair, Parts, Shapes, Thinning, words};
+use crate::suggest::{IMAGE_NEEDS, PAIR_NEEDS, Wanted};
+use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, Thinning, words};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
@@ -69,6 +69,7 @@ impl<'a> Task<'a> {
                 .map_or(Known::default(), |known| Known {
                     inliers: &known.inliers,
                     others: &known.others,
+                    near: None,
                 }),
             names: Names::new(input),
             options: Options::default()
@@ -180,10 +181,17 @@ impl<'a> Task<'a> {
         at: Option<u32>,
     ) -> Result<Vec<named::Suggestion>> {
         let wanted = Wanted { most, at };
+        let names: Vec<String> = self.names.images().map(|v| self.names.of(v)).collect();
+        let matching = self.input.matching.as_ref();
+        let near = Nearness::new(&names, matching.map_or(&[], |known| &known.positions));
+        let known = Known {
+            near: Some(&near),
+            ..self.known
+        };
         if let Some(cameras) = self.input.cameras {
-            return self.suggest_matches(cameras, joints, wanted);
+            return self.suggest_matches(cameras, joints, known, wanted);
         }
-        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let (graph, parts) = (&self.input.graph, &self.parts);
         let found = advice::suggest(graph, parts, joints, known, wanted, &self.options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
             let (links, joins) = self.links_and_parts(&found.components);
@@ -207,10 +215,34 @@ impl<'a> Task<'a> {
                 single_pairs: links,
                 images: found.images,
                 gain: found.gain,
+                tried: self.tried(&found.candidates),
+                why: self.reasons(&found.candidates),
+                needs: self.needs(),
                 enough: None,
             }
         });
         Ok(named.collect())
+    }
+
+    /// What has become of matching some pairs, if the input says anything of that.
+    fn tried(&self, candidates: &[Candidate]) -> Option<Vec<&'static str>> {
+        let tried = candidates.iter().map(|one| one.tried.name());
+        self.input.matching.as_ref().map(|_| tried.collect())
+    }
+
+    fn reasons(&self, candidates: &[Candidate]) -> Vec<String> {
+        let reasons = candidates.iter();
+        reasons
+            .map(|one| words::reason(one.reason, &self.names))
+            .collect()
+    }
+
+    /// What mappers need, where images are matched.
+    fn needs(&self) -> Option<named::Needs> {
+        self.input.matching.as_ref().map(|_| named::Needs {
+            inliers: PAIR_NEEDS,
+            points: IMAGE_NEEDS,
+        })
     }
 
     /// How many of some components are single pairs, and the numbers of the others.
@@ -226,9 +258,10 @@ impl<'a> Task<'a> {
         &self,
         cameras: u32,
         joints: &[advice::Joint],
+        known: Known,
         wanted: Wanted,
     ) -> Result<Vec<named::Suggestion>> {
-        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let (graph, parts) = (&self.input.graph, &self.parts);
         let options = &self.options;
         let found = advice::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
@@ -242,6 +275,9 @@ impl<'a> Task<'a> {
                 single_pairs: links,
                 images: found.images,
                 gain: found.gain,
+                tried: self.tried(&[found.candidate]),
+                why: self.reasons(&[found.candidate]),
+                needs: self.needs(),
                 enough: Some(named::Enough {
                     observations: self.further(&found.observations),
                     merged: found.merged,

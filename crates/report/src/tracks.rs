@@ -17,6 +17,7 @@ pub struct TrackLine {
     points: usize,
     observations: usize,
     cameras_without_point: usize,
+    merged: usize,
     inconsistent: usize,
     short: usize,
 }
@@ -30,6 +31,7 @@ impl TrackLine {
             points: facts.points,
             observations: facts.observations,
             cameras_without_point: facts.cameras_without_point,
+            merged: facts.merged,
             inconsistent: facts.inconsistent,
             short: facts.short,
         }

@@ -63,6 +63,8 @@ class Suggestion:
     gain: int
     inliers: Optional[Tuple[int, ...]]
     matches: Optional[Tuple[int, ...]]
+    tried: Optional[Tuple[str, ...]]
+    why: Tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -225,6 +227,8 @@ def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[
             gain=one["gain"],
             inliers=_known(one["inliers"]),
             matches=_known(one["matches"]),
+            tried=None if one["tried"] is None else tuple(one["tried"]),
+            why=tuple(one["why"]),
         )
         for one in found
     ]

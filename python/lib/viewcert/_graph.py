@@ -298,6 +298,7 @@ def read(
     min_inliers: Optional[int] = None,
     tracks: bool = False,
     min_views: int = 3,
+    max_spread: int = 10,
     columns: Optional[Sequence[Union[str, int]]] = None,
     min_weight: Union[str, int, Decimal, None] = None,
     skip_loops: bool = False,
@@ -321,6 +322,9 @@ def read(
         Whether the graph is that of cameras and points.
     min_views : int
         In how many images a track has to be seen to count.
+    max_spread : int
+        Features of one track in one image of a database are one if they are at most so many pixels
+        apart; otherwise the track is dropped.
     columns : sequence of str or int, optional
         The two columns of a table that hold the pairs, and perhaps that of the weights: names, or
         numbers from 1.
@@ -358,6 +362,7 @@ def read(
         pipeline=pipeline,
         min_inliers=min_inliers,
         min_views=min_views if tracks else None,
+        max_spread=max_spread if tracks else None,
         columns=None if columns is None else ",".join(map(str, columns)),
         min_weight=None if min_weight is None else str(min_weight),
         skip_loops=skip_loops,
@@ -405,7 +410,12 @@ def from_database(
 
 
 def tracks_from_database(
-    path: Path, min_views: int = 3, *, min_inliers: int = 15, pipeline: str = "incremental"
+    path: Path,
+    min_views: int = 3,
+    *,
+    max_spread: int = 10,
+    min_inliers: int = 15,
+    pipeline: str = "incremental",
 ) -> Graph:
     """The graph of cameras and points of a COLMAP database: its matches, joined to tracks.
 
@@ -415,6 +425,9 @@ def tracks_from_database(
         As of :func:`from_database`.
     min_views : int
         In how many images a track has to be seen to count; COLMAP's global mapper takes 3.
+    max_spread : int
+        Features of one track in one image are one if they are at most so many pixels apart;
+        otherwise the track is dropped. COLMAP's global mapper takes 10.
 
     Returns
     -------
@@ -427,6 +440,7 @@ def tracks_from_database(
         As of :func:`from_database`, and a database without lists of matches.
     """
     options: dict[str, Any] = {"min_inliers": min_inliers, "pipeline": pipeline}
+    options["max_spread"] = max_spread
     return _read_one(path, tracks=True, min_views=min_views, **options)
 
 

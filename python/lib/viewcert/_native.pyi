@@ -61,6 +61,7 @@ def read(
     pipeline: str | None = None,
     min_inliers: int | None = None,
     min_views: int | None = None,
+    max_spread: int | None = None,
     columns: str | None = None,
     min_weight: str | None = None,
     skip_loops: bool = False,

@@ -32,7 +32,7 @@ fn named(graph: Graph) -> NamedGraph {
     NamedGraph {
         matching: Some(Matching {
             inliers,
-            others: Vec::new(),
+            ..Matching::default()
         }),
         ..NamedGraph::new("", graph, labels)
     }

@@ -12,6 +12,7 @@ fn suggested(
     let known = Known {
         inliers: &[],
         others,
+        near: None,
     };
     let wanted = Wanted { most: 1000, at };
     suggest(
@@ -111,6 +112,7 @@ fn pairs_with_matches_come_first() {
         images: (a, b),
         inliers,
         matches: Some(inliers + 5),
+        verified: true,
         used: false,
     };
     // 12 is seen from 0 alone.
@@ -135,6 +137,7 @@ fn an_image_without_pairs_needs_two() {
         images: (a, b),
         inliers,
         matches: None,
+        verified: true,
         used: false,
     };
     let others = [other(2, 12, 7), other(3, 12, 8)];

@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
 use super::open::Opened;
+use super::positions;
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
@@ -20,6 +21,10 @@ pub(super) const PAIR_FACTOR: i64 = 2_147_483_647;
 /// The tables of verified pairs; the second is that of versions before 2018.
 const VERIFIED: [&str; 2] = ["two_view_geometries", "inlier_matches"];
 
+/// What decides about tracks in global mapping and stands in no database.
+const NOT_KNOWN: &str = "not known from a database: the pairs that global mapping drops because their \
+                         rotations disagree, and the points that it drops once they are placed";
+
 /// The graph of a database in a file, called `name`: of its pairs, or of its tracks if options ask
 /// for them. O(images + pairs) and the sorting of both; tracks take the reading of all matches.
 ///
@@ -30,6 +35,11 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
     let opened = Opened::new(path).map_err(input)?;
     let database = Tables::read(&opened.connection, options).map_err(input)?;
     let (pairs, matching) = database.graph().map_err(input)?;
+    let positions = positions::read(&opened.connection, &database.nodes).map_err(input)?;
+    let matching = Matching {
+        positions,
+        ..matching
+    };
     let facts = database.facts(&pairs);
     let mut notes = Vec::from_iter(opened.note.clone());
     notes.extend(database.notes(&facts));
@@ -42,6 +52,8 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
             let (names, nodes) = (&database.names, &database.nodes);
             let connection = &opened.connection;
             let graph = tracks::read(connection, database.table, names, nodes, &pairs, tracks)?;
+            notes.extend(database.other_mapper());
+            notes.push(NOT_KNOWN.to_owned());
             NamedGraph {
                 matching: Some(database.between_cameras(&pairs, matching)),
                 ..graph
@@ -109,7 +121,8 @@ impl Tables {
         tables.read_pairs(connection)?;
         tables.read_matches(connection)?;
         if tables.pairs.is_empty() && tables.dangling == 0 {
-            return Err(match tables.matches.len() {
+            let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
+            return Err(match matched.count() {
                 0 => DatabaseError::NotMatched(tables.names.len()),
                 matched => DatabaseError::NotVerified(matched, table),
             });
@@ -164,9 +177,8 @@ impl Tables {
         let mut rows = statement.query([])?;
         while let Some(row) = rows.next()? {
             let matches = count(row, 1)?;
-            if let Ok(ends) = ends(row.get(0)?, &self.nodes)
-                && matches > 0
-            {
+            // A row without matches says that the pair was tried.
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes) {
                 self.matches.push((ends, matches));
             }
         }
@@ -208,32 +220,41 @@ impl Tables {
                 self.table
             )));
         }
-        let mut others: BTreeMap<(u32, u32), OtherPair> = BTreeMap::new();
-        for pair in self.pairs.iter().filter(|pair| !pair.used) {
-            others.insert(
-                pair.nodes,
-                OtherPair {
+        let mut others: Vec<OtherPair> = Vec::new();
+        others.extend(
+            self.pairs
+                .iter()
+                .filter(|pair| !pair.used)
+                .map(|pair| OtherPair {
                     images: pair.nodes,
                     inliers: pair.inliers,
                     matches: None,
+                    verified: true,
                     used: false,
-                },
-            );
-        }
-        for &(images, matches) in &self.matches {
-            if graph.edge_number(images.0, images.1).is_none() {
-                let other = others.entry(images).or_insert(OtherPair {
-                    images,
-                    inliers: 0,
-                    matches: None,
-                    used: false,
-                });
-                other.matches = Some(matches);
+                }),
+        );
+        let matched = self.matches.iter();
+        let matched = matched.filter(|(images, _)| graph.edge_number(images.0, images.1).is_none());
+        others.extend(matched.map(|&(images, matches)| OtherPair {
+            images,
+            inliers: 0,
+            matches: Some(matches),
+            verified: false,
+            used: false,
+        }));
+        // Of a pair with both, what was verified comes first and learns how many were matched.
+        others.sort_by_key(|pair| pair.images);
+        others.dedup_by(|later, first| {
+            let same = later.images == first.images;
+            if same {
+                first.matches = later.matches;
             }
-        }
+            same
+        });
         let matching = Matching {
             inliers: used.iter().map(|pair| pair.inliers).collect(),
-            others: others.into_values().collect(),
+            others,
+            positions: Vec::new(),
         };
         Ok((graph, matching))
     }
@@ -245,6 +266,7 @@ impl Tables {
             images,
             inliers,
             matches: self.matches_of(images),
+            verified: true,
             used: true,
         });
         let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
@@ -252,6 +274,7 @@ impl Tables {
         Matching {
             inliers: Vec::new(),
             others,
+            positions: matching.positions,
         }
     }
 
@@ -289,6 +312,23 @@ impl Tables {
             rigs: self.rigs,
             version: self.version,
             connected,
+        }
+    }
+
+    /// Pairs that tracks are made of and that global mapping may not take.
+    fn other_mapper(&self) -> Option<String> {
+        if self.pipeline == Pipeline::Global {
+            return None;
+        }
+        let others = self.pairs.iter().filter(|pair| pair.used);
+        let others = others.filter(|pair| !(2..=6).contains(&pair.config));
+        match others.count() {
+            0 => None,
+            used => Some(format!(
+                "{} of another configuration than 2 to 6: global mapping takes these only with a \
+                 stored relative pose (--pipeline global)",
+                counted(used, "used pair")
+            )),
         }
     }
 

@@ -59,6 +59,14 @@ pub enum DatabaseError {
         /// What is wrong.
         why: String,
     },
+    /// Features that contradict their number.
+    #[error("the keypoints of the image {image} are damaged: {why}")]
+    Keypoints {
+        /// The name of the image.
+        image: String,
+        /// What is wrong.
+        why: String,
+    },
     /// Matches were emptied.
     #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
@@ -86,7 +94,7 @@ impl DatabaseError {
             Self::NoCopy(_) => {
                 "make room, name another folder in TMPDIR, or close the database properly: `sqlite3 FILE 'pragma wal_checkpoint(truncate)'`"
             }
-            Self::Damaged(_) | Self::Matches { .. } => {
+            Self::Damaged(_) | Self::Matches { .. } | Self::Keypoints { .. } => {
                 "copy it again (with its -wal file, if there is one), or save what is left: `sqlite3 FILE .recover | sqlite3 new.db`"
             }
             Self::NotColmap(_) => "name COLMAP's database, or write the pairs as an edge list",

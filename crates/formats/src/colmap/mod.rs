@@ -7,10 +7,16 @@
 
 #[cfg(feature = "databases")]
 mod database;
+#[cfg(feature = "databases")]
+mod doubles;
 mod error;
 mod facts;
 #[cfg(feature = "databases")]
+mod keypoints;
+#[cfg(feature = "databases")]
 mod open;
+#[cfg(feature = "databases")]
+mod positions;
 #[cfg(feature = "databases")]
 mod tracks;
 mod two_views;

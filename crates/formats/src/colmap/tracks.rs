@@ -7,6 +7,8 @@ use rusqlite::types::ValueRef;
 
 use super::DatabaseError;
 use super::database::{NoPair, PAIR_FACTOR, columns, ends};
+use super::doubles::doubles;
+use super::keypoints::Keypoints;
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use crate::tracks::{Joined, TrackGraph, TrackOptions};
@@ -19,7 +21,7 @@ const MATCH: usize = 8;
 /// `names`. Linear in the matches, but for nearly constant factors.
 ///
 /// # Errors
-/// Lists of matches that are missing or damaged.
+/// Lists of matches that are missing or damaged; damaged keypoints.
 pub(super) fn read(
     connection: &Connection,
     table: &str,
@@ -29,21 +31,35 @@ pub(super) fn read(
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let input = |problem: Problem| Place::Input.fault(problem);
-    let joined = join(connection, table, names, nodes, pairs).map_err(input)?;
+    let keypoints = Keypoints::new(connection, names, nodes, options.max_spread);
+    let mut keypoints = keypoints.map_err(|error| input(error.into()))?;
+    let (joined, beyond) =
+        join(connection, table, names, nodes, pairs, &keypoints).map_err(input)?;
     let mut graph = TrackGraph::new(names.to_vec(), options)?;
+    graph.set_spread(options.max_spread);
     let order: Vec<u32> = (0..names.len() as u32).collect();
-    joined.tracks(&order, &mut graph).map_err(input)?;
-    graph.finish()
+    joined
+        .tracks(&order, Some(&mut keypoints), &mut graph)
+        .map_err(input)?;
+    let unknown = keypoints.unknown();
+    if unknown.is_some() {
+        graph.set_places_missing();
+    }
+    let mut graph = graph.finish()?;
+    graph.notes.extend(beyond.into_iter().chain(unknown));
+    Ok(graph)
 }
 
-/// Reads the lists of all pairs that are used.
+/// Reads the lists of all pairs that are used. Matches of features that their image does not have
+/// are left out, as COLMAP leaves them out (`CorrespondenceGraph::AddTwoViewGeometry`), and said.
 fn join(
     connection: &Connection,
     table: &str,
     names: &[Box<str>],
     nodes: &HashMap<i64, u32>,
     pairs: &Graph,
-) -> Result<Joined, Problem> {
+    keypoints: &Keypoints,
+) -> Result<(Joined, Vec<String>), Problem> {
     let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
     if !columns(connection, table)?
         .iter()
@@ -53,6 +69,9 @@ fn join(
     }
     let mut joined = Joined::new(names.len());
     let mut without = 0;
+    let mut beyond = 0;
+    let mut first_beyond = None;
+    let mut doubled = 0;
     let query = format!("select pair_id, rows, data from {table}");
     let mut statement = connection.prepare(&query).map_err(sql)?;
     let mut rows = statement.query([]).map_err(sql)?;
@@ -89,9 +108,15 @@ fn join(
             return Err(damaged(why).into());
         }
         let (matches, _) = list.as_chunks::<MATCH>();
+        doubled += doubles(matches);
         for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
             let a = u32::from_le_bytes([a0, a1, a2, a3]);
             let b = u32::from_le_bytes([b0, b1, b2, b3]);
+            if !keypoints.has(first, a) || !keypoints.has(second, b) {
+                beyond += 1;
+                first_beyond.get_or_insert((first, second));
+                continue;
+            }
             joined
                 .join((first, a), (second, b))
                 .map_err(|problem| damaged(problem.to_string()))?;
@@ -100,5 +125,23 @@ fn join(
     if without > 0 {
         return Err(DatabaseError::NoLists(without).into());
     }
-    Ok(joined)
+    let beyond = first_beyond.map(|(first, second): (u32, u32)| {
+        let matches = match beyond {
+            1 => "1 match".to_owned(),
+            count => format!("{count} matches"),
+        };
+        let (first, second) = (&names[first as usize], &names[second as usize]);
+        format!(
+            "ignored: {matches} with a feature that its image does not have, first of {first} and \
+             {second}"
+        )
+    });
+    let doubled = (doubled > 0).then(|| {
+        let matches = match doubled {
+            1 => "1 match stands".to_owned(),
+            count => format!("{count} matches stand"),
+        };
+        format!("{matches} in the list of a pair that has it already, and does not count again")
+    });
+    Ok((joined, beyond.into_iter().chain(doubled).collect()))
 }

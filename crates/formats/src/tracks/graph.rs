@@ -10,12 +10,19 @@ use viewcert::wording::counted;
 pub struct TrackOptions {
     /// In how many images a track has to be seen.
     pub min_views: u32,
+    /// Features of one track in one image are one if they are at most so many pixels apart; it
+    /// counts where their places are known, which is in databases.
+    pub max_spread: u32,
 }
 
 impl Default for TrackOptions {
-    /// Three images, as COLMAP's global mapper has it.
+    /// Three images and ten pixels, as COLMAP's global mapper has it
+    /// (`track_min_num_views_per_track`, `track_intra_image_consistency_threshold`).
     fn default() -> Self {
-        Self { min_views: 3 }
+        Self {
+            min_views: 3,
+            max_spread: 10,
+        }
     }
 }
 
@@ -30,7 +37,9 @@ pub struct TrackFacts {
     pub observations: usize,
     /// How many cameras see none of these points.
     pub cameras_without_point: usize,
-    /// Tracks with two features in one image, which do not count.
+    /// Tracks with several features in one image that are one, with one observation there.
+    pub merged: usize,
+    /// Tracks with two features in one image that are not one, which do not count.
     pub inconsistent: usize,
     /// Consistent tracks in fewer than `min_views` images, which do not count.
     pub short: usize,
@@ -39,6 +48,10 @@ pub struct TrackFacts {
 /// A camera-point graph that grows by tracks.
 pub(crate) struct TrackGraph {
     facts: TrackFacts,
+    /// Within how many pixels features of one track in one image are one, if their places are known.
+    spread: Option<u32>,
+    /// Whether places are missing that were asked for.
+    places_missing: bool,
     cameras: Vec<Box<str>>,
     /// For every camera, the last track that saw it, counted from 1.
     stamp: Vec<u32>,
@@ -68,6 +81,8 @@ impl TrackGraph {
                 min_views: options.min_views,
                 ..TrackFacts::default()
             },
+            spread: None,
+            places_missing: false,
             stamp: vec![0; cameras.len()],
             degree: vec![0; cameras.len()],
             cameras,
@@ -92,17 +107,52 @@ impl TrackGraph {
         }
         if twice {
             self.facts.inconsistent += 1;
-        } else if views.len() < self.facts.min_views as usize {
+            return Ok(());
+        }
+        self.count(views)
+    }
+
+    /// One track more whose features in one image are one: its views, each camera once or several
+    /// times in a row. O(views).
+    ///
+    /// # Errors
+    /// As of [`Self::push`].
+    ///
+    /// # Panics
+    /// If a node is no camera.
+    pub(crate) fn push_merged(&mut self, views: &[u32]) -> Result<(), Problem> {
+        self.track = self.track.checked_add(1).ok_or(Problem::TooManyNodes)?;
+        self.facts.merged += 1;
+        let mut cameras = views.to_vec();
+        cameras.dedup();
+        self.count(&cameras)
+    }
+
+    #[cfg(any(feature = "databases", test))]
+    /// Says that places of features are known, and how near they have to be.
+    pub(crate) fn set_spread(&mut self, pixels: u32) {
+        self.spread = Some(pixels);
+    }
+
+    #[cfg(feature = "databases")]
+    /// Says that some of these places are missing, so that tracks were dropped unseen.
+    pub(crate) fn set_places_missing(&mut self) {
+        self.places_missing = true;
+    }
+
+    /// A consistent track, each camera once.
+    fn count(&mut self, views: &[u32]) -> Result<(), Problem> {
+        if views.len() < self.facts.min_views as usize {
             self.facts.short += 1;
-        } else {
-            for &camera in views {
-                self.degree[camera as usize] += 1;
-            }
-            self.views.extend_from_slice(views);
-            self.ends.push(self.views.len());
-            if self.views.len() > i32::MAX as usize {
-                return Err(Problem::TooManyPairs);
-            }
+            return Ok(());
+        }
+        for &camera in views {
+            self.degree[camera as usize] += 1;
+        }
+        self.views.extend_from_slice(views);
+        self.ends.push(self.views.len());
+        if self.views.len() > i32::MAX as usize {
+            return Err(Problem::TooManyPairs);
         }
         Ok(())
     }
@@ -155,9 +205,32 @@ impl TrackGraph {
     fn notes(&self) -> Vec<String> {
         let facts = &self.facts;
         let mut notes = Vec::new();
-        if facts.inconsistent > 0 {
+        if facts.merged > 0 {
+            let has = if facts.merged == 1 { "has" } else { "have" };
             notes.push(format!(
-                "dropped: {} with two features in one image",
+                "{} {has} several features in one image, at most {} apart: one observation there, \
+                 as in global mapping",
+                counted(facts.merged, "track"),
+                counted(self.spread.unwrap_or(0) as usize, "pixel"),
+            ));
+        }
+        if facts.inconsistent > 0 {
+            let apart = match self.spread {
+                None => String::new(),
+                Some(pixels) => {
+                    let or = if self.places_missing {
+                        ", or not known where"
+                    } else {
+                        ""
+                    };
+                    format!(
+                        ", more than {} apart{or}",
+                        counted(pixels as usize, "pixel")
+                    )
+                }
+            };
+            notes.push(format!(
+                "dropped: {} with two features in one image{apart}",
                 counted(facts.inconsistent, "track")
             ));
         }

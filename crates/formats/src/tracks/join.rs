@@ -1,6 +1,7 @@
 //! Matches of pairs of images, joined to tracks.
 
 use super::TrackGraph;
+use super::doubled::{Places, consistent, is_doubled};
 use crate::error::Problem;
 use viewcert::graph::{Lists, UnionFind};
 
@@ -61,32 +62,84 @@ impl Joined {
     }
 
     /// Gives all tracks to a graph whose node `nodes[image]` is the camera of `image`; tracks in
-    /// the order of their first features, by node and feature. Linear in the features.
+    /// the order of their first features, by node and feature. Of tracks with several features in
+    /// one image those are kept that `places` find consistent; without places, none. Linear in the
+    /// features.
     ///
     /// # Errors
-    /// As of [`TrackGraph::push`].
-    pub(crate) fn tracks(mut self, nodes: &[u32], to: &mut TrackGraph) -> Result<(), Problem> {
+    /// As of [`TrackGraph::push`], and those of `places`.
+    pub(crate) fn tracks(
+        mut self,
+        nodes: &[u32],
+        places: Option<&mut dyn Places>,
+        to: &mut TrackGraph,
+    ) -> Result<(), Problem> {
         let mut images: Vec<u32> = (0..nodes.len() as u32).collect();
         images.sort_unstable_by_key(|&image| nodes[image as usize]);
+        let (seen, tracks) = self.observations(&images, nodes);
+        let views = Lists::group(tracks, seen.iter().copied());
+        let doubled: Vec<u32> = (0..tracks)
+            .filter(|&track| is_doubled(views.of(track)))
+            .map(|track| track as u32)
+            .collect();
+        let kept = match places {
+            Some(places) if !doubled.is_empty() => {
+                let mut asked = vec![false; tracks];
+                doubled
+                    .iter()
+                    .for_each(|&track| asked[track as usize] = true);
+                let features = images.iter().flat_map(|&image| {
+                    self.features_of(image).map(move |feature| (image, feature))
+                });
+                let observed = seen.iter().zip(features);
+                let observed = observed
+                    .filter(|((track, _), _)| asked[*track as usize])
+                    .map(|(&(track, _), (image, feature))| (image, track, feature));
+                consistent(doubled, observed.collect(), places)?
+            }
+            _ => Vec::new(),
+        };
+        let mut kept = kept.into_iter().peekable();
+        for track in 0..tracks {
+            let views = views.of(track);
+            match kept.next_if_eq(&(track as u32)) {
+                Some(_) => to.push_merged(views)?,
+                None => to.push(views)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The features of an image that are in a track, increasing.
+    fn features_of(&self, image: u32) -> impl Iterator<Item = u32> {
+        let elements = (0u32..).zip(&self.features[image as usize]);
+        elements
+            .filter(|&(_, &element)| element > 0)
+            .map(|(feature, _)| feature)
+    }
+
+    /// For every feature, by image in the order given and by number, its track and its camera; and
+    /// how many tracks there are.
+    fn observations(&mut self, images: &[u32], nodes: &[u32]) -> (Vec<(u32, u32)>, usize) {
+        let Self { features, sets } = self;
+        let elements: usize = features.iter().flatten().filter(|&&e| e > 0).count();
         // The track of every set, counted from 1.
-        let elements: usize = self.features.iter().flatten().filter(|&&e| e > 0).count();
         let mut track = vec![0u32; elements];
         let mut tracks = 0;
-        let mut views = Vec::with_capacity(elements);
-        for image in images {
-            for element in std::mem::take(&mut self.features[image as usize]) {
+        let mut seen = Vec::with_capacity(elements);
+        for &image in images {
+            for element in &features[image as usize] {
                 let Some(element) = element.checked_sub(1) else {
                     continue;
                 };
-                let set = self.sets.find(element as usize);
+                let set = sets.find(element as usize);
                 if track[set] == 0 {
                     tracks += 1;
                     track[set] = tracks;
                 }
-                views.push((track[set] - 1, nodes[image as usize]));
+                seen.push((track[set] - 1, nodes[image as usize]));
             }
         }
-        let views = Lists::group(tracks as usize, views.iter().copied());
-        (0..views.len()).try_for_each(|track| to.push(views.of(track)))
+        (seen, tracks as usize)
     }
 }

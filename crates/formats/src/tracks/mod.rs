@@ -8,6 +8,7 @@
 
 mod bal;
 mod bundler;
+mod doubled;
 mod graph;
 mod join;
 mod kind;
@@ -20,6 +21,8 @@ mod words;
 
 pub use graph::{TrackFacts, TrackOptions};
 
+#[cfg(feature = "databases")]
+pub(crate) use doubled::Places;
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};

@@ -64,7 +64,7 @@ pub(super) fn read<R: Read>(
         .map(|&view| views[view as usize].to_string().into());
     let mut graph = TrackGraph::new(names.collect(), options)?;
     joined
-        .tracks(&nodes, &mut graph)
+        .tracks(&nodes, None, &mut graph)
         .map_err(|problem: Problem| Place::Input.fault(problem))?;
     graph.finish()
 }

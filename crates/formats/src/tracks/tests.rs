@@ -7,9 +7,16 @@ use crate::{ReadError, ReadOptions};
 use proptest::prelude::*;
 use viewcert::graph::Labels;
 
+fn views(min_views: u32) -> TrackOptions {
+    TrackOptions {
+        min_views,
+        ..TrackOptions::default()
+    }
+}
+
 fn tracks(bytes: &[u8], min_views: u32) -> Result<NamedGraph, ReadError> {
     let options = ReadOptions {
-        tracks: Some(TrackOptions { min_views }),
+        tracks: Some(views(min_views)),
         ..ReadOptions::default()
     };
     let mut graphs = graphs("in".into(), Cursor::new(bytes.to_vec()), options);
@@ -25,7 +32,7 @@ fn message(bytes: &[u8]) -> String {
 #[test]
 fn a_track_counts_if_it_is_long_and_consistent() {
     let names = || ["a", "b", "c"].map(Into::into).to_vec();
-    let mut graph = TrackGraph::new(names(), TrackOptions { min_views: 2 }).unwrap();
+    let mut graph = TrackGraph::new(names(), views(2)).unwrap();
     for views in [&[2, 0][..], &[1], &[], &[0, 1, 0], &[0, 1, 2]] {
         graph.push(views).unwrap();
     }
@@ -175,8 +182,8 @@ proptest! {
         // Images are nodes in another order.
         let nodes = [3, 0, 4, 1, 2];
         let names = ["a", "b", "c", "d", "e"].map(Into::into).to_vec();
-        let mut graph = TrackGraph::new(names, TrackOptions { min_views }).unwrap();
-        joined.tracks(&nodes, &mut graph).unwrap();
+        let mut graph = TrackGraph::new(names, views(min_views)).unwrap();
+        joined.tracks(&nodes, None, &mut graph).unwrap();
         let graph = graph.finish().unwrap();
         let mut expected: Vec<Vec<u32>> = Vec::new();
         let (mut inconsistent, mut short) = (0, 0);

@@ -16,6 +16,7 @@ fn suggested(
     let known = Known {
         inliers: &[],
         others,
+        near: None,
     };
     let wanted = Wanted { most: 1000, at };
     suggest_matches(
@@ -45,6 +46,7 @@ fn best(more: &[Pair], cameras: Pair) -> Option<(usize, Option<usize>, usize)> {
         images: cameras,
         inliers: 5,
         matches: Some(9),
+        verified: true,
         used: false,
     };
     let found = suggested(&three(more), 13, &[known], None);
@@ -80,6 +82,7 @@ fn matches_there_already_come_first() {
         images: (a, b),
         inliers,
         matches: None,
+        verified: true,
         used,
     };
     let others = [
