@@ -177,6 +177,53 @@ class Case:
         return None
 
 
+class Joined(Case):
+    """Two clusters that hang on two images, which in half of the cases stand in one place."""
+
+    def __init__(self, seed):
+        self.seed = seed
+        self.random = random = numpy.random.default_rng([26, seed])
+        self.noise, self.wrong = float(random.uniform(0.3, 1)), 0.0
+        self.poses, self.points, self.clusters = [], [], []
+        self.seen = collections.defaultdict(dict)
+        self.matched = collections.defaultdict(set)
+        self.close = bool(random.random() < 0.5)
+        shared = bool(random.random() < 0.5)
+        self.shapes = ["shared" if shared else "pair", "one place" if self.close else "apart"]
+        for _ in range(2):
+            first = len(self.poses)
+            for _ in range(6):
+                self.poses.append(self.camera())
+            self.clusters.append(list(range(first, first + 6)))
+        one, other = (0, 1) if shared else (0, 6)
+        if self.close:
+            rotation, _ = self.poses[other]
+            self.poses[other] = (rotation, self.poses[one][1] + random.normal(scale=0.004, size=3))
+            axis = -self.poses[other][1] / numpy.linalg.norm(self.poses[other][1])
+            side = numpy.cross(axis, random.normal(size=3))
+            side /= numpy.linalg.norm(side)
+            self.poses[other] = (numpy.stack([side, numpy.cross(axis, side), axis]), self.poses[other][1])
+        if shared:
+            self.clusters[1] += [0, 1]
+        for images in self.clusters:
+            for _ in range(160):
+                self.track(random.permutation(images)[: int(random.integers(3, 7))])
+        self.joints = [shared]
+        if not shared:
+            for host, guest in ((0, 6), (6, 0)):
+                mine = [p for p in self.seen[host] if p not in self.seen[guest]]
+                for point in random.permutation(mine)[:40]:
+                    self.track([host, guest], int(point))
+
+    def camera(self):
+        centre = self.random.normal(size=3)
+        centre *= self.random.uniform(4, 6) / numpy.linalg.norm(centre)
+        axis = -centre / numpy.linalg.norm(centre)
+        side = numpy.cross(axis, self.random.normal(size=3))
+        side /= numpy.linalg.norm(side)
+        return numpy.stack([side, numpy.cross(axis, side), axis]), centre
+
+
 def reconstruct(path, seed):
     """The models of both mappers."""
     models = {}
@@ -206,7 +253,7 @@ def make(arguments):
         record = arguments.folder / f"{seed}.json"
         if record.exists():
             continue
-        case = Case(seed)
+        case = (Joined if arguments.joined else Case)(seed)
         path = arguments.folder / f"{seed}.db"
         path.unlink(missing_ok=True)
         case.write(str(path))
@@ -242,6 +289,13 @@ def overview(verify, path):
     return json.loads(ran.stdout)
 
 
+def thin(verify, path):
+    """Whether the largest component falls apart when half of the tracks are missing."""
+    ran = subprocess.run([verify, "advise", "--tracks", "--margin", "--json", path], capture_output=True, text=True)
+    margin = json.loads(ran.stdout)["margin"]
+    return 2 * margin["components"][0]["whole"][margin["missing"].index(50)] < margin["draws"]
+
+
 def together(models, one, other):
     """Whether a model has more than half of both."""
     return any(all(2 * len(model & side) > len(side) for side in (one, other)) for model in models)
@@ -255,7 +309,9 @@ def judge(arguments):
     tally = collections.Counter()
     for record in sorted(arguments.folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem)):
         truth = json.loads(record.read_text())
-        said = overview(arguments.verify, str(record.with_suffix(".db")))["mappers"]
+        line = overview(arguments.verify, str(record.with_suffix(".db")))
+        said = line["mappers"]
+        warned = any(place["special"] for places in line["narrow"].values() for place in places)
         predicted = [set(model["images"]) for model in said["incremental"]["models"]]
         models = [set(model) for model in truth["models"]["incremental"]]
         whole = set(said["global"]["images"]) if said["global"]["images"] else set()
@@ -274,6 +330,12 @@ def judge(arguments):
             tally[of, "incremental", joined, expected] += 1
             promise = any(one | other <= set(part) for part in said["global"]["parts"])
             tally[of, "global", bool(placed), promise] += 1
+            if promise:
+                of_promise = "kept" if placed else "broken"
+                tally[of_promise] += 1
+                tally[of_promise, "warned"] += warned
+                if arguments.margin:
+                    tally[of_promise, "thin"] += thin(arguments.verify, str(record.with_suffix(".db")))
             if joined != expected and arguments.misses:
                 print(f"{record.stem} {a}-{b} {truth['shapes']}: incremental {sizes(models)}, predicted {sizes(predicted)}")
     for of in ("synthetic", "photographs"):
@@ -291,6 +353,12 @@ def judge(arguments):
             print("| " + " | ".join(map(str, [mapper, tally[of, "pairs"], *cell])) + f" | {right:.1f} % |")
 
 
+    print("\npromises of global mapping:", *(
+        f"{tally[what]} {what}, {tally[what, 'warned']} of them warned of"
+        + (f", {tally[what, 'thin']} thin by --margin" if arguments.margin else "") + ";"
+        for what in ("kept", "broken")))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("what", choices=["make", "run", "judge"])
@@ -298,6 +366,8 @@ def main():
     parser.add_argument("databases", type=pathlib.Path, nargs="*")
     parser.add_argument("--seeds", default="1-300")
     parser.add_argument("--verify", default="target/debug/verify")
+    parser.add_argument("--joined", action="store_true", help="clusters that hang on two images, some in one place")
+    parser.add_argument("--margin", action="store_true", help="what verify advise --margin says of promises")
     parser.add_argument("--misses", action="store_true", help="print every pair of clusters that was not foreseen")
     arguments = parser.parse_args()
     pycolmap.logging.minloglevel = 3
