@@ -106,7 +106,10 @@ fn few_pairs_are_named_and_those_from_one_place() {
     let images = |k: usize| few[0]["pairs"][k]["images"].clone();
     assert_eq!(images(0), json!(["A_000.jpg", "B_006.jpg"]));
     assert_eq!(images(1), json!(["A_001.jpg", "B_007.jpg"]));
-    assert_eq!((&few[0]["sides"], &few[0]["special"]), (&json!([6, 6]), &json!(false)));
+    assert_eq!(
+        (&few[0]["sides"], &few[0]["special"]),
+        (&json!([6, 6]), &json!(false))
+    );
     let path = sample("all_configs.db").unwrap();
     let run = verify(&["overview", path.to_str().unwrap()]);
     let words = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -172,7 +175,10 @@ fn endings_of_names() {
     let said = explain("IMG_2.JPG");
     assert!(said.contains("did you mean north/IMG_2.JPG?"), "{said}");
     let said = explain("IMG_1.JPG");
-    assert!(said.contains("2 names end so: north/IMG_1.JPG, south/IMG_1.JPG"), "{said}");
+    assert!(
+        said.contains("2 names end so: north/IMG_1.JPG, south/IMG_1.JPG"),
+        "{said}"
+    );
     let said = explain("IMG_9.JPG");
     assert!(said.contains("such as north/IMG_1.JPG"), "{said}");
 }
@@ -184,13 +190,23 @@ fn explained_images_see_points() {
         return;
     };
     let path = path.to_str().unwrap();
-    let run = verify(&["advise", path, "--tracks", "--json", "--explain", "A_000.jpg"]);
+    let run = verify(&[
+        "advise",
+        path,
+        "--tracks",
+        "--json",
+        "--explain",
+        "A_000.jpg",
+    ]);
     let line = valid(&schema(), &run).remove(0);
     let sees = line["explain"]["sees"].as_array().unwrap();
     assert_eq!((sees.len(), &sees[0]["needs"]), (1, &json!(30)));
     let degree = line["explain"]["pairs_inside"].as_u64();
     assert_eq!(sees[0]["points"].as_u64(), degree);
     let run = verify(&["advise", path, "--tracks", "--explain", "A_000.jpg"]);
-    let said = format!("sees {} points of component 1; an incremental mapper wants 30", degree.unwrap());
+    let said = format!(
+        "sees {} points of component 1; an incremental mapper wants 30",
+        degree.unwrap()
+    );
     assert!(run.out.contains(&said), "{}", run.out);
 }

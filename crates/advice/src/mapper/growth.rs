@@ -1,10 +1,11 @@
-//! How a model grows: an image is added if it sees enough points that two images of the model see.
+//! How a model grows: an image is added if it sees enough points that two images of the model see,
+//! whose rays are not nearly parallel.
 //!
 //! Images only become more visible as a model grows, so what is reached does not depend on the order;
 //! only where a model stops because it shares too much with earlier ones, it does.
 
 use super::{Scene, Thresholds};
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use viewcert::graph::Lists;
 
 /// The tracks, and a model that grows in them.
@@ -12,8 +13,12 @@ pub(super) struct Growth<'a> {
     scene: Scene<'a>,
     /// The images of every point.
     images_of: Lists,
-    /// In how many images of the model each point is seen.
-    seen: Vec<u32>,
+    /// Pairs of images whose rays are nearly parallel: no points are made of them, smaller image first.
+    blind: HashSet<(u32, u32)>,
+    /// Whether each point is made.
+    made: Vec<bool>,
+    /// Whether an image of the model sees each point.
+    seen: Vec<bool>,
     /// How many points of the model each image sees.
     visible: Vec<u32>,
     in_model: Vec<bool>,
@@ -23,7 +28,7 @@ pub(super) struct Growth<'a> {
 
 impl<'a> Growth<'a> {
     /// No model yet. O(observations).
-    pub(super) fn new(scene: Scene<'a>) -> Self {
+    pub(super) fn new(scene: Scene<'a>, blind: HashSet<(u32, u32)>) -> Self {
         let images = scene.images as u32;
         let points = scene.tracks.nodes() - scene.images;
         let seen_by = scene.tracks.edges().iter();
@@ -31,7 +36,9 @@ impl<'a> Growth<'a> {
         Self {
             scene,
             images_of: Lists::group(points, seen_by),
-            seen: vec![0; points],
+            blind,
+            made: vec![false; points],
+            seen: vec![false; points],
             visible: vec![0; scene.images],
             in_model: vec![false; scene.images],
             model: Vec::new(),
@@ -95,8 +102,9 @@ impl<'a> Growth<'a> {
         let images = self.scene.images as u32;
         for &(_, point) in self.scene.tracks.edges_from(image) {
             let point = (point - images) as usize;
-            self.seen[point] += 1;
-            if self.seen[point] == 2 {
+            let first = !std::mem::replace(&mut self.seen[point], true);
+            if !first && !self.made[point] && self.makes(image, point) {
+                self.made[point] = true;
                 for &other in self.images_of.of(point) {
                     let visible = &mut self.visible[other as usize];
                     *visible += 1;
@@ -108,13 +116,22 @@ impl<'a> Growth<'a> {
         }
     }
 
+    /// Whether an image makes a point together with another one of the model that sees it.
+    fn makes(&self, image: u32, point: usize) -> bool {
+        let apart = |other: u32| !self.blind.contains(&(image.min(other), image.max(other)));
+        let mut others = self.images_of.of(point).iter().copied();
+        self.blind.is_empty()
+            || others.any(|other| other != image && self.has(other) && apart(other))
+    }
+
     /// Forgets the model. O(observations of the model).
     fn clear(&mut self) {
         let images = self.scene.images as u32;
         for image in std::mem::take(&mut self.model) {
             self.in_model[image as usize] = false;
             for &(_, point) in self.scene.tracks.edges_from(image) {
-                self.seen[(point - images) as usize] = 0;
+                self.seen[(point - images) as usize] = false;
+                self.made[(point - images) as usize] = false;
             }
         }
         self.visible.fill(0);

@@ -4,10 +4,18 @@
 //! begin with, growth, and again, until no pair is fit; then with half the inliers, half the angle,
 //! and both again.
 
+use super::geometry::Cached;
 use super::growth::Growth;
 use super::starts::{Start, Starts};
 use super::{Geometry, Scene, Thresholds};
 use anyhow::Result;
+use std::collections::HashSet;
+
+/// Most pairs whose poses are read; what comes later passes.
+const LOOKED_AT: usize = 2000;
+
+/// Most pairs of a database whose angles are all read.
+const ALL_READ: usize = 1000;
 
 /// What incremental mapping is likely to return.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,9 +77,12 @@ pub fn incremental(
     geometry: &mut dyn Geometry,
     thresholds: Thresholds,
 ) -> Result<Incremental> {
+    let mut geometry = Cached::new(geometry, LOOKED_AT);
+    let geometry = &mut geometry;
+    let blind = blind(scene, geometry, &thresholds)?;
     let mut run = Run {
         thresholds,
-        growth: Growth::new(scene),
+        growth: Growth::new(scene, blind),
         starts: Starts::new(scene, geometry),
         registered: vec![0; scene.images],
         total: 0,
@@ -99,6 +110,26 @@ pub fn incremental(
         models: run.models,
         starts: run.starts.seen,
     })
+}
+
+/// The pairs of whose rays no points are made; none, if there are too many pairs to read.
+fn blind(
+    scene: Scene,
+    geometry: &mut dyn Geometry,
+    thresholds: &Thresholds,
+) -> Result<HashSet<(u32, u32)>> {
+    let mut blind = HashSet::new();
+    if scene.pairs.len() > ALL_READ {
+        return Ok(blind);
+    }
+    for &(pair, _) in scene.pairs {
+        let known = geometry.of(pair)?;
+        let small = |angle: f64| angle < thresholds.min_angle;
+        if known.is_some_and(|known| known.config == 5 || known.angle.is_some_and(small)) {
+            blind.insert(pair);
+        }
+    }
+    Ok(blind)
 }
 
 impl Run<'_> {

@@ -49,9 +49,6 @@ impl Unfit {
     }
 }
 
-/// Most pairs whose poses are read; what comes later passes. COLMAP would estimate each anew.
-const LOOKED_AT: usize = 2000;
-
 /// The candidates, and what became of them.
 pub(super) struct Starts {
     /// The images that have a pair, in the order in which they are tried.
@@ -62,7 +59,6 @@ pub(super) struct Starts {
     tried: HashSet<(u32, u32)>,
     /// How often each image was of a pair that a model began with.
     trials: HashMap<u32, u32>,
-    estimates: HashMap<(u32, u32), Option<Estimate>>,
     /// All pairs that were looked at: what became of them last.
     pub(super) seen: Vec<Start>,
 }
@@ -92,7 +88,6 @@ impl Starts {
             partners,
             tried: HashSet::new(),
             trials: HashMap::new(),
-            estimates: HashMap::new(),
             seen: Vec::new(),
         }
     }
@@ -134,7 +129,7 @@ impl Starts {
                 {
                     continue;
                 }
-                let estimate = self.estimate(pair, geometry)?;
+                let estimate = geometry.of(pair)?;
                 let mut start = Start {
                     images: pair,
                     inliers,
@@ -155,23 +150,6 @@ impl Starts {
             }
         }
         Ok(None)
-    }
-
-    /// What is known of a pair, read once.
-    fn estimate(
-        &mut self,
-        pair: (u32, u32),
-        geometry: &mut dyn Geometry,
-    ) -> Result<Option<Estimate>> {
-        if let Some(&known) = self.estimates.get(&pair) {
-            return Ok(known);
-        }
-        if self.estimates.len() == LOOKED_AT {
-            return Ok(None);
-        }
-        let found = geometry.of(pair)?;
-        self.estimates.insert(pair, found);
-        Ok(found)
     }
 
     /// Keeps what became of a pair last.

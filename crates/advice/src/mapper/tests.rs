@@ -147,6 +147,28 @@ fn what_disqualifies_a_beginning() {
     assert_eq!(unfit[&(1, 2)], Some(Unfit::Configuration));
 }
 
+/// Two groups whose images see points of each other: nothing is made of them where the two images that
+/// come over stand in one place.
+#[test]
+fn nothing_is_made_in_one_place() {
+    let sample = Sample::new(6)
+        .seen(&[0, 1, 2], 120)
+        .seen(&[3, 4, 5], 110)
+        .seen(&[0, 1, 2, 3], 40)
+        .seen(&[2, 3, 4, 5], 40);
+    assert_eq!(sizes(&sample.simulated(&mut ())), [6]);
+    let close = Estimate {
+        images: [2, 3],
+        config: 2,
+        angle: Some(0.5),
+        forward: Some(0.1),
+        towards: None,
+    };
+    let mut told = Told(BTreeMap::from([((2, 3), close)]));
+    let found = sample.simulated(&mut told);
+    assert_eq!(sizes(&found), [4, 4]);
+}
+
 #[test]
 fn shared_points_are_counted() {
     let graph = Graph::new(8, [(0, 3), (0, 4), (0, 6), (1, 4), (1, 5), (1, 6), (1, 7)]).unwrap();
@@ -155,7 +177,7 @@ fn shared_points_are_counted() {
         images: 3,
         pairs: &[],
     };
-    let growth = Growth::new(scene);
+    let growth = Growth::new(scene, Default::default());
     assert_eq!((growth.shared((0, 1)), growth.shared((0, 2))), (2, 0));
 }
 

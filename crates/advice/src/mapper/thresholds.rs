@@ -16,6 +16,8 @@ pub struct Thresholds {
     pub init_max_reg_trials: u32,
     /// How many pairs are tried to begin with, at each strictness.
     pub init_num_trials: u32,
+    /// Degrees between two rays to a point that is made of them (`triangulation.min_angle`).
+    pub min_angle: f64,
     /// Points of the model that an image has to see to be added.
     pub abs_pose_min_num_inliers: u32,
     /// Images that a model has to have, but the first, to be kept. COLMAP's default is 10, or half of
@@ -36,6 +38,7 @@ impl Default for Thresholds {
             init_max_forward_motion: 0.95,
             init_max_reg_trials: 2,
             init_num_trials: 200,
+            min_angle: 1.5,
             abs_pose_min_num_inliers: 30,
             min_model_size: 3,
             max_model_overlap: 20,
