@@ -46,10 +46,17 @@ pub struct Suggestion {
 }
 
 impl Suggestion {
-    /// The best ones first: the pair that is least promising counts.
-    fn rank(&self) -> (Tried, usize, u32) {
+    /// The best ones first: what was tried in vain comes last, fewer pairs come first, and of several
+    /// the one that is least promising counts.
+    fn rank(&self) -> (bool, usize, (Tried, usize, u32)) {
         let ranks = self.candidates.iter().map(Candidate::rank);
-        ranks.max().unwrap_or((Tried::Not, 0, 0))
+        let rank = ranks.max().unwrap_or((Tried::Not, 0, 0));
+        (self.has_failed(), self.pairs.len(), rank)
+    }
+
+    /// Whether a pair of it was matched with too little coming of it.
+    fn has_failed(&self) -> bool {
+        self.candidates.iter().any(|one| one.tried.is_failure())
     }
 }
 
@@ -72,7 +79,7 @@ const SETS: usize = 20;
 const ALIKE: usize = 8;
 
 /// Suggests pairs: fewest pairs first, then as they are worth trying, then by how many images they add
-/// to a component.
+/// to a component; and last what was matched already and gave too little.
 ///
 /// A decision of the condensed graph for each of some hundred candidates.
 ///
@@ -103,18 +110,22 @@ pub fn suggest(
     sets.extend(search.twice(&alone));
     dedup(&mut sets);
     let rounds: HashMap<Pair, Candidate> = seen.into_iter().map(|one| (one.pair, one)).collect();
-    let mut found = search.proved(sets, options)?;
+    let explained = |mut found: Vec<Suggestion>| {
+        for one in &mut found {
+            let pairs = one.pairs.iter().map(|(pair, _)| {
+                let chosen = rounds.get(pair).copied();
+                chosen.unwrap_or_else(|| costs.candidate(*pair))
+            });
+            one.candidates = pairs.collect();
+        }
+        found
+    };
+    let mut found = explained(search.proved(sets, options)?);
+    found.retain(|one| search.joins_both(one));
     // A set for two parts is about none of their images.
     if wanted.at.is_none() {
         let several = search.several(joints, &found, &costs, options)?;
-        found.extend(search.proved(several, options)?);
-    }
-    for one in &mut found {
-        let pairs = one.pairs.iter().map(|(pair, _)| {
-            let chosen = rounds.get(pair).copied();
-            chosen.unwrap_or_else(|| costs.candidate(*pair))
-        });
-        one.candidates = pairs.collect();
+        found.extend(explained(search.proved(several, options)?));
     }
     Ok(ranked(found, wanted.most))
 }
@@ -134,7 +145,7 @@ fn dedup(sets: &mut Vec<Vec<Pair>>) {
 fn ranked(mut found: Vec<Suggestion>, most: usize) -> Vec<Suggestion> {
     found.sort_by_key(|one| {
         let pairs: Vec<Pair> = one.pairs.iter().map(|&(pair, _)| pair).collect();
-        (pairs.len(), one.rank(), Reverse(one.gain), pairs)
+        (one.rank(), Reverse(one.gain), pairs)
     });
     found.dedup_by(|one, other| one.pairs == other.pairs);
     let mut alike: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
@@ -304,7 +315,7 @@ impl<'a> Search<'a> {
         options: &Options,
     ) -> Result<Vec<Vec<Pair>>, VerdictError> {
         let joined = |[one, other]: [usize; 2]| {
-            let mut found = found.iter();
+            let mut found = found.iter().filter(|found| !found.has_failed());
             found.any(|found| found.components.contains(&one) && found.components.contains(&other))
         };
         let open = joints
@@ -355,7 +366,27 @@ impl<'a> Search<'a> {
         options: &Options,
     ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let nodes = components.map(|component| self.parts.nodes_of(component));
-        let pool = self.pool(&nodes, how, costs);
+        let all = self.pool(&nodes, how, costs);
+        let hopeful: Vec<Pair> = all
+            .iter()
+            .copied()
+            .filter(|&pair| !costs.has_failed(pair))
+            .collect();
+        let found = self.enough_of(&nodes, how, &hopeful, options)?;
+        match found {
+            None if hopeful.len() < all.len() => self.enough_of(&nodes, how, &all, options),
+            _ => Ok(found),
+        }
+    }
+
+    /// The same of a given pool.
+    fn enough_of(
+        &self,
+        nodes: &[Vec<u32>; 2],
+        how: &How,
+        pool: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
         let links = how.pairs.iter().copied().chain(by);
         let ends = links
@@ -417,6 +448,21 @@ impl<'a> Search<'a> {
             }
         }
         costs.between(&sides[0], &sides[1], CHOICE)
+    }
+
+    /// Whether a part of each end of all pairs is joined, where it has one: an image of a part that
+    /// becomes one of another part as well has joined nothing yet.
+    fn joins_both(&self, found: &Suggestion) -> bool {
+        let mut ends = found.pairs.iter().flat_map(|&((a, b), _)| [a, b]);
+        ends.all(|v| {
+            let mut parts = self
+                .parts
+                .of(v)
+                .iter()
+                .map(|&part| &self.parts.parts[part as usize]);
+            let none = parts.len() == 0;
+            none || parts.any(|part| found.components.contains(&part.component))
+        })
     }
 
     /// Which of some sets of pairs join components, and which.

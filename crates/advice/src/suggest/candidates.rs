@@ -109,6 +109,11 @@ impl<'a> Costs<'a> {
         }
     }
 
+    /// Whether a pair was matched with too little coming of it.
+    pub(super) fn has_failed(&self, pair: Pair) -> bool {
+        Tried::of(self.search.known.get(&pair)).is_failure()
+    }
+
     /// What a pair costs, and why it is tried.
     fn of(&self, pair: Pair) -> (u32, Reason) {
         let near = self

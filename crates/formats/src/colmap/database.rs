@@ -53,11 +53,12 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
             let connection = &opened.connection;
             let graph = tracks::read(connection, database.table, names, nodes, &pairs, tracks)?;
             notes.extend(database.other_mapper());
-            notes.push(NOT_KNOWN.to_owned());
-            NamedGraph {
+            let mut graph = NamedGraph {
                 matching: Some(database.between_cameras(&pairs, matching)),
                 ..graph
-            }
+            };
+            graph.notes.push(NOT_KNOWN.to_owned());
+            graph
         }
     };
     opened.finish().map_err(input)?;
