@@ -17,6 +17,7 @@ mod convert;
 mod decisions;
 mod draw;
 mod export;
+mod foreseen;
 mod given;
 mod help;
 mod input;

@@ -4,6 +4,7 @@
 //! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
 //! first; tracks are read again from the same file, since each is a graph of its own.
 
+use super::foreseen::foreseen;
 use super::input::{self, InputArguments, Read};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
@@ -175,6 +176,9 @@ fn overview(
     };
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
+    let of_pairs = source.pairs.as_ref().unwrap_or(input);
+    let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
+    let (mappers, narrow) = foreseen(path, of_pairs, of_tracks)?;
     let no_joints = Advice::default();
     let any_scope = Scope::default();
     let report = |input, verdict, advice| Report {
@@ -200,6 +204,8 @@ fn overview(
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
         joints: &joints,
         wanted: Wanted::of(source.pairs.as_ref().unwrap_or(input)),
+        mappers,
+        narrow,
         next: Vec::new(),
         time: Duration::ZERO,
     };
@@ -278,18 +284,17 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
     };
     let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
     let decided = format!("{graph}{tracks}");
-    let margin = match with_tracks {
-        true => "how many tracks can be missing before parts fall apart",
-        false => "how many pairs can be missing before parts fall apart",
-    };
-    let margin = advise(&decided, " --margin", margin);
+    // How many tracks can be missing does not tell kept promises from broken ones
+    // (docs/reconstruction.md, 'Margin').
+    let few = "how many pairs can be missing before parts fall apart";
+    let margin = (!with_tracks).then(|| advise(&decided, " --margin", few));
     if found.determined() {
-        return vec![margin];
+        return Vec::from_iter(margin);
     }
     let mut next = Vec::new();
     // These are about one graph, and a path may hold several.
     let single = found.name == path.display().to_string();
-    if single && found.has_parts() {
+    if single && found.has_parts() && !found.is_one_part() {
         next.push(command(
             "export",
             &format!(" DIR{decided}"),
@@ -297,7 +302,7 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
             "the images of every part, as lists for the mappers",
         ));
     }
-    if found.has_parts() {
+    if found.has_parts() && !found.is_one_part() {
         next.push(advise(
             &decided,
             " --suggest",
@@ -321,7 +326,7 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
             "an image outside the largest part, and what it would need",
         ));
     }
-    next.push(margin);
+    next.extend(margin);
     next
 }
 

@@ -454,8 +454,8 @@ fn suggestions_for_tracks_join_what_they_say() {
         }
     }
     let out = text(&two_of_tracks(none), &["advise", "--tracks", "--suggest=1"]);
-    let expected =
-        "0 4: joins components 1, 2, 8 images together\n      enough: 4 sees 1 more point of";
+    let expected = "3 4: joins components 1, 2, 8 images together [next to each other by name]\n      \
+                    enough: 4 sees 1 more point of";
     assert!(out.contains(expected), "{out}");
     assert!(
         out.contains(", or 2 points of each are found to be the same\n"),

@@ -678,7 +678,8 @@ fn tracks_of_a_database() {
     ]);
     assert_eq!(line["components"], components);
     for note in [
-        "dropped: 1 track with two features in one image",
+        "dropped: 1 track with two features in one image, more than 10 pixels apart, or not known \
+         where",
         "not counted: 15 tracks in fewer than 3 images (--min-views)",
         "1 camera sees no track that counts: a component of its own",
     ] {

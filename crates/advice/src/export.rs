@@ -357,7 +357,12 @@ fn write_joints(path: &Path, joints: &[Joint]) -> Result<()> {
     Ok(out.flush()?)
 }
 
-/// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap.
+/// The first versions with a list of images among the options of the mapper, and with a global mapper.
+const LISTED: u32 = 3_130_000;
+const GLOBAL: u32 = 4_000_000;
+
+/// The commands that reconstruct one component: with COLMAP's two mappers, and with pycolmap; those
+/// that the version has by which the database was written, or else those of version 4.
 fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
     let is_database = task.input.database.is_some();
     let database = if is_database {
@@ -367,10 +372,12 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
     };
     let images = lists.join(LISTS[0]).display().to_string();
     let out = format!("sparse/{name}");
+    let facts = task.input.database.as_ref();
+    let version = facts.and_then(|facts| facts.version).unwrap_or(GLOBAL);
     let mapper = |command: &str, list: &str| {
         format!(
             "mkdir -p {out} && colmap {command} --database_path {} --image_path images \
-             --output_path {out} --{list}.image_list_path {}",
+             --output_path {out} --{list}image_list_path {}",
             shell(database),
             shell(&images)
         )
@@ -385,12 +392,16 @@ fn commands(task: &Task, lists: &Path, name: &str) -> Vec<String> {
         );
         format!("mkdir -p {out} && python3 -c {}", shell(&script))
     };
-    vec![
-        mapper("mapper", "Mapper"),
-        mapper("global_mapper", "GlobalMapper"),
-        script("IncrementalPipelineOptions", "incremental_mapping"),
-        script("GlobalPipelineOptions", "global_mapping"),
-    ]
+    let list = if version < LISTED { "" } else { "Mapper." };
+    let mut commands = vec![mapper("mapper", list)];
+    if version >= GLOBAL {
+        commands.push(mapper("global_mapper", "GlobalMapper."));
+    }
+    commands.push(script("IncrementalPipelineOptions", "incremental_mapping"));
+    if version >= GLOBAL {
+        commands.push(script("GlobalPipelineOptions", "global_mapping"));
+    }
+    commands
 }
 
 /// A word for a POSIX shell.

@@ -9,10 +9,13 @@
 pub mod explain;
 pub mod export;
 pub mod joints;
+pub mod mapper;
 pub mod margin;
 pub mod named;
+pub mod narrow;
 pub mod parts;
 pub mod request;
+pub mod special;
 pub mod suggest;
 pub mod sweep;
 pub mod weak;
@@ -29,7 +32,9 @@ pub use margin::{Margin, Thinning, margin};
 pub use named::Advice;
 pub use parts::{Part, Parts};
 pub use request::Request;
-pub use suggest::{SuggestedMatch, Suggestion, suggest, suggest_matches};
+pub use suggest::{
+    Candidate, Near, Nearness, Reason, SuggestedMatch, Suggestion, Tried, suggest, suggest_matches,
+};
 pub use sweep::{Row, sweep};
 pub use task::{Weak, named_joints};
 pub use viewcert_formats::OtherPair;
@@ -43,4 +48,6 @@ pub struct Known<'a> {
     pub inliers: &'a [u32],
     /// Pairs that are known and are no edges.
     pub others: &'a [OtherPair],
+    /// Which images were probably taken near each other.
+    pub near: Option<&'a Nearness>,
 }

@@ -128,9 +128,26 @@ pub struct Suggestion {
     pub images: usize,
     /// How many images the largest of the components gains.
     pub gain: usize,
+    /// What has become of matching each pair so far: `not-tried`, `not-verified`, `left-out`, `few`,
+    /// `in-vain`, `used`; null if the input does not say.
+    pub tried: Option<Vec<&'static str>>,
+    /// Why each pair is worth trying, in words.
+    pub why: Vec<String>,
+    /// What COLMAP's mappers need, of a database.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub needs: Option<Needs>,
     /// In a camera-point graph: how much has to come of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough: Option<Enough>,
+}
+
+/// What COLMAP's mappers need by default, beside what is enough.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Needs {
+    /// Inliers of a pair.
+    pub inliers: u32,
+    /// Points with a place that an image sees when it is registered.
+    pub points: u32,
 }
 
 /// What is enough to join components of a camera-point graph.
@@ -167,10 +184,25 @@ pub struct Explain {
     pub pairs_inside: usize,
     /// Its other pairs.
     pub pairs_outside: Vec<Outside>,
+    /// In a camera-point graph: how many points of each component it sees, those first of which it
+    /// sees most.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sees: Option<Vec<SeesOf>>,
     /// Its pairs that are known and not used.
     pub unused: Vec<Unused>,
     /// Pairs of it that would join components.
     pub suggestions: Vec<Suggestion>,
+}
+
+/// How many points of a component an image sees.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeesOf {
+    /// The component.
+    pub component: usize,
+    /// How many of its points.
+    pub points: usize,
+    /// How many an incremental mapper wants by default, to add the image to a model of them.
+    pub needs: u32,
 }
 
 /// A pair in no larger component.
@@ -257,6 +289,9 @@ pub struct Export {
     pub commands: Vec<Vec<String>>,
 }
 
+/// Most names that are offered for one that is not there.
+const MEANT: usize = 3;
+
 /// What the user calls nodes.
 pub(crate) struct Names<'a>(&'a NamedGraph);
 
@@ -290,14 +325,25 @@ impl<'a> Names<'a> {
     pub(crate) fn find(&self, image: &str) -> anyhow::Result<u32> {
         let mut images = self.images();
         let found = images.find(|&v| self.0.labels.label(v) == image);
-        found.ok_or_else(|| unknown(image, self.images().next().map(|v| self.of(v))))
+        found.ok_or_else(|| self.unknown(image))
     }
-}
 
-/// An image that is not in the graph.
-fn unknown(image: &str, example: Option<String>) -> anyhow::Error {
-    let example = example.map_or(String::new(), |name| format!(", such as {name}"));
-    anyhow::anyhow!(
-        "--explain {image}: no image has this name; names are those of the input{example}"
-    )
+    /// An image that is not in the graph: those whose names end so, or an example.
+    fn unknown(&self, image: &str) -> anyhow::Error {
+        let names = || self.images().map(|v| self.of(v));
+        let ends = |name: &String| !image.is_empty() && name.ends_with(image);
+        let found: Vec<String> = names().filter(ends).take(MEANT + 1).collect();
+        let meant = match &found[..] {
+            [] => names().next().map_or(String::new(), |name| {
+                format!("; names are those of the input, such as {name}")
+            }),
+            [one] => format!("; did you mean {one}?"),
+            some if some.len() > MEANT => format!(
+                "; {MEANT} and more names end so: {}, ...",
+                some[..MEANT].join(", ")
+            ),
+            some => format!("; {} names end so: {}", some.len(), some.join(", ")),
+        };
+        anyhow::anyhow!("--explain {image}: no image has this name{meant}")
+    }
 }

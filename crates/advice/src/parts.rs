@@ -115,6 +115,11 @@ impl Parts {
         Some(*found as usize)
     }
 
+    /// Whether a part holds both images.
+    pub fn are_together(&self, a: u32, b: u32) -> bool {
+        self.common(a, b).is_some()
+    }
+
     /// The pairs of every part, each list increasing. O(m log k).
     pub fn edges(&self, graph: &Graph) -> Vec<Vec<(u32, u32)>> {
         let mut edges = vec![Vec::new(); self.parts.len()];

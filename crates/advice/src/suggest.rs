@@ -1,8 +1,9 @@
 //! Pairs that, if they were matched, would join components.
 //!
 //! Each suggestion is proved: the graph with the pairs added is decided, on a condensation of its
-//! components. Which pairs are tried first is a guess: those that are known to have matches, else
-//! images near the joint.
+//! components. Which pairs are tried first is a guess ([`candidates`]): pairs that are known to have
+//! matches, else images that are near each other ([`nearness`]); what was matched in vain comes last
+//! ([`tried`]).
 
 use crate::condensation::{Condensation, freedom, terminals, with};
 use crate::joints::{How, Joint};
@@ -16,9 +17,17 @@ use viewcert::decide::{Options, VerdictError, decide};
 use viewcert::graph::{Adjacency, UnionFind};
 use viewcert::{Graph, Verdict};
 
+pub mod candidates;
 mod matches;
+pub mod nearness;
+pub mod tried;
 
+pub use candidates::{Candidate, Reason};
 pub use matches::{SuggestedMatch, suggest_matches};
+pub use nearness::{Near, Nearness};
+pub use tried::{IMAGE_NEEDS, PAIR_NEEDS, Tried};
+
+use candidates::Costs;
 
 /// Pairs that join components, if they are matched and verified.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,16 +41,22 @@ pub struct Suggestion {
     pub images: usize,
     /// How many images that is more than the largest of the components has.
     pub gain: usize,
+    /// Why each of the pairs is worth trying, in their order.
+    pub candidates: Vec<Candidate>,
 }
 
 impl Suggestion {
-    /// The least numbers of inliers and of matches over the pairs; 0 where they are not known.
-    pub fn evidence(&self) -> (u32, u32) {
-        let of = |known: Option<OtherPair>| {
-            known.map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
-        };
-        let all = self.pairs.iter().map(|&(_, known)| of(known));
-        all.min().unwrap_or((0, 0))
+    /// The best ones first: what was tried in vain comes last, fewer pairs come first, and of several
+    /// the one that is least promising counts.
+    fn rank(&self) -> (bool, usize, (Tried, usize, u32)) {
+        let ranks = self.candidates.iter().map(Candidate::rank);
+        let rank = ranks.max().unwrap_or((Tried::Not, 0, 0));
+        (self.has_failed(), self.pairs.len(), rank)
+    }
+
+    /// Whether a pair of it was matched with too little coming of it.
+    fn has_failed(&self) -> bool {
+        self.candidates.iter().any(|one| one.tried.is_failure())
     }
 }
 
@@ -54,17 +69,17 @@ pub struct Wanted {
     pub at: Option<u32>,
 }
 
-/// Most pairs with matches, joints, and hanging images that are tried.
+/// Most pairs, joints, and hanging images that are tried.
 const TRIED: usize = 200;
 
 /// Most pairs of parts for which sets of several pairs are looked for.
 const SETS: usize = 20;
 
 /// Most suggestions, of pairs or of matches, that join the same components.
-const ALIKE: usize = 2;
+const ALIKE: usize = 8;
 
-/// Suggests pairs: fewest pairs first, then by what is known of them, then by how many images they
-/// add to a component.
+/// Suggests pairs: fewest pairs first, then as they are worth trying, then by how many images they add
+/// to a component; and last what was matched already and gave too little.
 ///
 /// A decision of the condensed graph for each of some hundred candidates.
 ///
@@ -79,20 +94,38 @@ pub fn suggest(
     options: &Options,
 ) -> Result<Vec<Suggestion>, VerdictError> {
     let search = Search::new(graph, parts, known, graph.nodes() as u32);
-    let mut sets = search.known_pairs(known.others, wanted.at);
+    let costs = Costs::new(&search);
     let near = search.near_joints(joints, wanted.at);
-    sets.extend(
-        near.into_iter()
-            .chain(search.hanging(wanted.at))
-            .map(|pair| vec![pair]),
+    let near = near.into_iter().chain(search.hanging(wanted.at));
+    // A single pair places no image that has none.
+    let is_seen = |v: u32| search.neighbours.degree(v) > 0;
+    let seen = costs.best(near, wanted.at, |(a, b)| is_seen(a) && is_seen(b), TRIED);
+    let mut sets: Vec<Vec<Pair>> = seen.iter().map(|one| vec![one.pair]).collect();
+    let alone = costs.best(
+        std::iter::empty(),
+        wanted.at,
+        |(a, b)| is_seen(a) != is_seen(b),
+        TRIED,
     );
-    sets.extend(search.unseen(known.others, wanted.at));
+    sets.extend(search.twice(&alone));
     dedup(&mut sets);
-    let mut found = search.proved(sets, options)?;
+    let rounds: HashMap<Pair, Candidate> = seen.into_iter().map(|one| (one.pair, one)).collect();
+    let explained = |mut found: Vec<Suggestion>| {
+        for one in &mut found {
+            let pairs = one.pairs.iter().map(|(pair, _)| {
+                let chosen = rounds.get(pair).copied();
+                chosen.unwrap_or_else(|| costs.candidate(*pair))
+            });
+            one.candidates = pairs.collect();
+        }
+        found
+    };
+    let mut found = explained(search.proved(sets, options)?);
+    found.retain(|one| search.joins_both(one));
     // A set for two parts is about none of their images.
     if wanted.at.is_none() {
-        let several = search.several(joints, &found, known.others, options)?;
-        found.extend(search.proved(several, options)?);
+        let several = search.several(joints, &found, &costs, options)?;
+        found.extend(explained(search.proved(several, options)?));
     }
     Ok(ranked(found, wanted.most))
 }
@@ -112,12 +145,7 @@ fn dedup(sets: &mut Vec<Vec<Pair>>) {
 fn ranked(mut found: Vec<Suggestion>, most: usize) -> Vec<Suggestion> {
     found.sort_by_key(|one| {
         let pairs: Vec<Pair> = one.pairs.iter().map(|&(pair, _)| pair).collect();
-        (
-            pairs.len(),
-            Reverse(one.evidence()),
-            Reverse(one.gain),
-            pairs,
-        )
+        (one.rank(), Reverse(one.gain), pairs)
     });
     found.dedup_by(|one, other| one.pairs == other.pairs);
     let mut alike: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
@@ -135,39 +163,59 @@ struct Search<'a> {
     parts: &'a Parts,
     neighbours: Adjacency,
     known: HashMap<Pair, OtherPair>,
+    /// Of every pair of the graph, or empty.
+    inliers: &'a [u32],
+    nearness: Option<&'a Nearness>,
     /// The nodes that are images: all, or the cameras of a camera-point graph.
     images: Range<u32>,
 }
 
 impl<'a> Search<'a> {
-    fn new(graph: &'a Graph, parts: &'a Parts, known: Known, images: u32) -> Self {
+    fn new(graph: &'a Graph, parts: &'a Parts, known: Known<'a>, images: u32) -> Self {
         let others = known.others.iter();
         Self {
             graph,
             parts,
             neighbours: Adjacency::new(graph),
             known: others.map(|pair| (pair.images, *pair)).collect(),
+            inliers: known.inliers,
+            nearness: known.near,
             images: 0..images,
         }
     }
 
-    /// Known pairs whose images are in no component together, those with most inliers first.
-    fn known_pairs(&self, others: &[OtherPair], at: Option<u32>) -> Vec<Vec<Pair>> {
-        let mut pairs: Vec<&OtherPair> = others
-            .iter()
-            .filter(|pair| self.is_candidate(pair.images, at))
-            .collect();
-        pairs.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
-        let best = pairs.into_iter().take(TRIED);
-        best.map(|pair| vec![pair.images]).collect()
+    /// Whether the graph is one of cameras and points.
+    fn is_of_tracks(&self) -> bool {
+        self.images.len() < self.graph.nodes()
+    }
+
+    /// The group of an image: its first part, or itself.
+    fn group(&self, image: u32) -> u32 {
+        match self.parts.of(image) {
+            [] => self.parts.parts.len() as u32 + image,
+            [part, ..] => *part,
+        }
+    }
+
+    /// Pairs of images that are matched and used, with how many inliers; 30 where that is not known.
+    fn matched(&self) -> Vec<(Pair, u32)> {
+        if self.is_of_tracks() {
+            let used = self.known.values().filter(|known| known.used);
+            return used.map(|known| (known.images, known.inliers)).collect();
+        }
+        let edges = self.graph.edges().iter().enumerate();
+        let inliers = |edge: usize| self.inliers.get(edge).copied().unwrap_or(2 * PAIR_NEEDS);
+        edges.map(|(edge, &pair)| (pair, inliers(edge))).collect()
     }
 
     /// Whether a pair could join anything, and is where it is wanted.
     fn is_candidate(&self, (a, b): Pair, at: Option<u32>) -> bool {
         a != b
             && at.is_none_or(|v| v == a || v == b)
-            && self.parts.common(a, b).is_none()
+            && !self.parts.are_together(a, b)
             && self.graph.edge_number(a, b).is_none()
+            // Of two cameras that are placed nowhere no point is known that would place either.
+            && !(self.is_of_tracks() && self.parts.of(a).is_empty() && self.parts.of(b).is_empty())
     }
 
     /// A pair for every joint.
@@ -242,30 +290,19 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// Two known pairs with one part for images that have no pair.
-    fn unseen(&self, others: &[OtherPair], at: Option<u32>) -> Vec<Vec<Pair>> {
-        let mut by_image: BTreeMap<(u32, u32), Vec<&OtherPair>> = BTreeMap::new();
-        for pair in others {
-            let (a, b) = pair.images;
-            for (x, y) in [(a, b), (b, a)] {
-                if self.neighbours.degree(x) == 0 && at.is_none_or(|v| v == x) {
-                    for &part in self.parts.of(y) {
-                        by_image.entry((x, part)).or_default().push(pair);
-                    }
-                }
-            }
+    /// The two best pairs with one part, for images that have no pair.
+    fn twice(&self, best: &[Candidate]) -> Vec<Vec<Pair>> {
+        let mut by_gap: BTreeMap<Pair, Vec<Pair>> = BTreeMap::new();
+        for &Candidate { pair: (a, b), .. } in best {
+            let gap = ordered((self.group(a), self.group(b)));
+            by_gap.entry(gap).or_default().push((a, b));
         }
-        let mut sets = Vec::new();
-        for (_, mut pairs) in by_image {
-            pairs.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
-            if let [one, other, ..] = pairs[..] {
-                let mut set = vec![one.images, other.images];
-                set.sort_unstable();
-                sets.push(((one.inliers.min(other.inliers)), set));
-            }
-        }
-        sets.sort_by_key(|(inliers, _)| Reverse(*inliers));
-        sets.into_iter().take(TRIED).map(|(_, set)| set).collect()
+        let two = by_gap.into_values().filter_map(|mut pairs| {
+            pairs.truncate(2);
+            pairs.sort_unstable();
+            (pairs.len() == 2).then_some(pairs)
+        });
+        two.take(TRIED).collect()
     }
 
     /// Sets of pairs for joints that no single pair closes, and for the largest part and parts that
@@ -274,11 +311,11 @@ impl<'a> Search<'a> {
         &self,
         joints: &[Joint],
         found: &[Suggestion],
-        others: &[OtherPair],
+        costs: &Costs,
         options: &Options,
     ) -> Result<Vec<Vec<Pair>>, VerdictError> {
         let joined = |[one, other]: [usize; 2]| {
-            let mut found = found.iter();
+            let mut found = found.iter().filter(|found| !found.has_failed());
             found.any(|found| found.components.contains(&one) && found.components.contains(&other))
         };
         let open = joints
@@ -294,7 +331,7 @@ impl<'a> Search<'a> {
             .chain(apart.take(SETS))
             .collect();
         let sets = open.par_iter();
-        let sets = sets.map(|(components, how)| self.enough(*components, how, others, options));
+        let sets = sets.map(|(components, how)| self.enough(*components, how, costs, options));
         let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
         Ok(sets?.into_iter().flatten().collect())
     }
@@ -325,11 +362,31 @@ impl<'a> Search<'a> {
         &self,
         components: [usize; 2],
         how: &How,
-        others: &[OtherPair],
+        costs: &Costs,
         options: &Options,
     ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let nodes = components.map(|component| self.parts.nodes_of(component));
-        let pool = self.pool(&nodes, how, others);
+        let all = self.pool(&nodes, how, costs);
+        let hopeful: Vec<Pair> = all
+            .iter()
+            .copied()
+            .filter(|&pair| !costs.has_failed(pair))
+            .collect();
+        let found = self.enough_of(&nodes, how, &hopeful, options)?;
+        match found {
+            None if hopeful.len() < all.len() => self.enough_of(&nodes, how, &all, options),
+            _ => Ok(found),
+        }
+    }
+
+    /// The same of a given pool.
+    fn enough_of(
+        &self,
+        nodes: &[Vec<u32>; 2],
+        how: &How,
+        pool: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Vec<Pair>>, VerdictError> {
         let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
         let links = how.pairs.iter().copied().chain(by);
         let ends = links
@@ -370,25 +427,42 @@ impl<'a> Search<'a> {
         Ok((chosen.len() > 1).then_some(chosen))
     }
 
-    /// Pairs between two parts: the known ones with most inliers, then disjoint ones near the
-    /// joint.
-    fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, others: &[OtherPair]) -> Vec<Pair> {
-        let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
-        let between = |(a, b): Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);
-        let mut known: Vec<&OtherPair> = others
-            .iter()
-            .filter(|pair| between(pair.images) && self.is_candidate(pair.images, None))
-            .collect();
-        known.sort_by_key(|pair| (Reverse((pair.inliers, pair.matches)), pair.images));
-        let mut pool: Vec<Pair> = known.iter().take(CHOICE).map(|pair| pair.images).collect();
+    /// Pairs between two parts: the best ones, of different images first; of very large parts those
+    /// near the joint.
+    fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, costs: &Costs) -> Vec<Pair> {
         let [one, other] = [0, 1].map(|side| self.ends(&nodes[side], &touched(how, side), CHOICE));
-        for (&a, &b) in one.iter().zip(&other) {
-            let pair = ordered((a, b));
-            if self.is_candidate(pair, None) && !pool.contains(&pair) {
-                pool.push(pair);
+        if nodes[0].len().saturating_mul(nodes[1].len()) <= POOL {
+            return costs.between(&nodes[0], &nodes[1], CHOICE);
+        }
+        let known = self.known.keys().copied();
+        let near = self.nearness.map(|near| near.pairs(CHOICE as u32));
+        let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
+        let between = |&(a, b): &Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);
+        let pairs = known.chain(near.into_iter().flatten()).filter(between);
+        let ends = pairs.flat_map(|(a, b)| [a, b]);
+        let mut sides = [one, other];
+        for v in ends {
+            let side = usize::from(!within(0, v));
+            if sides[side].len() < POOL.isqrt() && !sides[side].contains(&v) {
+                sides[side].push(v);
             }
         }
-        pool
+        costs.between(&sides[0], &sides[1], CHOICE)
+    }
+
+    /// Whether a part of each end of all pairs is joined, where it has one: an image of a part that
+    /// becomes one of another part as well has joined nothing yet.
+    fn joins_both(&self, found: &Suggestion) -> bool {
+        let mut ends = found.pairs.iter().flat_map(|&((a, b), _)| [a, b]);
+        ends.all(|v| {
+            let mut parts = self
+                .parts
+                .of(v)
+                .iter()
+                .map(|&part| &self.parts.parts[part as usize]);
+            let none = parts.len() == 0;
+            none || parts.any(|part| found.components.contains(&part.component))
+        })
     }
 
     /// Which of some sets of pairs join components, and which.
@@ -459,6 +533,7 @@ impl<'a> Search<'a> {
             components: found.components,
             images: found.images,
             gain: found.gain,
+            candidates: Vec::new(),
         }))
     }
 
@@ -531,6 +606,9 @@ struct Together {
 
 /// How many images of each part are choices for pairs between them.
 const CHOICE: usize = 6;
+
+/// Most pairs between two parts that are compared for a set.
+const POOL: usize = 250_000;
 
 /// The images of one of the two components of a joint that touch the other.
 fn touched(how: &How, side: usize) -> Vec<u32> {

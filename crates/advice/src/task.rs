@@ -1,11 +1,13 @@
 //! One graph that advice is asked about: what the mathematics finds, in the user's names.
 
 use crate as advice;
+use crate::mapper::Thresholds;
 use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
-use crate::suggest::Wanted;
-use crate::{Known, OtherPair, Parts, Shapes, Thinning, words};
+use crate::suggest::{IMAGE_NEEDS, PAIR_NEEDS, Wanted};
+use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, Thinning, words};
 use anyhow::{Context, Result};
+use std::collections::BTreeMap;
 use viewcert::decide::{Options, Question};
 use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
@@ -67,6 +69,7 @@ impl<'a> Task<'a> {
                 .map_or(Known::default(), |known| Known {
                     inliers: &known.inliers,
                     others: &known.others,
+                    near: None,
                 }),
             names: Names::new(input),
             options: Options::default()
@@ -178,10 +181,17 @@ impl<'a> Task<'a> {
         at: Option<u32>,
     ) -> Result<Vec<named::Suggestion>> {
         let wanted = Wanted { most, at };
+        let names: Vec<String> = self.names.images().map(|v| self.names.of(v)).collect();
+        let matching = self.input.matching.as_ref();
+        let near = Nearness::new(&names, matching.map_or(&[], |known| &known.positions));
+        let known = Known {
+            near: Some(&near),
+            ..self.known
+        };
         if let Some(cameras) = self.input.cameras {
-            return self.suggest_matches(cameras, joints, wanted);
+            return self.suggest_matches(cameras, joints, known, wanted);
         }
-        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let (graph, parts) = (&self.input.graph, &self.parts);
         let found = advice::suggest(graph, parts, joints, known, wanted, &self.options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
             let (links, joins) = self.links_and_parts(&found.components);
@@ -205,10 +215,34 @@ impl<'a> Task<'a> {
                 single_pairs: links,
                 images: found.images,
                 gain: found.gain,
+                tried: self.tried(&found.candidates),
+                why: self.reasons(&found.candidates),
+                needs: self.needs(),
                 enough: None,
             }
         });
         Ok(named.collect())
+    }
+
+    /// What has become of matching some pairs, if the input says anything of that.
+    fn tried(&self, candidates: &[Candidate]) -> Option<Vec<&'static str>> {
+        let tried = candidates.iter().map(|one| one.tried.name());
+        self.input.matching.as_ref().map(|_| tried.collect())
+    }
+
+    fn reasons(&self, candidates: &[Candidate]) -> Vec<String> {
+        let reasons = candidates.iter();
+        reasons
+            .map(|one| words::reason(one.reason, &self.names))
+            .collect()
+    }
+
+    /// What mappers need, where images are matched.
+    fn needs(&self) -> Option<named::Needs> {
+        self.input.matching.as_ref().map(|_| named::Needs {
+            inliers: PAIR_NEEDS,
+            points: IMAGE_NEEDS,
+        })
     }
 
     /// How many of some components are single pairs, and the numbers of the others.
@@ -224,9 +258,10 @@ impl<'a> Task<'a> {
         &self,
         cameras: u32,
         joints: &[advice::Joint],
+        known: Known,
         wanted: Wanted,
     ) -> Result<Vec<named::Suggestion>> {
-        let (graph, parts, known) = (&self.input.graph, &self.parts, self.known);
+        let (graph, parts) = (&self.input.graph, &self.parts);
         let options = &self.options;
         let found = advice::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
@@ -240,6 +275,9 @@ impl<'a> Task<'a> {
                 single_pairs: links,
                 images: found.images,
                 gain: found.gain,
+                tried: self.tried(&[found.candidate]),
+                why: self.reasons(&[found.candidate]),
+                needs: self.needs(),
                 enough: Some(named::Enough {
                     observations: self.further(&found.observations),
                     merged: found.merged,
@@ -289,6 +327,7 @@ impl<'a> Task<'a> {
                     reaches: link.reaches.into_iter().map(number).collect(),
                 })
                 .collect(),
+            sees: self.input.cameras.map(|_| self.sees(node)),
             unused: found
                 .others
                 .into_iter()
@@ -300,6 +339,26 @@ impl<'a> Task<'a> {
                 .collect(),
             suggestions,
         })
+    }
+
+    /// How many points of each component an image sees.
+    fn sees(&self, image: u32) -> Vec<named::SeesOf> {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for &(_, point) in self.input.graph.edges_from(image) {
+            for &part in self.parts.of(point) {
+                let component = self.parts.parts[part as usize].component;
+                *counts.entry(number(component)).or_default() += 1;
+            }
+        }
+        let needs = Thresholds::default().abs_pose_min_num_inliers;
+        let counts = counts.into_iter().map(|(component, points)| named::SeesOf {
+            component,
+            points,
+            needs,
+        });
+        let mut sees: Vec<named::SeesOf> = counts.collect();
+        sees.sort_by_key(|sees| std::cmp::Reverse(sees.points));
+        sees
     }
 
     pub(crate) fn sweep(&self, thresholds: &[u32]) -> Result<Vec<named::SweepRow>> {

@@ -1,7 +1,7 @@
 //! What was found, in words.
 
 use crate::named::Names;
-use crate::{How, Why};
+use crate::{How, Near, Reason, Why};
 use viewcert::Model;
 use viewcert::wording::counted;
 
@@ -46,6 +46,22 @@ pub(crate) fn meaning(model: Model, freedom: usize) -> String {
         (Model::Projective, _) => {
             format!("{freedom} of the 15 degrees of freedom between two projective frames")
         }
+    }
+}
+
+/// Why two images are worth matching.
+pub(crate) fn reason(reason: Reason, names: &Names) -> String {
+    match reason {
+        Reason::Near(Near::Name(1)) => "next to each other by name".to_owned(),
+        Reason::Near(Near::Name(steps)) => format!("{steps} apart by name"),
+        Reason::Near(Near::Twin(0)) => "the same number in two sequences of names".to_owned(),
+        Reason::Near(Near::Twin(steps)) => {
+            format!("numbers {steps} apart in two sequences of names")
+        }
+        Reason::Near(Near::Position(1)) => "nearest by position".to_owned(),
+        Reason::Near(Near::Position(rank)) => format!("number {rank} of the nearest by position"),
+        Reason::Common(third) => format!("both match {}", names.of(third)),
+        Reason::Any => "one of each side".to_owned(),
     }
 }
 

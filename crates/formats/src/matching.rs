@@ -1,16 +1,20 @@
 //! What a matching of images says of pairs, beyond the graph that it gives.
 
 /// Facts about pairs of images, from a database of matches; images are nodes of the graph.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Matching {
     /// For every edge, in the order of the graph's edges, how many verified matches it has. Of a
     /// camera-point graph, whose edges are observations, empty.
     pub inliers: Vec<u32>,
     /// Pairs of images that are known and are no edges, increasing. Of a camera-point graph, all.
     pub others: Vec<OtherPair>,
+    /// Where every image was taken, in a frame of metres or of whatever the database has; empty if
+    /// no place is known. What is near is looked for by it, and nothing is decided.
+    pub positions: Vec<Option<[f64; 3]>>,
 }
 
-/// A pair of images with matches: too few, or not verified, unless tracks are made of them.
+/// A pair of images that was matched: with too few matches or none, or not verified, unless tracks
+/// are made of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OtherPair {
     /// The two images, the smaller node first.
@@ -19,6 +23,8 @@ pub struct OtherPair {
     pub inliers: u32,
     /// How many there were before verification, if that is known.
     pub matches: Option<u32>,
+    /// Whether the verification was run, whatever came of it.
+    pub verified: bool,
     /// Whether tracks are made of its matches; never in a graph of pairs.
     pub used: bool,
 }

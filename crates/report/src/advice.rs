@@ -29,6 +29,7 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
         };
         writeln!(out, "  suggested   {count}")?;
         suggestions(out, found)?;
+        hints(out, found)?;
     }
     if let Some(found) = &advice.explain {
         explain(out, found, advice.of_tracks)?;
@@ -162,7 +163,9 @@ fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
             .matches
             .as_deref()
             .map(|known| format!("matches: {}", list(known)));
-        let known: Vec<String> = inliers.into_iter().chain(matches).collect();
+        let tried = one.tried.as_deref().and_then(tried);
+        let known = inliers.into_iter().chain(matches).chain(tried);
+        let known: Vec<String> = reasons(&one.why).into_iter().chain(known).collect();
         let known = match known.len() {
             0 => String::new(),
             _ => format!(" [{}]", known.join("; ")),
@@ -177,6 +180,52 @@ fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
         if let Some(enough) = &one.enough {
             writeln!(out, "      enough: {}", sufficient(enough))?;
         }
+    }
+    Ok(())
+}
+
+/// Why pairs are worth trying, unless nothing speaks for any of them.
+fn reasons(why: &[String]) -> Option<String> {
+    let mut words = why.to_vec();
+    words.dedup();
+    (words != ["one of each side"]).then(|| words.join(", "))
+}
+
+/// What has become of matching the pairs, by the worst of them.
+fn tried(all: &[&str]) -> Option<String> {
+    let has = |word: &str| all.contains(&word);
+    let words = match () {
+        () if has("used") => return None,
+        () if has("in-vain") => "matched in vain",
+        () if has("few") => "matched, with too few",
+        () if has("not-tried") => "not matched yet",
+        () if has("not-verified") => "matched, not verified yet",
+        () => "enough for a mapper, left out for another reason",
+    };
+    Some(words.to_owned())
+}
+
+/// What to expect of the suggestions, where images are matched.
+fn hints(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
+    let Some(needs) = found.first().and_then(|one| one.needs) else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "    a mapper needs more than this: {} inliers for a pair, and {} points with a place in an image that it \
+         registers (COLMAP's defaults)",
+        needs.inliers, needs.points
+    )?;
+    let failed = |one: &Suggestion| {
+        let tried = one.tried.as_deref().unwrap_or_default();
+        tried.iter().any(|word| ["few", "in-vain"].contains(word))
+    };
+    if found.iter().all(failed) {
+        writeln!(
+            out,
+            "    all of these were matched already and gave too little: other features, or photographs between \
+             the two sides, promise more"
+        )?;
     }
     Ok(())
 }
@@ -290,6 +339,14 @@ fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
     if found.pairs_inside > 0 {
         let pairs = counted(found.pairs_inside, "pair");
         writeln!(out, "    {pairs} inside")?;
+    }
+    for sees in found.sees.iter().flatten().take(SHOWN) {
+        let points = counted(sees.points, "point");
+        writeln!(
+            out,
+            "    sees {points} of component {}; an incremental mapper wants {}",
+            sees.component, sees.needs
+        )?;
     }
     for pair in found.pairs_outside.iter().take(SHOWN) {
         let inliers = pair

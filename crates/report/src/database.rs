@@ -21,6 +21,7 @@ pub struct DatabaseLine {
     configs: Vec<ConfigLine>,
     inliers: Vec<BinLine>,
     rigs: usize,
+    version: Option<u32>,
     connected: Vec<usize>,
 }
 
@@ -65,6 +66,7 @@ impl From<&DatabaseFacts> for DatabaseLine {
             configs: configs.collect(),
             inliers: inliers.collect(),
             rigs: facts.rigs,
+            version: facts.version,
             connected: facts.connected.clone(),
         }
     }

@@ -8,12 +8,15 @@ use super::database::DatabaseLine;
 use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
-use super::{Report, counted, database, size_of, text, tracks};
+use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
 use crate::advice::joints as write_joints;
 use serde::Serialize;
+use std::collections::HashMap;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert_advice::Advice;
+use viewcert_advice::mapper::{Foreseen, Sees};
+use viewcert_advice::special::Narrow;
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
@@ -41,15 +44,23 @@ pub struct Overview<'a> {
     pub joints: &'a Advice,
     /// The images that are to be determined.
     pub wanted: Wanted,
+    /// What mappers will probably do, if the tracks are from a database.
+    pub mappers: Option<Foreseen>,
+    /// Where everything hangs on few images or pairs.
+    pub narrow: Narrow,
     /// Commands that lead on from here.
     pub next: Vec<Next>,
     /// How long it took.
     pub time: Duration,
 }
 
-/// The images that are to be determined, increasing: those that have a pair, or, where only tracks
-/// are known, all.
-pub struct Wanted(Vec<u32>);
+/// The images that are to be determined.
+pub struct Wanted {
+    /// Those that have a pair, or, where only tracks are known, all; increasing.
+    images: Vec<u32>,
+    /// How many there are together, with a pair or without.
+    all: u32,
+}
 
 /// A command, and what it tells.
 #[derive(Serialize)]
@@ -64,7 +75,10 @@ impl Wanted {
     /// Those of a graph. O(nodes + edges).
     pub fn of(input: &NamedGraph) -> Self {
         if let Some(cameras) = input.cameras {
-            return Self((0..cameras).collect());
+            return Self {
+                images: (0..cameras).collect(),
+                all: cameras,
+            };
         }
         let mut paired = vec![false; input.graph.nodes()];
         for &(i, j) in input.graph.edges() {
@@ -72,11 +86,24 @@ impl Wanted {
             paired[j as usize] = true;
         }
         let nodes = (0..).zip(paired);
-        Self(
-            nodes
+        Self {
+            images: nodes
                 .filter_map(|(v, paired)| paired.then_some(v))
                 .collect(),
-        )
+            all: input.graph.nodes() as u32,
+        }
+    }
+
+    /// "15 images", "15 of 16 images".
+    fn words(&self) -> String {
+        match self.images.len() == self.all as usize {
+            true => counted(self.images.len(), "image"),
+            false => format!(
+                "{} of {}",
+                self.images.len(),
+                counted(self.all as usize, "image")
+            ),
+        }
     }
 }
 
@@ -105,7 +132,7 @@ impl Parts {
                 .collect(),
         };
         let holds = |images: &Vec<u32>| {
-            let mut wanted = wanted.0.iter();
+            let mut wanted = wanted.images.iter();
             !wanted.as_slice().is_empty() && wanted.all(|v| images.binary_search(v).is_ok())
         };
         let whole = all.iter().any(holds);
@@ -118,7 +145,10 @@ impl Parts {
         images.sort_by_key(|part| std::cmp::Reverse(part.len()));
         let mut inside: Vec<u32> = images.iter().flatten().copied().collect();
         inside.sort_unstable();
-        let outside = wanted.0.iter().filter(|v| inside.binary_search(v).is_err());
+        let outside = wanted
+            .images
+            .iter()
+            .filter(|v| inside.binary_search(v).is_err());
         Self {
             whole,
             least,
@@ -168,16 +198,41 @@ impl Overview<'_> {
         Some(Parts::new(calibrated, &self.wanted))
     }
 
-    /// Whether the tracks, or without any the calibrated pairs, determine all wanted images.
+    /// Whether the tracks, or without any the calibrated pairs, determine all images: none may be
+    /// without a pair.
     pub fn determined(&self) -> bool {
-        let parts = self.by_tracks().or_else(|| self.averaging());
-        parts.is_some_and(|parts| parts.whole)
+        let all_paired = self.wanted.images.len() == self.wanted.all as usize;
+        all_paired && self.is_one_part()
+    }
+
+    /// Whether they determine all images that have a pair.
+    pub fn is_one_part(&self) -> bool {
+        self.parts().is_some_and(|parts| parts.whole)
+    }
+
+    /// The parts of what decides.
+    fn parts(&self) -> Option<Parts> {
+        self.by_tracks().or_else(|| self.averaging())
+    }
+
+    /// Every image that is in no part.
+    fn in_no_part(&self) -> Vec<u32> {
+        let mut outside = vec![true; self.wanted.all as usize];
+        for image in self
+            .parts()
+            .iter()
+            .flat_map(|parts| parts.images.iter().flatten())
+        {
+            outside[*image as usize] = false;
+        }
+        let all = (0..).zip(outside);
+        all.filter_map(|(image, outside)| outside.then_some(image))
+            .collect()
     }
 
     /// Whether there is a part at all in what decides.
     pub fn has_parts(&self) -> bool {
-        let parts = self.by_tracks().or_else(|| self.averaging());
-        parts.is_some_and(|parts| !parts.images.is_empty())
+        self.parts().is_some_and(|parts| !parts.images.is_empty())
     }
 
     /// An image that is not in the largest part.
@@ -185,19 +240,21 @@ impl Overview<'_> {
         let report = self.decisive()?;
         let parts = Parts::new(report, &self.wanted);
         let largest = parts.images.first().map_or(&[][..], Vec::as_slice);
-        let mut wanted = self.wanted.0.iter();
-        let image = wanted.find(|v| largest.binary_search(v).is_err())?;
-        Some(report.input.labels.label(*image).into_owned())
+        let mut wanted = self.wanted.images.iter().copied();
+        let outside = wanted.find(|v| largest.binary_search(v).is_err());
+        let mut all = 0..self.wanted.all;
+        let image = outside.or_else(|| all.find(|v| largest.binary_search(v).is_err()))?;
+        Some(report.input.labels.label(image).into_owned())
     }
 
     /// What follows for each kind of mapping, in words.
     fn follows(&self) -> Follows {
-        let all = counted(self.wanted.0.len(), "image");
+        let all = self.wanted.words();
         let averaging = match self.averaging() {
             None => {
                 "of pairwise directions: tracks do not tell; it takes a list of pairs".to_owned()
             }
-            Some(_) if self.wanted.0.is_empty() => {
+            Some(_) if self.wanted.images.is_empty() => {
                 "of pairwise directions: there are no pairs".into()
             }
             Some(parts) if parts.whole => {
@@ -218,8 +275,8 @@ impl Overview<'_> {
             ],
             Some(parts) if parts.whole => [
                 format!(
-                    "the tracks determine all {all} against each other; real photographs with few, \
-                     noisy tracks need a margin as well (--tracks --margin)"
+                    "the tracks determine all {all} against each other, if they stand at generic \
+                     places and every match is right"
                 ),
                 format!(
                     "starts a new model where it cannot go on; that the tracks determine all {all} is \
@@ -265,6 +322,9 @@ impl Overview<'_> {
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "{}", self.name)?;
         writeln!(out, "  read as     {}", self.read)?;
+        if let Some(foreseen) = &self.mappers {
+            mappers::write(out, foreseen, wrapped)?;
+        }
         if let Some([projective, calibrated]) = &self.pairs {
             match &projective.input.database {
                 Some(facts) => database::write(out, facts)?,
@@ -290,11 +350,13 @@ impl Overview<'_> {
             (None, Some(reason)) => writeln!(out, "  tracks      none: {reason}")?,
             (None, None) => {}
         }
+        self.write_parts(out)?;
         self.write_joints(out)?;
+        narrow::write(out, &self.narrow, wrapped)?;
         let follows = self.follows();
-        wrapped(out, "global", &follows.global)?;
-        wrapped(out, "incremental", &follows.incremental)?;
-        wrapped(out, "averaging", &follows.averaging)?;
+        wrapped(out, "follows", &format!("global: {}", follows.global))?;
+        wrapped(out, "", &format!("incremental: {}", follows.incremental))?;
+        wrapped(out, "", &format!("averaging {}", follows.averaging))?;
         for (k, next) in self.next.iter().enumerate() {
             let title = if k == 0 { "next" } else { "" };
             writeln!(out, "  {title:<12}{}", next.command)?;
@@ -312,9 +374,38 @@ impl Overview<'_> {
         notes.try_for_each(|note| writeln!(out, "  note        {note}"))
     }
 
+    fn write_parts<W: Write>(&self, out: &mut W) -> io::Result<()> {
+        let (Some(parts), Some(report)) = (self.parts(), self.decisive()) else {
+            return Ok(());
+        };
+        let named = part_names::parts(report.input, &parts.images);
+        let outside = self.named(&self.in_no_part());
+        let models = self
+            .mappers
+            .iter()
+            .flat_map(|mappers| &mappers.incremental.outside);
+        let sees: HashMap<&str, &Sees> = models.map(|sees| (&sees.image[..], sees)).collect();
+        let note = |image: &str| {
+            let sees = sees.get(image).filter(|sees| sees.sees > 0)?;
+            Some(format!(
+                "sees {} of the {} points it needs",
+                sees.sees, sees.needs
+            ))
+        };
+        part_names::write(out, &named, &outside, note, wrapped)
+    }
+
+    /// The names of images.
+    fn named(&self, images: &[u32]) -> Vec<String> {
+        let input = self.decisive().map(|report| report.input);
+        let names = images.iter().zip(std::iter::repeat(input));
+        names
+            .filter_map(|(&image, input)| Some(input?.labels.label(image).into_owned()))
+            .collect()
+    }
+
     fn write_joints(&self, out: &mut impl Write) -> io::Result<()> {
-        let parts = self.by_tracks().or_else(|| self.averaging());
-        let several = parts.is_some_and(|parts| parts.images.len() > 1);
+        let several = self.parts().is_some_and(|parts| parts.images.len() > 1);
         if several && self.joints.has_no_joints() {
             return writeln!(out, "  joints      none: no two parts touch");
         }
@@ -330,7 +421,7 @@ impl Overview<'_> {
             let graph = &projective.input.graph;
             PairLine {
                 images: graph.nodes(),
-                images_with_pair: self.wanted.0.len(),
+                images_with_pair: self.wanted.images.len(),
                 pairs: graph.edges().len(),
                 projective: AnswerLine::from(projective),
                 calibrated: AnswerLine::from(calibrated),
@@ -364,7 +455,15 @@ impl Overview<'_> {
             } else {
                 "pairs"
             },
-            images: self.wanted.0.len(),
+            images: self.wanted.images.len(),
+            of: self.wanted.all as usize,
+            parts: match (self.parts(), self.decisive()) {
+                (Some(parts), Some(report)) => part_names::parts(report.input, &parts.images),
+                _ => Vec::new(),
+            },
+            in_no_part: self.named(&self.in_no_part()),
+            narrow: &self.narrow,
+            mappers: self.mappers.as_ref(),
             follows: self.follows(),
             next: &self.next,
             seconds: self.time.as_secs_f64(),
@@ -392,6 +491,12 @@ struct Line<'a> {
     determined: bool,
     determined_by: &'static str,
     images: usize,
+    of: usize,
+    parts: Vec<part_names::PartLine>,
+    in_no_part: Vec<String>,
+    narrow: &'a Narrow,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mappers: Option<&'a Foreseen>,
     follows: Follows,
     next: &'a [Next],
     seconds: f64,
@@ -422,7 +527,7 @@ struct PositionLine {
 }
 
 /// Writes words in lines of limited width.
-fn wrapped(out: &mut impl Write, title: &str, words: &str) -> io::Result<()> {
+fn wrapped<W: Write>(out: &mut W, title: &str, words: &str) -> io::Result<()> {
     let mut line = format!("  {title:<11}");
     for word in words.split(' ') {
         if line.len() > MARGIN && line.len() + 1 + word.len() > WIDTH {

@@ -63,6 +63,8 @@ class Suggestion:
     gain: int
     inliers: Optional[Tuple[int, ...]]
     matches: Optional[Tuple[int, ...]]
+    tried: Optional[Tuple[str, ...]]
+    why: Tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,9 @@ class Explanation:
         Pairs of the database that were not used.
     suggestions : tuple of Suggestion
         What would help to match.
+    sees : tuple of (int, int)
+        Of a graph of cameras and points: components, as places in `Verdict.components`, and how many
+        points of each it sees. An incremental mapper wants 30 to add an image.
     """
 
     node: Node
@@ -110,6 +115,7 @@ class Explanation:
     pairs_outside: Tuple[Outside, ...]
     unused: Tuple[Unused, ...]
     suggestions: Tuple[Suggestion, ...]
+    sees: Tuple[Tuple[int, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -225,6 +231,8 @@ def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[
             gain=one["gain"],
             inliers=_known(one["inliers"]),
             matches=_known(one["matches"]),
+            tried=None if one["tried"] is None else tuple(one["tried"]),
+            why=tuple(one["why"]),
         )
         for one in found
     ]
@@ -299,6 +307,7 @@ def explain(verdict: Any, node: Node) -> Explanation:
         pairs_outside=tuple(outside),
         unused=tuple(unused),
         suggestions=tuple(_suggestions(found["suggestions"], by_text)),
+        sees=tuple((part["component"] - 1, part["points"]) for part in found.get("sees", ())),
     )
 
 

@@ -4,14 +4,14 @@
 //! points one. How many of either are enough is decided, on the condensation of all components
 //! (docs/theory.md, 4.11): each number is proved, for any points that lie in one component only.
 
-use super::{ALIKE, Pair, Search, TRIED, Together, Wanted, dedup, ordered, touched};
+use super::{Candidate, Costs, Pair, Search, TRIED, Together, Wanted, ordered, touched};
 use crate::condensation::{Condensation, freedom, terminals, with};
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
 use rayon::prelude::*;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use viewcert::Graph;
 use viewcert::decide::{Options, VerdictError};
 
@@ -34,6 +34,8 @@ pub struct SuggestedMatch {
     pub images: usize,
     /// How many cameras that is more than the largest of the components has.
     pub gain: usize,
+    /// Why the two are worth trying.
+    pub candidate: Candidate,
 }
 
 /// Most edges of the condensation, together and about, that are decided for all suggestions.
@@ -43,8 +45,8 @@ const WORK: usize = 4_000_000;
 const LEAST: usize = 20;
 
 /// Suggests images to match in a camera-point graph, of which the first `cameras` nodes are
-/// cameras: those with most matches already first, then by how few observations are enough, then by
-/// how many cameras they add to a component.
+/// cameras: as they are worth trying, then by how few observations are enough, then by how many
+/// cameras they add to a component.
 ///
 /// Some decisions of a small graph for each of some hundred candidates, and of the condensed graph
 /// for each of the best.
@@ -65,16 +67,19 @@ pub fn suggest_matches(
         .iter()
         .map(|joint| (joint.components, &joint.how))
         .collect();
-    let candidates = candidates(&search, joints, known.others, wanted);
-    let near = candidates.par_iter().map(|&cameras| {
-        let Some(attempt) = Attempt::new(&search, cameras) else {
+    let costs = Costs::new(&search);
+    let further = further(&search, joints, wanted).into_iter();
+    let candidates = costs.best(further, wanted.at, |_| true, TRIED);
+    let near = candidates.par_iter().map(|&candidate| {
+        let Some(attempt) = Attempt::new(&search, candidate.pair) else {
             return Ok(None);
         };
         let count = attempt.enough_alone(&search, &touching, options)?;
-        Ok(count.map(|count| Near::new(&search, attempt, count)))
+        Ok(count.map(|count| Promising::new(&search, attempt, candidate, count)))
     });
-    let near: Result<Vec<Option<Near>>, VerdictError> = near.collect();
-    let mut near = best(near?.into_iter().flatten().collect());
+    let near: Result<Vec<Option<Promising>>, VerdictError> = near.collect();
+    let mut near: Vec<Promising> = near?.into_iter().flatten().collect();
+    near.sort_by_key(Promising::key);
     // What else is there may help: fewer observations may do.
     let nodes: Vec<&[u32]> = parts.parts.iter().map(|part| &part.nodes[..]).collect();
     let links = parts.links.iter().map(|&(pair, _)| pair);
@@ -84,83 +89,65 @@ pub fn suggest_matches(
     let small = Condensation::new(terminals(&nodes, touched), links, ends());
     let most = (WORK / (small.graph.edges().len() + 1)).max(LEAST);
     let each = near.par_iter().take(most);
-    let found = each.map(|near| near.attempt.enough(&search, &small, options));
+    let found = each.map(|near| near.enough(&search, &small, options));
     let found: Result<Vec<Option<SuggestedMatch>>, VerdictError> = found.collect();
     let mut found: Vec<SuggestedMatch> = found?.into_iter().flatten().collect();
     found.sort_by_key(|one| {
-        (
-            Reverse(evidence(one.known)),
-            one.observations.len(),
-            Reverse(one.gain),
-            one.cameras,
-        )
+        let rank = one.candidate.rank();
+        (rank, one.observations.len(), Reverse(one.gain), one.cameras)
     });
     Ok(found)
 }
 
-/// What is known of a pair: inliers and matches; 0 where they are not known.
-fn evidence(known: Option<OtherPair>) -> (u32, u32) {
-    known.map_or((0, 0), |known| (known.inliers, known.matches.unwrap_or(0)))
-}
-
 /// An attempt that succeeds if there is nothing but the two components and what joins them.
-struct Near {
+struct Promising {
     attempt: Attempt,
-    known: Option<OtherPair>,
+    candidate: Candidate,
     /// How many observations are enough then.
     observations: usize,
     /// How many cameras are added to the larger component.
     gain: usize,
 }
 
-impl Near {
-    fn new(search: &Search, attempt: Attempt, observations: usize) -> Self {
+impl Promising {
+    fn new(search: &Search, attempt: Attempt, candidate: Candidate, observations: usize) -> Self {
         let sizes = attempt.sides.iter().map(|side| match side {
             Some((part, _)) => search.images_of(&search.parts.parts[*part].nodes).len(),
             None => 1,
         });
         Self {
-            known: search.known.get(&attempt.cameras).copied(),
+            candidate,
             gain: sizes.min().unwrap_or(0),
             observations,
             attempt,
         }
     }
-}
 
-/// The best first, few of a kind.
-fn best(mut near: Vec<Near>) -> Vec<Near> {
-    near.sort_by_key(|one| {
+    /// The best first.
+    fn key(&self) -> ((super::Tried, usize, u32), usize, Reverse<usize>, Pair) {
+        let rank = self.candidate.rank();
         (
-            Reverse(evidence(one.known)),
-            one.observations,
-            Reverse(one.gain),
-            one.attempt.cameras,
+            rank,
+            self.observations,
+            Reverse(self.gain),
+            self.candidate.pair,
         )
-    });
-    let mut alike: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    near.retain(|one| {
-        // Cameras alone are different, though they join the same component.
-        let [Some((a, _)), Some((b, _))] = &one.attempt.sides else {
-            return true;
-        };
-        let count = alike.entry([*a.min(b), *a.max(b)]).or_default();
-        *count += 1;
-        *count <= ALIKE
-    });
-    near
+    }
+
+    /// The suggestion, if the components of both cameras are joined.
+    fn enough(
+        &self,
+        search: &Search,
+        small: &Condensation,
+        options: &Options,
+    ) -> Result<Option<SuggestedMatch>, VerdictError> {
+        self.attempt.enough(search, small, self.candidate, options)
+    }
 }
 
-/// Pairs of cameras to try: those with most matches first, then such near joints, near cameras that
-/// hang on single observations, and of parts that are not connected.
-fn candidates(
-    search: &Search,
-    joints: &[Joint],
-    others: &[OtherPair],
-    wanted: Wanted,
-) -> Vec<Pair> {
-    let mut sets = search.known_pairs(others, wanted.at);
-    let mut more = |pair: Option<Pair>| sets.extend(pair.map(|pair| vec![pair]));
+/// Pairs of cameras to look at in graphs of any size: such near joints, near cameras that hang on
+/// single observations, and of parts that are not connected.
+fn further(search: &Search, joints: &[Joint], wanted: Wanted) -> Vec<Pair> {
     let here = |components: [usize; 2]| {
         wanted.at.is_none_or(|v| {
             let of = search.parts.components_of(v);
@@ -168,19 +155,19 @@ fn candidates(
         })
     };
     let near = joints.iter().filter(|joint| here(joint.components));
-    for joint in near.take(TRIED) {
-        more(between(search, joint.components, &joint.how, wanted.at));
-    }
-    for pair in hanging(search, wanted.at) {
-        more(Some(pair));
-    }
+    let near = near.take(TRIED);
+    let mut pairs: Vec<Pair> = near
+        .filter_map(|joint| between(search, joint.components, &joint.how, wanted.at))
+        .collect();
+    pairs.extend(hanging(search, wanted.at));
     let apart = search.apart().into_iter().filter(|&parts| here(parts));
-    for components in apart.take(TRIED) {
-        more(between(search, components, &How::default(), wanted.at));
-    }
-    more(wanted.at.and_then(|camera| with_largest(search, camera)));
-    dedup(&mut sets);
-    sets.concat()
+    pairs.extend(
+        apart
+            .take(TRIED)
+            .filter_map(|components| between(search, components, &How::default(), wanted.at)),
+    );
+    pairs.extend(wanted.at.and_then(|camera| with_largest(search, camera)));
+    pairs
 }
 
 /// A pair of cameras of two components, near where these touch.
@@ -340,6 +327,7 @@ impl Attempt {
         &self,
         search: &Search,
         small: &Condensation,
+        candidate: Candidate,
         options: &Options,
     ) -> Result<Option<SuggestedMatch>, VerdictError> {
         for set in self.observations() {
@@ -357,6 +345,7 @@ impl Attempt {
                 components: found.components,
                 images: found.images,
                 gain: found.gain,
+                candidate,
             }));
         }
         Ok(None)

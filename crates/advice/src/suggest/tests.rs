@@ -12,6 +12,7 @@ fn suggested(
     let known = Known {
         inliers: &[],
         others,
+        near: None,
     };
     let wanted = Wanted { most: 1000, at };
     suggest(
@@ -111,17 +112,33 @@ fn pairs_with_matches_come_first() {
         images: (a, b),
         inliers,
         matches: Some(inliers + 5),
+        verified: true,
         used: false,
     };
     // 12 is seen from 0 alone.
     let graph = two(&[(0, 6), (1, 7), (0, 12)]);
-    let others = [other(3, 12, 4), other(4, 11, 9), other(5, 10, 12)];
+    let others = [other(3, 12, 4), other(4, 11, 9), other(5, 10, 19)];
     let found = suggested(&graph, Model::Projective, &others, None);
     let pairs: Vec<Pair> = found.iter().map(|found| found.pairs[0].0).collect();
-    assert_eq!(pairs[..3], [(5, 10), (4, 11), (3, 12)]);
+    // Enough inliers first, then what nobody tried, and last what gave too little.
+    assert_eq!(pairs[0], (5, 10));
+    let tried: Vec<Tried> = found
+        .iter()
+        .map(|found| found.candidates[0].tried)
+        .collect();
+    assert!(tried.is_sorted(), "{tried:?}");
+    assert_eq!((tried[0], tried[1]), (Tried::LeftOut, Tried::Not));
     assert_eq!(found[0].pairs[0].1, Some(others[2]));
     assert_eq!((found[0].images, found[0].gain), (12, 6));
-    assert_eq!((found[2].images, found[2].gain), (7, 1));
+    assert!(
+        found
+            .iter()
+            .any(|found| (found.images, found.gain) == (7, 1))
+    );
+    // Several, of different images of both sides.
+    let both = |found: &&Suggestion| found.gain == 6 && found.candidates[0].tried == Tried::Not;
+    let [one, other] = [0, 1].map(|k| found.iter().filter(both).nth(k).unwrap().pairs[0].0);
+    assert!(one.0 != other.0 && one.1 != other.1, "{one:?} {other:?}");
     let at = suggested(&graph, Model::Projective, &others, Some(12));
     assert!(!at.is_empty());
     let touches = |found: &Suggestion| found.pairs.iter().any(|&((a, b), _)| a == 12 || b == 12);
@@ -135,9 +152,10 @@ fn an_image_without_pairs_needs_two() {
         images: (a, b),
         inliers,
         matches: None,
+        verified: true,
         used: false,
     };
-    let others = [other(2, 12, 7), other(3, 12, 8)];
+    let others = [other(2, 12, 17), other(3, 12, 18)];
     let found = suggested(
         &two(&[(0, 6), (1, 7), (2, 8)]),
         Model::Projective,
@@ -146,8 +164,72 @@ fn an_image_without_pairs_needs_two() {
     );
     let pairs: Vec<_> = found[0].pairs.iter().map(|&(pair, _)| pair).collect();
     assert_eq!(pairs, [(2, 12), (3, 12)]);
-    assert_eq!(
-        (found[0].images, found[0].gain, found[0].evidence()),
-        (13, 1, (7, 0))
+    assert_eq!((found[0].images, found[0].gain), (13, 1));
+    assert!(
+        found[0]
+            .candidates
+            .iter()
+            .all(|one| one.tried == Tried::LeftOut)
     );
+}
+
+#[test]
+fn what_has_become_of_a_pair() {
+    let of = |inliers, matches, verified, used| {
+        Tried::of(Some(&OtherPair {
+            images: (0, 1),
+            inliers,
+            matches,
+            verified,
+            used,
+        }))
+    };
+    assert_eq!(Tried::of(None), Tried::Not);
+    assert_eq!(of(40, Some(90), true, true), Tried::Used);
+    assert_eq!(of(15, None, true, false), Tried::LeftOut);
+    assert_eq!(of(0, Some(15), false, false), Tried::Unverified);
+    assert_eq!(of(0, Some(14), false, false), Tried::Few);
+    assert_eq!(of(14, None, true, false), Tried::Few);
+    // Matches that the verification threw away, no matches, and an empty row.
+    assert_eq!(of(0, Some(200), true, false), Tried::InVain);
+    assert_eq!(of(0, Some(0), false, false), Tried::InVain);
+    assert_eq!(of(0, None, true, false), Tried::InVain);
+}
+
+/// Where one side is tried in vain again and again, other images come first; names say who is near.
+#[test]
+fn near_ones_come_first_and_failures_cost() {
+    let near = Nearness::new(
+        &[
+            "0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12",
+        ],
+        &[],
+    );
+    let graph = two(&[(0, 6), (1, 7)]);
+    let first = |others: &[OtherPair]| {
+        let (_, parts, joints) = found(&graph, Model::Projective);
+        let known = Known {
+            inliers: &[],
+            others,
+            near: Some(&near),
+        };
+        let wanted = Wanted { most: 10, at: None };
+        let options = options(Model::Projective);
+        let found = suggest(&graph, &parts, &joints.joints, known, wanted, &options).unwrap();
+        found[0].pairs[0].0
+    };
+    let vain = |a, b| OtherPair {
+        images: (a, b),
+        inliers: 0,
+        matches: Some(0),
+        verified: true,
+        used: false,
+    };
+    // Next to each other by name, one step; 0 and 7 both match 1 and 6, with unknown numbers: one step too.
+    let best = first(&[]);
+    assert!([(0, 7), (1, 6), (5, 6)].contains(&best), "{best:?}");
+    let failed = [vain(0, 7), vain(1, 6), vain(5, 6), vain(5, 7), vain(4, 6)];
+    let best = first(&failed);
+    assert!(failed.iter().all(|pair| pair.images != best), "{best:?}");
+    assert!(best.0 != 5, "{best:?}");
 }

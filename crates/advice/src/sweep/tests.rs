@@ -12,6 +12,7 @@ fn components_by_threshold() {
         images: (a, b),
         inliers,
         matches: None,
+        verified: true,
         used: false,
     };
     // The last has as many inliers as a pair that was used: something else is wrong with it.
@@ -19,6 +20,7 @@ fn components_by_threshold() {
     let known = Known {
         inliers: &[100, 90, 80, 20, 25, 30],
         others: &others,
+        near: None,
     };
     let options = options(Model::Projective);
     let rows = sweep(&graph, known, &[1, 10, 15, 28, 85], &options).unwrap();

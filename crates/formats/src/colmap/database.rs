@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
 use super::open::Opened;
+use super::positions;
 use super::rigs;
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
@@ -35,6 +36,11 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
     let opened = Opened::new(path).map_err(input)?;
     let database = Tables::read(&opened.connection, options).map_err(input)?;
     let (pairs, matching) = database.graph().map_err(input)?;
+    let positions = positions::read(&opened.connection, &database.nodes).map_err(input)?;
+    let matching = Matching {
+        positions,
+        ..matching
+    };
     let facts = database.facts(&pairs);
     let mut notes = Vec::from_iter(opened.note.clone());
     notes.extend(database.notes(&facts));
@@ -54,14 +60,15 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
             let table = database.table;
             let graph = tracks::read(connection, table, names, nodes, &pairs, frames, tracks)?;
             notes.extend(database.other_mapper());
-            notes.push(NOT_KNOWN.to_owned());
-            NamedGraph {
+            let mut graph = NamedGraph {
                 matching: Some(match &graph.frames {
                     Some(frames) => of_cameras(database.between_cameras(&pairs, matching), frames),
                     None => database.between_cameras(&pairs, matching),
                 }),
                 ..graph
-            }
+            };
+            graph.notes.push(NOT_KNOWN.to_owned());
+            graph
         }
     };
     opened.finish().map_err(input)?;
@@ -91,6 +98,8 @@ struct Tables {
     rigs: usize,
     /// Whether they count: only where tracks are read.
     rigs_count: bool,
+    /// The version of COLMAP that wrote it, if it says so.
+    version: Option<u32>,
     table: &'static str,
     pipeline: Pipeline,
     min_inliers: u32,
@@ -118,6 +127,7 @@ impl Tables {
             loops: 0,
             rigs: several_sensors(connection)?,
             rigs_count: options.tracks.is_some_and(|tracks| tracks.rigs),
+            version: version(connection)?,
             table,
             pipeline: options.pipeline.unwrap_or_default(),
             min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
@@ -125,7 +135,8 @@ impl Tables {
         tables.read_pairs(connection)?;
         tables.read_matches(connection)?;
         if tables.pairs.is_empty() && tables.dangling == 0 {
-            return Err(match tables.matches.len() {
+            let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
+            return Err(match matched.count() {
                 0 => DatabaseError::NotMatched(tables.names.len()),
                 matched => DatabaseError::NotVerified(matched, table),
             });
@@ -180,9 +191,8 @@ impl Tables {
         let mut rows = statement.query([])?;
         while let Some(row) = rows.next()? {
             let matches = count(row, 1)?;
-            if let Ok(ends) = ends(row.get(0)?, &self.nodes)
-                && matches > 0
-            {
+            // A row without matches says that the pair was tried.
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes) {
                 self.matches.push((ends, matches));
             }
         }
@@ -224,32 +234,41 @@ impl Tables {
                 self.table
             )));
         }
-        let mut others: BTreeMap<(u32, u32), OtherPair> = BTreeMap::new();
-        for pair in self.pairs.iter().filter(|pair| !pair.used) {
-            others.insert(
-                pair.nodes,
-                OtherPair {
+        let mut others: Vec<OtherPair> = Vec::new();
+        others.extend(
+            self.pairs
+                .iter()
+                .filter(|pair| !pair.used)
+                .map(|pair| OtherPair {
                     images: pair.nodes,
                     inliers: pair.inliers,
                     matches: None,
+                    verified: true,
                     used: false,
-                },
-            );
-        }
-        for &(images, matches) in &self.matches {
-            if graph.edge_number(images.0, images.1).is_none() {
-                let other = others.entry(images).or_insert(OtherPair {
-                    images,
-                    inliers: 0,
-                    matches: None,
-                    used: false,
-                });
-                other.matches = Some(matches);
+                }),
+        );
+        let matched = self.matches.iter();
+        let matched = matched.filter(|(images, _)| graph.edge_number(images.0, images.1).is_none());
+        others.extend(matched.map(|&(images, matches)| OtherPair {
+            images,
+            inliers: 0,
+            matches: Some(matches),
+            verified: false,
+            used: false,
+        }));
+        // Of a pair with both, what was verified comes first and learns how many were matched.
+        others.sort_by_key(|pair| pair.images);
+        others.dedup_by(|later, first| {
+            let same = later.images == first.images;
+            if same {
+                first.matches = later.matches;
             }
-        }
+            same
+        });
         let matching = Matching {
             inliers: used.iter().map(|pair| pair.inliers).collect(),
-            others: others.into_values().collect(),
+            others,
+            positions: Vec::new(),
         };
         Ok((graph, matching))
     }
@@ -261,6 +280,7 @@ impl Tables {
             images,
             inliers,
             matches: self.matches_of(images),
+            verified: true,
             used: true,
         });
         let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
@@ -268,6 +288,7 @@ impl Tables {
         Matching {
             inliers: Vec::new(),
             others,
+            positions: matching.positions,
         }
     }
 
@@ -303,6 +324,7 @@ impl Tables {
             configs: configs.into_values().collect(),
             inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
             rigs: self.rigs,
+            version: self.version,
             connected,
         }
     }
@@ -379,6 +401,12 @@ impl Tables {
             let images = counted(facts.images_without_pair, "image");
             notes.push(format!("{images} {these}: {they} that nothing determines"));
         }
+        let numbers = self.nodes.iter().map(|(&id, &node)| (node, id));
+        let mut numbers: Vec<(u32, i64)> = numbers.collect();
+        numbers.sort_unstable();
+        if !numbers.is_sorted_by_key(|&(_, id)| id) {
+            notes.push("the numbers of the images are not in the order of their names".to_owned());
+        }
         if facts.rigs > 0 && !self.rigs_count {
             notes.push(format!(
                 "{} of several cameras in the database: poses that are known within a rig are not \
@@ -406,7 +434,7 @@ fn of_cameras(matching: Matching, frames: &Frames) -> Matching {
 }
 
 /// The table of verified pairs.
-fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
+pub(super) fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
     let needed = |table, needed: &[&str]| -> Result<Option<String>, DatabaseError> {
         let present = columns(connection, table)?;
         if present.is_empty() {
@@ -438,10 +466,10 @@ pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String
 }
 
 /// The images: names in bytewise order, and the node of every number.
-type Images = (Vec<Box<str>>, HashMap<i64, u32>);
+pub(super) type Images = (Vec<Box<str>>, HashMap<i64, u32>);
 
 /// Reads the table of images.
-fn images(connection: &Connection) -> Result<Images, DatabaseError> {
+pub(super) fn images(connection: &Connection) -> Result<Images, DatabaseError> {
     let mut statement = connection.prepare("select image_id, name from images")?;
     let mut rows = statement.query([])?;
     let mut images: Vec<(Box<str>, i64)> = Vec::new();
@@ -476,6 +504,12 @@ fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
     let query = "select count(distinct rig_id) from rig_sensors";
     let count: i64 = connection.query_row(query, [], |row| row.get(0))?;
     Ok(count.max(0) as usize)
+}
+
+/// The version that a database was written by.
+fn version(connection: &Connection) -> Result<Option<u32>, DatabaseError> {
+    let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    Ok(u32::try_from(version).ok().filter(|&version| version > 0))
 }
 
 /// Why a number of a pair gives no edge.

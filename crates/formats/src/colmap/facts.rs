@@ -24,6 +24,9 @@ pub struct DatabaseFacts {
     pub configs: Vec<ConfigCount>,
     /// The pairs by their numbers of inliers; bins without pairs are left out.
     pub inliers: Vec<Bin>,
+    /// The version of COLMAP that wrote it, if it says so: 3.13 is 3,130,000 and 4.2.1 is 4,020,100;
+    /// before 3.13 it was a smaller number.
+    pub version: Option<u32>,
     /// How many rigs have more than one sensor.
     pub rigs: usize,
     /// The sizes of the connected parts of the viewing graph in images, falling; images without a

@@ -7,6 +7,8 @@
 
 #[cfg(feature = "databases")]
 mod database;
+#[cfg(feature = "databases")]
+mod doubles;
 mod error;
 mod facts;
 #[cfg(feature = "databases")]
@@ -14,12 +16,20 @@ mod keypoints;
 #[cfg(feature = "databases")]
 mod open;
 #[cfg(feature = "databases")]
+mod positions;
+#[cfg(feature = "databases")]
 mod rigs;
 #[cfg(feature = "databases")]
 mod tracks;
+mod two_views;
+#[cfg(feature = "databases")]
+mod views;
 
 pub use error::DatabaseError;
 pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
+pub use two_views::TwoViews;
+#[cfg(feature = "databases")]
+pub use views::Views;
 
 #[cfg(feature = "databases")]
 pub(crate) use database::read;

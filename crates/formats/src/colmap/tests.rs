@@ -43,11 +43,13 @@ fn pairs_that_are_no_edges_keep_what_is_known_of_them() {
         images,
         inliers,
         matches: Some(matches),
+        verified: inliers > 0,
         used: false,
     };
     let matching = Matching {
         inliers: vec![40],
         others: vec![other((0, 1), 7, 50), other((1, 2), 0, 12)],
+        positions: Vec::new(),
     };
     assert_eq!(graph.matching, Some(matching));
 }

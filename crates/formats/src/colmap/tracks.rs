@@ -7,6 +7,7 @@ use rusqlite::types::ValueRef;
 
 use super::DatabaseError;
 use super::database::{NoPair, PAIR_FACTOR, columns, ends};
+use super::doubles::doubles;
 use super::keypoints::Keypoints;
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
@@ -63,7 +64,7 @@ fn join(
     nodes: &HashMap<i64, u32>,
     pairs: &Graph,
     keypoints: &Keypoints,
-) -> Result<(Joined, Option<String>), Problem> {
+) -> Result<(Joined, Vec<String>), Problem> {
     let sql = |error: rusqlite::Error| Problem::from(DatabaseError::from(error));
     if !columns(connection, table)?
         .iter()
@@ -75,6 +76,7 @@ fn join(
     let mut without = 0;
     let mut beyond = 0;
     let mut first_beyond = None;
+    let mut doubled = 0;
     let query = format!("select pair_id, rows, data from {table}");
     let mut statement = connection.prepare(&query).map_err(sql)?;
     let mut rows = statement.query([]).map_err(sql)?;
@@ -111,6 +113,7 @@ fn join(
             return Err(damaged(why).into());
         }
         let (matches, _) = list.as_chunks::<MATCH>();
+        doubled += doubles(matches);
         for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
             let a = u32::from_le_bytes([a0, a1, a2, a3]);
             let b = u32::from_le_bytes([b0, b1, b2, b3]);
@@ -138,5 +141,12 @@ fn join(
              {second}"
         )
     });
-    Ok((joined, beyond))
+    let doubled = (doubled > 0).then(|| {
+        let matches = match doubled {
+            1 => "1 match stands".to_owned(),
+            count => format!("{count} matches stand"),
+        };
+        format!("{matches} in the list of a pair that has it already, and does not count again")
+    });
+    Ok((joined, beyond.into_iter().chain(doubled).collect()))
 }

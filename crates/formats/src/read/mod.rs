@@ -22,7 +22,7 @@ use crate::{edge_list, lookalikes, matlab, matrix_market, numpy};
 use viewcert::graph::{Graph, Labels};
 
 /// A graph as it was read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NamedGraph {
     /// The path as given, what is not UTF-8 in it replaced; `-` for standard input; for line k of a
     /// graph6 or sparse6 file followed by `:k`.

@@ -135,6 +135,7 @@ impl TrackGraph {
         self.count(&cameras)
     }
 
+    #[cfg(any(feature = "databases", test))]
     /// Says that places of features are known, and how near they have to be.
     pub(crate) fn set_spread(&mut self, pixels: u32) {
         self.spread = Some(pixels);
@@ -145,6 +146,7 @@ impl TrackGraph {
         self.frames = Some(frames);
     }
 
+    #[cfg(feature = "databases")]
     /// Says that some of these places are missing, so that tracks were dropped unseen.
     pub(crate) fn set_places_missing(&mut self) {
         self.places_missing = true;

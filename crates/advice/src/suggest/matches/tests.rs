@@ -1,5 +1,6 @@
 use super::*;
 use crate::samples::{found, options, verdict};
+use crate::suggest::{Reason, Tried};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;
@@ -16,6 +17,7 @@ fn suggested(
     let known = Known {
         inliers: &[],
         others,
+        near: None,
     };
     let wanted = Wanted { most: 1000, at };
     suggest_matches(
@@ -43,8 +45,9 @@ fn three(more: &[Pair]) -> Graph {
 fn best(more: &[Pair], cameras: Pair) -> Option<(usize, Option<usize>, usize)> {
     let known = OtherPair {
         images: cameras,
-        inliers: 5,
-        matches: Some(9),
+        inliers: 25,
+        matches: Some(29),
+        verified: true,
         used: false,
     };
     let found = suggested(&three(more), 13, &[known], None);
@@ -75,11 +78,12 @@ fn enough_by_hand() {
 }
 
 #[test]
-fn matches_there_already_come_first() {
+fn what_is_used_or_failed_comes_last() {
     let other = |a, b, inliers, used| OtherPair {
         images: (a, b),
         inliers,
         matches: None,
+        verified: true,
         used,
     };
     let others = [
@@ -90,16 +94,26 @@ fn matches_there_already_come_first() {
     ];
     let found = suggested(&three(&[]), 13, &others, None);
     let cameras: Vec<Pair> = found.iter().map(|found| found.cameras).collect();
-    assert_eq!(cameras[..3], [(3, 6), (0, 12), (2, 5)]);
-    // Two groups that nothing is known of come last.
-    assert!(found[3..].iter().all(|found| found.known.is_none()));
-    assert!(found[3..].iter().any(|found| found.images == 8));
+    let tried: Vec<Tried> = found.iter().map(|found| found.candidate.tried).collect();
+    assert!(tried.is_sorted(), "{tried:?}");
+    assert_eq!(tried[0], Tried::Not);
+    // 3 and 6 are matched: their neighbours see what they see.
+    let common = |found: &SuggestedMatch| match found.candidate.reason {
+        Reason::Common(third) => [3, 6].contains(&third) && found.cameras != (3, 6),
+        _ => false,
+    };
+    assert!(common(&found[0]), "{:?}", found[0]);
+    for late in [(3, 6), (0, 12), (2, 5)] {
+        let at = cameras.iter().position(|&cameras| cameras == late);
+        assert!(at.is_some_and(|at| tried[at] > Tried::Not), "{late:?}");
+    }
     let at = suggested(&three(&[]), 13, &others, Some(12));
-    assert_eq!(at[0].cameras, (0, 12));
     assert!(at.iter().all(|found| found.cameras.1 == 12));
+    assert_eq!(at.last().unwrap().cameras, (0, 12));
     // Without any matches the largest group is named.
     let at = suggested(&three(&[]), 13, &[], Some(12));
-    assert_eq!((at.len(), at[0].observations.len()), (1, 2));
+    assert!(at.iter().all(|found| found.observations.len() == 2));
+    assert_eq!(at[0].images, 5);
 }
 
 /// Groups of cameras and points, and random observations besides: nodes and cameras.

@@ -1,0 +1,229 @@
+//! Angle and direction of motion of a pair, estimated from its relative pose.
+//!
+//! In: an essential matrix or a pose, and matches in the plane before the camera. Out: the median
+//! angle between two rays to a point, and how much of the motion is forward ([`Estimate`]). The
+//! pose of an essential matrix is that of Horn ("Recovering baseline and orientation from essential
+//! matrix", 1990): with b a column of (1/2 tr E E^T) I - E E^T, cof(E) - [b] E = |b|^2 R.
+
+use anyhow::Result;
+use std::collections::HashMap;
+use viewcert_formats::colmap::TwoViews;
+
+/// What is known of pairs beyond their matches.
+pub trait Geometry {
+    /// What is known of one pair, if anything.
+    ///
+    /// # Errors
+    /// Of whatever is read for it.
+    fn of(&mut self, pair: (u32, u32)) -> Result<Option<Estimate>>;
+
+    /// Whether the focal length of an image is known beforehand.
+    fn has_prior_focal_length(&self, image: u32) -> bool;
+}
+
+/// Nothing is known.
+impl Geometry for () {
+    fn of(&mut self, _: (u32, u32)) -> Result<Option<Estimate>> {
+        Ok(None)
+    }
+
+    fn has_prior_focal_length(&self, _: u32) -> bool {
+        false
+    }
+}
+
+/// What is known of pairs, read once each; of so many pairs at most, and nothing of later ones.
+pub(super) struct Cached<'a> {
+    geometry: &'a mut dyn Geometry,
+    known: HashMap<(u32, u32), Option<Estimate>>,
+    most: usize,
+}
+
+impl<'a> Cached<'a> {
+    pub(super) fn new(geometry: &'a mut dyn Geometry, most: usize) -> Self {
+        Self {
+            geometry,
+            known: HashMap::new(),
+            most,
+        }
+    }
+}
+
+impl Geometry for Cached<'_> {
+    fn of(&mut self, pair: (u32, u32)) -> Result<Option<Estimate>> {
+        if let Some(&known) = self.known.get(&pair) {
+            return Ok(known);
+        }
+        if self.known.len() == self.most {
+            return Ok(None);
+        }
+        let found = self.geometry.of(pair)?;
+        self.known.insert(pair, found);
+        Ok(found)
+    }
+
+    fn has_prior_focal_length(&self, image: u32) -> bool {
+        self.geometry.has_prior_focal_length(image)
+    }
+}
+
+/// What a relative pose says of a pair: an estimate, in floats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The two images.
+    pub images: [u32; 2],
+    /// The configuration of the database.
+    pub config: i64,
+    /// The median angle between the two rays to a point, in degrees.
+    pub angle: Option<f64>,
+    /// The part of the motion along the second camera's axis, from 0 to 1.
+    pub forward: Option<f64>,
+    /// The direction of the second image as the first sees it, and of the first as the second does;
+    /// of length 1.
+    pub towards: Option<[[f64; 3]; 2]>,
+}
+
+impl Estimate {
+    /// The direction of the other image as one of the two sees it.
+    pub fn towards(&self, from: u32) -> Option<[f64; 3]> {
+        let [first, second] = self.towards?;
+        Some(if from == self.images[0] {
+            first
+        } else {
+            second
+        })
+    }
+}
+
+type Vector = [f64; 3];
+type Matrix = [Vector; 3];
+
+/// Rotation and translation that take coordinates of the first camera to those of the second.
+struct Pose {
+    rotation: Matrix,
+    translation: Vector,
+}
+
+/// What the database says of a pair. O(matches).
+pub fn estimate(views: &TwoViews) -> Estimate {
+    let unknown = Estimate {
+        images: views.images,
+        config: views.config,
+        angle: None,
+        forward: None,
+        towards: None,
+    };
+    let stored = views.pose.map(|(q, t)| Pose {
+        rotation: rotation(q),
+        translation: t,
+    });
+    let of_essential = || pose(&views.essential?, &views.matches);
+    let Some(pose) = stored.or_else(of_essential) else {
+        return unknown;
+    };
+    let length = dot(pose.translation, pose.translation).sqrt();
+    let forward = pose.translation[2].abs() / length;
+    let second = pose.translation.map(|x| x / length);
+    let first = [0, 1, 2].map(|j| -(0..3).map(|i| pose.rotation[i][j] * second[i]).sum::<f64>());
+    Estimate {
+        towards: forward.is_finite().then_some([first, second]),
+        forward: forward.is_finite().then_some(forward),
+        angle: median_angle(&pose, &views.matches),
+        ..unknown
+    }
+}
+
+/// The pose of an essential matrix that has most points before both cameras.
+fn pose(essential: &Matrix, matches: &[[[f64; 2]; 2]]) -> Option<Pose> {
+    let e = essential;
+    let half: f64 = e.iter().map(|row| dot(*row, *row)).sum::<f64>() / 2.0;
+    let square = |i: usize, j: usize| if i == j { half } else { 0.0 } - dot(e[i], e[j]);
+    let largest = (0..3).max_by(|&i, &j| square(i, i).total_cmp(&square(j, j)))?;
+    let norm = square(largest, largest).max(0.0).sqrt();
+    let b = [0, 1, 2].map(|i| square(i, largest) / norm);
+    let length = dot(b, b);
+    if !length.is_finite() || length <= 0.0 {
+        return None;
+    }
+    let cofactors = [cross(e[1], e[2]), cross(e[2], e[0]), cross(e[0], e[1])];
+    let column = |j: usize| [0, 1, 2].map(|i| e[i][j]);
+    let turned = [0, 1, 2].map(|j| cross(b, column(j)));
+    let candidate = |sign: f64| {
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| (cofactors[i][j] - sign * turned[j][i]) / length))
+    };
+    let candidates = [1.0, -1.0].into_iter().flat_map(|turn| {
+        [1.0, -1.0].map(|sign| Pose {
+            rotation: candidate(turn),
+            translation: b.map(|x| sign * x),
+        })
+    });
+    candidates.max_by_key(|pose| matches.iter().filter(|two| is_before(pose, two)).count())
+}
+
+/// Whether a point lies before both cameras.
+fn is_before(pose: &Pose, [x, y]: &[[f64; 2]; 2]) -> bool {
+    let (x, y) = ([x[0], x[1], 1.0], [y[0], y[1], 1.0]);
+    let turned = apply(&pose.rotation, x);
+    let normal = cross(y, turned);
+    let depth = -dot(cross(y, pose.translation), normal) / dot(normal, normal);
+    let point = [0, 1, 2].map(|k| depth * turned[k] + pose.translation[k]);
+    depth > 0.0 && dot(y, point) > 0.0
+}
+
+/// The median angle between two rays to a point, in degrees, of the points before both cameras.
+fn median_angle(pose: &Pose, matches: &[[[f64; 2]; 2]]) -> Option<f64> {
+    let seen = matches.iter().filter(|two| is_before(pose, two));
+    let mut angles: Vec<f64> = seen
+        .map(|[x, y]| {
+            let x = apply(&pose.rotation, [x[0], x[1], 1.0]);
+            let y = [y[0], y[1], 1.0];
+            let across = cross(x, y);
+            dot(across, across).sqrt().atan2(dot(x, y)).to_degrees()
+        })
+        .collect();
+    if angles.is_empty() {
+        return None;
+    }
+    let middle = angles.len() / 2;
+    let (_, median, _) = angles.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(*median)
+}
+
+/// The matrix of a quaternion (w, x, y, z), of any length.
+fn rotation(q: [f64; 4]) -> Matrix {
+    let square: f64 = q.iter().map(|x| x * x).sum();
+    let [w, x, y, z] = q.map(|k| k / square.sqrt());
+    [
+        [
+            1.0 - 2.0 * (y * y + z * z),
+            2.0 * (x * y - w * z),
+            2.0 * (x * z + w * y),
+        ],
+        [
+            2.0 * (x * y + w * z),
+            1.0 - 2.0 * (x * x + z * z),
+            2.0 * (y * z - w * x),
+        ],
+        [
+            2.0 * (x * z - w * y),
+            2.0 * (y * z + w * x),
+            1.0 - 2.0 * (x * x + y * y),
+        ],
+    ]
+}
+
+fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn apply(m: &Matrix, x: Vector) -> Vector {
+    m.map(|row| dot(row, x))
+}

@@ -1,0 +1,40 @@
+//! What COLMAP's mappers will probably do with a database: a simulation, and no proof.
+//!
+//! In: the camera-point graph of the tracks, the pairs with their inliers, and what is known of the
+//! geometry of pairs. Out: the models of incremental mapping, with what each starts from and where
+//! it stops, and the images of the one model of global mapping ([`Foreseen`]).
+//!
+//! COLMAP estimates poses and triangulates; here only its thresholds are applied to numbers of
+//! points ([`Thresholds`]), and points are taken to be right. No verdict and no certificate depends
+//! on this module, and it is the only one of the library that says what is likely. How often it was
+//! right is in docs/reconstruction.md.
+
+mod geometry;
+mod global;
+mod growth;
+mod incremental;
+mod named;
+mod starts;
+mod thresholds;
+
+pub use geometry::{Estimate, Geometry, estimate};
+pub use incremental::{Incremental, SimulatedModel, Stop, incremental};
+pub use named::{Beginning, Foreseen, Global, Model, Models, Sees, foresee};
+pub use starts::{Start, Unfit};
+pub use thresholds::Thresholds;
+
+use viewcert::Graph;
+
+/// What a mapper has to begin with.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The camera-point graph; the first `images` nodes are the images.
+    pub tracks: &'a Graph,
+    /// How many images there are.
+    pub images: usize,
+    /// The pairs with enough verified matches, and how many they have; the smaller image first.
+    pub pairs: &'a [((u32, u32), u32)],
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,325 @@
+//! Which pairs of images are worth trying: a guess, measured on photographs in
+//! docs/reconstruction.md. What a pair would join is decided elsewhere.
+//!
+//! A pair costs as many steps as its images are apart: by the names of their files, by position, or
+//! by how many matches both have with one third image. Each failure of either image with an image
+//! that it is in no component with costs one step more. What was tried already comes behind what was
+//! not. Between two groups of images several pairs are chosen, on different images.
+
+use super::nearness::Near;
+use super::{Pair, Search, ordered};
+use crate::suggest::Tried;
+use std::collections::HashMap;
+
+/// A tenth of a step: the unit of costs.
+const STEP: u32 = 10;
+
+/// What a pair costs that nothing is known of.
+const UNKNOWN: u32 = 8 * STEP;
+
+/// Up to so many images every pair is looked at.
+const ALL: usize = 1500;
+
+/// How many steps of a sequence are looked at where there are more.
+const STEPS: u32 = 24;
+
+/// How many neighbours of an image in one group are looked at for what they have in common.
+const COMMON: usize = 8;
+
+/// Most pairs that are chosen between two groups.
+const OF_GAP: usize = 8;
+
+/// Why a pair is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// Its images are near each other.
+    Near(Near),
+    /// Both are matched with this image.
+    Common(u32),
+    /// Images of the two groups, for want of anything better.
+    Any,
+}
+
+/// Two images that may be worth matching.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Candidate {
+    /// The smaller one first.
+    pub pair: Pair,
+    /// What has become of matching them so far.
+    pub tried: Tried,
+    /// In tenths of a step.
+    pub cost: u32,
+    /// Why they are tried.
+    pub reason: Reason,
+    /// How many better ones there are between the same groups.
+    pub round: usize,
+}
+
+impl Candidate {
+    /// The best ones first.
+    pub fn rank(&self) -> (Tried, usize, u32) {
+        (self.tried, self.round, self.cost)
+    }
+}
+
+/// What costs are made of.
+pub(super) struct Costs<'a> {
+    search: &'a Search<'a>,
+    /// Pairs with a common neighbour: how many matches both have with it, and which it is.
+    common: HashMap<Pair, (u32, u32)>,
+    /// How often matching every image with another group has failed.
+    failures: Vec<u32>,
+    /// How far the number of neighbours of every image is from the mean of its group, in percent.
+    unusual: Vec<u32>,
+}
+
+impl<'a> Costs<'a> {
+    /// O(pairs that are known or used), up to sorting.
+    pub(super) fn new(search: &'a Search<'a>) -> Self {
+        let images = search.images.len();
+        let mut neighbours: Vec<Vec<(u32, u32)>> = vec![Vec::new(); images];
+        for ((a, b), inliers) in search.matched() {
+            neighbours[a as usize].push((inliers, b));
+            neighbours[b as usize].push((inliers, a));
+        }
+        let mut failures = vec![0; images];
+        for (&(a, b), known) in &search.known {
+            if Tried::of(Some(known)).is_failure() && !search.parts.are_together(a, b) {
+                failures[a as usize] += 1;
+                failures[b as usize] += 1;
+            }
+        }
+        Self {
+            search,
+            unusual: unusual(search, &neighbours),
+            common: common(search, neighbours),
+            failures,
+        }
+    }
+
+    /// A pair as a candidate.
+    pub(super) fn candidate(&self, pair: Pair) -> Candidate {
+        let (cost, reason) = self.of(pair);
+        Candidate {
+            pair,
+            tried: Tried::of(self.search.known.get(&pair)),
+            cost,
+            reason,
+            round: 0,
+        }
+    }
+
+    /// Whether a pair was matched with too little coming of it.
+    pub(super) fn has_failed(&self, pair: Pair) -> bool {
+        Tried::of(self.search.known.get(&pair)).is_failure()
+    }
+
+    /// What a pair costs, and why it is tried.
+    fn of(&self, pair: Pair) -> (u32, Reason) {
+        let near = self
+            .search
+            .nearness
+            .and_then(|near| near.of(pair.0, pair.1));
+        let near = near.map(|near| (STEP.saturating_mul(near.steps()), Reason::Near(near)));
+        // 30 matches and more with a third image are as good as standing next to each other.
+        let common = self.common.get(&pair).map(|&(inliers, third)| {
+            let cost = STEP * 30 / inliers.clamp(15, 60);
+            (cost, Reason::Common(third))
+        });
+        let known = common.into_iter().chain(near).min_by_key(|(cost, _)| *cost);
+        let (cost, reason) = known.unwrap_or((UNKNOWN, Reason::Any));
+        let failed = self.failures[pair.0 as usize] + self.failures[pair.1 as usize];
+        (cost.saturating_add(STEP * failed), reason)
+    }
+
+    /// The best pairs between any two groups, of different images as far as there are any: `most` at
+    /// most, with an end at `at` if that is given, and such as `keep` takes; `further` are looked at
+    /// as well. O(n^2) for a thousand images, else O(n log n).
+    pub(super) fn best(
+        &self,
+        further: impl Iterator<Item = Pair>,
+        at: Option<u32>,
+        keep: impl Fn(Pair) -> bool,
+        most: usize,
+    ) -> Vec<Candidate> {
+        let images = self.search.images.len();
+        let mut pairs: Vec<Pair> = match at {
+            Some(image) => (0..images as u32).map(|b| (image, b)).collect(),
+            None if images <= ALL => {
+                let all =
+                    (0..images as u32).flat_map(|a| (a + 1..images as u32).map(move |b| (a, b)));
+                all.filter(|&(a, b)| !self.search.parts.are_together(a, b))
+                    .collect()
+            }
+            None => {
+                let near = self.search.nearness.map(|near| near.pairs(STEPS));
+                let common = self.common.keys().copied();
+                let known = self.search.known.keys().copied();
+                near.into_iter()
+                    .flatten()
+                    .chain(common)
+                    .chain(known)
+                    .collect()
+            }
+        };
+        pairs.extend(further);
+        pairs.iter_mut().for_each(|pair| *pair = ordered(*pair));
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs.retain(|&pair| self.search.is_candidate(pair, at) && keep(pair));
+        self.chosen(pairs, most)
+    }
+
+    /// The best pairs between two groups of images, of different images first.
+    pub(super) fn between(&self, one: &[u32], other: &[u32], most: usize) -> Vec<Pair> {
+        let pairs = one
+            .iter()
+            .flat_map(|&a| other.iter().map(move |&b| ordered((a, b))));
+        let mut pairs: Vec<Pair> = pairs
+            .filter(|&pair| self.search.is_candidate(pair, None))
+            .collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut sorted = self.sorted(pairs);
+        // Pairs that are used already give nothing more.
+        sorted.retain(|candidate| candidate.tried != Tried::Used);
+        let mut first: Vec<Pair> = Vec::new();
+        let mut rest: Vec<Pair> = Vec::new();
+        for candidate in sorted {
+            let pair = candidate.pair;
+            let meets = |other: &Pair| {
+                [other.0, other.1]
+                    .iter()
+                    .any(|&v| v == pair.0 || v == pair.1)
+            };
+            let list = if first.iter().any(meets) {
+                &mut rest
+            } else {
+                &mut first
+            };
+            if list.len() < most {
+                list.push(pair);
+            }
+            if first.len() == most {
+                break;
+            }
+        }
+        first.extend(rest);
+        first.truncate(2 * most);
+        first
+    }
+
+    /// By rank and, where that is the same, images with a usual number of neighbours first: those
+    /// with most are far inside their group, those with fewest see little.
+    fn sorted(&self, pairs: Vec<Pair>) -> Vec<Candidate> {
+        let mut found: Vec<(Candidate, u32)> = pairs
+            .into_iter()
+            .map(|pair| {
+                let unusual = self.unusual[pair.0 as usize] + self.unusual[pair.1 as usize];
+                (self.candidate(pair), unusual)
+            })
+            .collect();
+        found.sort_unstable_by_key(|(one, unusual)| (one.tried, one.cost, *unusual, one.pair));
+        found.into_iter().map(|(candidate, _)| candidate).collect()
+    }
+
+    /// Several of each gap: the best, then the best of other images, then what is left.
+    fn chosen(&self, pairs: Vec<Pair>, most: usize) -> Vec<Candidate> {
+        let mut gaps: HashMap<(u32, u32), Gap> = HashMap::new();
+        let mut chosen: Vec<Candidate> = Vec::new();
+        let mut left: Vec<Candidate> = Vec::new();
+        for candidate in self.sorted(pairs) {
+            let (a, b) = candidate.pair;
+            let gap = gaps
+                .entry(ordered((self.search.group(a), self.search.group(b))))
+                .or_default();
+            if gap.chosen >= OF_GAP {
+                continue;
+            }
+            if gap.images.contains(&a) || gap.images.contains(&b) {
+                if gap.left < OF_GAP {
+                    gap.left += 1;
+                    left.push(candidate);
+                }
+                continue;
+            }
+            gap.images.extend([a, b]);
+            chosen.push(gap.next(candidate));
+            if chosen.len() >= most {
+                break;
+            }
+        }
+        for candidate in left {
+            let (a, b) = candidate.pair;
+            let gap = gaps
+                .entry(ordered((self.search.group(a), self.search.group(b))))
+                .or_default();
+            if gap.chosen < OF_GAP && chosen.len() < most {
+                chosen.push(gap.next(candidate));
+            }
+        }
+        chosen.sort_by_key(|candidate| (candidate.rank(), candidate.pair));
+        chosen
+    }
+}
+
+/// What is chosen between two groups.
+#[derive(Default)]
+struct Gap {
+    chosen: usize,
+    left: usize,
+    images: Vec<u32>,
+}
+
+impl Gap {
+    fn next(&mut self, candidate: Candidate) -> Candidate {
+        self.chosen += 1;
+        Candidate {
+            round: self.chosen - 1,
+            ..candidate
+        }
+    }
+}
+
+/// Pairs of different groups with a common neighbour: the most matches that both have with one.
+fn common(search: &Search, neighbours: Vec<Vec<(u32, u32)>>) -> HashMap<Pair, (u32, u32)> {
+    let mut found: HashMap<Pair, (u32, u32)> = HashMap::new();
+    for (third, mut of) in (0..).zip(neighbours) {
+        of.sort_unstable_by(|a, b| b.cmp(a));
+        let mut groups: HashMap<u32, usize> = HashMap::new();
+        of.retain(|&(_, v)| {
+            let count = groups.entry(search.group(v)).or_default();
+            *count += 1;
+            *count <= COMMON
+        });
+        if groups.len() < 2 {
+            continue;
+        }
+        for (k, &(_, a)) in of.iter().enumerate() {
+            // The later ones have no more matches.
+            for &(inliers, b) in &of[k + 1..] {
+                if search.parts.are_together(a, b) {
+                    continue;
+                }
+                let best = found.entry(ordered((a, b))).or_default();
+                *best = (*best).max((inliers, third));
+            }
+        }
+    }
+    found
+}
+
+/// For every image how far its number of neighbours is from the mean of its group, in percent.
+fn unusual(search: &Search, neighbours: &[Vec<(u32, u32)>]) -> Vec<u32> {
+    let mut groups: HashMap<u32, (usize, usize)> = HashMap::new();
+    for (image, of) in (0..).zip(neighbours) {
+        let group = groups.entry(search.group(image)).or_default();
+        group.0 += of.len() + 1;
+        group.1 += 1;
+    }
+    let percent = |(image, of): (u32, &Vec<(u32, u32)>)| {
+        let (sum, count) = groups[&search.group(image)];
+        (100 * (of.len() + 1) * count / sum).abs_diff(100) as u32
+    };
+    (0..).zip(neighbours).map(percent).collect()
+}

@@ -1,0 +1,314 @@
+//! Single pairs of a database, read on demand: keypoints, cameras and relative poses.
+//!
+//! In: a path. Out: [`TwoViews`] of the pairs that are asked for. Most questions are about a few
+//! pairs of many, and keypoints are most of a database; so what is read once is an index of images.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use rusqlite::types::ValueRef;
+use rusqlite::{OptionalExtension, Row, params};
+
+use super::database::{PAIR_FACTOR, columns, images, verified_table};
+use super::open::Opened;
+use super::{DatabaseError, TwoViews};
+
+/// A database whose pairs are asked for one by one.
+pub struct Views {
+    opened: Opened,
+    table: &'static str,
+    /// The number of every image, by its node.
+    ids: Vec<i64>,
+    /// The camera of every image, by its node.
+    cameras: Vec<Option<Camera>>,
+    /// Which columns of poses the table has: E, F, and a quaternion with a translation.
+    has: [bool; 3],
+    has_config: bool,
+    keypoints: Option<Keypoints>,
+}
+
+/// Images whose keypoints were read; images are dropped when there are many.
+#[derive(Default)]
+struct Keypoints(HashMap<u32, Vec<[f32; 2]>>);
+
+/// Most images whose keypoints are kept.
+const KEPT: usize = 256;
+
+/// A camera without its distortion: focal lengths and principal point, in pixels.
+#[derive(Clone, Copy, Debug)]
+struct Camera {
+    focal: [f64; 2],
+    centre: [f64; 2],
+    /// Whether the focal length was known before matching.
+    prior: bool,
+}
+
+impl Views {
+    /// Opens a database and reads its images and cameras. O(images).
+    ///
+    /// # Errors
+    /// A database that cannot be read.
+    pub fn open(path: &Path) -> Result<Self, DatabaseError> {
+        let opened = Opened::new(path)?;
+        let connection = &opened.connection;
+        let table = verified_table(connection)?;
+        let (names, nodes) = images(connection)?;
+        let mut ids = vec![0; names.len()];
+        for (&id, &node) in &nodes {
+            ids[node as usize] = id;
+        }
+        let mut cameras = vec![None; names.len()];
+        if columns(connection, "cameras")?.len() > 5
+            && columns(connection, "images")?
+                .iter()
+                .any(|c| c == "camera_id")
+        {
+            let query = "select image_id, model, params, prior_focal_length from images join cameras \
+                         using (camera_id)";
+            let mut statement = connection.prepare(query)?;
+            let mut rows = statement.query([])?;
+            while let Some(row) = rows.next()? {
+                let id: i64 = row.get(0)?;
+                if let Some(&node) = nodes.get(&id) {
+                    cameras[node as usize] = camera(row)?;
+                }
+            }
+        }
+        let present = columns(connection, table)?;
+        let has = |column: &str| present.iter().any(|name| name == column);
+        let posed = has("qvec") && has("tvec");
+        let of_keypoints = columns(connection, "keypoints")?;
+        let keypoints = ["image_id", "rows", "cols", "data"]
+            .iter()
+            .all(|column| of_keypoints.iter().any(|name| name == column));
+        Ok(Self {
+            table,
+            ids,
+            cameras,
+            has: [has("E"), has("F"), posed],
+            has_config: has("config"),
+            keypoints: keypoints.then(Keypoints::default),
+            opened,
+        })
+    }
+
+    /// Whether the focal length of an image was known before matching.
+    ///
+    /// # Panics
+    /// If there is no such image.
+    pub fn has_prior_focal_length(&self, image: u32) -> bool {
+        self.cameras[image as usize].is_some_and(|camera| camera.prior)
+    }
+
+    /// What is known of a pair; nothing, if it is not in the table of verified pairs.
+    ///
+    /// # Errors
+    /// Damage, by the pair's number.
+    ///
+    /// # Panics
+    /// If there is no such image.
+    pub fn two(&mut self, a: u32, b: u32) -> Result<Option<TwoViews>, DatabaseError> {
+        let mut images = [a, b];
+        images.sort_unstable_by_key(|&image| self.ids[image as usize]);
+        let [first, second] = images.map(|image| self.ids[image as usize]);
+        let Some(pair) = first
+            .checked_mul(PAIR_FACTOR)
+            .and_then(|k| k.checked_add(second))
+        else {
+            return Ok(None);
+        };
+        let [e, f, pose] = self.has;
+        let column = |there: bool, name: &'static str| if there { name } else { "null" };
+        let query = format!(
+            "select rows, {}, data, {}, {}, {}, {} from {} where pair_id = ?",
+            if self.has_config { "config" } else { "0" },
+            column(e, "E"),
+            column(f, "F"),
+            column(pose, "qvec"),
+            column(pose, "tvec"),
+            self.table
+        );
+        let read = |row: &Row| {
+            let inliers: Option<u32> = row.get(0)?;
+            let config: Option<i64> = row.get(1)?;
+            let list = row.get_ref(2)?.as_blob().unwrap_or(&[]).to_vec();
+            let numbers = [3, 4, 5, 6].map(|k| row.get_ref(k).map(doubles));
+            let [e, f, q, t] = numbers;
+            Ok((
+                inliers.unwrap_or(0),
+                config.unwrap_or(0),
+                list,
+                [e?, f?, q?, t?],
+            ))
+        };
+        let mut statement = self.opened.connection.prepare_cached(&query)?;
+        let Some((inliers, config, list, [e, f, q, t])) =
+            statement.query_row(params![pair], read).optional()?
+        else {
+            return Ok(None);
+        };
+        drop(statement);
+        let cameras = images.map(|image| self.cameras[image as usize]);
+        let mut found = TwoViews {
+            images,
+            config,
+            inliers,
+            ..TwoViews::default()
+        };
+        if let (Ok(q), Ok(t)) = (<[f64; 4]>::try_from(q), <[f64; 3]>::try_from(t))
+            && q.iter().any(|&number| number != 0.0)
+            && t.iter().any(|&number| number != 0.0)
+        {
+            found.pose = Some((q, t));
+        }
+        let [e, f] = [e, f].map(|m| matrix(&m));
+        // A pair with a fundamental matrix was verified by it; the essential one was then worse.
+        let of_fundamental = || {
+            let [one, two] = [cameras[0]?, cameras[1]?];
+            Some(essential(&f?, &one, &two))
+        };
+        found.essential = match config {
+            3 => of_fundamental().or(e),
+            _ => e.or_else(of_fundamental),
+        };
+        if let [Some(one), Some(two)] = cameras
+            && let Some(mut cache) = self.keypoints.take()
+        {
+            let read = cache.read(self, images);
+            let points = read.map(|()| cache.of(images));
+            if let Ok([x, y]) = points {
+                let (matches, _) = list.as_chunks::<8>();
+                for &[a0, a1, a2, a3, b0, b1, b2, b3] in matches {
+                    let a = u32::from_le_bytes([a0, a1, a2, a3]) as usize;
+                    let b = u32::from_le_bytes([b0, b1, b2, b3]) as usize;
+                    if let (Some(&x), Some(&y)) = (x.get(a), y.get(b)) {
+                        found.matches.push([one.plane(x), two.plane(y)]);
+                    }
+                }
+            }
+            self.keypoints = Some(cache);
+        }
+        Ok(Some(found))
+    }
+
+    /// To be called after everything is read.
+    ///
+    /// # Errors
+    /// If somebody has written in between.
+    pub fn finish(self) -> Result<(), DatabaseError> {
+        self.opened.finish()
+    }
+}
+
+impl Keypoints {
+    /// Reads the keypoints of two images, unless they are there.
+    fn read(&mut self, views: &Views, images: [u32; 2]) -> Result<(), DatabaseError> {
+        if self.0.len() > KEPT {
+            self.0.clear();
+        }
+        for image in images {
+            if self.0.contains_key(&image) {
+                continue;
+            }
+            let query = "select cols, data from keypoints where image_id = ?";
+            let mut statement = views.opened.connection.prepare_cached(query)?;
+            let read = |row: &Row| {
+                let columns: Option<u32> = row.get(0)?;
+                let data = row.get_ref(1)?.as_blob().unwrap_or(&[]);
+                Ok(points(columns.unwrap_or(0) as usize, data))
+            };
+            let id = views.ids[image as usize];
+            let found = statement.query_row(params![id], read).optional()?;
+            self.0.insert(image, found.unwrap_or_default());
+        }
+        Ok(())
+    }
+
+    fn of(&self, images: [u32; 2]) -> [&[[f32; 2]]; 2] {
+        images.map(|image| self.0.get(&image).map_or(&[][..], Vec::as_slice))
+    }
+}
+
+impl Camera {
+    /// A pixel in the plane at distance 1.
+    fn plane(&self, pixel: [f32; 2]) -> [f64; 2] {
+        [0, 1].map(|k| (f64::from(pixel[k]) - self.centre[k]) / self.focal[k])
+    }
+}
+
+/// The camera of a row, unless its model has no plane of points before it.
+fn camera(row: &Row) -> Result<Option<Camera>, DatabaseError> {
+    let model: i64 = row.get(1)?;
+    let parameters = doubles(row.get_ref(2)?);
+    let prior: Option<i64> = row.get(3)?;
+    // Models 0, 2 and 3 of COLMAP have one focal length, 1, 4 and 6 have two; all then have the
+    // principal point. The others are fisheyes.
+    let one = matches!(model, 0 | 2 | 3);
+    if !one && !matches!(model, 1 | 4 | 6) {
+        return Ok(None);
+    }
+    let at = |k: usize| {
+        parameters
+            .get(k)
+            .copied()
+            .filter(|number| number.is_finite())
+    };
+    let found = if one {
+        [at(0), at(0), at(1), at(2)]
+    } else {
+        [at(0), at(1), at(2), at(3)]
+    };
+    Ok(match found {
+        [Some(x), Some(y), Some(u), Some(v)] if x > 0.0 && y > 0.0 => Some(Camera {
+            focal: [x, y],
+            centre: [u, v],
+            prior: prior.is_some_and(|prior| prior != 0),
+        }),
+        _ => None,
+    })
+}
+
+/// The numbers of a blob; none of what is no blob.
+fn doubles(value: ValueRef) -> Vec<f64> {
+    let bytes = value.as_blob().unwrap_or(&[]);
+    let (numbers, _) = bytes.as_chunks();
+    numbers
+        .iter()
+        .map(|&bytes| f64::from_le_bytes(bytes))
+        .collect()
+}
+
+/// Nine numbers by rows, unless they are zeros or not finite.
+fn matrix(numbers: &[f64]) -> Option<[[f64; 3]; 3]> {
+    let (rows, rest) = numbers.as_chunks::<3>();
+    let rows = <[[f64; 3]; 3]>::try_from(rows).ok()?;
+    let all = || rows.as_flattened().iter();
+    let given = all().all(|x| x.is_finite()) && all().any(|&x| x != 0.0);
+    (rest.is_empty() && given).then_some(rows)
+}
+
+/// E = K2^T F K1.
+fn essential(f: &[[f64; 3]; 3], one: &Camera, two: &Camera) -> [[f64; 3]; 3] {
+    let calibration = |camera: &Camera| {
+        let ([x, y], [u, v]) = (camera.focal, camera.centre);
+        [[x, 0.0, u], [0.0, y, v], [0.0, 0.0, 1.0]]
+    };
+    let (k1, k2) = (calibration(one), calibration(two));
+    [0, 1, 2].map(|i| {
+        [0, 1, 2].map(|j| {
+            let terms = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));
+            terms.map(|(a, b)| k2[a][i] * f[a][b] * k1[b][j]).sum()
+        })
+    })
+}
+
+/// x and y of every keypoint: the first two of so many columns.
+fn points(columns: usize, data: &[u8]) -> Vec<[f32; 2]> {
+    if columns < 2 {
+        return Vec::new();
+    }
+    let number = |bytes: &[u8]| f32::from_le_bytes(bytes.try_into().expect("four bytes"));
+    let rows = data.chunks_exact(4 * columns);
+    rows.map(|row| [number(&row[..4]), number(&row[4..8])])
+        .collect()
+}

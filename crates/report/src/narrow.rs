@@ -1,0 +1,116 @@
+//! Narrow places and special geometry, in lines of the overview.
+
+use super::counted;
+use std::io::{self, Write};
+use viewcert_advice::special::{Hinge, Narrow, Pair};
+
+/// How many places of a kind are shown.
+const SHOWN: usize = 5;
+
+/// Writes what to look at by eye, and a warning for each special place.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn write<W: Write>(
+    out: &mut W,
+    found: &Narrow,
+    wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
+) -> io::Result<()> {
+    for few in found.few.iter().take(SHOWN) {
+        let [one, other] = few.sides;
+        let alone = if few.pairs.len() == 1 {
+            "alone holds"
+        } else {
+            "alone hold"
+        };
+        let words = format!(
+            "{} {alone} {one} and {other} images together: look at {} by eye",
+            pairs(&few.pairs),
+            if few.pairs.len() == 1 { "it" } else { "them" },
+        );
+        wrapped(out, "few pairs", &words)?;
+    }
+    if found.few.len() > SHOWN {
+        writeln!(
+            out,
+            "              {} more (--json lists them)",
+            found.few.len() - SHOWN
+        )?;
+    }
+    for words in warnings(found) {
+        wrapped(out, "warning", &words)?;
+    }
+    Ok(())
+}
+
+/// A line for each special place.
+fn warnings(found: &Narrow) -> Vec<String> {
+    const SPECIAL: &str =
+        "from one place: panoramic, or rays less than a degree apart in the median";
+    const MEANS: &str =
+        "what the verdict says of positions there does not hold of these photographs";
+    let few = found.few.iter().filter(|few| few.special).map(|few| {
+        let [one, other] = few.sides;
+        format!(
+            "what alone holds {one} and {other} images together is {SPECIAL} ({}); {MEANS}",
+            pairs(&few.pairs)
+        )
+    });
+    let between = found.between.iter().filter(|between| between.special).map(|between| {
+        let [one, other] = between.components;
+        let looked = if between.count > between.pairs.len() {
+            format!("the {} strongest of {}", between.pairs.len(), counted(between.count, "pair"))
+        } else {
+            format!("all {} pairs", between.count)
+        };
+        let what = if between.count == 1 {
+            "the only pair is".to_owned()
+        } else {
+            format!("{looked} are")
+        };
+        format!(
+            "components {one} and {other}: {what} {SPECIAL}; more matches of the same images do not \
+             join them"
+        )
+    });
+    let hinges = found.hinges.iter().filter(|hinge| hinge.special).map(|hinge| {
+        format!(
+            "{} alone hold {} images together, and stand in one place ({}): their scale against each \
+             other is not fixed, whatever the verdict says",
+            hinge.pair.images.join(" and "),
+            sides(hinge),
+            numbers(&hinge.pair),
+        )
+    });
+    let lines = found.lines.iter().filter(|line| line.special).map(|line| {
+        format!(
+            "{} hold a ring of parts together, and stand on one line ({:.1} degrees off): their \
+             scales against each other are not fixed, whatever the verdict says",
+            line.images.join(", "),
+            line.degrees
+        )
+    });
+    few.chain(between).chain(hinges).chain(lines).collect()
+}
+
+fn sides(hinge: &Hinge) -> String {
+    let sides: Vec<String> = hinge.sides.iter().map(usize::to_string).collect();
+    sides.join(" and ")
+}
+
+/// "A B (17 inliers, 3.2 degrees)" of each.
+fn pairs(pairs: &[Pair]) -> String {
+    let each = pairs.iter().map(|pair| match &numbers(pair)[..] {
+        "" => pair.images.join(" "),
+        numbers => format!("{} ({numbers})", pair.images.join(" ")),
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
+fn numbers(pair: &Pair) -> String {
+    let inliers = pair.inliers.map(|count| counted(count as usize, "inlier"));
+    let panoramic = (pair.config == Some(5)).then(|| "panoramic".to_owned());
+    let angle = pair.angle.map(|angle| format!("{angle:.1} degrees"));
+    let known: Vec<String> = inliers.into_iter().chain(panoramic).chain(angle).collect();
+    known.join(", ")
+}

@@ -1,0 +1,72 @@
+//! The images of parts by name: the first and the last of each part, and every image in none.
+
+use super::counted;
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert_formats::NamedGraph;
+
+/// How many parts, and how many images in none, are shown.
+const PARTS: usize = 8;
+const OUTSIDE: usize = 40;
+
+/// A part, by its first and last image in the order of names.
+#[derive(Serialize)]
+pub(crate) struct PartLine {
+    images: usize,
+    first: String,
+    last: String,
+}
+
+/// The parts, whose images are increasing.
+pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
+    let name = |image: u32| input.labels.label(image).into_owned();
+    let ends = parts
+        .iter()
+        .filter_map(|images| Some((images, *images.first()?, *images.last()?)));
+    ends.map(|(images, first, last)| PartLine {
+        images: images.len(),
+        first: name(first),
+        last: name(last),
+    })
+    .collect()
+}
+
+/// Writes the parts, and the images in none; `note` says more of an image.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn write<W: Write>(
+    out: &mut W,
+    parts: &[PartLine],
+    outside: &[String],
+    note: impl Fn(&str) -> Option<String>,
+    wrapped: impl Fn(&mut W, &str, &str) -> io::Result<()>,
+) -> io::Result<()> {
+    for (k, part) in (1..).zip(parts.iter().take(PARTS)) {
+        let images = counted(part.images, "image");
+        let words = format!("{} ... {} ({images})", part.first, part.last);
+        writeln!(out, "  {:<12}{words}", format!("part {k}"))?;
+    }
+    if parts.len() > PARTS {
+        writeln!(
+            out,
+            "              {} more parts (--json lists them)",
+            parts.len() - PARTS
+        )?;
+    }
+    if outside.is_empty() {
+        return Ok(());
+    }
+    let noted = |name: &String| match note(name) {
+        Some(note) => format!("{name} ({note})"),
+        None => name.clone(),
+    };
+    let mut shown: Vec<String> = outside.iter().take(OUTSIDE).map(noted).collect();
+    if outside.len() > OUTSIDE {
+        shown.push(format!(
+            "{} more (--json lists them)",
+            outside.len() - OUTSIDE
+        ));
+    }
+    wrapped(out, "in no part", &shown.join(", "))
+}
