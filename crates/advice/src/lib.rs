@@ -13,11 +13,13 @@ pub mod margin;
 pub mod named;
 pub mod parts;
 pub mod request;
+pub mod split;
 pub mod suggest;
 pub mod sweep;
 pub mod weak;
 
 mod condensation;
+mod folder;
 #[cfg(test)]
 mod samples;
 mod task;

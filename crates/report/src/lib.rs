@@ -19,6 +19,7 @@ pub mod models;
 pub mod overview;
 pub mod page;
 pub mod read;
+pub mod split;
 pub mod svg;
 pub mod table;
 pub mod text;

@@ -23,7 +23,7 @@ pub use graph::{TrackFacts, TrackOptions};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::is_model;
+pub(crate) use model::{Encoding as ModelEncoding, encoding_in, is_model};
 
 use std::io::Read;
 use std::path::Path;

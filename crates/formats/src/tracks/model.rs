@@ -56,7 +56,7 @@ fn file_name(part: Part, encoding: Encoding) -> &'static str {
 }
 
 /// How the model in a folder is written, if there is one; `.bin` goes first, as in COLMAP.
-fn encoding_in(folder: &Path) -> Option<Encoding> {
+pub(crate) fn encoding_in(folder: &Path) -> Option<Encoding> {
     let there = |&encoding: &_| folder.join(file_name(Part::Points, encoding)).is_file();
     [Encoding::Binary, Encoding::Text].into_iter().find(there)
 }
