@@ -270,6 +270,7 @@ fn read_options(
         min_inliers,
         tracks: min_views.map(|min_views| TrackOptions { min_views }),
         list: ListOptions::default(),
+        only: None,
     })
 }
 

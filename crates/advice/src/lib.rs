@@ -9,7 +9,9 @@
 pub mod explain;
 pub mod export;
 pub mod joints;
+pub mod lists;
 pub mod margin;
+pub mod merge;
 pub mod named;
 pub mod parts;
 pub mod request;
