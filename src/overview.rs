@@ -11,17 +11,18 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use viewcert::decide::{Options, decide};
+use viewcert::decide::{Options, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
 use viewcert_advice::export::shell;
-use viewcert_advice::{Advice, named_joints};
+use viewcert_advice::{Advice, Request, Shapes, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Next, Overview, Wanted};
+use viewcert_report::overview_page;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
@@ -37,7 +38,17 @@ pub(super) struct OverviewArguments {
     /// Print one JSON object an input.
     #[arg(long)]
     json: bool,
+    /// Write a page as well: everything that is printed, the images with what is between them, and what
+    /// to match. It needs nothing but this file.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
 }
+
+/// The page in messages.
+const PAGE: &str = "--html";
+
+/// Most suggestions on the page.
+const SUGGESTED: u32 = 10;
 
 /// What an input holds.
 struct Source {
@@ -49,7 +60,19 @@ struct Source {
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<ExitCode> {
-    let mut out = outputs::text(&[]);
+    let page = arguments.html.as_deref();
+    let inputs = arguments.inputs.iter().map(PathBuf::as_path);
+    outputs::ensure_apart(&[(PAGE, page)], inputs)?;
+    let too_many = |what: &str| {
+        let page = page?.display();
+        Some(format!(
+            "{PAGE} {page}: a page is about one input, and there are {what}; run the program on each"
+        ))
+    };
+    if let Some(reason) = too_many(&format!("{} inputs", arguments.inputs.len())) {
+        ensure!(arguments.inputs.len() == 1, reason);
+    }
+    let mut out = outputs::text(&[page]);
     let each = |out: &mut _, path: &Path, read: Read, start| {
         let source = source(session, arguments, path, read)?;
         overview(session, arguments, path, &source, start, out)
@@ -59,7 +82,7 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<Ex
         session,
         &options,
         &arguments.inputs,
-        &|_| None,
+        &too_many,
         &mut out,
         each,
     )?;
@@ -196,12 +219,36 @@ fn overview(
     };
     found.next = next(arguments, path, &found);
     found.time = start.elapsed();
+    if let Some(file) = &arguments.html {
+        write_page(session, file, &found, input, verdict)?;
+    }
     if arguments.json {
         found.write_json(out)?;
     } else {
         found.write(out)?;
     }
     Ok(if found.determined() { GOOD } else { NOT })
+}
+
+/// Writes the page; `input` is the graph that decides.
+fn write_page(
+    session: &Session,
+    file: &Path,
+    found: &Overview,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<()> {
+    session.doing(format!("drawing {}", input.name));
+    let request = Request {
+        suggest: Some(SUGGESTED),
+        ..Request::default()
+    };
+    let (outputs, seed) = (session.outputs(), Options::default().seed);
+    let (shapes, watch) = (&mut Shapes::default(), session.watch());
+    let advice = request.advise(outputs, input, verdict, seed, shapes, watch)?;
+    let page = overview_page::html(found, &advice)?;
+    session.hide();
+    outputs.write(file, |out| out.write_all(page.as_bytes()))
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.

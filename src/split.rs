@@ -79,8 +79,10 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     };
     session.doing(format!("writing {}", arguments.folder.display()));
     let (outputs, folder) = (session.outputs(), &arguments.folder);
-    let found = split::split(outputs, folder, &model, &input, &verdict, |_| {
-        Ok(report.page()?)
+    let found = split::split(outputs, folder, &model, &input, &verdict, |split| {
+        report.time = start.elapsed();
+        let report = SplitReport { report, split };
+        Ok(report.page()?.into_bytes())
     });
     session.hide();
     let found = found?;

@@ -87,6 +87,7 @@ impl ListReport<'_> {
         };
         match &lists.fixed[..] {
             [] => "no list has a part".to_owned(),
+            _ if lists.lists.len() == 1 => "there is one list".to_owned(),
             [_] if lists.determined => {
                 "one scale: the overlaps fix all lists against each other".to_owned()
             }

@@ -5,6 +5,7 @@ use super::read::ReadLine;
 use super::tracks::{self, TrackLine};
 use super::{Report, counted, text};
 use crate::advice::joints as write_joints;
+use crate::sheet::{Scene, Sheet};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert_advice::Advice;
@@ -117,6 +118,24 @@ impl SplitReport<'_> {
                  against each other: where they do in the model, no track of it supports{without}"
             ),
         }
+    }
+
+    /// The page that says what the parts are, and why.
+    ///
+    /// # Errors
+    /// None that a model can cause.
+    pub fn page(&self) -> io::Result<String> {
+        let mut text = Vec::new();
+        self.write(&mut text)?;
+        let sheet = Sheet {
+            kind: "A model taken apart",
+            name: &self.report.input.name,
+            answer: (self.why(), self.is_whole()),
+            text: &String::from_utf8_lossy(&text),
+            scene: Scene::new(self.report, &[]),
+            advice: self.report.advice,
+        };
+        Ok(sheet.html())
     }
 
     /// Writes everything as one line of JSON.
