@@ -4,7 +4,7 @@
 //! A line has the colour of the part that holds both images. Of many lines those are drawn that
 //! hold the picture together: a spanning forest of the strongest, and the strongest of every image.
 
-use crate::force_layout::{Link, layout};
+use crate::force_layout::{Layout, Link, layout};
 use crate::graph_picture::{Mark, alone, hinge, shortened, symbol};
 use crate::svg::{COLOURS, Svg, escaped};
 use crate::{Report, counted, tracks};
@@ -27,6 +27,11 @@ const LETTER: f64 = 11.0;
 const MARKS: usize = 4 * COLOURS.len();
 /// Most parts in the legend.
 const LISTED: usize = 8;
+/// Width by height of a drawing, about, and the room between its rows.
+const ASPECT: f64 = 1.8;
+const BETWEEN_ROWS: f64 = 40.0;
+/// How far the line of a suggestion goes aside, by its length.
+const BEND: f64 = 0.08;
 /// Grey of lines in no part.
 const GREY: &str = "#8a929c";
 
@@ -190,26 +195,24 @@ impl<'a> Scene<'a> {
 
     fn drawn(&self, lines: &[Between]) -> String {
         let count = self.images as usize;
+        let is_named = count <= NAMED;
         let radius = match count {
             0..=60 => 7.0,
             61..=250 => 5.0,
             _ => 3.4,
         };
-        let radii: Vec<f64> = (0..self.images)
-            .map(|v| match self.parts_of(v).len() {
-                0 | 1 => radius,
-                _ => radius * 1.45,
-            })
-            .collect();
         let links = lines.iter().map(|line| Link {
             ends: line.ends,
             length: match line.kind {
+                _ if is_named => 130.0,
                 Kind::Tracks => 42.0,
                 Kind::Short | Kind::Suggested => 90.0,
             },
         });
-        let found = layout(&radii, &links.collect::<Vec<_>>());
-        let names = match count <= NAMED {
+        let room = if is_named { 16.0 } else { radius };
+        let found = layout(&vec![room; count], &links.collect::<Vec<_>>());
+        let found = folded(found);
+        let names = match is_named {
             true => (0..self.images).map(|v| shortened(&self.name(v))).collect(),
             false => Vec::new(),
         };
@@ -222,6 +225,11 @@ impl<'a> Scene<'a> {
             .iter()
             .map(|[x, y]| [sides + scale * x, MARGIN + scale * y])
             .collect();
+        let radius = radius * scale.clamp(0.5, 1.0);
+        let radius = |v: u32| match self.parts_of(v).len() {
+            0 | 1 => radius,
+            _ => radius * 1.45,
+        };
         let size = [
             scale * found.size[0] + 2.0 * sides,
             scale * found.size[1] + 2.0 * MARGIN + below,
@@ -234,15 +242,14 @@ impl<'a> Scene<'a> {
             svg.element(format_args!(
                 "<g data-image=\"{v}\" transform=\"translate({x:.1} {y:.1})\"><title>{}</title>{}</g>",
                 escaped(&self.title(v)),
-                self.node(v, radii[v as usize])
+                self.node(v, radius(v))
             ));
         }
-        for (k, name) in names.iter().enumerate() {
-            let [x, y] = points[k];
+        for ((v, name), &[x, y]) in (0..).zip(&names).zip(&points) {
             svg.element(format_args!(
                 "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"{LETTER}\" text-anchor=\"middle\" \
                  class=\"ink-text\" fill=\"#444\">{}</text>",
-                y + radii[k] + LETTER,
+                y + radius(v) + LETTER,
                 escaped(name)
             ));
         }
@@ -283,7 +290,17 @@ impl<'a> Scene<'a> {
             };
             let path = paths.entry((line.kind, part)).or_default();
             // Writing to a string does not fail.
-            let _ = write!(path, "M{a:.1} {b:.1}L{c:.1} {d:.1}");
+            let _ = match line.kind {
+                // Beside the line of a pair that is matched already.
+                Kind::Suggested => {
+                    let (x, y) = (
+                        (a + c) / 2.0 + BEND * (d - b),
+                        (b + d) / 2.0 - BEND * (c - a),
+                    );
+                    write!(path, "M{a:.1} {b:.1}Q{x:.1} {y:.1} {c:.1} {d:.1}")
+                }
+                _ => write!(path, "M{a:.1} {b:.1}L{c:.1} {d:.1}"),
+            };
         }
         let width = match lines.len() {
             0..=200 => 1.6,
@@ -352,6 +369,28 @@ impl<'a> Scene<'a> {
             "<ul class=\"legend\">\n{}</ul>\n",
             items.collect::<String>()
         )
+    }
+}
+
+/// A drawing that is much wider than high in rows from left to right and back, as a walk with many
+/// images is laid out along a line.
+fn folded(layout: Layout) -> Layout {
+    let [width, height] = layout.size;
+    let rows = (width / height.max(1.0) / ASPECT).sqrt().round();
+    if rows < 2.0 {
+        return layout;
+    }
+    let row = width / rows;
+    let points = layout.points.iter().map(|&[x, y]| {
+        let number = (x / row).floor().min(rows - 1.0);
+        let along = x - number * row;
+        let is_back = number % 2.0 == 1.0;
+        let x = if is_back { row - along } else { along };
+        [x, y + number * (height + BETWEEN_ROWS)]
+    });
+    Layout {
+        points: points.collect(),
+        size: [row, rows * (height + BETWEEN_ROWS) - BETWEEN_ROWS],
     }
 }
 
@@ -458,4 +497,51 @@ fn strongest(nodes: usize, lines: &[Between]) -> Vec<Between> {
         }
     }
     chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neighbours on a line stay neighbours, and everything lies inside.
+    #[test]
+    fn a_long_drawing_is_folded() {
+        let points = (0..100).map(|k| [f64::from(k) * 10.0, 10.0]);
+        let long = Layout {
+            points: points.collect(),
+            size: [1000.0, 20.0],
+        };
+        let found = folded(long.clone());
+        assert!(found.size[0] < 300.0, "{:?}", found.size);
+        for two in found.points.windows(2) {
+            let far = (two[0][0] - two[1][0]).hypot(two[0][1] - two[1][1]);
+            assert!(far <= 20.0 + BETWEEN_ROWS + 10.0, "{two:?}");
+        }
+        let inside = |p: &[f64; 2]| (0..2).all(|k| 0.0 <= p[k] && p[k] <= found.size[k]);
+        assert!(found.points.iter().all(inside));
+        let square = Layout {
+            size: [1000.0, 600.0],
+            ..long
+        };
+        assert_eq!(folded(square.clone()).points, square.points);
+    }
+
+    /// A forest of the strongest lines, and the strongest of each image.
+    #[test]
+    fn what_is_drawn_holds_together() {
+        let line = |a, b, weight| Between {
+            ends: (a, b),
+            kind: Kind::Tracks,
+            weight,
+        };
+        let mut lines = vec![line(0, 5, 1)];
+        for a in 0..5 {
+            lines.extend((a + 1..5).map(|b| line(a, b, 10 + a + b)));
+        }
+        lines.sort_by_key(|line| std::cmp::Reverse(line.weight));
+        let chosen = strongest(6, &lines);
+        assert!(chosen.len() < lines.len());
+        assert!(chosen.contains(&line(0, 5, 1)), "the only line of an image");
+        assert!(chosen.contains(&lines[0]));
+    }
 }

@@ -60,21 +60,26 @@ fn names(all: &[String]) -> String {
 
 /// The parts with their images, and the images of none.
 pub(super) fn parts(scene: &Scene) -> String {
+    let mut images = scene.parts.iter().flat_map(|part| &part.images);
+    let are_shared = images.any(|&v| scene.parts_of(v).len() > 1);
     let rows = (0..scene.parts.len()).map(|k| {
         let part = &scene.parts[k];
         let images: Vec<String> = part.images.iter().map(|&v| scene.name(v)).collect();
         let shared = part.images.iter().filter(|&&v| scene.parts_of(v).len() > 1);
         let shared: Vec<String> = shared.map(|&v| scene.name(v)).collect();
-        vec![
+        let mut cells = vec![
             scene.swatch(k),
             part.component.to_string(),
             counted(images.len(), "image"),
             part.points
                 .map_or(String::new(), |points| counted(points, "point")),
             names(&images),
-            names(&shared),
-        ]
+        ];
+        cells.extend(are_shared.then(|| names(&shared)));
+        cells
     });
+    let mut heads = vec!["", "part", "images", "points", "which"];
+    heads.extend(are_shared.then_some("also in other parts"));
     let table = match scene.parts.is_empty() {
         true => {
             "<p>There is no part: no images are determined against each other.</p>\n".to_owned()
