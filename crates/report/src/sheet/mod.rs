@@ -6,10 +6,11 @@
 //! Names come from files of others and are escaped; the page's policy lets no script run.
 
 mod cameras;
+mod scene;
 mod tables;
 mod words;
 
-pub use cameras::Scene;
+pub use scene::Scene;
 
 use crate::svg::escaped;
 use viewcert_advice::Advice;

@@ -1,6 +1,6 @@
 //! Parts, joints and suggestions as tables.
 
-use super::cameras::Scene;
+use super::scene::Scene;
 use crate::svg::escaped;
 use crate::{advice, counted};
 use viewcert_advice::Advice;

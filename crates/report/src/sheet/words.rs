@@ -14,6 +14,8 @@ const TITLE: usize = 2;
 const PURPOSE: &str = "# ";
 /// The title of commands.
 const COMMANDS: &str = "next";
+/// How long it took, which says nothing about the input: a page is the same each time.
+const TIME: &str = "time";
 
 /// An entry: a title, and lines of words.
 struct Entry<'a> {
@@ -30,7 +32,7 @@ enum Line {
     Purpose(String),
 }
 
-/// A description list of all lines but the first, which is the title.
+/// A description list of all lines but the first, which is the title, and the time.
 pub(super) fn entries(text: &str) -> String {
     let mut entries: Vec<Entry> = Vec::new();
     for line in text.lines().skip(1) {
@@ -54,7 +56,8 @@ pub(super) fn entries(text: &str) -> String {
             (_, Some(last)) => last.lines.push(Line::Under(words.to_owned())),
         }
     }
-    let items: Vec<String> = entries.iter().map(item).collect();
+    let items = entries.iter().filter(|entry| entry.title != TIME).map(item);
+    let items: Vec<String> = items.collect();
     format!("<dl class=\"said\">\n{}</dl>\n", items.concat())
 }
 
