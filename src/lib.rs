@@ -83,8 +83,8 @@ fn after_long_help() -> String {
         + "\n\n\
 Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and compare: all
 agree; conditions: no necessary one fails; overview: all images with a pair are determined; models:
-solvable in every model; split: the model is one part with all
-images; merge and lists: what is shared fixes all), 1 some are not (check: rejected; audit and compare: a disagreement, a
+solvable in every model; split: the model is one part with all images; merge and lists: what is
+shared fixes everything), 1 some are not (check: rejected; audit and compare: a disagreement, a
 refuted claim), 2 bad usage or input, 3 too large for the method or for the limits of time and memory
 (compare: nothing could be compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
 terminated. Of several graphs the largest code counts."

@@ -115,7 +115,7 @@ impl SplitReport<'_> {
             1 => format!("the tracks determine one part{without}"),
             count => format!(
                 "the tracks determine {count} parts, each in itself, and leave free how these lie \
-                 against each other: where they do in the model, no track of it supports{without}"
+                 against each other: how they do in the model rests on no track{without}"
             ),
         }
     }

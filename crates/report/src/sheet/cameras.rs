@@ -16,7 +16,7 @@ use std::fmt::Write;
 const WIDTH: f64 = 1100.0;
 const MARGIN: f64 = 16.0;
 /// Most lines of a kind that are all drawn; of more, those of a forest and so many of each image.
-const LINES: usize = 1500;
+const LINES: usize = 4000;
 /// Up to so many images have their names beside them.
 const NAMED: usize = 40;
 /// Size of names in pixels.
@@ -105,7 +105,7 @@ impl Scene<'_> {
             .iter()
             .map(|[x, y]| [sides + scale * x, MARGIN + scale * y])
             .collect();
-        let radius = radius * scale.clamp(0.5, 1.0);
+        let radius = radius * scale.clamp(0.7, 1.0);
         let radius = |v: u32| match self.parts_of(v).len() {
             0 | 1 => radius,
             _ => radius * 1.45,

@@ -84,17 +84,7 @@ pub(super) fn parts(scene: &Scene) -> String {
         true => {
             "<p>There is no part: no images are determined against each other.</p>\n".to_owned()
         }
-        false => table(
-            &[
-                "",
-                "part",
-                "images",
-                "points",
-                "which",
-                "also in other parts",
-            ],
-            rows,
-        ),
+        false => table(&heads, rows),
     };
     let outside: Vec<String> = scene.outside().map(|v| scene.name(v)).collect();
     if outside.is_empty() {
