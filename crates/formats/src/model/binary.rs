@@ -92,7 +92,7 @@ pub(super) fn images(bytes: &[u8]) -> Result<Vec<Image>, Fault> {
         })?;
         let (mut places, mut points) = (Vec::new(), Vec::new());
         for _ in 0..bytes.long("the number of an image's features")? {
-            places.push(bytes.take(PLACE, "a feature")?.into());
+            places.extend_from_slice(bytes.take(PLACE, "a feature")?);
             let point = bytes.long("the point of a feature")?;
             points.push((point != NO_POINT).then_some(point));
         }
@@ -101,7 +101,7 @@ pub(super) fn images(bytes: &[u8]) -> Result<Vec<Image>, Fault> {
             name: name.into(),
             points,
             pose: pose.into(),
-            places,
+            places: places.into(),
         })
     })
 }
@@ -157,7 +157,7 @@ pub(super) fn write_images(out: &mut impl Write, images: &[Image]) -> io::Result
         out.write_all(image.name.as_bytes())?;
         out.write_all(&[0])?;
         count(out, image.points.len())?;
-        for (place, point) in image.places.iter().zip(&image.points) {
+        for (place, point) in image.places.chunks_exact(PLACE).zip(&image.points) {
             out.write_all(place)?;
             out.write_all(&point.unwrap_or(NO_POINT).to_le_bytes())?;
         }

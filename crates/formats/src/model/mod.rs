@@ -45,8 +45,9 @@ pub struct Image {
     pub points: Vec<Option<u64>>,
     /// Pose and camera, as in the file.
     pose: Box<[u8]>,
-    /// The features' places, as in the file.
-    places: Vec<Box<[u8]>>,
+    /// The features' places, as in the file, one after another: of so many bytes in a binary file,
+    /// with a line feed behind each in a text file.
+    places: Box<[u8]>,
 }
 
 /// A point of a model.

@@ -49,8 +49,8 @@ fn binary_model() -> tempfile::TempDir {
             .into(),
         places: image
             .places
-            .iter()
-            .map(|place| doubles(place, 2).into())
+            .split_inclusive(|&byte| byte == b'\n')
+            .flat_map(|place| doubles(place.trim_ascii_end(), 2))
             .collect(),
         ..image.clone()
     });

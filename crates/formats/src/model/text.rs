@@ -103,7 +103,8 @@ pub(super) fn images(bytes: &[u8]) -> Result<Vec<Image>, Fault> {
         if let Some(line) = lines.next() {
             let mut fields = line.fields().peekable();
             while fields.peek().is_some() {
-                places.push(line.some(&mut fields, 2)?);
+                places.extend_from_slice(&line.some(&mut fields, 2)?);
+                places.push(b'\n');
                 let point: i64 = line.number(fields.next(), "the point of a feature")?;
                 points.push(u64::try_from(point).ok());
             }
@@ -113,7 +114,7 @@ pub(super) fn images(bytes: &[u8]) -> Result<Vec<Image>, Fault> {
             name: name.into(),
             points,
             pose,
-            places,
+            places: places.into(),
         });
     }
     Ok(images)
@@ -167,7 +168,8 @@ pub(super) fn write_images(out: &mut impl Write, images: &[Image]) -> io::Result
         write!(out, "{} ", image.id)?;
         out.write_all(&image.pose)?;
         writeln!(out, " {}", image.name)?;
-        let features = image.places.iter().zip(&image.points);
+        let places = image.places.split(|&byte| byte == b'\n');
+        let features = places.zip(&image.points);
         for (k, (place, point)) in features.enumerate() {
             if k > 0 {
                 out.write_all(b" ")?;
