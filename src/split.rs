@@ -6,13 +6,14 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-use viewcert::decide::{Options, decide};
-use viewcert::geometry::model::Model as Question;
-use viewcert_advice::{named_joints, split};
+use viewcert::Known;
+use viewcert::decide::{Calibrated, Options, Question, decide};
+use viewcert::geometry::model::Model as Geometry;
+use viewcert_advice::{Advice, named_joints, split};
 use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs};
-use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::split::SplitReport;
+use viewcert_report::{Report, counted};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
@@ -56,14 +57,30 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     };
     session.reading(path);
     let input = read_graphs(path, &options).next();
-    let input = input.with_context(|| format!("{}: no graph", path.display()))??;
+    let mut input = input.with_context(|| format!("{}: no graph", path.display()))??;
     let model = Model::read(path)?;
     session.hide();
-    let options = Options::default().model(Question::Calibrated);
+    let known = split::base_lines(&model, &input)?;
+    let has_rigs = !known.is_empty();
+    if has_rigs {
+        input.notes.push(format!(
+            "{} with several images: the base lines of rigs are taken for known",
+            counted(model.frames().count(), "frame")
+        ));
+    }
+    let question: Question = Calibrated::with(Known::Displacements(known)).into();
+    let options = match has_rigs {
+        true => Options::default().question(question),
+        false => Options::default().model(Geometry::Calibrated),
+    };
     let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
     session.hide();
     let verdict = verdict.with_context(|| input.name.clone())?;
-    let joints = named_joints(&input, &verdict, Options::default().seed, session.watch());
+    // Base lines join components in ways of their own, and nothing is said about these.
+    let joints = match has_rigs {
+        true => Ok(Advice::default()),
+        false => named_joints(&input, &verdict, Options::default().seed, session.watch()),
+    };
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let scope = Scope::default();

@@ -178,6 +178,25 @@ fn what_is_whole_stays_whole() {
     assert_eq!(found.code, 0, "{}", found.out);
 }
 
+/// Several features of one image at a point are one view, as they were to the mapper.
+#[test]
+fn a_point_may_have_several_features_in_an_image() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let tracks = vec![vec![0, 0, 1, 2]; 10];
+    model(&at.join("model"), 3, &tracks);
+    let found = run(at, "split", &["model", "out", "--json"]);
+    assert_eq!(found.code, 0, "{}", found.out);
+    let line = &found.json()[0];
+    assert_eq!(line["tracks"]["observations"], 30);
+    assert_eq!(line["split"]["parts"][0]["observations"], 40);
+    let note = "10 points with several features in one image: one view each";
+    assert_eq!(line["notes"], json!([note]));
+    // Two features of one image are not two images.
+    model(&at.join("twice"), 3, &vec![vec![0, 0, 1]; 10]);
+    assert_eq!(run(at, "split", &["twice", "out"]).code, 1);
+}
+
 /// Nothing is written where something else is, and never into a model.
 #[test]
 fn folders_are_kept_apart() {
@@ -522,7 +541,8 @@ fn lists_of_a_database_have_tracks_of_their_own() {
     assert_eq!(found.json()[0]["lists"][0]["whole"], true, "{}", found.out);
 }
 
-/// pycolmap reads the parts of a model with rigs, also where a frame has images in two parts.
+/// pycolmap reads the parts of a model with rigs, also where a frame has images in two parts; base lines
+/// hold images together.
 #[test]
 fn pycolmap_reads_parts_with_rigs() {
     let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
@@ -541,5 +561,5 @@ fn pycolmap_reads_parts_with_rigs() {
     let said = String::from_utf8_lossy(&ran.stdout);
     let errors = String::from_utf8_lossy(&ran.stderr);
     assert!(ran.status.success(), "{said}{errors}");
-    assert!(said.contains("read 4 parts"), "{said}");
+    assert!(said.contains("read 6 parts"), "{said}");
 }

@@ -17,6 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
+use viewcert::graph::Displacements;
 use viewcert_formats::NamedGraph;
 use viewcert_formats::model::{Model, is_file_of_model};
 use viewcert_session::Outputs;
@@ -124,6 +125,30 @@ fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
         }
     }
     Ok(None)
+}
+
+/// What the frames of a model tell besides its tracks: images of one frame are of one rig, whose base
+/// lines are taken for known, with their lengths (docs/theory.md, Theorems 13.16 to 13.19). Images
+/// have the names of the graph's cameras. O(n log n) for n images.
+///
+/// # Errors
+/// None for the graph of this model.
+pub fn base_lines(model: &Model, input: &NamedGraph) -> Result<Displacements> {
+    let names = Names::new(input);
+    let nodes: BTreeMap<String, u32> = names.images().map(|v| (names.of(v), v)).collect();
+    let images = model.images.iter();
+    let nodes = images.filter_map(|image| Some((image.id, *nodes.get(&*image.name)?)));
+    let nodes: BTreeMap<u32, u32> = nodes.collect();
+    let pairs = model.frames().flat_map(|frame| {
+        let frame: Vec<u32> = frame
+            .iter()
+            .filter_map(|id| nodes.get(id).copied())
+            .collect();
+        let pairs = frame.windows(2).map(|two| (two[0], two[1]));
+        pairs.collect::<Vec<_>>()
+    });
+    let pairs = pairs.filter(|(a, b)| a != b);
+    Ok(Displacements::new(input.graph.nodes() as u32, pairs)?)
 }
 
 /// Takes a model apart by the components of its camera-point graph, whose cameras have the names of

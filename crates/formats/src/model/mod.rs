@@ -241,6 +241,18 @@ impl Model {
         Ok(())
     }
 
+    /// The images of every frame that has several, by their numbers.
+    pub fn frames(&self) -> impl Iterator<Item = Vec<u32>> {
+        let frames = self.frames.iter().flatten();
+        let images = frames.map(|frame| {
+            let images = frame.data.iter().filter(|datum| datum.is_image);
+            images
+                .filter_map(|datum| u32::try_from(datum.id).ok())
+                .collect()
+        });
+        images.filter(|images: &Vec<u32>| images.len() > 1)
+    }
+
     /// The names of the files that [`write`](Self::write) makes.
     pub fn files(&self) -> Vec<String> {
         let always = [Some(CAMERAS), Some(IMAGES), Some(POINTS)].into_iter();
