@@ -237,6 +237,7 @@ impl InputArguments {
                 min_weight: self.min_weight.clone(),
                 skip_loops: self.skip_loops,
             },
+            only: None,
         }
     }
 }

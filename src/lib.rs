@@ -22,10 +22,13 @@ mod given;
 mod help;
 mod input;
 mod limits;
+mod lists;
+mod merge;
 mod models;
 mod overview;
 mod plan;
 mod question;
+mod split;
 mod verify;
 mod witness;
 
@@ -81,7 +84,8 @@ fn after_long_help() -> String {
         + "\n\n\
 Exit codes: 0 all graphs are solvable or finite solvable (check: verified; audit and compare: all
 agree; conditions: no necessary one fails; overview: all images with a pair are determined; models:
-solvable in every model), 1 some are not (check: rejected; audit and compare: a disagreement, a
+solvable in every model; split: the model is one part with all images; merge and lists: what is
+shared fixes everything), 1 some are not (check: rejected; audit and compare: a disagreement, a
 refuted claim), 2 bad usage or input, 3 too large for the method or for the limits of time and memory
 (compare: nothing could be compared), 130 interrupted (Ctrl-C), 141 nobody reads the output, 143
 terminated. Of several graphs the largest code counts."
@@ -95,6 +99,12 @@ enum Command {
     Advise(advise::AdviseArguments),
     /// Write the components to a folder, as COLMAP takes them.
     Export(export::ExportArguments),
+    /// Take a COLMAP model apart where its tracks do not hold it together.
+    Split(split::SplitArguments),
+    /// Say whether what two COLMAP models share fixes the one against the other.
+    Merge(merge::MergeArguments),
+    /// Say whether lists of images are whole, and whether their overlaps fix scales.
+    Lists(lists::ListArguments),
     /// Draw a graph with its components: a page, a picture.
     Draw(draw::DrawArguments),
     /// Write two sets of cameras that have the same fundamental matrices.
@@ -143,6 +153,9 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Overview(arguments)) => overview::run(session, arguments),
         Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Export(arguments)) => decisions::run(session, &arguments.plan()?),
+        Some(Command::Split(arguments)) => split::run(session, arguments),
+        Some(Command::Merge(arguments)) => merge::run(session, arguments),
+        Some(Command::Lists(arguments)) => lists::run(session, arguments),
         Some(Command::Draw(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Witness(arguments)) => decisions::run(session, &arguments.plan()?),
         Some(Command::Help(arguments)) => help::run(CommandLine::command(), arguments),

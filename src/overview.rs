@@ -13,17 +13,18 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Options, decide};
+use viewcert::decide::{Options, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
 use viewcert_advice::export::shell;
-use viewcert_advice::{Advice, named_joints};
+use viewcert_advice::{Advice, Request, Shapes, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Next, Overview, Wanted};
+use viewcert_report::overview_page;
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
@@ -39,7 +40,17 @@ pub(super) struct OverviewArguments {
     /// Print one JSON object an input.
     #[arg(long)]
     json: bool,
+    /// Write a page as well: everything that is printed, the images with what is between them, and what
+    /// to match. It needs nothing but this file.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
 }
+
+/// The page in messages.
+const PAGE: &str = "--html";
+
+/// Most suggestions on the page.
+const SUGGESTED: u32 = 10;
 
 /// What an input holds.
 struct Source {
@@ -51,7 +62,19 @@ struct Source {
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<ExitCode> {
-    let mut out = outputs::text(&[]);
+    let page = arguments.html.as_deref();
+    let inputs = arguments.inputs.iter().map(PathBuf::as_path);
+    outputs::ensure_apart(&[(PAGE, page)], inputs)?;
+    let too_many = |what: &str| {
+        let page = page?.display();
+        Some(format!(
+            "{PAGE} {page}: a page is about one input, and there are {what}; run the program on each"
+        ))
+    };
+    if let Some(reason) = too_many(&format!("{} inputs", arguments.inputs.len())) {
+        ensure!(arguments.inputs.len() == 1, reason);
+    }
+    let mut out = outputs::text(&[page]);
     let each = |out: &mut _, path: &Path, read: Read, start| {
         let source = source(session, arguments, path, read)?;
         overview(session, arguments, path, &source, start, out)
@@ -61,7 +84,7 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<Ex
         session,
         &options,
         &arguments.inputs,
-        &|_| None,
+        &too_many,
         &mut out,
         each,
     )?;
@@ -178,7 +201,12 @@ fn overview(
     let joints = joints.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
     let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
-    let (mappers, narrow) = foreseen(path, of_pairs, of_tracks)?;
+    let frames = input.frames.as_ref();
+    let (mappers, narrow) = if frames.is_some_and(|frames| frames.say_something()) {
+        Default::default()
+    } else {
+        foreseen(path, of_pairs, of_tracks)?
+    };
     let no_joints = Advice::default();
     let any_scope = Scope::default();
     let report = |input, verdict, advice| Report {
@@ -203,7 +231,11 @@ fn overview(
             .map(|(input, verdict)| report(*input, verdict, &joints)),
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
         joints: &joints,
-        wanted: Wanted::of(source.pairs.as_ref().unwrap_or(input)),
+        // Where images of a frame are one camera, images have other numbers than cameras.
+        wanted: Wanted::of(match frames {
+            Some(frames) if !frames.together.is_empty() => input,
+            _ => of_pairs,
+        }),
         mappers,
         narrow,
         next: Vec::new(),
@@ -211,12 +243,37 @@ fn overview(
     };
     found.next = next(arguments, path, &found);
     found.time = start.elapsed();
+    if let Some(file) = &arguments.html {
+        write_page(session, file, &found, input, verdict)?;
+    }
     if arguments.json {
         found.write_json(out)?;
     } else {
         found.write(out)?;
     }
     Ok(if found.determined() { GOOD } else { NOT })
+}
+
+/// Writes the page; `input` is the graph that decides.
+fn write_page(
+    session: &Session,
+    file: &Path,
+    found: &Overview,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<()> {
+    session.doing(format!("drawing {}", input.name));
+    let request = Request {
+        // There are none where base lines are known.
+        suggest: verdict.displacements.is_empty().then_some(SUGGESTED),
+        ..Request::default()
+    };
+    let (outputs, seed) = (session.outputs(), Options::default().seed);
+    let (shapes, watch) = (&mut Shapes::default(), session.watch());
+    let advice = request.advise(outputs, input, verdict, seed, shapes, watch)?;
+    let page = overview_page::html(found, &advice)?;
+    session.hide();
+    outputs.write(file, |out| out.write_all(page.as_bytes()))
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
@@ -235,6 +292,13 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
     let other = facts.and_then(|facts| other_mapper(facts));
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
+    let frames = source.tracks.as_ref().ok().and_then(|tracks| tracks.frames.as_ref());
+    if frames.is_some_and(|frames| frames.say_something()) {
+        notes.push(
+            "rigs: mappers place frames, which is not simulated, and no narrow places are looked for"
+                .to_owned(),
+        );
+    }
     if arguments.input.min_views.is_some() && source.tracks.is_err() {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }
@@ -282,7 +346,12 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         command: format!("verify {verb} {file}{graph}{read}{what}"),
         purpose,
     };
-    let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
+    // Advice is about images that have a centre each.
+    let displaced = found.tracks.as_ref().is_some_and(|report| !report.verdict.displacements.is_empty());
+    let advise = |graph: &str, what: &str, purpose| {
+        let rigs = if displaced && graph.starts_with(" --tracks") { " --no-rigs" } else { "" };
+        command("advise", &format!("{graph}{rigs}"), what, purpose)
+    };
     let decided = format!("{graph}{tracks}");
     // How many tracks can be missing does not tell kept promises from broken ones
     // (docs/reconstruction.md, 'Margin').

@@ -381,7 +381,7 @@ macro_rules! transcripts {
     )*};
 }
 
-transcripts! { help verdicts advice given database certificates commands catalog refusals reading checker }
+transcripts! { help verdicts advice given database certificates commands catalog refusals reading checker colmap_models }
 
 /// How nodes are placed is floating point, and differs between platforms in the last digit.
 #[test]

@@ -2,12 +2,12 @@
 
 mod common;
 
+use common::browser::Browser;
 use common::{Run, cycle, data, verify, verify_with};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 /// A page that the program has written, in a folder of its own.
 struct Page {
@@ -42,71 +42,21 @@ impl Page {
 
     /// The page as the browser has it, with this view in the address.
     fn opened(&self, browser: &Browser, view: &str) -> String {
-        browser.open(&self.path(), view)
+        open(browser, &self.path(), view)
     }
 }
 
-/// Chromium, or what goes by its name.
-struct Browser(String);
-
-impl Browser {
-    fn find() -> Option<Self> {
-        for name in ["chromium", "chromium-browser", "google-chrome", "chrome"] {
-            let found = Command::new(name)
-                .arg("--version")
-                .stdout(Stdio::null())
-                .stderr(Stdio::null())
-                .status();
-            if found.is_ok_and(|status| status.success()) {
-                return Some(Self(name.into()));
-            }
-        }
-        let required = std::env::var_os("VIEWCERT_REQUIRE_DATA").is_some_and(|value| value == "1");
-        assert!(!required, "no Chromium is installed, and it is required");
-        eprintln!("SKIPPED: no Chromium is installed");
-        None
+/// The elements of a page after its script has run. Nothing may have gone to the console.
+fn open(browser: &Browser, path: &Path, view: &str) -> String {
+    let (page, said) = browser.dump(path, view);
+    assert!(!said.contains("CONSOLE"), "{said}");
+    assert!(page.contains(r#"role="alert" hidden"#), "{page}");
+    // What a script shows of something that has no words.
+    for nothing in ["[object ", ">undefined<", ">NaN<"] {
+        let (body, _) = page.split_once("<script").unwrap_or((&page, ""));
+        assert!(!body.contains(nothing), "{nothing}: {body}");
     }
-
-    /// The elements of a page after its script has run. Nothing may have gone to the console.
-    fn open(&self, path: &Path, view: &str) -> String {
-        let (page, said) = self.dump(path, view);
-        assert!(!said.contains("CONSOLE"), "{said}");
-        assert!(page.contains(r#"role="alert" hidden"#), "{page}");
-        // What a script shows of something that has no words.
-        for nothing in ["[object ", ">undefined<", ">NaN<"] {
-            let (body, _) = page.split_once("<script").unwrap_or((&page, ""));
-            assert!(!body.contains(nothing), "{nothing}: {body}");
-        }
-        page
-    }
-
-    fn dump(&self, path: &Path, view: &str) -> (String, String) {
-        let profile = tempfile::tempdir().unwrap();
-        let output = Command::new(&self.0)
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--disable-dev-shm-usage",
-            ])
-            .args([
-                "--enable-logging=stderr",
-                "--dump-dom",
-                "--window-size=1200,1600",
-            ])
-            .arg(format!("--user-data-dir={}", profile.path().display()))
-            .arg(format!("file://{}#{view}", path.display()))
-            .stdin(Stdio::null())
-            .output()
-            .unwrap();
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (text(output.stdout), text(output.stderr))
-    }
+    page
 }
 
 /// The part of a page between the tags of the element with this id.
@@ -267,7 +217,7 @@ fn a_hostile_name_does_not_run() {
     let lax = page.folder.path().join("lax.html");
     fs::write(&lax, format!("{before}{after}")).unwrap();
     for path in [page.path(), lax] {
-        let opened = browser.open(&path, "cameras.sort=image");
+        let opened = open(&browser, &path, "cameras.sort=image");
         assert!(opened.contains("<title>-</title>"), "{}", path.display());
         assert!(!opened.contains("<img src=\"x\""));
         let shown: Vec<String> = rows(&opened, "cameras")
@@ -293,7 +243,8 @@ fn further_parts_are_shown() {
     assert!(text.contains(start));
     let path = page.folder.path().join("more.html");
     fs::write(&path, text.replace(start, &format!("{start}{weak},"))).unwrap();
-    let opened = browser.open(
+    let opened = open(
+        &browser,
         &path,
         "part-weak-found.sort=inliers&part-weak-found.order=descending",
     );

@@ -47,6 +47,32 @@ fn the_global_mapper_places_right_what_tracks_determine() {
     assert_ne!(cells[2], "0", "{said}");
 }
 
+/// Models that the global mapper has glued, and some that are right: each part that `verify split`
+/// writes agrees with the truth, and nothing right is cut. Its exit code says so.
+#[test]
+fn parts_of_glued_models_agree_with_the_truth() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/split.py");
+    let run = Command::new(python)
+        .arg(script)
+        .args(["--verify", env!("CARGO_BIN_EXE_verify")])
+        .args(["--seeds", "1", "--ways", "1,3,7"])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stdout);
+    let errors = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{said}{errors}");
+    let row = said.lines().last().unwrap();
+    let cells: Vec<&str> = row.trim_matches(['|', ' ']).split(" | ").collect();
+    // Three ways, three kinds of tracks; both sorts of models are there.
+    assert_eq!(cells[0], "9", "{said}");
+    assert_ne!(cells[1], "0", "{said}");
+    assert_ne!(cells[2], "0", "{said}");
+}
+
 /// A database of two clusters that share an image, as mappers.py makes it; a list of matches for
 /// every pair.
 fn clusters(python: &OsStr, folder: &Path) {

@@ -286,6 +286,7 @@ fn read_options(
             rigs,
         }),
         list: ListOptions::default(),
+        only: None,
     })
 }
 

@@ -81,7 +81,7 @@ impl Condensation {
 }
 
 /// The edges of a chain of triangles: consecutive terminals, and those two apart.
-fn chain(terminals: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+pub(crate) fn chain(terminals: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     [1, 2].into_iter().flat_map(|step| {
         let ahead = terminals.iter().skip(step);
         terminals.iter().zip(ahead).map(|(&a, &b)| (a, b))

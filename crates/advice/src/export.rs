@@ -1,5 +1,6 @@
 //! Components as files that COLMAP takes, tables of them, and the commands that come next.
 
+use crate::folder::paths;
 use crate::named::{Export, Joint};
 use crate::task::{Task, number};
 use anyhow::{Context, Result, bail, ensure};
@@ -49,52 +50,6 @@ pub(crate) fn check(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a folder that holds an input or another output: it is replaced as a whole.
-///
-/// # Errors
-/// Which of them is in it.
-pub(crate) fn ensure_outside(
-    folder: &Path,
-    inputs: &[PathBuf],
-    outputs: &[(&str, Option<&Path>)],
-) -> Result<()> {
-    let name = folder.display();
-    let real = resolved(folder);
-    for input in inputs {
-        let inside = fs::canonicalize(input).is_ok_and(|input| input.starts_with(&real));
-        ensure!(
-            !inside,
-            "export {name}: the input {} is in this folder, which would be replaced; name another \
-             folder",
-            input.display()
-        );
-    }
-    for &(option, path) in outputs {
-        let inside = path.is_some_and(|path| resolved(path).starts_with(&real));
-        ensure!(
-            !inside,
-            "{option} {}: this is in the folder of export {name}, which holds nothing else; name \
-             another place",
-            path.unwrap_or(Path::new("")).display()
-        );
-    }
-    Ok(())
-}
-
-/// A path without links, as far as it is there.
-fn resolved(path: &Path) -> PathBuf {
-    if let Ok(real) = fs::canonicalize(path) {
-        return real;
-    }
-    match (path.parent(), path.file_name()) {
-        (Some(parent), Some(name)) if parent.as_os_str().is_empty() => {
-            resolved(Path::new(".")).join(name)
-        }
-        (Some(parent), Some(name)) => resolved(parent).join(name),
-        _ => path.to_owned(),
-    }
-}
-
 /// Something in a folder that an export does not write.
 fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
     let entries: Vec<PathBuf> = paths(folder)?;
@@ -126,14 +81,6 @@ fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
         }
     }
     Ok(None)
-}
-
-/// What is in a folder, in a fixed order.
-fn paths(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut paths = entries.collect::<std::io::Result<Vec<_>>>()?;
-    paths.sort();
-    Ok(paths)
 }
 
 /// Writes the folder, whole or not at all.

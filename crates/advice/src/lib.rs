@@ -9,18 +9,22 @@
 pub mod explain;
 pub mod export;
 pub mod joints;
+pub mod lists;
 pub mod mapper;
 pub mod margin;
+pub mod merge;
 pub mod named;
 pub mod narrow;
 pub mod parts;
 pub mod request;
 pub mod special;
+pub mod split;
 pub mod suggest;
 pub mod sweep;
 pub mod weak;
 
 mod condensation;
+mod folder;
 #[cfg(test)]
 mod samples;
 mod task;

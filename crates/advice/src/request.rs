@@ -2,7 +2,7 @@
 
 use crate::named::Advice;
 use crate::task::{Task, Weak};
-use crate::{Shapes, export};
+use crate::{Shapes, export, folder};
 use anyhow::{Result, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
@@ -33,11 +33,11 @@ impl Request {
     /// # Errors
     /// A folder with something else in it, or with an input or another output.
     pub fn check(&self, inputs: &[PathBuf], outputs: &[(&str, Option<&Path>)]) -> Result<()> {
-        let Some(folder) = self.export.as_deref() else {
+        let Some(place) = self.export.as_deref() else {
             return Ok(());
         };
-        export::check(folder)?;
-        export::ensure_outside(folder, inputs, outputs)
+        export::check(place)?;
+        folder::ensure_outside("export", place, inputs, outputs)
     }
 
     /// Why there cannot be several graphs, if there cannot.

@@ -423,7 +423,6 @@ struct Names {
 
 impl Names {
     const MOST: usize = 40;
-    const MOST_LETTERS: usize = 20;
     const SIZE: f64 = 11.0;
 
     fn new(picture: &Picture, nodes: &[u32]) -> Self {
@@ -433,24 +432,12 @@ impl Names {
                 room: 0.0,
             };
         }
-        let name = |&v: &u32| Self::shortened(&picture.input.labels.label(v));
+        let name = |&v: &u32| shortened(&picture.input.labels.label(v));
         let text: Vec<String> = nodes.iter().map(name).collect();
         let letters = text.iter().map(|name| name.chars().count()).max();
         Self {
             room: 0.6 * Self::SIZE * letters.unwrap_or(0) as f64 + 8.0,
             text,
-        }
-    }
-
-    /// The end of a long name tells most.
-    fn shortened(name: &str) -> String {
-        let letters = name.chars().count();
-        match letters.checked_sub(Self::MOST_LETTERS) {
-            None | Some(0) => name.to_owned(),
-            Some(more) => {
-                let end: String = name.chars().skip(more + 1).collect();
-                format!("\u{2026}{end}")
-            }
         }
     }
 
@@ -503,6 +490,19 @@ impl Names {
     }
 }
 
+/// A name with so many letters at most: the end of a long one tells most.
+pub(crate) fn shortened(name: &str) -> String {
+    const LETTERS: usize = 20;
+    let letters = name.chars().count();
+    match letters.checked_sub(LETTERS) {
+        None | Some(0) => name.to_owned(),
+        Some(more) => {
+            let end: String = name.chars().skip(more + 1).collect();
+            format!("\u{2026}{end}")
+        }
+    }
+}
+
 /// Hinges are larger, points are smaller.
 fn radius_of(picture: &Picture, node: u32, radius: f64) -> f64 {
     let hinge = picture.components_of(node).len() > 1;
@@ -528,7 +528,7 @@ fn node_symbol(picture: &Picture, node: u32, radius: f64) -> String {
 }
 
 /// A node without pairs: an empty circle.
-fn alone(radius: f64) -> String {
+pub(crate) fn alone(radius: f64) -> String {
     format!(
         r##"<circle r="{:.1}" fill="#fff" class="ground" stroke="{OTHER}" stroke-width="1.2"/>"##,
         radius - 0.6
@@ -536,7 +536,7 @@ fn alone(radius: f64) -> String {
 }
 
 /// A node of one component, in its colour and shape.
-fn symbol(mark: Mark, radius: f64) -> String {
+pub(crate) fn symbol(mark: Mark, radius: f64) -> String {
     let r = radius;
     let points = match mark.shape() {
         0 => {
@@ -561,7 +561,7 @@ fn symbol(mark: Mark, radius: f64) -> String {
 }
 
 /// A node of several components: a disc cut into their colours, in a dark ring.
-fn hinge(marks: &[Mark], radius: f64) -> String {
+pub(crate) fn hinge(marks: &[Mark], radius: f64) -> String {
     let mut text = match marks {
         [mark] => format!(r#"<circle r="{radius:.1}" fill="{}"/>"#, mark.colour()),
         _ => String::new(),

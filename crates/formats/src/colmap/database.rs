@@ -103,6 +103,8 @@ struct Tables {
     table: &'static str,
     pipeline: Pipeline,
     min_inliers: u32,
+    /// For every node whether its pairs count.
+    meant: Vec<bool>,
 }
 
 /// A row of the table of verified pairs.
@@ -118,7 +120,12 @@ impl Tables {
     fn read(connection: &Connection, options: &ReadOptions) -> Result<Self, DatabaseError> {
         let table = verified_table(connection)?;
         let (names, nodes) = images(connection)?;
+        let meant = names.iter().map(|name| {
+            let only = options.only.as_ref();
+            only.is_none_or(|only| only.contains(&**name))
+        });
         let mut tables = Self {
+            meant: meant.collect(),
             names,
             nodes,
             pairs: Vec::new(),
@@ -163,7 +170,10 @@ impl Tables {
             let Some(ends) = self.ends(row.get(0)?) else {
                 continue;
             };
-            let used = inliers >= self.min_inliers
+            let (a, b) = ends;
+            let used = self.meant[a as usize]
+                && self.meant[b as usize]
+                && inliers >= self.min_inliers
                 && match self.pipeline {
                     Pipeline::Incremental => true,
                     Pipeline::Global => (2..=6).contains(&config) || has_pose(row)?,

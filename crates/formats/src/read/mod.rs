@@ -1,10 +1,12 @@
 //! Any input to graphs: which format it is, and its graphs one by one.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
@@ -171,6 +173,9 @@ pub struct ReadOptions {
     pub tracks: Option<TrackOptions>,
     /// Which lines of a list count, and where in them the pairs stand.
     pub list: ListOptions,
+    /// Of a database only the pairs between images with these names, as a mapper with a list of
+    /// images takes them; by default all. The other images stay, without pairs.
+    pub only: Option<Arc<BTreeSet<String>>>,
 }
 
 /// The graphs of an input, or why there is none.

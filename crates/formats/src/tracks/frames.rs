@@ -223,6 +223,11 @@ impl Frames {
         Some(number)
     }
 
+    /// Whether any images of one frame know their places to each other.
+    pub fn say_something(&self) -> bool {
+        !self.groups.is_empty() || !self.together.is_empty()
+    }
+
     /// The camera of an image, by their numbers.
     pub(crate) fn camera_of(&self, image: u32) -> u32 {
         self.cameras.get(image as usize).copied().unwrap_or(image)

@@ -12,6 +12,7 @@ use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::{model_binary, model_text};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
+use viewcert::wording::counted;
 
 /// Which file of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +57,7 @@ fn file_name(part: Part, encoding: Encoding) -> &'static str {
 }
 
 /// How the model in a folder is written, if there is one; `.bin` goes first, as in COLMAP.
-fn encoding_in(folder: &Path) -> Option<Encoding> {
+pub(crate) fn encoding_in(folder: &Path) -> Option<Encoding> {
     let there = |&encoding: &_| folder.join(file_name(Part::Points, encoding)).is_file();
     [Encoding::Binary, Encoding::Text].into_iter().find(there)
 }
@@ -175,7 +176,7 @@ fn graph(
     }
     let mut graph = TrackGraph::new(names, options)?;
     let mut views = Vec::new();
-    let mut from = 0;
+    let (mut from, mut doubled) = (0, 0);
     for &end in &points.ends {
         views.clear();
         for id in &points.images[from..end] {
@@ -185,8 +186,23 @@ fn graph(
             };
             views.push(node);
         }
+        // A mapper keeps features at one place of an image as one point: it is one view.
+        let seen = views.len();
+        views.sort_unstable();
+        views.dedup();
+        doubled += usize::from(views.len() < seen);
         from = end;
         graph.push(&views).map_err(input)?;
     }
-    graph.finish()
+    let mut graph = graph.finish()?;
+    if doubled > 0 {
+        graph.notes.insert(
+            0,
+            format!(
+                "{} with several features in one image: one view each",
+                counted(doubled, "point")
+            ),
+        );
+    }
+    Ok(graph)
 }

@@ -103,12 +103,9 @@ fn small_graphs_have_names() {
         }
         assert_eq!(drawn.matches("ink-text name").count(), 7);
     });
+    assert_eq!(shortened("abcdefghijklmnopqrst"), "abcdefghijklmnopqrst");
     assert_eq!(
-        Names::shortened("abcdefghijklmnopqrst"),
-        "abcdefghijklmnopqrst"
-    );
-    assert_eq!(
-        Names::shortened("abcdefghijklmnopqrstu"),
+        shortened("abcdefghijklmnopqrstu"),
         "\u{2026}cdefghijklmnopqrstu"
     );
     let path: Vec<(u32, u32)> = (0..50).map(|v| (v, v + 1)).collect();

@@ -1,0 +1,246 @@
+//! Overlapping lists of images: is each whole, and do the overlaps fix their scales?
+//!
+//! In: lists of images, each with the components that its own pairs or tracks have. Out: which lists
+//! are whole, what they share, and what the overlaps fix. Each component is a body: its images lie
+//! right against each other, up to a similarity. Bodies meet in images alone, since each list is
+//! reconstructed by itself; an image in two of them fixes the rotation between them. So the question
+//! is that of a graph in the calibrated model in which each body is rigid: here a chain of triangles
+//! on its images (docs/theory.md, Theorem 4.4), decided as any other graph. Bodies of one component
+//! of that graph have one scale.
+
+use crate::condensation::chain;
+use anyhow::Result;
+use serde::Serialize;
+use std::collections::BTreeSet;
+use viewcert::Graph;
+use viewcert::decide::{Options, Question, decide};
+use viewcert::geometry::model::Model;
+use viewcert::watch::Watch;
+
+/// A list, and what it determines by itself.
+pub struct List {
+    /// Its file.
+    pub file: String,
+    /// Its images, increasing.
+    pub images: Vec<u32>,
+    /// The images of each component that has two of them or more, increasing; larger ones first.
+    pub bodies: Vec<Vec<u32>>,
+}
+
+impl List {
+    /// A list whose components have these images, in any order; what has fewer than two images is
+    /// no body.
+    pub fn new(file: String, images: Vec<u32>, components: Vec<Vec<u32>>) -> Self {
+        let mut bodies: Vec<Vec<u32>> = components
+            .into_iter()
+            .filter(|body| body.len() > 1)
+            .collect();
+        bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
+        Self {
+            file,
+            images,
+            bodies,
+        }
+    }
+
+    /// Whether one body has all of its images.
+    pub fn is_whole(&self) -> bool {
+        self.bodies.first() == Some(&self.images)
+    }
+}
+
+/// What lists determine, each by itself and together.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Lists {
+    /// The lists, in the order in which they were named.
+    pub lists: Vec<Found>,
+    /// Which lists have images in common.
+    pub overlaps: Vec<Overlap>,
+    /// Sets of parts whose relative scale is fixed by overlaps, the sets with most images first.
+    pub fixed: Vec<Fixed>,
+    /// Whether every list is whole, and one set has them all.
+    pub determined: bool,
+    /// Images of the graph that are in no list.
+    pub outside: Vec<String>,
+}
+
+/// What one list determines by itself.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Found {
+    /// Its file.
+    pub file: String,
+    /// How many images it has.
+    pub images: usize,
+    /// Whether they are determined against each other.
+    pub whole: bool,
+    /// How many images each of its parts has, falling.
+    pub parts: Vec<usize>,
+    /// Its images in no part.
+    pub outside: Vec<String>,
+}
+
+/// What two lists have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Overlap {
+    /// The lists, counted from 1.
+    pub between: [usize; 2],
+    /// The images of both.
+    pub images: Vec<String>,
+}
+
+/// Parts of lists that overlaps fix against each other.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fixed {
+    /// A list and a part of it, both counted from 1.
+    pub parts: Vec<[usize; 2]>,
+    /// How many images they have together.
+    pub images: usize,
+}
+
+/// What overlaps fix, in a graph with so many images that have these names. A decision about a graph
+/// with at most two edges for each image of a body.
+///
+/// # Errors
+/// Those of decisions; work that was stopped.
+pub fn lists(
+    lists: &[List],
+    images: u32,
+    name: impl Fn(u32) -> String,
+    seed: u64,
+    watch: Watch,
+) -> Result<Lists> {
+    let bodies = lists.iter().enumerate().flat_map(|(list, of)| {
+        let bodies = of.bodies.iter().enumerate();
+        bodies.map(move |(part, body)| ([list + 1, part + 1], &body[..]))
+    });
+    let bodies: Vec<([usize; 2], &[u32])> = bodies.collect();
+    let fixed = fixed(&bodies, images, seed, watch)?;
+    let names = |some: &[u32]| some.iter().map(|&v| name(v)).collect::<Vec<String>>();
+    let found = lists.iter().map(|list| {
+        let inside: BTreeSet<u32> = list.bodies.iter().flatten().copied().collect();
+        let outside = list.images.iter().copied().filter(|v| !inside.contains(v));
+        Found {
+            file: list.file.clone(),
+            images: list.images.len(),
+            whole: list.is_whole(),
+            parts: list.bodies.iter().map(Vec::len).collect(),
+            outside: names(&outside.collect::<Vec<u32>>()),
+        }
+    });
+    let pairs = (0..lists.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
+    let overlaps = pairs.filter_map(|(a, b)| {
+        let other = &lists[b].images;
+        let common = lists[a].images.iter().copied();
+        let common = common.filter(|v| other.binary_search(v).is_ok());
+        let common: Vec<u32> = common.collect();
+        (!common.is_empty()).then(|| Overlap {
+            between: [a + 1, b + 1],
+            images: names(&common),
+        })
+    });
+    let listed: BTreeSet<u32> = lists
+        .iter()
+        .flat_map(|list| &list.images)
+        .copied()
+        .collect();
+    let outside = (0..images).filter(|v| !listed.contains(v));
+    let all_whole = lists.iter().all(List::is_whole);
+    Ok(Lists {
+        overlaps: overlaps.collect(),
+        determined: all_whole && fixed.len() == 1,
+        lists: found.collect(),
+        fixed,
+        outside: names(&outside.collect::<Vec<u32>>()),
+    })
+}
+
+/// The bodies by the components of their union.
+fn fixed(
+    bodies: &[([usize; 2], &[u32])],
+    images: u32,
+    seed: u64,
+    watch: Watch,
+) -> Result<Vec<Fixed>> {
+    if bodies.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut edges: Vec<(u32, u32)> = bodies.iter().flat_map(|(_, body)| chain(body)).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    let graph = Graph::new(images, edges)?;
+    let options = Options::default().question(Question::without_solutions(Model::Calibrated));
+    let verdict = decide(&graph, &options.seed(seed).watch(watch))?;
+    let mut left: Vec<_> = bodies.iter().collect();
+    let mut fixed = Vec::new();
+    for component in &verdict.components {
+        let nodes = component.nodes();
+        // An edge of a body is in one component, and the body with it.
+        let holds = |body: &[u32]| body.iter().all(|v| nodes.binary_search(v).is_ok());
+        let (inside, others) = left.into_iter().partition(|(_, body)| holds(body));
+        left = others;
+        let inside: Vec<&([usize; 2], &[u32])> = inside;
+        fixed.push(Fixed {
+            parts: inside.iter().map(|(part, _)| *part).collect(),
+            images: nodes.len(),
+        });
+    }
+    assert!(left.is_empty(), "every body lies in a component");
+    fixed.sort_by_key(|set| std::cmp::Reverse(set.images));
+    Ok(fixed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn whole(images: &[u32]) -> List {
+        List::new(String::new(), images.to_vec(), vec![images.to_vec()])
+    }
+
+    fn sets(of: &[List]) -> Vec<Vec<usize>> {
+        let found = lists(of, 12, |v| v.to_string(), 1, Watch::default()).unwrap();
+        let sets = found.fixed.iter();
+        sets.map(|set| set.parts.iter().map(|[list, _]| *list).collect())
+            .collect()
+    }
+
+    /// Two common images fix the scale, one does not; a short ring of single ones does.
+    #[test]
+    fn overlaps_fix_scales() {
+        let two = [whole(&[0, 1, 2, 3]), whole(&[2, 3, 4, 5])];
+        assert_eq!(sets(&two), [vec![1, 2]]);
+        let one = [whole(&[0, 1, 2]), whole(&[2, 3, 4])];
+        assert_eq!(sets(&one), [vec![1], vec![2]]);
+        let ring = [whole(&[0, 1, 2]), whole(&[2, 3, 4]), whole(&[0, 4, 5])];
+        assert_eq!(sets(&ring), [vec![1, 2, 3]]);
+        let long = [
+            whole(&[0, 1, 2]),
+            whole(&[2, 3, 4]),
+            whole(&[4, 5, 6]),
+            whole(&[6, 7, 8]),
+            whole(&[0, 8, 9]),
+        ];
+        let apart: Vec<Vec<usize>> = (1..6).map(|list| vec![list]).collect();
+        assert_eq!(sets(&long), apart);
+    }
+
+    #[test]
+    fn a_list_in_parts_is_not_whole() {
+        let broken = List::new(
+            "b".into(),
+            vec![2, 3, 4, 5, 6],
+            vec![vec![6], vec![4, 5], vec![2, 3]],
+        );
+        assert!(!broken.is_whole());
+        let found = [whole(&[0, 1, 2, 3]), broken];
+        let found = lists(&found, 8, |v| v.to_string(), 1, Watch::default()).unwrap();
+        assert!(!found.determined);
+        assert_eq!(found.lists[1].parts, [2, 2]);
+        assert_eq!(found.lists[1].outside, ["6"]);
+        assert_eq!(found.outside, ["7"]);
+        assert_eq!(found.overlaps[0].images, ["2", "3"]);
+        // Which of the two parts is joined depends on the images that they have.
+        let parts: Vec<Vec<[usize; 2]>> = found.fixed.iter().map(|set| set.parts.clone()).collect();
+        assert_eq!(parts, [vec![[1, 1], [2, 2]], vec![[2, 1]]]);
+    }
+}

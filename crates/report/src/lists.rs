@@ -1,0 +1,166 @@
+//! Lists of images and what they determine, for people and for programs.
+
+use super::{counted, json::write_line, size_of, text};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::time::Duration;
+use viewcert_advice::lists::{Fixed, Found, Lists};
+use viewcert_formats::NamedGraph;
+
+/// Most names, parts, and overlaps that are shown.
+const SHOWN: usize = 8;
+
+/// Lists, and what was found about them.
+pub struct ListReport<'a> {
+    /// The pairs that they are about.
+    pub input: &'a NamedGraph,
+    /// By what each list was decided: `tracks` or `pairs`.
+    pub by: &'static str,
+    /// What was found.
+    pub lists: &'a Lists,
+    /// How long it took.
+    pub time: Duration,
+}
+
+impl ListReport<'_> {
+    /// Writes some lines for people.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let lists = self.lists;
+        writeln!(out, "{}", self.input.name)?;
+        writeln!(out, "  read as     {}", self.input.read)?;
+        writeln!(out, "  graph       {}", size_of(self.input))?;
+        for note in &self.input.notes {
+            writeln!(out, "  note        {note}")?;
+        }
+        let by = match self.by {
+            "tracks" => "each list by the tracks that its own pairs make",
+            _ => "each list by its own pairs, calibrated",
+        };
+        writeln!(out, "  decided     {by}")?;
+        for (k, list) in lists.lists.iter().enumerate() {
+            let title = format!("list {}", k + 1);
+            writeln!(out, "  {title:<12}{}: {}", list.file, found(list))?;
+        }
+        for overlap in lists.overlaps.iter().take(SHOWN) {
+            let [a, b] = overlap.between;
+            let images = counted(overlap.images.len(), "image");
+            let names = some_names(&overlap.images);
+            writeln!(out, "  overlap     {a} and {b}: {images}, {names}")?;
+        }
+        if lists.overlaps.is_empty() && lists.lists.len() > 1 {
+            writeln!(out, "  overlap     none")?;
+        } else if let Some(more) = lists.overlaps.len().checked_sub(SHOWN + 1) {
+            writeln!(
+                out,
+                "  overlap     and {} more (--json lists them)",
+                more + 1
+            )?;
+        }
+        writeln!(out, "  scale       {}", self.scale())?;
+        if !lists.outside.is_empty() {
+            let count = counted(lists.outside.len(), "image");
+            let names = some_names(&lists.outside);
+            writeln!(out, "  in no list  {count}, {names}")?;
+        }
+        writeln!(
+            out,
+            "  time        {}",
+            text::seconds(self.time.as_micros())
+        )
+    }
+
+    /// What overlaps fix, in words.
+    fn scale(&self) -> String {
+        let lists = self.lists;
+        let set = |fixed: &Fixed| {
+            let names = fixed
+                .parts
+                .iter()
+                .map(|&[list, part]| match lists.lists[list - 1].whole {
+                    true => list.to_string(),
+                    false => format!("{list} (part {part})"),
+                });
+            names.collect::<Vec<_>>().join(" + ")
+        };
+        match &lists.fixed[..] {
+            [] => "no list has a part".to_owned(),
+            _ if lists.lists.len() == 1 => "there is one list".to_owned(),
+            [_] if lists.determined => {
+                "one scale: the overlaps fix all lists against each other".to_owned()
+            }
+            [one] => format!("one scale for {}", set(one)),
+            several => {
+                let sets = several.iter().take(SHOWN).map(set);
+                let mut sets: Vec<String> = sets.collect();
+                if several.len() > SHOWN {
+                    sets.push(format!("{} more", several.len() - SHOWN));
+                }
+                format!("free between {}", sets.join(" | "))
+            }
+        }
+    }
+
+    /// Writes everything as one line of JSON.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
+        let graph = &self.input.graph;
+        let line = Line {
+            input: &self.input.name,
+            images: graph.nodes(),
+            pairs: graph.edges().len(),
+            notes: &self.input.notes,
+            by: self.by,
+            lists: self.lists,
+            seconds: self.time.as_secs_f64(),
+        };
+        write_line(out, &line)
+    }
+}
+
+/// What one list determines by itself.
+fn found(list: &Found) -> String {
+    let images = counted(list.images, "image");
+    if list.whole {
+        return format!("{images}, whole");
+    }
+    let sizes = list.parts.iter().take(SHOWN).map(ToString::to_string);
+    let mut sizes: Vec<String> = sizes.collect();
+    if list.parts.len() > SHOWN {
+        sizes.push(format!("{} more", list.parts.len() - SHOWN));
+    }
+    let parts = match list.parts.len() {
+        0 => "no part".to_owned(),
+        count => format!("{} ({} images)", counted(count, "part"), sizes.join(", ")),
+    };
+    let outside = match list.outside.len() {
+        0 => String::new(),
+        _ => format!(", in none: {}", some_names(&list.outside)),
+    };
+    format!("{images}, not whole: {parts}{outside}")
+}
+
+/// Some names and how many more.
+fn some_names(names: &[String]) -> String {
+    let mut shown: Vec<String> = names.iter().take(SHOWN).cloned().collect();
+    if names.len() > SHOWN {
+        shown.push(format!("and {} more", names.len() - SHOWN));
+    }
+    shown.join(", ")
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    input: &'a str,
+    images: usize,
+    pairs: usize,
+    notes: &'a [String],
+    by: &'static str,
+    #[serde(flatten)]
+    lists: &'a Lists,
+    seconds: f64,
+}

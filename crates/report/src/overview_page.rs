@@ -1,0 +1,43 @@
+//! What pairs and tracks of one input determine, as one page: everything that the screen says, and
+//! the images with what is between them.
+
+use crate::Report;
+use crate::overview::Overview;
+use crate::sheet::{Scene, Sheet};
+use std::io;
+use viewcert_advice::Advice;
+
+/// The page of an overview; `advice` has the joints and suggestions of the graph that decides.
+///
+/// # Errors
+/// None that an input can cause.
+pub fn html(overview: &Overview, advice: &Advice) -> io::Result<String> {
+    let mut text = Vec::new();
+    overview.write(&mut text)?;
+    let pairs = overview.pairs.as_ref().map(|[_, calibrated]| calibrated);
+    let report = overview.tracks.as_ref().or(pairs);
+    let Some(report) = report else {
+        return Err(io::Error::other("neither pairs nor tracks"));
+    };
+    let matched = match (&overview.tracks, pairs) {
+        (Some(_), Some(pairs)) => pairs.input.graph.edges(),
+        _ => &[],
+    };
+    let report = Report { advice, ..*report };
+    let is_good = overview.determined();
+    let what = match (overview.tracks.is_some(), is_good) {
+        (true, true) => "The tracks determine all images that have a pair",
+        (true, false) => "The tracks do not determine all images",
+        (false, true) => "The pairs determine all images that have one",
+        (false, false) => "The pairs do not determine all images",
+    };
+    let sheet = Sheet {
+        kind: "What to expect of a reconstruction",
+        name: overview.name,
+        answer: (format!("{what} against each other."), is_good),
+        text: &String::from_utf8_lossy(&text),
+        scene: Scene::new(report, matched),
+        advice,
+    };
+    Ok(sheet.html())
+}

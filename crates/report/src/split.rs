@@ -1,0 +1,188 @@
+//! A model that was taken apart, for people and for programs.
+
+use super::json::{AnswerLine, GraphLine, write_line};
+use super::read::ReadLine;
+use super::tracks::{self, TrackLine};
+use super::{Report, counted, text};
+use crate::advice::joints as write_joints;
+use crate::sheet::{Scene, Sheet};
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert_advice::Advice;
+use viewcert_advice::split::{PAGE, Piece, Split};
+
+/// Most names, and most parts, that are shown.
+const SHOWN: usize = 8;
+
+/// The verdict on a model's tracks, and the parts that were written.
+pub struct SplitReport<'a> {
+    /// The verdict on the camera-point graph.
+    pub report: Report<'a>,
+    /// What was written.
+    pub split: &'a Split,
+}
+
+impl SplitReport<'_> {
+    /// Whether the model is one part that has all of its images.
+    pub fn is_whole(&self) -> bool {
+        self.split.parts.len() == 1 && self.split.outside.is_empty()
+    }
+
+    /// Writes some lines for people.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let (report, split) = (&self.report, self.split);
+        writeln!(out, "{}", report.input.name)?;
+        writeln!(out, "  read as     {}", report.input.read)?;
+        for note in &report.input.notes {
+            writeln!(out, "  note        {note}")?;
+        }
+        if let Some(facts) = &report.input.tracks {
+            tracks::write_size(out, facts)?;
+        }
+        writeln!(out, "  positions   {}", text::answer(report))?;
+        let count = counted(split.parts.len(), "model");
+        writeln!(out, "  written     {count} in {}", split.folder)?;
+        for part in split.parts.iter().take(SHOWN) {
+            writeln!(out, "    {}", self.piece(part))?;
+        }
+        if let Some(more) = split.parts.len().checked_sub(SHOWN + 1) {
+            writeln!(out, "    and {} more (parts.tsv)", more + 1)?;
+        }
+        write_joints(out, report.advice)?;
+        for shared in split.shared.iter().take(SHOWN) {
+            let components = shared.components.iter().map(ToString::to_string);
+            let components: Vec<String> = components.collect();
+            writeln!(
+                out,
+                "  hinge       {} is in {}",
+                shared.image,
+                components.join(", ")
+            )?;
+        }
+        if let Some(more) = split.shared.len().checked_sub(SHOWN + 1) {
+            writeln!(out, "  hinge       and {} more (parts.tsv)", more + 1)?;
+        }
+        if !split.outside.is_empty() {
+            writeln!(out, "  in no part  {}", some_names(&split.outside))?;
+        }
+        if split.points_cut + split.points_left_out > 0 {
+            writeln!(
+                out,
+                "  points      {} without all views, {} in no part",
+                split.points_cut, split.points_left_out
+            )?;
+        }
+        writeln!(out, "  because     {}", self.why())?;
+        writeln!(out, "  page        {}/{PAGE}", split.folder)?;
+        writeln!(
+            out,
+            "  time        {}",
+            text::seconds(report.time.as_micros())
+        )
+    }
+
+    fn piece(&self, part: &Piece) -> String {
+        let ends = match (part.images.first(), part.images.last()) {
+            (Some(first), Some(last)) => format!("{first} to {last}"),
+            _ => String::new(),
+        };
+        format!(
+            "{}: {}, {} ({ends})",
+            part.folder,
+            counted(part.images.len(), "image"),
+            counted(part.points, "point"),
+        )
+    }
+
+    /// Why there are so many parts.
+    pub fn why(&self) -> String {
+        let all = counted(self.report.input.cameras.unwrap_or(0) as usize, "image");
+        let without = match self.split.outside.len() {
+            0 => String::new(),
+            count => format!(
+                "; the tracks do not hold {} to any of it",
+                counted(count, "image")
+            ),
+        };
+        match self.split.parts.len() {
+            0 => "the tracks determine no two images against each other".to_owned(),
+            1 if without.is_empty() => {
+                format!("the tracks determine all {all} against each other: there is one part")
+            }
+            1 => format!("the tracks determine one part{without}"),
+            count => format!(
+                "the tracks determine {count} parts, each in itself, and leave free how these lie \
+                 against each other: how they do in the model rests on no track{without}"
+            ),
+        }
+    }
+
+    /// The page that says what the parts are, and why.
+    ///
+    /// # Errors
+    /// None that a model can cause.
+    pub fn page(&self) -> io::Result<String> {
+        let mut text = Vec::new();
+        self.write(&mut text)?;
+        let sheet = Sheet {
+            kind: "A model taken apart",
+            name: &self.report.input.name,
+            answer: (self.why(), self.is_whole()),
+            text: &String::from_utf8_lossy(&text),
+            scene: Scene::new(self.report, &[]),
+            advice: self.report.advice,
+        };
+        Ok(sheet.html())
+    }
+
+    /// Writes everything as one line of JSON.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_json(&self, out: &mut impl Write) -> io::Result<()> {
+        let report = &self.report;
+        let facts = report.input.cameras.zip(report.input.tracks.as_ref());
+        let line = Line {
+            graph: GraphLine::new(report.input, report.verdict),
+            read: ReadLine::from(&report.input.read),
+            notes: &report.input.notes,
+            tracks: facts.map(|(cameras, facts)| TrackLine::new(cameras, facts)),
+            positions: AnswerLine::from(report),
+            joints: report.advice,
+            split: self.split,
+            whole: self.is_whole(),
+            why: self.why(),
+            seconds: report.time.as_secs_f64(),
+        };
+        write_line(out, &line)
+    }
+}
+
+/// Some names and how many more.
+fn some_names(names: &[String]) -> String {
+    let shown = names.iter().take(SHOWN).cloned();
+    let mut shown: Vec<String> = shown.collect();
+    if names.len() > SHOWN {
+        shown.push(format!("and {} more", names.len() - SHOWN));
+    }
+    shown.join(", ")
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    graph: GraphLine<'a>,
+    read: ReadLine<'a>,
+    notes: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tracks: Option<TrackLine>,
+    positions: AnswerLine,
+    #[serde(flatten)]
+    joints: &'a Advice,
+    split: &'a Split,
+    whole: bool,
+    why: String,
+    seconds: f64,
+}

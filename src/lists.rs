@@ -1,0 +1,181 @@
+//! `verify lists GRAPH FILE...`: whether lists of images are whole, and what their overlaps fix.
+
+use super::input::InputArguments;
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+use viewcert::Graph;
+use viewcert::decide::{Options, Question, Verdict, decide};
+use viewcert::geometry::model::Model;
+use viewcert_advice::lists::{self, List};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_report::lists::ListReport;
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::outputs;
+
+/// Lists, and what they are about.
+#[derive(Args)]
+pub(super) struct ListArguments {
+    /// A COLMAP database, of which each list is decided by its own tracks, or any other graph, of which
+    /// it is decided by its own pairs.
+    graph: PathBuf,
+    /// Lists of images as COLMAP's mappers take them: a name on each line.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    input: InputArguments,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Reads the graph and the lists, decides each list and what overlaps fix, and reports.
+pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<ExitCode> {
+    let start = Instant::now();
+    let path = &arguments.graph;
+    let options = arguments.input.read_options();
+    session.reading(path);
+    let mut input = first(path, &options)?;
+    session.hide();
+    let by_tracks = input.database.is_some();
+    ensure!(
+        by_tracks || arguments.input.min_views.is_none(),
+        "--min-views says which tracks of a database count, and {} has pairs alone; leave it out",
+        path.display()
+    );
+    let found: Result<Vec<List>> = arguments
+        .files
+        .iter()
+        .map(|file| list(session, arguments, &mut input, file))
+        .collect();
+    let found = found?;
+    let (images, seed) = (input.graph.nodes() as u32, Options::default().seed);
+    let name = |v| input.labels.label(v).into_owned();
+    let found = lists::lists(&found, images, name, seed, session.shown_watch());
+    session.hide();
+    let found = found.with_context(|| input.name.clone())?;
+    let report = ListReport {
+        input: &input,
+        by: if by_tracks { "tracks" } else { "pairs" },
+        lists: &found,
+        time: start.elapsed(),
+    };
+    let mut out = outputs::text(&[]);
+    match arguments.json {
+        true => report.write_json(&mut out)?,
+        false => report.write(&mut out)?,
+    }
+    out.flush().context("standard output")?;
+    Ok(ExitCode::from(if found.determined { GOOD } else { NOT }))
+}
+
+/// The one graph of a file.
+fn first(path: &Path, options: &ReadOptions) -> Result<NamedGraph> {
+    let mut graphs = read_graphs(path, options);
+    let input = graphs.next();
+    let input = input.with_context(|| format!("{}: the file holds no graph", path.display()))?;
+    let input = match input {
+        Err(error) if error.problem.holds_tracks() => bail!(
+            "{}: this holds points that were found, not the matches that they came from; name the \
+             database",
+            path.display()
+        ),
+        input => input?,
+    };
+    ensure!(
+        graphs.next().is_none(),
+        "{}: there are several graphs, and lists are about one",
+        path.display()
+    );
+    Ok(input)
+}
+
+/// Reads a list, and decides what its images determine by themselves.
+fn list(
+    session: &Session,
+    arguments: &ListArguments,
+    input: &mut NamedGraph,
+    file: &Path,
+) -> Result<List> {
+    let (images, again) = names(input, file)?;
+    if again > 0 {
+        let note = format!(
+            "{}: {} given again, and counted once",
+            file.display(),
+            viewcert_report::counted(again, "name")
+        );
+        input.notes.push(note);
+    }
+    let inside: BTreeSet<u32> = images.iter().copied().collect();
+    let own = input.graph.edges().iter().copied();
+    let own = own.filter(|(i, j)| inside.contains(i) && inside.contains(j));
+    let own: Vec<(u32, u32)> = own.collect();
+    let name = file.display().to_string();
+    if own.is_empty() {
+        return Ok(List::new(name, images, Vec::new()));
+    }
+    session.doing(format!("deciding {name}"));
+    let (verdict, cameras) = if input.database.is_some() {
+        let labels = images.iter().map(|&v| input.labels.label(v).into_owned());
+        let options = ReadOptions {
+            only: Some(Arc::new(labels.collect())),
+            ..arguments.input.of_tracks()
+        };
+        let tracks = first(&arguments.graph, &options)?;
+        let cameras = tracks.cameras.unwrap_or(0);
+        (decided(session, &tracks.graph), cameras)
+    } else {
+        let graph = Graph::new(input.graph.nodes() as u32, own)?;
+        (decided(session, &graph), u32::MAX)
+    };
+    session.hide();
+    let verdict = verdict.with_context(|| name.clone())?;
+    let components = verdict.components.iter().map(|component| {
+        let nodes = component.nodes().into_iter();
+        nodes.filter(|&v| v < cameras).collect::<Vec<u32>>()
+    });
+    Ok(List::new(name, images, components.collect()))
+}
+
+fn decided(session: &Session, graph: &Graph) -> Result<Verdict> {
+    let question = Question::without_solutions(Model::Calibrated);
+    let options = Options::default().question(question);
+    Ok(decide(graph, &options.watch(session.shown_watch()))?)
+}
+
+/// The images of a list, increasing, and how many names come again.
+fn names(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
+    let text = std::fs::read_to_string(file);
+    let text = text.with_context(|| format!("{}: cannot be read", file.display()))?;
+    let all = 0..input.graph.nodes() as u32;
+    let nodes: BTreeMap<String, u32> = all
+        .map(|v| (input.labels.label(v).into_owned(), v))
+        .collect();
+    let (mut images, mut again) = (BTreeSet::new(), 0);
+    for (number, line) in (1..).zip(text.lines()) {
+        let name = line.trim();
+        if name.is_empty() {
+            continue;
+        }
+        let Some(&node) = nodes.get(name) else {
+            bail!(
+                "{}:{number}: no image of {} is called {name}; leave it out, or extract and match it",
+                file.display(),
+                input.name
+            );
+        };
+        again += usize::from(!images.insert(node));
+    }
+    ensure!(
+        !images.is_empty(),
+        "{}: the list is empty; put a name on each line",
+        file.display()
+    );
+    Ok((images.into_iter().collect(), again))
+}

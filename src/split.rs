@@ -1,0 +1,118 @@
+//! `verify split MODEL DIR`: a model taken apart where its tracks do not hold it together.
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use viewcert::Known;
+use viewcert::decide::{Calibrated, Options, Question, decide};
+use viewcert::geometry::model::Model as Geometry;
+use viewcert_advice::{Advice, named_joints, split};
+use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs};
+use viewcert_report::assumptions::Scope;
+use viewcert_report::split::SplitReport;
+use viewcert_report::{Report, counted};
+use viewcert_session::Session;
+use viewcert_session::exit::{GOOD, NOT};
+use viewcert_session::outputs;
+
+/// What to take apart, and where to.
+#[derive(Args)]
+pub(super) struct SplitArguments {
+    /// The folder of a COLMAP model: cameras, images and points3D, as .bin or as .txt, and rigs and
+    /// frames if they are there. It is read and never written to.
+    #[arg(value_name = "MODEL")]
+    model: PathBuf,
+    /// The folder for the parts: a COLMAP model for each, a table, and a page that says why. It holds
+    /// nothing else.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// In how many images a point has to be seen to hold them together [default: 3, as in global
+    /// mapping].
+    #[arg(long, value_name = "N")]
+    min_views: Option<u32>,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Reads the model, decides its tracks, writes the parts and reports.
+pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitCode> {
+    let start = Instant::now();
+    let path = &arguments.model;
+    ensure!(
+        path.is_dir(),
+        "{}: this is no folder; name the folder that holds cameras, images and points3D",
+        path.display()
+    );
+    split::check(&arguments.folder, path)?;
+    let default = TrackOptions::default();
+    let options = ReadOptions {
+        tracks: Some(TrackOptions {
+            min_views: arguments.min_views.unwrap_or(default.min_views),
+        }),
+        ..ReadOptions::default()
+    };
+    session.reading(path);
+    let input = read_graphs(path, &options).next();
+    let mut input = input.with_context(|| format!("{}: no graph", path.display()))??;
+    let model = Model::read(path)?;
+    session.hide();
+    let known = split::base_lines(&model, &input)?;
+    let has_rigs = !known.is_empty();
+    if has_rigs {
+        input.notes.push(format!(
+            "{} with several images: the base lines of rigs are taken for known",
+            counted(model.frames().count(), "frame")
+        ));
+    }
+    let question: Question = Calibrated::with(Known::Displacements(known)).into();
+    let options = match has_rigs {
+        true => Options::default().question(question),
+        false => Options::default().model(Geometry::Calibrated),
+    };
+    let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
+    session.hide();
+    let verdict = verdict.with_context(|| input.name.clone())?;
+    // Base lines join components in ways of their own, and nothing is said about these.
+    let joints = match has_rigs {
+        true => Ok(Advice::default()),
+        false => named_joints(&input, &verdict, Options::default().seed, session.watch()),
+    };
+    session.hide();
+    let joints = joints.with_context(|| input.name.clone())?;
+    let scope = Scope::default();
+    let mut report = Report {
+        input: &input,
+        verdict: &verdict,
+        rational: false,
+        list_components: false,
+        time: Duration::ZERO,
+        advice: &joints,
+        scope: &scope,
+        proof: None,
+    };
+    session.doing(format!("writing {}", arguments.folder.display()));
+    let (outputs, folder) = (session.outputs(), &arguments.folder);
+    let found = split::split(outputs, folder, &model, &input, &verdict, |split| {
+        report.time = start.elapsed();
+        let report = SplitReport { report, split };
+        Ok(report.page()?.into_bytes())
+    });
+    session.hide();
+    let found = found?;
+    report.time = start.elapsed();
+    let report = SplitReport {
+        report,
+        split: &found,
+    };
+    let mut out = outputs::text(&[]);
+    match arguments.json {
+        true => report.write_json(&mut out)?,
+        false => report.write(&mut out)?,
+    }
+    out.flush().context("standard output")?;
+    Ok(ExitCode::from(if report.is_whole() { GOOD } else { NOT }))
+}

@@ -1,0 +1,57 @@
+//! A real browser without a window.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Chromium, or what goes by its name.
+pub struct Browser(String);
+
+impl Browser {
+    /// The browser that is installed here.
+    pub fn find() -> Option<Self> {
+        for name in ["chromium", "chromium-browser", "google-chrome", "chrome"] {
+            let found = Command::new(name)
+                .arg("--version")
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .status();
+            if found.is_ok_and(|status| status.success()) {
+                return Some(Self(name.into()));
+            }
+        }
+        let required = std::env::var_os("VIEWCERT_REQUIRE_DATA").is_some_and(|value| value == "1");
+        assert!(!required, "no Chromium is installed, and it is required");
+        eprintln!("SKIPPED: no Chromium is installed");
+        None
+    }
+
+    /// The elements of a page as they are when all has run, and what went to standard error; `view` is
+    /// the fragment of the address.
+    pub fn dump(&self, path: &Path, view: &str) -> (String, String) {
+        let profile = tempfile::tempdir().unwrap();
+        let output = Command::new(&self.0)
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+            ])
+            .args([
+                "--enable-logging=stderr",
+                "--dump-dom",
+                "--window-size=1200,1600",
+            ])
+            .arg(format!("--user-data-dir={}", profile.path().display()))
+            .arg(format!("file://{}#{view}", path.display()))
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        (text(output.stdout), text(output.stderr))
+    }
+}

@@ -1,0 +1,565 @@
+//! `verify split`, `verify merge` and `verify lists` through the binary.
+
+mod common;
+
+use common::schema::keeps_to;
+use common::{Run, absent, data, verify};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Writes a model of images that are called by their places, and of tracks, each a list of images.
+fn model(folder: &Path, images: usize, tracks: &[Vec<usize>]) {
+    fs::create_dir_all(folder).unwrap();
+    let mut features = vec![Vec::new(); images];
+    let mut points = String::from("# 3D point list\n");
+    for (id, track) in (1..).zip(tracks) {
+        points += &format!("{id} 0.5 {id} 0 9 9 9 0.25");
+        for &image in track {
+            points += &format!(" {} {}", image + 1, features[image].len());
+            features[image].push(id);
+        }
+        points += "\n";
+    }
+    let mut list = String::from("# Image list\n");
+    for (k, seen) in features.iter().enumerate() {
+        list += &format!("{} 1 0 0 0 {k} 0 0 1 {k}.jpg\n", k + 1);
+        let seen: Vec<String> = seen.iter().map(|id| format!("1.5 2.5 {id}")).collect();
+        list += &format!("{}\n", seen.join(" "));
+    }
+    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(folder.join("images.txt"), list).unwrap();
+    fs::write(folder.join("points3D.txt"), points).unwrap();
+}
+
+/// Two clusters of four images with image 3 in common, each with ten points that all of it see, a
+/// point that two images of different clusters see, and one of the first cluster that is all that
+/// image 7 sees.
+fn glued() -> Vec<Vec<usize>> {
+    let mut tracks = vec![vec![0, 1, 2, 3]; 10];
+    tracks.extend(vec![vec![3, 4, 5, 6]; 10]);
+    tracks.push(vec![0, 6]);
+    tracks.push(vec![0, 1, 7]);
+    tracks
+}
+
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
+    entries
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
+    let names = entries.map(|entry| entry.file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
+}
+
+/// The program on paths in a folder.
+fn run(folder: &Path, command: &str, arguments: &[&str]) -> Run {
+    let paths = arguments.iter().map(|word| {
+        if word.starts_with('-') || word.parse::<u32>().is_ok() {
+            return (*word).to_owned();
+        }
+        folder.join(word).to_str().unwrap().to_owned()
+    });
+    let words: Vec<String> = [command.to_owned()].into_iter().chain(paths).collect();
+    verify(&words.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+#[test]
+fn a_glued_model_is_taken_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    model(&at.join("model"), 8, &glued());
+    let before = files(&at.join("model"));
+    let found = run(at, "split", &["model", "out", "--json"]);
+    assert_eq!(found.code, 1, "{}", found.err);
+    assert_eq!(files(&at.join("model")), before);
+    let line = keeps_to("split", &found, &["program", "graph", "split", "whole"]).remove(0);
+    assert_eq!(line["whole"], false);
+    let split = &line["split"];
+    let parts = split["parts"].as_array().unwrap();
+    let images = |k: usize| parts[k]["images"].clone();
+    assert_eq!(images(0), json!(["0.jpg", "1.jpg", "2.jpg", "3.jpg"]));
+    assert_eq!(images(1), json!(["3.jpg", "4.jpg", "5.jpg", "6.jpg"]));
+    assert_eq!(parts[0]["points"], 11);
+    assert_eq!(parts[0]["observations"], 42);
+    assert_eq!(
+        split["shared"],
+        json!([{"image": "3.jpg", "components": [1, 2]}])
+    );
+    assert_eq!(split["outside"], json!(["7.jpg"]));
+    assert_eq!(
+        (&split["points_cut"], &split["points_left_out"]),
+        (&json!(1), &json!(1))
+    );
+    assert_eq!(line["joints"][0]["meaning"], "relative scale");
+    assert_eq!(
+        names(&at.join("out")),
+        ["001", "002", "page.html", "parts.tsv"]
+    );
+    let table = fs::read_to_string(at.join("out/parts.tsv")).unwrap();
+    assert_eq!(table.lines().nth(1), Some("001\t4\t11\t42\t3.jpg"));
+    // A part is one part.
+    for part in ["out/001", "out/002"] {
+        let again = run(at, "split", &[part, "again", "--json"]);
+        assert_eq!(again.code, 0, "{}", again.err);
+        let again = &again.json()[0];
+        assert_eq!(again["split"]["points_cut"], 0);
+        assert_eq!(files(&at.join("again/001")), files(&at.join(part)));
+    }
+    let points = fs::read_to_string(at.join("out/001/points3D.txt")).unwrap();
+    assert!(
+        points.contains("\n1 0.5 1 0 9 9 9 0.25 1 0 2 0 3 0 4 0\n"),
+        "{points}"
+    );
+    assert!(
+        points.contains("\n22 0.5 22 0 9 9 9 -1 1 11 2 10\n"),
+        "{points}"
+    );
+    let text = run(at, "split", &["model", "out"]).out;
+    for line in [
+        "  written     2 models in ",
+        "    001: 4 images, 11 points (0.jpg to 3.jpg)",
+        "  hinge       3.jpg is in 1, 2",
+        "  in no part  7.jpg",
+        "  points      1 without all views, 1 in no part",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    let page = fs::read_to_string(at.join("out/page.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("3.jpg"));
+}
+
+#[test]
+fn what_is_whole_stays_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut tracks = glued();
+    tracks.pop();
+    tracks.push(vec![0, 1, 4, 5]);
+    model(&at.join("model"), 7, &tracks);
+    let found = run(at, "split", &["model", "out", "--json"]);
+    assert_eq!(found.code, 0, "{}", found.err);
+    let line = &found.json()[0];
+    assert_eq!(
+        (&line["whole"], &line["split"]["points_left_out"]),
+        (&json!(true), &json!(0))
+    );
+    let (part, whole) = (files(&at.join("out/001")), files(&at.join("model")));
+    assert_eq!(part["cameras.txt"], whole["cameras.txt"]);
+    let without_comments = |bytes: &[u8]| {
+        let text = String::from_utf8(bytes.to_vec()).unwrap();
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    for name in ["images.txt", "points3D.txt"] {
+        assert_eq!(
+            without_comments(&part[name]),
+            without_comments(&whole[name])
+        );
+    }
+    // Points of two images hold nothing together, unless they are asked to.
+    let mut tracks = glued();
+    tracks.pop();
+    tracks.push(vec![1, 5]);
+    model(&at.join("pairs"), 7, &tracks);
+    assert_eq!(run(at, "split", &["pairs", "out"]).code, 1);
+    let found = run(at, "split", &["pairs", "out", "--min-views", "2"]);
+    assert_eq!(found.code, 0, "{}", found.out);
+}
+
+/// Several features of one image at a point are one view, as they were to the mapper.
+#[test]
+fn a_point_may_have_several_features_in_an_image() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let tracks = vec![vec![0, 0, 1, 2]; 10];
+    model(&at.join("model"), 3, &tracks);
+    let found = run(at, "split", &["model", "out", "--json"]);
+    assert_eq!(found.code, 0, "{}", found.out);
+    let line = &found.json()[0];
+    assert_eq!(line["tracks"]["observations"], 30);
+    assert_eq!(line["split"]["parts"][0]["observations"], 40);
+    let note = "10 points with several features in one image: one view each";
+    assert_eq!(line["notes"], json!([note]));
+    // Two features of one image are not two images.
+    model(&at.join("twice"), 3, &vec![vec![0, 0, 1]; 10]);
+    assert_eq!(run(at, "split", &["twice", "out"]).code, 1);
+}
+
+/// Nothing is written where something else is, and never into a model.
+#[test]
+fn folders_are_kept_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    model(&at.join("model"), 8, &glued());
+    let refused = |arguments: &[&str], why: &str| {
+        let found = run(at, "split", arguments);
+        assert_eq!(found.code, 2, "{}", found.out);
+        assert!(found.err.contains(why), "{}", found.err);
+    };
+    let before = files(&at.join("model"));
+    refused(&["model", "model"], "the input");
+    refused(&["model", "model/parts"], "in the folder of the model");
+    refused(&["model", "."], "the input");
+    refused(&["model/images.txt", "out"], "this is no folder");
+    refused(&["nothing", "out"], "this is no folder");
+    fs::create_dir(at.join("mine")).unwrap();
+    fs::write(at.join("mine/notes.txt"), "x").unwrap();
+    refused(
+        &["model", "mine"],
+        "notes.txt is there, which no split has written",
+    );
+    assert_eq!(run(at, "split", &["model", "out"]).code, 1);
+    fs::write(at.join("out/001/notes.txt"), "x").unwrap();
+    refused(&["model", "out"], "001/notes.txt is there");
+    fs::remove_file(at.join("out/001/notes.txt")).unwrap();
+    // An earlier run is replaced as a whole.
+    let tracks = vec![vec![0, 1, 2, 3]; 10];
+    model(&at.join("small"), 4, &tracks);
+    assert_eq!(run(at, "split", &["small", "out"]).code, 0);
+    assert_eq!(names(&at.join("out")), ["001", "page.html", "parts.tsv"]);
+    assert_eq!(files(&at.join("model")), before);
+    // A damaged model leaves the folder as it was.
+    let images = fs::read_to_string(at.join("small/images.txt")).unwrap();
+    fs::write(at.join("small/images.txt"), &images[..images.len() - 8]).unwrap();
+    assert_eq!(run(at, "split", &["small", "out"]).code, 2);
+    assert_eq!(names(&at.join("out")), ["001", "page.html", "parts.tsv"]);
+    assert_eq!(names(at), ["mine", "model", "out", "small"]);
+}
+
+#[test]
+fn two_models_share_what_fixes_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let whole = |images: &[usize]| vec![images.to_vec(); 10];
+    model(&at.join("glued"), 8, &glued());
+    assert_eq!(run(at, "split", &["glued", "parts"]).code, 1);
+    let found = run(at, "merge", &["parts/001", "parts/002", "--json"]);
+    assert_eq!(found.code, 1, "{}", found.err);
+    let line = keeps_to(
+        "merge",
+        &found,
+        &["program", "models", "determined", "freedom"],
+    )
+    .remove(0);
+    assert_eq!(line["shared_images"], json!(["3.jpg"]));
+    assert_eq!(
+        (&line["shared_points"], &line["freedom"]),
+        (&json!(0), &json!(1))
+    );
+    assert_eq!(
+        (&line["free"], &line["model_merger"]),
+        (&json!("relative scale"), &json!(false))
+    );
+    // A point that one image sees in both models tells the scale.
+    let mut tracks = whole(&[0, 1, 2, 3]);
+    tracks.extend(whole(&[3, 4, 5, 6]));
+    tracks.push(vec![0, 3, 4]);
+    model(&at.join("all"), 7, &tracks);
+    let without = |images: &[usize]| {
+        let kept = |track: &Vec<usize>| {
+            track
+                .iter()
+                .copied()
+                .filter(|v| images.contains(v))
+                .collect()
+        };
+        tracks.iter().map(kept).collect::<Vec<Vec<usize>>>()
+    };
+    for (name, images) in [("one", [0, 1, 2, 3]), ("other", [3, 4, 5, 6])] {
+        write_part(&at.join(name), &images, &without(&images));
+    }
+    let found = run(at, "merge", &["one", "other"]);
+    assert_eq!(found.code, 0, "{}{}", found.out, found.err);
+    for words in [
+        "1 image: 3.jpg",
+        "1 point\n",
+        "yes: rotation",
+        "model_merger refuses",
+    ] {
+        assert!(found.out.contains(words), "{words}: {}", found.out);
+    }
+    // Nothing in common.
+    write_part(&at.join("third"), &[4, 5, 6], &without(&[4, 5, 6]));
+    let found = run(at, "merge", &["one", "third", "--json"]);
+    assert_eq!((found.code, &found.json()[0]["freedom"]), (1, &json!(7)));
+    // Three images and more are enough for COLMAP's own command as well.
+    let found = run(at, "merge", &["other", "third", "--json"]);
+    let line = &found.json()[0];
+    assert_eq!((found.code, &line["model_merger"]), (0, &json!(true)));
+    let found = run(at, "merge", &["one", "third", "--min-views", "2"]);
+    assert_eq!(found.code, 2);
+    assert!(
+        found.err.contains("name the database after both models"),
+        "{}",
+        found.err
+    );
+}
+
+/// A model with some of the images of [`model`], whose numbers it keeps; tracks with fewer than two
+/// views are no points there, but their features stay.
+fn write_part(folder: &Path, images: &[usize], tracks: &[Vec<usize>]) {
+    fs::create_dir_all(folder).unwrap();
+    let mut features: BTreeMap<usize, Vec<i64>> = images.iter().map(|&v| (v, Vec::new())).collect();
+    let mut points = String::new();
+    for (id, track) in (1..).zip(tracks) {
+        let mut views = String::new();
+        for image in track {
+            let seen = features.get_mut(image).unwrap();
+            views += &format!(" {} {}", image + 1, seen.len());
+            seen.push(if track.len() > 1 { id } else { -1 });
+        }
+        if track.len() > 1 {
+            points += &format!("{id} 0 0 1 9 9 9 0{views}\n");
+        }
+    }
+    let lines = features.iter().map(|(v, seen)| {
+        let seen: Vec<String> = seen.iter().map(|id| format!("1 2 {id}")).collect();
+        format!("{} 1 0 0 0 0 0 0 1 {v}.jpg\n{}\n", v + 1, seen.join(" "))
+    });
+    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(folder.join("images.txt"), lines.collect::<String>()).unwrap();
+    fs::write(folder.join("points3D.txt"), points).unwrap();
+}
+
+/// A model of the images with these names, without points.
+fn named_model(folder: &Path, images: &[String]) {
+    fs::create_dir_all(folder).unwrap();
+    let lines = (1..)
+        .zip(images)
+        .map(|(id, name)| format!("{id} 1 0 0 0 0 0 0 1 {name}\n\n"));
+    fs::write(folder.join("cameras.txt"), "1 PINHOLE 9 9 8 8 4 4\n").unwrap();
+    fs::write(folder.join("images.txt"), lines.collect::<String>()).unwrap();
+    fs::write(folder.join("points3D.txt"), "").unwrap();
+}
+
+/// The parts of databases with two clusters, as models: what tracks between them fix, and what to
+/// match where they do not.
+#[test]
+fn a_database_says_what_joins_two_models() {
+    let Some(colmap) = data().map(|data| data.join("colmap")) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut seen = 0;
+    for (name, code, freedom) in CLUSTERS {
+        let database = colmap.join(name);
+        let of = |letter: char, from: u32| -> Vec<String> {
+            let numbers = from..from + 6;
+            numbers.map(|k| format!("{letter}_{k:03}.jpg")).collect()
+        };
+        let (one, other) = (of('A', 0), of('B', 6));
+        named_model(&at.join("a"), &one);
+        named_model(&at.join("b"), &other);
+        let (a, b) = (at.join("a"), at.join("b"));
+        let words = [
+            "merge",
+            a.to_str().unwrap(),
+            b.to_str().unwrap(),
+            database.to_str().unwrap(),
+        ];
+        let found = verify(&[&words[..], &["--json"]].concat());
+        assert_eq!(found.code, code, "{name}: {}{}", found.out, found.err);
+        let line = keeps_to("merge", &found, &["program", "by"]).remove(0);
+        assert_eq!(
+            (&line["by"], &line["freedom"]),
+            (&json!("tracks"), &json!(freedom)),
+            "{name}"
+        );
+        let suggestions = line["suggestions"].as_array().unwrap();
+        assert_eq!(suggestions.is_empty(), code == 0, "{name}");
+        for suggestion in suggestions {
+            let pair = &suggestion["pairs"][0];
+            assert_ne!(
+                pair[0].as_str().unwrap()[..1],
+                pair[1].as_str().unwrap()[..1],
+                "{name}"
+            );
+        }
+        seen += suggestions.len();
+        assert_eq!(verify(&words).code, code);
+    }
+    assert!(seen > 0);
+    let database = colmap.join(CLUSTERS[0].0);
+    named_model(
+        &at.join("b"),
+        &["nobody.jpg".to_owned(), "B_006.jpg".to_owned()],
+    );
+    let (a, b) = (at.join("a"), at.join("b"));
+    let words = [
+        "merge",
+        a.to_str().unwrap(),
+        b.to_str().unwrap(),
+        database.to_str().unwrap(),
+    ];
+    let found = verify(&words);
+    assert_eq!(found.code, 2);
+    assert!(
+        found
+            .err
+            .contains("image nobody.jpg of the model is not in"),
+        "{}",
+        found.err
+    );
+}
+
+/// Databases of clusters A and B, the exit code, and what is free between the two.
+const CLUSTERS: [(&str, i32, Option<u64>); 4] = [
+    ("clusters_nothing.db", 1, Some(7)),
+    ("clusters_one_edge_private.db", 1, None),
+    ("clusters_one_edge_tracks.db", 0, Some(0)),
+    ("clusters_three_edges.db", 1, None),
+];
+
+#[test]
+fn lists_are_whole_and_overlap() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut edges = String::new();
+    for group in [[0, 1, 2, 3], [2, 3, 4, 5], [5, 6, 7, 8]] {
+        for (k, a) in group.iter().enumerate() {
+            group[..k]
+                .iter()
+                .for_each(|b| edges += &format!("n{b} n{a}\n"));
+        }
+    }
+    fs::write(at.join("graph.txt"), edges + "n8 n9\n").unwrap();
+    let list = |name: &str, nodes: &[u32]| {
+        let lines = nodes.iter().map(|v| format!("n{v}\n"));
+        fs::write(at.join(name), lines.collect::<String>()).unwrap();
+    };
+    list("one.txt", &[0, 1, 2, 3]);
+    list("two.txt", &[2, 3, 4, 5, 2]);
+    list("three.txt", &[5, 6, 7, 8]);
+    let found = run(at, "lists", &["graph.txt", "one.txt", "two.txt", "--json"]);
+    assert_eq!(found.code, 0, "{}", found.err);
+    let line = keeps_to("lists", &found, &["program", "by", "lists", "fixed"]).remove(0);
+    assert_eq!(
+        (&line["by"], &line["determined"]),
+        (&json!("pairs"), &json!(true))
+    );
+    assert_eq!(
+        line["overlaps"],
+        json!([{"between": [1, 2], "images": ["n2", "n3"]}])
+    );
+    assert_eq!(
+        line["fixed"],
+        json!([{"parts": [[1, 1], [2, 1]], "images": 6}])
+    );
+    assert_eq!(line["outside"], json!(["n6", "n7", "n8", "n9"]));
+    assert!(
+        line["notes"][1]
+            .as_str()
+            .unwrap()
+            .contains("two.txt: 1 name given again"),
+        "{line}"
+    );
+    // One common image leaves the scale free.
+    let found = run(
+        at,
+        "lists",
+        &["graph.txt", "one.txt", "two.txt", "three.txt"],
+    );
+    assert_eq!(found.code, 1);
+    assert!(
+        found.out.contains("  scale       free between 1 + 2 | 3\n"),
+        "{}",
+        found.out
+    );
+    // A list that hangs together by single pairs is not whole.
+    list("four.txt", &[0, 1, 2, 8, 9]);
+    let found = run(at, "lists", &["graph.txt", "four.txt"]);
+    assert_eq!(found.code, 1);
+    assert!(
+        found
+            .out
+            .contains("5 images, not whole: 2 parts (3, 2 images)"),
+        "{}",
+        found.out
+    );
+    fs::write(at.join("wrong.txt"), "n0\nn77\n").unwrap();
+    let found = run(at, "lists", &["graph.txt", "wrong.txt"]);
+    assert_eq!(found.code, 2);
+    assert!(
+        found.err.contains("wrong.txt:2: no image of"),
+        "{}",
+        found.err
+    );
+}
+
+/// Of a database each list is decided by the tracks of its own pairs.
+#[test]
+fn lists_of_a_database_have_tracks_of_their_own() {
+    let Some(colmap) = data().map(|data| data.join("colmap")) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let database = colmap.join("photos_lund.db");
+    let exported = at.join("out");
+    let export = [
+        "export",
+        database.to_str().unwrap(),
+        exported.to_str().unwrap(),
+    ];
+    verify(&export);
+    let list = exported.join("components/001/images.txt");
+    let images = fs::read_to_string(&list).unwrap();
+    let all: Vec<&str> = images.lines().collect();
+    let write = |name: &str, some: &[&str]| {
+        let path = at.join(name);
+        fs::write(&path, some.join("\n")).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (one, two) = (write("one", &all), write("two", &all[..2]));
+    let found = verify(&["lists", database.to_str().unwrap(), &one, &two, "--json"]);
+    let line = keeps_to("lists", &found, &["by"]).remove(0);
+    assert_eq!(line["by"], "tracks");
+    // Two images make no track of three.
+    assert_eq!(line["lists"][1]["whole"], false);
+    assert_eq!(line["lists"][1]["parts"], json!([]));
+    let found = verify(&[
+        "lists",
+        database.to_str().unwrap(),
+        &two,
+        "--min-views",
+        "2",
+        "--json",
+    ]);
+    assert_eq!(found.json()[0]["lists"][0]["whole"], true, "{}", found.out);
+}
+
+/// pycolmap reads the parts of a model with rigs, also where a frame has images in two parts; base lines
+/// hold images together.
+#[test]
+fn pycolmap_reads_parts_with_rigs() {
+    let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/rigs.py");
+    let import = Command::new(&python)
+        .args(["-c", "import numpy, pycolmap"])
+        .output();
+    if !import.is_ok_and(|run| run.status.success()) {
+        return absent("python cannot import numpy and pycolmap; pip installs them");
+    }
+    let ran = Command::new(&python)
+        .arg(script)
+        .args(["--verify", env!("CARGO_BIN_EXE_verify")])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&ran.stdout);
+    let errors = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{said}{errors}");
+    assert!(said.contains("read 6 parts"), "{said}");
+}
