@@ -61,15 +61,22 @@ let words path =
     if value > Graph.largest then fail "a number above 2^30";
     value
   in
+  (* whether this word comes next, which is passed by then *)
+  let passed w =
+    let before = (!at, !line) in
+    let next = try word () with Unreadable _ -> "" in
+    next = w || (at := fst before; line := snd before; false)
+  in
   let finished () =
     while !at < String.length text && (text.[!at] = '\n' || text.[!at] = ' ') do incr at done;
     !at = String.length text
   in
-  (word, number, finished, fail)
+  (word, passed, number, finished, fail)
 
 (* what is read of nodes, bodies and blocks, whatever they are for *)
 type reader = {
   word : unit -> string;
+  passed : string -> bool;
   number : unit -> int;
   node : unit -> int;
   fail : 'a. string -> 'a;
@@ -78,7 +85,7 @@ type reader = {
 
 let key reader k v = (k * reader.nodes) + v
 
-let body { word; number; node; fail; nodes = n } reason =
+let body { word; passed; number; node; fail; nodes = n } reason =
   let size = number () in
   let core_size = number () in
   let rows = number () in
@@ -103,6 +110,17 @@ let body { word; number; node; fail; nodes = n } reason =
     (((position i, position j), mask), reason i j why)
   in
   let core = List.init rows row in
+  let weights _ =
+    let first = number () in
+    (first, number ())
+  in
+  let flow _ = List.init rows weights in
+  let flows =
+    if not (passed "flows") then []
+    else
+      let count = number () in
+      if rows = 0 || count > 1 lsl 24 then fail "sizes out of range" else List.init count flow
+  in
   for s = core_size to size - 1 do
     let kind = word () in
     let v = node () in
@@ -129,12 +147,13 @@ let body { word; number; node; fail; nodes = n } reason =
     core_size;
     core;
     centre = (fun s k -> let x, y, z = centres.(s) in match k with 0 -> x | 1 -> y | _ -> z);
+    flows;
     joins = (fun s -> joins.(s - core_size));
   }
 
 let nothing =
   { Checker.body_size = 0; node = Fun.id; by_node = Fun.id; core_size = 0; core = []; centre = (fun _ _ -> 0);
-    joins = (fun _ -> []) }
+    flows = []; joins = (fun _ -> []) }
 
 (* blocks, other blocks and what they share, from the word [first] on; and the word that comes next *)
 let bound reader first =
@@ -330,7 +349,7 @@ let components reader (graph : Graph.t) bodies body_at =
   (owner, { numbers; in_owner; pair_at; steps = steps reader count (fun k -> nodes.(k)) })
 
 let read path (graph : Graph.t) =
-  let word, number, finished, fail = words path in
+  let word, passed, number, finished, fail = words path in
   let expect w = if word () <> w then fail (w ^ " expected") in
   let n = graph.nodes and m = Array.length graph.first in
   expect "viewcert"; expect "proof";
@@ -347,7 +366,7 @@ let read path (graph : Graph.t) =
     if v >= n then fail "no such node";
     v
   in
-  let reader = { word; number; node; fail; nodes = n } in
+  let reader = { word; passed; number; node; fail; nodes = n } in
   let pair_number = Table.create (2 * m) in
   for k = 0 to m - 1 do Table.replace pair_number (key reader graph.first.(k) graph.second.(k)) k done;
   let body_at = Table.create 1024 in

@@ -1,6 +1,6 @@
 (* The program, and what its answer means. Arrays come in as functions, so that nothing is supposed about arrays. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Elimination.
+From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Elimination Flows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Definition the_prime : nat := 2 ^ 16 - 15.
@@ -21,11 +21,11 @@ Fixpoint increasing (s : nat) (at_ : nat -> nat) (key : nat -> nat) (k : nat) : 
 Inductive reason := Pair of nat | Inside of nat & nat & nat | Both of nat & nat & nat & nat & nat & nat.
 
 (* A body: its nodes one after the other, a core of the first ones with its rows (two positions, rows used, reason)
-   and centres; each later node is joined to at most two nodes before it. *)
+   and centres, and flows, if it has its rank by these; each later node is joined to at most two nodes before it. *)
 Record body := Body {
   body_size : nat; node : nat -> nat; by_node : nat -> nat;
   core_size : nat; core : seq (nat * nat * nat * reason); centre : nat -> nat -> nat;
-  joins : nat -> seq (nat * reason) }.
+  flows : seq flow; joins : nat -> seq (nat * reason) }.
 
 (* A block: its nodes *)
 Record block := Block { block_size : nat; block_node : nat -> nat }.
@@ -90,7 +90,7 @@ Definition body_rank : option nat :=
       if increasing (body_size B) (by_node B) (node B) (body_size B) then
         if core_ok (core B) then
           joined (body_size B - core_size B)
-            (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B)))
+            (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B))
         else None
       else None
     else None
@@ -204,6 +204,8 @@ Definition verify n m first second by_pair bodies owner b lower blocks half shar
 (* ------------------------------------------------------------------ its soundness *)
 
 Lemma the_prime_is_prime : prime the_prime.
+Proof. by vm_compute. Qed.
+Lemma the_prime_is_odd : 2 < the_prime.
 Proof. by vm_compute. Qed.
 
 Lemma increasingP s at_ key : increasing s at_ key s -> uniq (mkseq key s).
@@ -354,10 +356,9 @@ case/ih => lt el; rewrite /= lt; split=> // e; rewrite inE => /predU1P [-> | /el
 Qed.
 
 Lemma core_shown : core_size B <= body_size B -> core_ok allowed B (core B) ->
-  shown (core_size B) (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B))).
+  shown (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B)).
 Proof.
-move=> le /core_okP [lt el]; case e: (core B) => [|c L]; first by exists [::]; split=> //; exists (0%R).
-rewrite -e; have a := core_rank_sound the_prime_is_prime (centre B) lt.
+move=> le /core_okP [lt el]; have a := core_rank_sound the_prime_is_prime the_prime_is_odd (centre B) (flows B) lt.
 pose s (i : 'I_(core_size B)) := N i.
 have s_inj : injective s.
   by move=> i j /N_inj ij; apply/val_inj/ij; apply: leq_trans le.
@@ -392,15 +393,14 @@ Lemma body_motionP (allowed : nat -> nat -> reason -> bool) B U motion i j r :
     all (either ((V (node B i), V (node B j)) :: U)) T & attained T r.+1].
 Proof.
 move=> ok; rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
-case: ifP => // cok; have -> : (if core B is [::] then 0 else core_rank the_prime (centre B) (core_size B) (core_rows (core B)))
-  = core_rank the_prime (centre B) (core_size B) (core_rows (core B)) by case: (core B).
+case: ifP => // cok.
 move=> jo sol ic jc nij; set U' := _ :: U; have le' : core_size B + (body_size B - core_size B) <= body_size B by rewrite subnKC.
 have ok' x y why : allowed x y why -> either U' (V x, V y).
   by move/ok; rewrite /either !inE => /orP [] ->; rewrite ?orbT.
-suff base : shown B U' (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B))).+1.
+suff base : shown B U' (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B)).+1.
   by have [v -> h] := joinedP ok' u lt base le' jo; move: h; rewrite subnKC // addSn addnC.
 have [clt el] := core_okP ok' cok.
-have a := motion_sound the_prime_is_prime (i := Ordinal ic) (j := Ordinal jc) clt sol nij.
+have a := motion_sound the_prime_is_prime (i := Ordinal ic) (j := Ordinal jc) (core_rank_modp the_prime_is_prime the_prime_is_odd (centre B) (flows B) clt) sol nij.
 pose s (k : 'I_(core_size B)) := V (node B k).
 have s_inj : injective s.
   by move=> k k' /(N_inj u lt) kk; apply/val_inj/kk; apply: leq_trans le.

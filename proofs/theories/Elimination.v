@@ -75,6 +75,18 @@ Fixpoint above c (t : sparse) := if t is (k, _) :: t' then if c < k then above c
 Fixpoint staircase bound (Z : seq pivot) :=
   if Z is (c, t) :: Z' then if c < bound then if above c t then staircase c Z' else false else false else true.
 
+(* what is left of some rows with entries in columns below N; nothing if it is not in echelon form *)
+Definition pivots_of N (Y : seq sparse) : seq pivot :=
+  match push_all Y Leaf with
+  | Leaf => [::]
+  | Node c x t l r =>
+    let s := power 64 x (p - 2) in
+    if eqn (mulp s x) 1 then
+      let Z := eliminate (size Y * N).+1 (c, axpy s t [::]) (meld l r) [::] in
+      if staircase N Z then Z else [::]
+    else [::]
+  end.
+
 (* pairs of nodes 0 .. k-1 at centres cs; bit t of the number with a pair says whether its t-th row is used *)
 Definition entries10 : seq (nat * nat) :=
   [:: (0, 0); (0, 1); (0, 2); (0, 3); (1, 1); (1, 2); (1, 3); (2, 2); (2, 3); (3, 3)].
@@ -88,18 +100,7 @@ Fixpoint rows_of i j mask (ab : seq (nat * nat)) (tail : seq sparse) : seq spars
   else tail.
 Fixpoint all_rows (L : seq (nat * nat * nat)) : seq sparse :=
   if L is (i, j, mask) :: L' then rows_of i j mask entries10 (all_rows L') else [::].
-Definition core_rank k (L : seq (nat * nat * nat)) : nat :=
-  let Y := all_rows L in
-  let N := 12 * k in
-  match push_all Y Leaf with
-  | Leaf => 0
-  | Node c x t l r =>
-    let s := power 64 x (p - 2) in
-    if eqn (mulp s x) 1 then
-      let Z := eliminate (size Y * N).+1 (c, axpy s t [::]) (meld l r) [::] in
-      if staircase N Z then size Z else 0
-    else 0
-  end.
+Definition rows_rank k (L : seq (nat * nat * nat)) : nat := size (pivots_of (12 * k) (all_rows L)).
 
 (* what the equation of nodes i and j says of a motion, by its entries *)
 Section Motion.
@@ -132,11 +133,10 @@ rewrite /oppp Fp_nat_mod // -[in RHS](Fp_nat_mod p_prime a) natrB; last by rewri
 by rewrite -[X in X - _](Fp_nat_mod p_prime p) modnn sub0r.
 Qed.
 
-Variable n : nat.
-Notation motion := (cameras [comRingType of Fp] n).
-Implicit Types (u : motion) (y : sparse) (z : pivot) (h : heap).
-Definition eval y u : Fp := \sum_(kx <- y) kx.2%:R * coord u kx.1.
-Lemma eval_cons k x y u : eval ((k, x) :: y) u = x%:R * coord u k + eval y u.
+(* a row at unknowns u *)
+Implicit Types (u : nat -> Fp) (y : sparse) (z : pivot) (h : heap).
+Definition eval y u : Fp := \sum_(kx <- y) kx.2%:R * u kx.1.
+Lemma eval_cons k x y u : eval ((k, x) :: y) u = x%:R * u k + eval y u.
 Proof. by rewrite /eval big_cons. Qed.
 Lemma eval_nil u : eval [::] u = 0. Proof. by rewrite /eval big_nil. Qed.
 
@@ -149,7 +149,7 @@ rewrite -/(axpy p s ((k, x) :: y)); case: ltngtP => /= kl.
 - by rewrite eval_cons ihz !eval_cons addrCA.
 rewrite kl; set w' := addp _ _ _.
 have -> : eval (if eqn w' 0 then axpy p s y z else (l, w') :: axpy p s y z) u
-  = w'%:R * coord u l + eval (axpy p s y z) u.
+  = w'%:R * u l + eval (axpy p s y z) u.
   by case: eqnP => [->|_]; rewrite ?eval_cons // mul0r add0r.
 by rewrite ihy !eval_cons addpE mulpE mulrDl mulrDr mulrA addrACA.
 Qed.
@@ -166,7 +166,7 @@ Qed.
 (* u vanishes on all rows of a heap; on pivot rows *)
 Fixpoint vanishes u h : Prop :=
   if h is Node c x t l r then [/\ eval ((c, x) :: t) u = 0, vanishes u l & vanishes u r] else True.
-Definition solves u (z : pivot) := coord u z.1 + eval z.2 u = 0.
+Definition solves u (z : pivot) := u z.1 + eval z.2 u = 0.
 
 Lemma vanishes_meld u h1 h2 : vanishes u h1 -> vanishes u h2 -> vanishes u (meld h1 h2).
 Proof.
@@ -186,7 +186,7 @@ Lemma solves_scaled u s c x t : eqn (mulp p s x) 1 -> eval ((c, x) :: t) u = 0 -
 Proof.
 move=> /eqnP sx e; rewrite /solves /= eval_axpy eval_nil addr0.
 have sx1 : s%:R * x%:R = 1 :> Fp by rewrite -mulpE sx.
-have -> : coord u c + s%:R * eval t u = s%:R * eval ((c, x) :: t) u by rewrite eval_cons mulrDr mulrA sx1 mul1r.
+have -> : u c + s%:R * eval t u = s%:R * eval ((c, x) :: t) u by rewrite eval_cons mulrDr mulrA sx1 mul1r.
 by rewrite e mulr0.
 Qed.
 
@@ -198,7 +198,7 @@ have cons now' D : solves u now' -> (forall z, z \in D -> solves u z) -> forall 
 elim: fuel now h done => //= f ih now [|c x t l r] done s; first by move=> _; apply: cons.
 move=> [e vl vr] d; case: eqnP => [cn|_].
   apply: ih => //; apply: vanishes_push; last exact: vanishes_meld.
-  have -> : eval (axpy p (oppp p x) now.2 t) u = eval ((c, x) :: t) u - x%:R * (coord u now.1 + eval now.2 u).
+  have -> : eval (axpy p (oppp p x) now.2 t) u = eval ((c, x) :: t) u - x%:R * (u now.1 + eval now.2 u).
     by rewrite eval_axpy eval_cons opppE cn; ring.
   by rewrite e s mulr0 subr0.
 case: ifP => sx; last exact: cons.
@@ -219,7 +219,7 @@ by rewrite u andbT; apply/negP=> /(allP lt); rewrite ltnn.
 Qed.
 
 Lemma echelon u N Z : staircase N Z -> (forall z, z \in Z -> solves u z) ->
-  (forall k, k \notin heads Z -> coord u k = 0) -> forall k, coord u k = 0.
+  (forall k, k \notin heads Z -> u k = 0) -> forall k, u k = 0.
 Proof.
 move=> /staircaseP [lt _ ab] sol free k.
 have [d le] := ubnP (N - k); elim: d k le => // d ih k le.
@@ -230,7 +230,37 @@ have kN : (k < N)%N by apply: allP lt _ _; rewrite kc (map_f fst zZ).
 by rewrite ih ?mulr0 //; apply: leq_trans (ltn_sub2l kN ck) _.
 Qed.
 
+(* the columns without a pivot *)
+Definition free N (Z : seq pivot) := [seq k <- iota 0 N | k \notin heads Z].
+
+Lemma pivots_staircase N Y : staircase N (pivots_of p N Y).
+Proof. by rewrite /pivots_of; case: push_all => // c x t l r; case: ifP => // _; case: ifP. Qed.
+
+Lemma size_free N Y : (size (pivots_of p N Y) + size (free N (pivots_of p N Y)) = N)%N.
+Proof.
+have /staircaseP [ltZ uZ _] := pivots_staircase N Y; set Z := pivots_of p N Y in ltZ uZ *.
+have -> : size Z = count (mem (heads Z)) (iota 0 N).
+  rewrite -(size_map fst Z) -size_filter; apply/eqP; rewrite -uniq_size_uniq ?filter_uniq ?iota_uniq // => k.
+  by rewrite mem_filter mem_iota /= add0n; case: (boolP (k \in heads Z)) => // /(allP ltZ) ->.
+by rewrite /free size_filter (count_predC (mem (heads Z))) size_iota.
+Qed.
+
+(* Unknowns that satisfy all rows are zero if those without a pivot are. *)
+Theorem pivots_sound N Y u : (forall y, y \in Y -> eval y u = 0) -> (forall k, (N <= k)%N -> u k = 0) ->
+  (forall k, k \in free N (pivots_of p N Y) -> u k = 0) -> forall k, u k = 0.
+Proof.
+move=> uY big u0; apply: (echelon (pivots_staircase N Y)) => [z|k kZ]; last first.
+  by case: (ltnP k N) => [kN|/big //]; apply: u0; rewrite mem_filter kZ mem_iota.
+rewrite /pivots_of; have := vanishes_all (h := Leaf) uY I; case: push_all => [//|c x t l r] [e0 vl vr].
+case: ifP => // sx; case: ifP => // _; apply: eliminate_sound => //.
+  exact: solves_scaled sx e0.
+exact: vanishes_meld.
+Qed.
+
 (* rows of J_P at centres cs *)
+Variable n : nat.
+Notation motion := (cameras [comRingType of Fp] n).
+Implicit Types (w : motion).
 Variable cs : nat -> nat -> nat.
 Definition csF (v k : nat) : Fp := (cs v k)%:R.
 Lemma F_entryE ci cj (h k : nat) : (F_entry 0%N (addp p) (oppp p) ci cj h k)%:R =
@@ -242,8 +272,8 @@ Lemma M_entryE ci cj (h k : nat) : (M_entry 0%N (addp p) (mulp p) (oppp p) ci cj
   M_entry (0 : Fp) +%R *%R -%R (fun k => (ci k)%:R) (fun k => (cj k)%:R) h k.
 Proof. by rewrite /M_entry; case: ifP => _; rewrite ?opppE ?addpE ?mulpE ?addpE ?mulpE ?F_entryE. Qed.
 
-Lemma row_sound (i j : 'I_n) (a b : 'I_4) u :
-  eval (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b) u = equation (normal n csF) (i, j) u a b.
+Lemma row_sound (i j : 'I_n) (a b : 'I_4) w :
+  eval (combination 0%N (addp p) (mulp p) (oppp p) (cs i) (cs j) i j a b) (coord w) = equation (normal n csF) (i, j) w a b.
 Proof. by rewrite equation_normal /eval /value /combination !big_cons !big_nil /= !opppE !M_entryE. Qed.
 
 Lemma rows_ofP i j mask ab tail y : y \in rows_of p cs i j mask ab tail -> y \in tail \/
@@ -270,40 +300,50 @@ Definition pairs_of (L : seq (nat * nat * nat)) : seq (nat * nat) := [seq e.1 | 
 Lemma edges_mem (G : seq (nat * nat)) (i j : 'I_n) : (val i, val j) \in G -> (i, j) \in edges n G.
 Proof. by move=> ijG; rewrite mem_pmap; apply/mapP; exists (val i, val j); rewrite //= !valK. Qed.
 
-Lemma core_rank_modp L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
-  (core_rank p cs n L <= \rank (J (edges n (pairs_of L)) (normal n csF)))%N.
+Lemma coord_big w k : (12 * n <= k)%N -> coord w k = 0.
+Proof. by move=> nk; rewrite /coord insubF // ltnNge leq_divRL // mulnC nk. Qed.
+
+(* coordinates, as linear forms *)
+Definition forms (Y : seq (seq (nat * Fp))) (u : 'rV[Fp]_(n * (3 * 4))) : 'rV[Fp]_(size Y) :=
+  \row_k value (nth [::] Y k) (vec_mx u : motion).
+Lemma value_linear (g : seq (nat * Fp)) : scalar (fun w : motion => value g w).
 Proof.
-move=> /allP lt; rewrite /core_rank; case e: push_all => [//|c x t l r]; case: ifP => // sx.
-set Z := eliminate _ _ _ _ _; case: ifP => // st; have /staircaseP [ltZ uZ _] := st.
-pose free := [seq k <- iota 0 (12 * n) | k \notin heads Z].
-have sizes : (size Z + size free = 12 * n)%N.
-  have := count_predC (mem (heads Z)) (iota 0 (12 * n)); rewrite size_iota -!size_filter => <-.
-  have -> : size Z = size [seq k <- iota 0 (12 * n) | k \in heads Z]; last by [].
-  rewrite -(size_map fst Z); apply/eqP; rewrite -uniq_size_uniq ?filter_uniq ?iota_uniq // => k.
-  by rewrite mem_filter mem_iota /= add0n; case: (boolP (k \in heads Z)) => // /(allP ltZ) ->.
-pose f (u : 'rV[Fp]_(n * (3 * 4))) : 'rV[Fp]_(size free) :=
-  \row_(k < size free) coord (vec_mx u : motion) (nth 0%N free k).
-have fl : linear f by move=> a u w; apply/rowP=> k; rewrite !mxE linearP /= coord_linear.
-set A := J _ _; suff : (n * (3 * 4) <= \rank A + size free)%N by lia.
-apply: (rank_by_coordinates (C := lin1_mx (Linear fl))) => u /eqP; rewrite J_ker => /allP uA.
+move=> a v w; rewrite /value; elim: g => [|[k x] g ih]; first by rewrite !big_nil mulr0 addr0.
+by rewrite !big_cons /= ih coord_linear !mulrDr !mulrA [a * x]mulrC addrACA.
+Qed.
+Lemma forms_is_linear Y : linear (forms Y).
+Proof. by move=> a u v; apply/rowP=> k; rewrite !mxE linearP /= value_linear. Qed.
+
+(* Only the zero motion solves the equations of E and makes some forms zero: then the rank is 12 n at least, less their
+   number. *)
+Lemma rank_by_forms E P Y : (forall w, (forall e, e \in E -> equation P e w = 0) ->
+  (forall g, g \in Y -> value g w = 0) -> forall k, coord w k = 0) -> (12 * n <= \rank (J E P) + size Y)%N.
+Proof.
+move=> h; suff : (n * (3 * 4) <= \rank (J E P) + size Y)%N by lia.
+apply: (rank_by_coordinates (C := lin1_mx (Linear (forms_is_linear Y)))) => u /eqP; rewrite J_ker => /allP uA.
 rewrite mul_rV_lin1 /= => /rowP u0.
 suff v0 : vec_mx u = 0 :> motion by rewrite -[u]vec_mxK v0 linear0.
-apply: coord0 => k _; apply: (echelon st) => [z zZ|{}k kZ].
-  have : vanishes (vec_mx u) (push_all p (all_rows p cs L) Leaf).
-    apply: vanishes_all => // y /all_rowsP [[[i j] mask] eL [[a b] abL ->]].
-    have /andP [/= iN jN] := lt _ eL.
-    have /andP [/= a4 b4] : (a < 4)%N && (b < 4)%N.
-      by apply: (allP (isT : all (fun ab => (ab.1 < 4)%N && (ab.2 < 4)%N) entries10) _ abL).
-    rewrite (row_sound (Ordinal iN) (Ordinal jN) (Ordinal a4) (Ordinal b4)).
-    have eE : (Ordinal iN, Ordinal jN) \in edges n (pairs_of L) by apply/edges_mem/(map_f fst eL).
-    by rewrite (eqP (uA _ eE)) mxE.
-  rewrite e => -[e0 vl vr].
-  by apply: (eliminate_sound (solves_scaled sx e0) (vanishes_meld vl vr) _ zZ).
-case: (ltnP k (12 * n)) => kn.
-  have kf : k \in free by rewrite mem_filter kZ mem_iota.
-  have li : (index k free < size free)%N by rewrite index_mem.
-  by have := u0 (Ordinal li); rewrite !mxE /= nth_index.
-by rewrite /coord insubF // ltnNge leq_divRL // mulnC kn.
+apply: coord0 => k _; apply: h => [e /uA /eqP //|g gY].
+have li : (index g Y < size Y)%N by rewrite index_mem.
+by have := u0 (Ordinal li); rewrite !mxE /= nth_index.
+Qed.
+
+Lemma rows_rank_modp L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+  (rows_rank p cs n L <= \rank (J (edges n (pairs_of L)) (normal n csF)))%N.
+Proof.
+move=> /allP lt; rewrite /rows_rank; set Y := all_rows _ _ _; have := size_free (12 * n) Y; set A := J _ _.
+suff : (12 * n <= \rank A + size (free (12 * n) (pivots_of p (12 * n) Y)))%N by lia.
+have := @rank_by_forms (edges n (pairs_of L)) (normal n csF)
+  [seq [:: (k, 1 : Fp)] | k <- free (12 * n) (pivots_of p (12 * n) Y)]; rewrite size_map; apply=> w wE w0.
+apply: (pivots_sound (N := 12 * n) (Y := Y)) => [y|k|k kf].
+- move=> /all_rowsP [[[i j] mask] eL [[a b] abL ->]].
+  have /andP [/= iN jN] := lt _ eL.
+  have /andP [/= a4 b4] : (a < 4)%N && (b < 4)%N.
+    by apply: (allP (isT : all (fun ab => (ab.1 < 4)%N && (ab.2 < 4)%N) entries10) _ abL).
+  rewrite (row_sound (Ordinal iN) (Ordinal jN) (Ordinal a4) (Ordinal b4)).
+  by rewrite wE ?mxE //; apply/edges_mem/(map_f fst eL).
+- exact: coord_big.
+- by have := w0 _ (map_f _ kf); rewrite /value big_seq1 /= mul1r.
 Qed.
 
 (* Proposition 1.4. A rank at these centres modulo p is one of rational cameras. *)
@@ -320,11 +360,6 @@ have -> : normal n csF = map_mx intr (normal n cZ).
 rewrite e -(map_J (intmul1_rmorphism [comRingType of Fp])) -(map_J (intmul1_rmorphism rat_comRing)).
 exact: proposition_1_4.
 Qed.
-
-Theorem core_rank_sound L : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
-  attained (edges n (pairs_of L)) (core_rank p cs n L).
-Proof.
-by move/core_rank_modp/lifted. Qed.
 
 (* A motion in numbers that all these pairs allow, and the pair of i and j does not: that pair raises the rank. *)
 Section Motion.
@@ -371,18 +406,18 @@ have /h /eqP : (val a, val b) \in entries10.
 by rewrite /= /o !inord_val.
 Qed.
 
-Theorem motion_sound L (i j : 'I_n) : all (fun e => (e.1.1 < n) && (e.1.2 < n))%N L ->
+Theorem motion_sound L (i j : 'I_n) r : (r <= \rank (J (edges n (pairs_of L)) (normal n csF)))%N ->
   all_solved p cs motion_of L -> ~~ solved p cs motion_of i j entries10 ->
-  attained ((i, j) :: edges n (pairs_of L)) (core_rank p cs n L).+1.
+  attained ((i, j) :: edges n (pairs_of L)) r.+1.
 Proof.
-move=> lt sol nij; apply: lifted; apply: leq_ltn_trans (core_rank_modp lt) _.
+move=> rL sol nij; apply: lifted; apply: leq_ltn_trans rL _.
 set P := normal n csF; set E := edges n _; rewrite solvedP -/P in nij.
 have EP : {subset E <= (i, j) :: E} by move=> e eE; rewrite inE eE orbT.
 have sub := ker_mono P EP.
 have uE : (mxvec motion_u <= kermx (J E P))%MS.
   rewrite J_kerP mxvecK; apply/allP=> -[x y]; rewrite mem_pmap => /mapP [[x' y'] /mapP [[[k l] mask] kL [-> ->]] /=].
   case: insubP => // x'' _ ex; case: insubP => // y'' _ ey [-> ->]; rewrite -solvedP ex ey.
-  elim: L sol kL {lt E EP sub} => //= -[[k' l'] mask'] L ih; case: ifP => // kl /ih {}ih.
+  elim: L sol kL {E EP sub} => //= -[[k' l'] mask'] L ih; case: ifP => // kl /ih {}ih.
   by rewrite inE => /predU1P [[-> -> _]|/ih].
 have nuE : ~~ (mxvec motion_u <= kermx (J ((i, j) :: E) P))%MS.
   by rewrite J_kerP mxvecK /= (negbTE nij).

@@ -188,7 +188,7 @@ Qed.
 (* Small graphs, as the program checks them: a pair and a triangle have full rank, a 4-cycle has not. *)
 Definition at_ (s : seq (nat * nat)) k := nth (0%N, 0%N) s k.
 Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body :=
-  Body k id id 0 [::] (fun _ _ => 0%N) joins.
+  Body k id id 0 [::] (fun _ _ => 0%N) [::] joins.
 Definition no_block (_ : nat) : block := Block 0 id.
 Definition nothing : body := chain 0 (fun _ => [::]) 0.
 

@@ -304,6 +304,19 @@ impl<'a> PlaneFlows<'a> {
             .collect())
     }
 
+    /// Flows with the given entries at the rows of N that are not pivots: for each of them two
+    /// weights an edge, those of its [`directions`].
+    ///
+    /// # Errors
+    /// If the task was stopped.
+    pub(crate) fn combined(
+        &self,
+        weights: &Matrix<u64>,
+        task: &Task,
+    ) -> Result<Matrix<u64>, Stopped> {
+        self.rigidity.left_combinations(weights, task)
+    }
+
     /// Eliminates Lambda. The columns of a spanning forest are left out: they depend
     /// on the others by the potentials.
     ///

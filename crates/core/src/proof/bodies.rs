@@ -125,9 +125,10 @@ impl Frame {
             core: found.order.iter().map(|&(v, at)| (node(v), at)).collect(),
             rows: rows
                 .zip(&found.masks)
-                .filter(|&(_, &mask)| mask != 0)
+                .filter(|&(_, &mask)| mask != 0 || !found.flows.is_empty())
                 .map(|((&(i, j), &why), &mask)| (node(i), node(j), mask, why))
                 .collect(),
+            flows: found.flows.clone(),
             joins: self.joins.clone(),
         }
     }
@@ -271,7 +272,7 @@ impl Record {
                 Seed::Edge(i, j) => Growing::edge(i, j),
                 Seed::Body(k) => record.growing[k as usize].take().ok_or(Unproved::Record)?,
                 Seed::Known => return Err(Unproved::Known),
-                Seed::Rank(_) => return Err(Unproved::ByRank),
+                Seed::Rank(k) => record.of_rank(&contraction.by_rank[k as usize])?,
             };
             for &[v, a, b] in &body.add {
                 growing.join(v, [(a, 0), (b, 0)]);
@@ -287,10 +288,23 @@ impl Record {
         Ok(record)
     }
 
+    /// A body by rank, from members that are written down first (Proposition 4.15).
+    fn of_rank(&mut self, members: &Members) -> Result<Growing, Unproved> {
+        for &k in &members.bodies {
+            self.reason(Part::Body(k))?;
+        }
+        let nodes = self.nodes(members);
+        let listed = of_sets(&self.sets(members), super::required(&nodes))?;
+        Ok(Growing {
+            listed,
+            inside: nodes.into_iter().collect(),
+        })
+    }
+
     /// Members of the contraction, each with the reason by which its pairs may be used.
     fn sets(&self, members: &Members) -> Vec<Set> {
         let body = |&k: &u32| {
-            let why = self.number[k as usize].expect("a final body is written down");
+            let why = self.number[k as usize].expect("a body that is written down");
             (self.done[why as usize - 1].nodes().collect(), why)
         };
         let bodies = members.bodies.iter().map(body);
@@ -419,7 +433,7 @@ impl Record {
                 .map(|&(v, c)| (five[v as usize], c))
                 .collect(),
             rows: local.edges().iter().zip(&found.masks).map(row).collect(),
-            joins: Vec::new(),
+            ..Listed::default()
         });
         body.take_in(&five, [a, v1], why);
         for (k, nodes) in nodes.iter().enumerate() {

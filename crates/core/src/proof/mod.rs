@@ -7,6 +7,7 @@
 mod bodies;
 mod components;
 mod core;
+mod flows;
 mod text;
 
 pub use text::Proof;
@@ -21,8 +22,8 @@ use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::fmt;
 
-/// Cores with more nodes are eliminated by no proof yet.
-const LARGEST_CORE: usize = 400;
+/// Cores with more nodes would take minutes to check, and tens of megabytes.
+const LARGEST_CORE: usize = 1000;
 
 /// What of a verdict cannot be written as an explicit proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +41,6 @@ pub enum Unproved {
     ErrorBound,
     /// The core has so many nodes.
     Core(usize),
-    /// A body by rank (theory, Proposition 4.15).
-    ByRank,
     /// A record of merges that uses a body twice.
     Record,
     /// At no centres modulo 65521 that were tried the core had its rank.
@@ -57,7 +56,6 @@ impl fmt::Display for Unproved {
             Self::UpperBound => f.write_str("an upper bound by a hub"),
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
-            Self::ByRank => f.write_str("a body by rank"),
             Self::Record => f.write_str("a record of merges that uses a body twice"),
             Self::Unlucky => f.write_str("a core that has its rank at no centres tried"),
         }

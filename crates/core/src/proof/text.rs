@@ -66,6 +66,8 @@ pub(super) struct Listed {
     pub(super) core: Vec<(u32, [u32; 3])>,
     /// Pairs of core nodes, the rows of J_P that are used, and why.
     pub(super) rows: Vec<(u32, u32, u32, Reason)>,
+    /// Flows, each with two weights for every row, if the core has its rank by these.
+    pub(super) flows: Vec<Vec<[u32; 2]>>,
     /// The nodes behind the core, each with at most two before it.
     pub(super) joins: Vec<(u32, Vec<(u32, Reason)>)>,
 }
@@ -87,6 +89,16 @@ impl fmt::Display for Listed {
         }
         for (i, j, mask, why) in &self.rows {
             writeln!(f, "{i} {j} {mask} {why}")?;
+        }
+        if !self.flows.is_empty() {
+            writeln!(f, "flows {}", self.flows.len())?;
+        }
+        for flow in &self.flows {
+            for (k, [one, two]) in flow.iter().enumerate() {
+                let blank = if k == 0 { "" } else { " " };
+                write!(f, "{blank}{one} {two}")?;
+            }
+            writeln!(f)?;
         }
         for (v, before) in &self.joins {
             write!(f, "{} {v}", ["free", "one", "two"][before.len()])?;
