@@ -292,7 +292,11 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
     let other = facts.and_then(|facts| other_mapper(facts));
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
-    let frames = source.tracks.as_ref().ok().and_then(|tracks| tracks.frames.as_ref());
+    let frames = source
+        .tracks
+        .as_ref()
+        .ok()
+        .and_then(|tracks| tracks.frames.as_ref());
     if frames.is_some_and(|frames| frames.say_something()) {
         notes.push(
             "rigs: mappers place frames, which is not simulated, and no narrow places are looked for"
@@ -347,9 +351,16 @@ fn next(arguments: &OverviewArguments, path: &Path, found: &Overview) -> Vec<Nex
         purpose,
     };
     // Advice is about images that have a centre each.
-    let displaced = found.tracks.as_ref().is_some_and(|report| !report.verdict.displacements.is_empty());
+    let displaced = found
+        .tracks
+        .as_ref()
+        .is_some_and(|report| !report.verdict.displacements.is_empty());
     let advise = |graph: &str, what: &str, purpose| {
-        let rigs = if displaced && graph.starts_with(" --tracks") { " --no-rigs" } else { "" };
+        let rigs = if displaced && graph.starts_with(" --tracks") {
+            " --no-rigs"
+        } else {
+            ""
+        };
         command("advise", &format!("{graph}{rigs}"), what, purpose)
     };
     let decided = format!("{graph}{tracks}");
