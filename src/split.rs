@@ -52,6 +52,7 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     let options = ReadOptions {
         tracks: Some(TrackOptions {
             min_views: arguments.min_views.unwrap_or(default.min_views),
+            ..default
         }),
         ..ReadOptions::default()
     };
