@@ -45,13 +45,24 @@ pub struct Suggestion {
     pub candidates: Vec<Candidate>,
 }
 
+/// Whether it failed, whether it is a set, how far it was tried; gain, pairs, round and cost.
+type Rank = (bool, bool, Tried, (Reverse<usize>, usize, usize, u32));
+
 impl Suggestion {
-    /// The best ones first: what was tried in vain comes last, fewer pairs come first, and of several
-    /// the one that is least promising counts.
-    fn rank(&self) -> (bool, usize, (Tried, usize, u32)) {
+    /// The best ones first: what was tried in vain comes last, and single pairs come before sets, of
+    /// which the pair that is least promising counts. Of single pairs those come first that are
+    /// worth most trying, of sets those that join most.
+    fn rank(&self) -> Rank {
         let ranks = self.candidates.iter().map(Candidate::rank);
-        let rank = ranks.max().unwrap_or((Tried::Not, 0, 0));
-        (self.has_failed(), self.pairs.len(), rank)
+        let (tried, round, cost) = ranks.max().unwrap_or((Tried::Not, 0, 0));
+        let several = self.pairs.len() > 1;
+        let (gain, count) = if several {
+            (self.gain, self.pairs.len())
+        } else {
+            (0, 1)
+        };
+        let place = (Reverse(gain), count, round, cost);
+        (self.has_failed(), several, tried, place)
     }
 
     /// Whether a pair of it was matched with too little coming of it.
@@ -78,8 +89,8 @@ const SETS: usize = 20;
 /// Most suggestions, of pairs or of matches, that join the same components.
 const ALIKE: usize = 8;
 
-/// Suggests pairs: fewest pairs first, then as they are worth trying, then by how many images they add
-/// to a component; and last what was matched already and gave too little.
+/// Suggests pairs: single ones first, as they are worth trying; then sets of several, by how many
+/// images they add to a component; and last what was matched already and gave too little.
 ///
 /// A decision of the condensed graph for each of some hundred candidates.
 ///
