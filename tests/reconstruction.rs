@@ -58,7 +58,11 @@ fn most_of_what_is_foreseen_happens() {
     let folder = tempfile::tempdir().unwrap();
     let run = |what: &str, options: &[&str]| {
         let run = Command::new(&python)
-            .args([script.as_os_str(), OsStr::new(what), folder.path().as_os_str()])
+            .args([
+                script.as_os_str(),
+                OsStr::new(what),
+                folder.path().as_os_str(),
+            ])
             .args(options)
             .output()
             .unwrap();

@@ -89,10 +89,8 @@ fn incremental(foreseen: &Foreseen) -> String {
     let dropped = models.models.iter().filter(|model| !model.kept).count();
     if dropped > 0 {
         words += &format!(
-            "; {} of fewer than {} images {} dropped unless --Mapper.min_model_size says otherwise",
-            counted(dropped, "model"),
-            models.kept_from,
-            if dropped == 1 { "is" } else { "are" },
+            "; COLMAP drops {dropped} of them (--Mapper.min_model_size {})",
+            models.kept_from
         );
     }
     words

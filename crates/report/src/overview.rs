@@ -282,8 +282,7 @@ impl Overview<'_> {
             ],
             Some(parts) if parts.whole => [
                 format!(
-                    "the tracks determine all {all} against each other, if they stand at generic \
-                     places and every match is right"
+                    "the tracks determine all {all} at generic places, with right matches"
                 ),
                 format!(
                     "starts a new model where it cannot go on; that the tracks determine all {all} is \
