@@ -8,6 +8,7 @@ use super::foreseen::foreseen;
 use super::input::{self, InputArguments, Read};
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use clap::Args;
+use std::cell::OnceCell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -238,6 +239,7 @@ fn overview(
         }),
         mappers,
         narrow,
+        parts: OnceCell::new(),
         next: Vec::new(),
         time: Duration::ZERO,
     };

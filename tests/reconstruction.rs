@@ -73,6 +73,43 @@ fn parts_of_glued_models_agree_with_the_truth() {
     assert_ne!(cells[2], "0", "{said}");
 }
 
+/// A few of the cases of docs/reconstruction.md, 'What each mapper will do': most pairs of clusters come
+/// out as foreseen.
+#[test]
+fn most_of_what_is_foreseen_happens() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/predictions.py");
+    let folder = tempfile::tempdir().unwrap();
+    let run = |what: &str, options: &[&str]| {
+        let run = Command::new(&python)
+            .args([
+                script.as_os_str(),
+                OsStr::new(what),
+                folder.path().as_os_str(),
+            ])
+            .args(options)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&run.stdout).into_owned();
+        let errors = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{said}{errors}");
+        said
+    };
+    run("make", &["--seeds", "1-8"]);
+    let said = run("judge", &["--verify", env!("CARGO_BIN_EXE_verify")]);
+    for mapper in ["incremental", "global"] {
+        let start = format!("| {mapper} | ");
+        let row = said.lines().find(|line| line.starts_with(&start));
+        let cells: Vec<&str> = row.unwrap().split(" | ").collect();
+        let count = |k: usize| cells[k].parse::<u32>().unwrap();
+        // 8 cases of two clusters or three.
+        assert!(count(1) >= 8, "{said}");
+        assert!(4 * (count(2) + count(3)) >= 3 * count(1), "{said}");
+    }
+}
+
 /// A database of two clusters that share an image, as mappers.py makes it; a list of matches for
 /// every pair.
 fn clusters(python: &OsStr, folder: &Path) {

@@ -192,11 +192,11 @@ fn separated(between: &[BTreeMap<usize, usize>], from: usize, to: usize) -> Opti
 /// so alone. Nothing, if there are too many images to look at. O(n (n + m')), where
 /// m' is at most three times the number n of images.
 pub fn hinges(graph: &Graph) -> Vec<Hinges> {
-    let thin = thinned(graph);
-    let images = thin.nodes();
-    if images < 4 || images * (images + thin.edges().len()) > STEPS {
+    let images = graph.nodes();
+    if images < 4 || images * (images + graph.edges().len().min(3 * images)) > STEPS {
         return Vec::new();
     }
+    let thin = thinned(graph);
     let single = articulations(&thin);
     let mut found = BTreeSet::new();
     for one in (0..images as u32).filter(|one| !single.contains(one)) {

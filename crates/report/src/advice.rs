@@ -313,6 +313,14 @@ fn explain_observations(out: &mut impl Write, found: &Explain) -> io::Result<()>
         let points = counted(found.pairs_inside, "point");
         writeln!(out, "    it sees {points} inside")?;
     }
+    for sees in found.sees.iter().flatten().take(SHOWN) {
+        let points = counted(sees.points, "point");
+        writeln!(
+            out,
+            "    sees {points} of component {}; an incremental mapper wants {}",
+            sees.component, sees.needs
+        )?;
+    }
     for seen in found.pairs_outside.iter().take(SHOWN) {
         let reaches = match &seen.reaches[..] {
             [] => "is in no such component either".to_owned(),
@@ -339,14 +347,6 @@ fn explain_pairs(out: &mut impl Write, found: &Explain) -> io::Result<()> {
     if found.pairs_inside > 0 {
         let pairs = counted(found.pairs_inside, "pair");
         writeln!(out, "    {pairs} inside")?;
-    }
-    for sees in found.sees.iter().flatten().take(SHOWN) {
-        let points = counted(sees.points, "point");
-        writeln!(
-            out,
-            "    sees {points} of component {}; an incremental mapper wants {}",
-            sees.component, sees.needs
-        )?;
     }
     for pair in found.pairs_outside.iter().take(SHOWN) {
         let inliers = pair

@@ -4,7 +4,7 @@
 
 use super::counted;
 use std::io::{self, Write};
-use viewcert_advice::mapper::{Beginning, Foreseen, Models, Sees};
+use viewcert_advice::mapper::{Beginning, Foreseen, Models, Sees, Thresholds};
 
 /// How many models, and how many pairs to begin with, are shown.
 const SHOWN: usize = 8;
@@ -89,10 +89,8 @@ fn incremental(foreseen: &Foreseen) -> String {
     let dropped = models.models.iter().filter(|model| !model.kept).count();
     if dropped > 0 {
         words += &format!(
-            "; {} of fewer than {} images {} dropped unless --Mapper.min_model_size says otherwise",
-            counted(dropped, "model"),
-            models.kept_from,
-            if dropped == 1 { "is" } else { "are" },
+            "; COLMAP drops {dropped} of them (--Mapper.min_model_size {})",
+            models.kept_from
         );
     }
     words
@@ -116,23 +114,19 @@ fn stop(models: &Models) -> Option<&Sees> {
 /// The pairs that were looked at first, and what disqualifies them.
 fn beginnings(models: &Models) -> Vec<String> {
     if models.starts.is_empty() {
-        let needs = models.thresholds.init_min_num_inliers;
-        return vec![format!(
-            "no pair: none has {} matches",
-            needs >> viewcert_advice::mapper::Thresholds::RELAXATIONS
-        )];
+        let least = models.thresholds.init_min_num_inliers >> Thresholds::RELAXATIONS;
+        return vec![format!("no pair: none has {least} inliers")];
     }
-    let mut words: Vec<String> = models
-        .starts
-        .iter()
-        .take(BEGINNINGS)
-        .map(beginning)
-        .collect();
-    if models.starts.len() > BEGINNINGS {
-        words.push(format!(
-            "{} more looked at (--json)",
-            models.starts.len() - BEGINNINGS
-        ));
+    // Where a model begins nevertheless, one line is enough.
+    let shown = if models.models.is_empty() {
+        BEGINNINGS
+    } else {
+        1
+    };
+    let mut words: Vec<String> = models.starts.iter().take(shown).map(beginning).collect();
+    if let (Some(last), more @ 1..) = (words.last_mut(), models.starts.len().saturating_sub(shown))
+    {
+        *last += &format!("; {more} more looked at (--json)");
     }
     words
 }

@@ -11,6 +11,7 @@ use super::tracks::TrackLine;
 use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
 use crate::advice::joints as write_joints;
 use serde::Serialize;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::io::{self, Write};
 use std::time::Duration;
@@ -48,6 +49,8 @@ pub struct Overview<'a> {
     pub mappers: Option<Foreseen>,
     /// Where everything hangs on few images or pairs.
     pub narrow: Narrow,
+    /// The parts of `tracks`, found when they are asked for first.
+    pub parts: OnceCell<Option<Parts>>,
     /// Commands that lead on from here.
     pub next: Vec<Next>,
     /// How long it took.
@@ -108,6 +111,7 @@ impl Wanted {
 }
 
 /// The parts of a graph: its components of two cameras with their points, or of three images.
+#[derive(Clone, Debug)]
 pub struct Parts {
     /// Whether one component has all images that are wanted.
     pub whole: bool,
@@ -188,8 +192,11 @@ impl Overview<'_> {
 
     /// What tracks determine, if there are any.
     fn by_tracks(&self) -> Option<Parts> {
-        let report = self.tracks.as_ref()?;
-        Some(Parts::new(report, &self.wanted))
+        let parts = self.parts.get_or_init(|| {
+            let report = self.tracks.as_ref()?;
+            Some(Parts::new(report, &self.wanted))
+        });
+        parts.clone()
     }
 
     /// What pairwise directions determine, if there are pairs.
@@ -238,7 +245,7 @@ impl Overview<'_> {
     /// An image that is not in the largest part.
     pub fn outside(&self) -> Option<String> {
         let report = self.decisive()?;
-        let parts = Parts::new(report, &self.wanted);
+        let parts = self.parts()?;
         let largest = parts.images.first().map_or(&[][..], Vec::as_slice);
         let mut wanted = self.wanted.images.iter().copied();
         let outside = wanted.find(|v| largest.binary_search(v).is_err());
@@ -275,8 +282,7 @@ impl Overview<'_> {
             ],
             Some(parts) if parts.whole => [
                 format!(
-                    "the tracks determine all {all} against each other, if they stand at generic \
-                     places and every match is right"
+                    "the tracks determine all {all} at generic places, with right matches"
                 ),
                 format!(
                     "starts a new model where it cannot go on; that the tracks determine all {all} is \

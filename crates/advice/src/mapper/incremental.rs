@@ -12,7 +12,7 @@ use anyhow::Result;
 use std::collections::HashSet;
 
 /// Most pairs whose poses are read; what comes later passes.
-const LOOKED_AT: usize = 2000;
+const LOOKED_AT: usize = 1000;
 
 /// Most pairs of a database whose angles are all read.
 const ALL_READ: usize = 1000;

@@ -61,6 +61,8 @@ pub(super) struct Starts {
     trials: HashMap<u32, u32>,
     /// All pairs that were looked at: what became of them last.
     pub(super) seen: Vec<Start>,
+    /// Where each pair is among these.
+    place: HashMap<(u32, u32), usize>,
 }
 
 impl Starts {
@@ -89,6 +91,7 @@ impl Starts {
             tried: HashSet::new(),
             trials: HashMap::new(),
             seen: Vec::new(),
+            place: HashMap::new(),
         }
     }
 
@@ -154,11 +157,8 @@ impl Starts {
 
     /// Keeps what became of a pair last.
     fn note(&mut self, start: Start) {
-        let known = self
-            .seen
-            .iter_mut()
-            .find(|known| known.images == start.images);
-        match known {
+        let place = *self.place.entry(start.images).or_insert(self.seen.len());
+        match self.seen.get_mut(place) {
             Some(known) => *known = start,
             None => self.seen.push(start),
         }
