@@ -67,9 +67,10 @@ pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<ExitCo
         time: start.elapsed(),
     };
     let mut out = outputs::text(&[]);
-    match arguments.json {
-        true => report.write_json(&mut out)?,
-        false => report.write(&mut out)?,
+    if arguments.json {
+        report.write_json(&mut out)?
+    } else {
+        report.write(&mut out)?
     }
     out.flush().context("standard output")?;
     Ok(ExitCode::from(if found.determined { GOOD } else { NOT }))

@@ -70,17 +70,19 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
         ));
     }
     let question: Question = Calibrated::with(Known::Displacements(known)).into();
-    let options = match has_rigs {
-        true => Options::default().question(question),
-        false => Options::default().model(Geometry::Calibrated),
+    let options = if has_rigs {
+        Options::default().question(question)
+    } else {
+        Options::default().model(Geometry::Calibrated)
     };
     let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
     session.hide();
     let verdict = verdict.with_context(|| input.name.clone())?;
     // Base lines join components in ways of their own, and nothing is said about these.
-    let joints = match has_rigs {
-        true => Ok(Advice::default()),
-        false => named_joints(&input, &verdict, Options::default().seed, session.watch()),
+    let joints = if has_rigs {
+        Ok(Advice::default())
+    } else {
+        named_joints(&input, &verdict, Options::default().seed, session.watch())
     };
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
@@ -110,9 +112,10 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
         split: &found,
     };
     let mut out = outputs::text(&[]);
-    match arguments.json {
-        true => report.write_json(&mut out)?,
-        false => report.write(&mut out)?,
+    if arguments.json {
+        report.write_json(&mut out)?
+    } else {
+        report.write(&mut out)?
     }
     out.flush().context("standard output")?;
     Ok(ExitCode::from(if report.is_whole() { GOOD } else { NOT }))

@@ -168,23 +168,24 @@ pub fn of_tracks(
     let components = parts.each_ref().map(|part| home(&found, &verdict, part));
     let mut merge = of_models(models);
     merge.by = "tracks";
-    merge.determined = components[0] == components[1];
+    merge.determined |= components[0].is_some() && components[0] == components[1];
+    merge.suggestions = Some(Vec::new());
     if merge.determined {
         merge.freedom = Some(0);
         merge.free = free(0);
-        merge.suggestions = Some(Vec::new());
         return Ok((merge, verdict));
     }
     let task = Task::new(input, &verdict, seed, watch.clone());
     let (named, joints) = task.joints(&mut Shapes::default())?;
-    let between = components.map(number);
-    let joint = named
-        .joints
-        .iter()
-        .find(|joint| joint.between == between || joint.between == [between[1], between[0]]);
+    let between = components.map(|component| component.map(number));
+    let joint = named.joints.iter().find(|joint| {
+        let [one, other] = joint.between.map(Some);
+        between == [one, other] || between == [other, one]
+    });
     let is_connected = are_connected(input, &parts, cameras);
     merge.freedom = match joint {
         Some(joint) => Some(joint.freedom),
+        None if !merge.shared_images.is_empty() => merge.freedom,
         None if is_connected => None,
         None => Some(SIMILARITY),
     };
@@ -195,21 +196,23 @@ pub fn of_tracks(
              parts of the tracks may lie between"
         ),
     };
+    let [Some(one), Some(other)] = between else {
+        return Ok((merge, verdict));
+    };
     let suggestions = task.suggest(&joints, LOOKED_FOR, None)?;
-    let joins = |found: &Suggestion| between.iter().all(|part| found.joins.contains(part));
+    let joins = |found: &Suggestion| [one, other].iter().all(|part| found.joins.contains(part));
     let suggestions = suggestions.into_iter().filter(joins).take(KEPT);
     merge.suggestions = Some(suggestions.collect());
     Ok((merge, verdict))
 }
 
-/// The component that holds all of a known part.
-fn home(parts: &Parts, verdict: &Verdict, part: &[u32]) -> usize {
+/// The component that holds all of a known part; none if no track that counts is at it.
+fn home(parts: &Parts, verdict: &Verdict, part: &[u32]) -> Option<usize> {
     let mut all = 0..verdict.components.len();
-    let holds = |&component: &usize| {
+    all.find(|&component| {
         let nodes = parts.nodes_of(component);
         part.iter().all(|v| nodes.binary_search(v).is_ok())
-    };
-    all.find(holds).expect("a known part lies in a component")
+    })
 }
 
 /// Whether verified pairs, or images of both, lead from the one model to the other, so that the

@@ -76,13 +76,13 @@ impl ListReport<'_> {
     fn scale(&self) -> String {
         let lists = self.lists;
         let set = |fixed: &Fixed| {
-            let names = fixed
-                .parts
-                .iter()
-                .map(|&[list, part]| match lists.lists[list - 1].whole {
-                    true => list.to_string(),
-                    false => format!("{list} (part {part})"),
-                });
+            let names = fixed.parts.iter().map(|&[list, part]| {
+                if lists.lists[list - 1].whole {
+                    list.to_string()
+                } else {
+                    format!("{list} (part {part})")
+                }
+            });
             names.collect::<Vec<_>>().join(" + ")
         };
         match &lists.fixed[..] {

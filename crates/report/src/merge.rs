@@ -60,9 +60,10 @@ impl MergeReport<'_> {
                  there"
             )?,
         }
-        let answer = match merge.determined {
-            true => "yes: rotation, translation and scale are determined",
-            false => "no",
+        let answer = if merge.determined {
+            "yes: rotation, translation and scale are determined"
+        } else {
+            "no"
         };
         writeln!(out, "  fixed       {answer}")?;
         if !merge.determined {

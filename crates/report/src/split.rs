@@ -130,7 +130,7 @@ impl SplitReport<'_> {
         let sheet = Sheet {
             kind: "A model taken apart",
             name: &self.report.input.name,
-            answer: (self.why(), self.is_whole()),
+            answer: (capital(&self.why()), self.is_whole()),
             text: &String::from_utf8_lossy(&text),
             scene: Scene::new(self.report, &[]),
             advice: self.report.advice,
@@ -159,6 +159,18 @@ impl SplitReport<'_> {
         };
         write_line(out, &line)
     }
+}
+
+/// Words as a sentence.
+fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first
+        .into_iter()
+        .flatten()
+        .chain(letters)
+        .chain(['.'])
+        .collect()
 }
 
 /// Some names and how many more.

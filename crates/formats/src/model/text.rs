@@ -80,9 +80,10 @@ impl<'a> Line<'a> {
         count: usize,
     ) -> Result<Box<[u8]>, Fault> {
         let some: Vec<&str> = fields.take(count).collect();
-        match some.len() == count {
-            true => Ok(some.join(" ").into_bytes().into()),
-            false => Err(self.corrupt("the line is too short")),
+        if some.len() == count {
+            Ok(some.join(" ").into_bytes().into())
+        } else {
+            Err(self.corrupt("the line is too short"))
         }
     }
 }

@@ -92,9 +92,10 @@ impl Scene<'_> {
         let room = if is_named { 16.0 } else { radius };
         let found = layout(&vec![room; count], &links.collect::<Vec<_>>());
         let found = folded(found);
-        let names = match is_named {
-            true => (0..self.images).map(|v| shortened(&self.name(v))).collect(),
-            false => Vec::new(),
+        let names = if is_named {
+            (0..self.images).map(|v| shortened(&self.name(v))).collect()
+        } else {
+            Vec::new()
         };
         let longest = names.iter().map(|name: &String| name.chars().count()).max();
         let sides = MARGIN + 0.6 * LETTER * longest.unwrap_or(0) as f64 / 2.0;
@@ -298,9 +299,10 @@ fn glyph(symbol: &str) -> String {
 
 /// How the parts look, those with most images first.
 fn mark(part: usize) -> Mark {
-    match part < MARKS {
-        true => Mark::Own(part),
-        false => Mark::Other,
+    if part < MARKS {
+        Mark::Own(part)
+    } else {
+        Mark::Other
     }
 }
 

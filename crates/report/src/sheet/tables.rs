@@ -80,11 +80,10 @@ pub(super) fn parts(scene: &Scene) -> String {
     });
     let mut heads = vec!["", "part", "images", "points", "which"];
     heads.extend(are_shared.then_some("also in other parts"));
-    let table = match scene.parts.is_empty() {
-        true => {
-            "<p>There is no part: no images are determined against each other.</p>\n".to_owned()
-        }
-        false => table(&heads, rows),
+    let table = if scene.parts.is_empty() {
+        "<p>There is no part: no images are determined against each other.</p>\n".to_owned()
+    } else {
+        table(&heads, rows)
     };
     let outside: Vec<String> = scene.outside().map(|v| scene.name(v)).collect();
     if outside.is_empty() {
@@ -101,9 +100,10 @@ pub(super) fn joints(found: &Advice) -> String {
     }
     let rows = found.joints.iter().map(|joint| {
         let pairs = joint.pairs.iter().map(|[a, b]| format!("{a} {b}"));
-        let at = match joint.pairs.is_empty() {
-            true => joint.images.clone(),
-            false => pairs.collect(),
+        let at = if joint.pairs.is_empty() {
+            joint.images.clone()
+        } else {
+            pairs.collect()
         };
         let [one, other] = joint.between;
         vec![
@@ -113,9 +113,10 @@ pub(super) fn joints(found: &Advice) -> String {
             escaped(&joint.meaning),
         ]
     });
-    let more = match found.joints_complete {
-        true => "",
-        false => "<p class=\"soft\">There are more joints than are computed.</p>\n",
+    let more = if found.joints_complete {
+        ""
+    } else {
+        "<p class=\"soft\">There are more joints than are computed.</p>\n"
     };
     table(&["parts", "touch by", "where", "left free"], rows) + more
 }
