@@ -12,10 +12,10 @@ import subprocess
 import sys
 import time
 
-from tests import BOW, BOW_APART, BOW_PROOF, CYCLE, CYCLE_PROOF, KITE, KITE_PROOF, PAIRS_PROOF, TRIANGLE, TRIANGLE_PROOF
+from tests import BOW, BOW_APART, BOW_PROOF, CYCLE, CYCLE_PROOF, FLOW_PROOF, KITE, KITE_PROOF, PAIRS_PROOF, TRIANGLE, TRIANGLE_PROOF
 from tests import Program, bounds, components, generic_rank, listed, text_of
 
-WORDS = b"viewcert proof 1 graph claim body block other shared components cut apart free one two end # \n \t\r\0 -1 +1 0x1 1e3 "
+WORDS = b"viewcert proof 1 graph claim body block other shared components cut apart flows free one two end # \n \t\r\0 -1 +1 0x1 1e3 "
 WORDS = WORDS.split(b" ") + [b"%d" % x for x in (0, 1, 2, 3, 11, 15, 65520, 65521, 10**9, 2**30, 2**30 + 1, 2**31, 2**62, 2**63, 10**30)]
 
 
@@ -63,7 +63,7 @@ def main():
     draw = random.Random(asked.seed)
     program = Program(asked.program)
     files = [program.place / "graph", program.place / "proof"]
-    kite = ((KITE, KITE_PROOF), (BOW, BOW_APART), (CYCLE, PAIRS_PROOF))
+    kite = ((KITE, KITE_PROOF), (BOW, BOW_APART), (CYCLE, PAIRS_PROOF), (TRIANGLE, FLOW_PROOF))
     seeds = [(text_of(g).encode(), p.encode()) for g, p in ((TRIANGLE, TRIANGLE_PROOF), (CYCLE, CYCLE_PROOF), (BOW, BOW_PROOF), *kite)]
     codes = {0: 0, 1: 0, 2: 0, 3: 0}
     end = time.time() + asked.seconds

@@ -237,6 +237,22 @@ one 2 1 0
 end
 """
 
+# A triangle by Corollary 3.3: rows of N have rank 5, the one flow gives Lambda rank 1, and 4 * 5 + 1 - 3 = 18.
+FLOW_PROOF = """viewcert proof 1
+graph 3 3
+claim 18 18
+body 3 3 3
+0 1 2 3
+1 10 22 37
+2 600 7 8000
+0 1 7 0
+0 2 3 0
+1 2 3 0
+flows 1
+41441 29186 45428 28767 57380 1
+end
+"""
+
 
 def by_hand(program):
     def case(name, code, graph, proof, says=""):
@@ -329,6 +345,24 @@ def by_hand(program):
     case("blocks behind the others", 2, kite, KITE_PROOF.replace("shared", "block 2 0 1\nshared", 1))
     case("an other block with one node", 1, kite, KITE_PROOF.replace("other 3", "other 1 0\nother 3"))
     case("a shared node twice", 1, kite, KITE_PROOF.replace("one 2 1 0", "two 2 1 0 1 0"))
+    case("flows", 0, t, FLOW_PROOF, "the generic rank of J is 18 = 11 n - 15: full rank")
+    case("flows, more", 1, t, FLOW_PROOF.replace("claim 18", "claim 19"))
+    case("a flow that is none", 1, t, FLOW_PROOF.replace("41441", "41442"))
+    case("a flow that is none in the last pair", 1, t, FLOW_PROOF.replace("57380 1", "57380 2"))
+    flow = "41441 29186 45428 28767 57380 1\n"
+    case("the flow and what is none", 1, t, FLOW_PROOF.replace("flows 1", "flows 2").replace(flow, flow + "1 0 0 0 0 0\n"))
+    case("the same flow, two times", 0, t, FLOW_PROOF.replace("flows 1", "flows 2").replace(flow, flow * 2))
+    case("a flow of zeros", 1, t, FLOW_PROOF.replace(flow, "0 0 0 0 0 0\n"))
+    case("flows left out", 1, t, FLOW_PROOF.replace("flows 1\n" + flow, ""))
+    case("no column of Lambda", 1, t, FLOW_PROOF.replace("0 1 7 0", "0 1 3 0"))
+    case("rows of N left out", 1, t, FLOW_PROOF.replace("1 2 3 0", "1 2 0 0"))
+    case("another centre", 1, t, FLOW_PROOF.replace("600 7 8000", "600 7 8001"))
+    case("equal first coordinates", 1, t, FLOW_PROOF.replace("1 10 22 37", "1 1 22 37"))
+    case("first coordinates that are equal modulo the prime", 1, t, FLOW_PROOF.replace("1 10 22 37", f"1 {1 + 65521} 22 37"))
+    case("a pair that is none", 2, text_of([(0, 1), (0, 2)]), FLOW_PROOF.replace("3 3", "3 2", 1), "1 2 is no pair")
+    case("a flow that ends early", 2, t, FLOW_PROOF.replace(" 57380 1", ""))
+    case("10^9 flows", 2, t, FLOW_PROOF.replace("flows 1", "flows 1000000000"), "sizes out of range")
+    case("flows without rows", 2, t, TRIANGLE_PROOF.replace("body 3 0 0", "body 3 0 0\nflows 1"), "sizes out of range")
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -428,6 +462,27 @@ def published(program, verify, data):
     print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s")
 
 
+def large(program, verify, draw):
+    """Cores by flows and bodies by rank: graphs of four pairs per node, a torus, and a long cycle, which has no flow."""
+    folder = program.place / "large"
+    folder.mkdir()
+    nodes = list(range(300))
+    pairs = set()
+    while len(pairs) < 600:
+        draw.shuffle(nodes)
+        pairs |= {tuple(sorted(pair)) for pair in zip(nodes, nodes[1:] + nodes[:1])}
+    torus = {tuple(sorted((24 * x + y, 24 * (x + a) % 576 + (y + b) % 24))) for x in range(24) for y in range(24) for a, b in ((0, 1), (1, 0))}
+    cycle = {tuple(sorted((v, (v + 1) % 150))) for v in range(150)}
+    for name, edges, rank, word in (("random", pairs, 3285, "flows"), ("torus", torus, 6321, "body"), ("cycle", cycle, 1050, "flows 1\n0 0 0 0")):
+        graph, proof = (folder / f"{name}.{end}" for end in ("txt", "proof"))
+        graph.write_text(text_of(sorted(edges)))
+        done = subprocess.run([verify, graph, "--proof", proof], capture_output=True, text=True)
+        assert done.returncode in (0, 1) and "\n" + word in proof.read_text(), (name, done.stdout, done.stderr)
+        code, out, err = program.run(graph.read_text(), proof.read_text())
+        assert code == 0 and f"the generic rank of J is {rank}" in out, (name, out[:400], err)
+    print("large cores: 300 nodes by flows, a torus of 576 by bodies of full rank, a cycle of 150")
+
+
 def others_agree(program, checkers, graph, out):
     """The other two checkers accept a certificate, which claims what this program has printed."""
     verify, check = checkers
@@ -509,8 +564,10 @@ def main():
     assert [generic_rank(n, g, draw) for n, g in ((3, TRIANGLE), (4, CYCLE), (6, BOW))] == [18, 28, 43]
     program = Program(asked.program)
     by_hand(program)
+    if asked.checkers:
+        large(program, asked.checkers[0], draw)
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
-    base += [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF)]
+    base += [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF), (text_of(TRIANGLE), FLOW_PROOF)]
     if asked.catalog:
         files = catalog(program, asked.catalog, 6515, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]

@@ -5,7 +5,7 @@ use std::path::Path;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert_check::{Certificate, Failure, Graph, Verdict, Verified};
+use viewcert_check::{Certificate, Failure, Graph, Model, Verdict, Verified};
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
 /// What a certificate proves.
@@ -18,6 +18,14 @@ pub(super) struct Proved {
     pub(super) solutions: Option<String>,
     /// All of it in words, on several lines.
     pub(super) text: String,
+    /// Whether it is about the projective model with nothing given.
+    pub(super) is_projective: bool,
+    /// The generic rank.
+    pub(super) rank: i64,
+    /// The rank at which the graph is finite solvable.
+    pub(super) required: i64,
+    /// The number of components.
+    pub(super) components: usize,
 }
 
 impl Proved {
@@ -27,6 +35,12 @@ impl Proved {
             verdict: verified.verdict.0.to_string(),
             solutions: solutions(verified),
             text: verified.to_string(),
+            is_projective: verified.model == Model::Projective
+                && verified.parts == 0
+                && verified.displacements.is_none(),
+            rank: verified.rank.0,
+            required: verified.required,
+            components: verified.components.0,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod checker;
 mod folder;
+mod proved;
 
 use self::folder::{Listing, name};
 use super::given::GivenArguments;
@@ -35,6 +36,16 @@ pub(super) struct CheckArguments {
     /// The graph it is about; not needed if the certificate embeds it.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
+    /// Run the checker that is proved correct as well, `viewcert-proved`, on GRAPH, as `verify convert`
+    /// writes it, and this explicit proof, as `verify GRAPH --proof` does; and say of each claim which
+    /// checkers vouch for it.
+    #[arg(
+        long,
+        value_name = "PROOF",
+        requires = "graph",
+        conflicts_with = "tracks"
+    )]
+    proved: Option<PathBuf>,
     #[command(flatten)]
     input: InputArguments,
     /// The graph is that of cameras and points, as for `verify GRAPH --tracks`.
@@ -110,7 +121,10 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
             for line in proved.text.lines() {
                 writeln!(out, "VERIFIED {}", printable(line))?;
             }
-            GOOD
+            match (&arguments.proved, &arguments.graph) {
+                (Some(proof), Some(graph)) => say_vouched(&mut out, &proved, graph, proof)?,
+                _ => GOOD,
+            }
         }
         Err(Failure::Rejected(rejection)) => {
             writeln!(out, "REJECTED: {}", printable(&rejection.to_string()))?;
@@ -127,6 +141,27 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     };
     out.flush().context("standard output")?;
     Ok(ExitCode::from(code))
+}
+
+/// Which checkers vouch for the claims, and the exit code.
+fn say_vouched(
+    out: &mut impl Write,
+    proved: &checker::Proved,
+    graph: &Path,
+    proof: &Path,
+) -> Result<u8> {
+    Ok(match proved::vouch(proved, graph, proof)? {
+        Ok(claims) => {
+            for claim in claims.lines() {
+                writeln!(out, "CHECKED {claim}")?;
+            }
+            GOOD
+        }
+        Err(why) => {
+            writeln!(out, "REJECTED: {}", printable(&why))?;
+            NOT
+        }
+    })
 }
 
 /// What is no certificate is not rejected, which would say something about a claim.

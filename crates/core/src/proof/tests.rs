@@ -109,3 +109,59 @@ fn components_are_written_where_there_are_several() {
     let proof = proof_of(&pair, Question::default()).unwrap();
     assert_eq!(proof.components(), None);
 }
+
+/// Rows of N, columns of Lambda and flows (Corollary 3.3), where rows of J_P would be many: a wheel of
+/// odd chords, whose core is the whole graph.
+#[test]
+fn a_large_core_is_written_with_flows() {
+    let nodes = 122;
+    let around = (0..nodes).flat_map(|v| [1, 11].map(|step| (v, (v + step) % nodes)));
+    let graph = Graph::new(nodes, around).unwrap();
+    let proof = proof_of(&graph, Question::default()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (1327, 1327));
+    let text = proof.to_string();
+    assert!(text.contains("\nbody 122 122 244\n"));
+    let flows = text.split("\nflows ").nth(1).unwrap();
+    let mut lines = flows.lines();
+    let count: usize = lines.next().unwrap().parse().unwrap();
+    let flows: Vec<&str> = lines.by_ref().take(count).collect();
+    assert!(count * 4 >= 244 - 121);
+    assert!(flows.iter().all(|flow| flow.split(' ').count() == 2 * 244));
+    assert_eq!(lines.next(), Some("end"));
+}
+
+/// A cycle has no flows; the rows of N are told from those of J_P all the same.
+#[test]
+fn a_core_without_flows_has_one_of_zeros() {
+    let graph = Graph::new(150, (0..150).map(|v| (v, (v + 1) % 150))).unwrap();
+    let proof = proof_of(&graph, Question::default()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (1050, 1050));
+    let zeros = ["0"; 300].join(" ");
+    assert!(proof.to_string().contains(&format!("\nflows 1\n{zeros}\n")));
+}
+
+/// A torus has bodies by rank (Proposition 4.15), which are cores of their own.
+#[test]
+fn bodies_by_rank_are_written() {
+    let at = |x: u32, y: u32| 24 * (x % 24) + y % 24;
+    let near = |(x, y)| [(at(x, y), at(x + 1, y)), (at(x, y), at(x, y + 1))];
+    let all = (0..24).flat_map(|x| (0..24).map(move |y| (x, y)));
+    let graph = Graph::new(576, all.flat_map(near)).unwrap();
+    let verdict = decide(&graph, &Options::default()).unwrap();
+    assert!(!verdict.contraction.by_rank.is_empty());
+    let proof = verdict.proof(&graph).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (6321, 6321));
+    assert!(proof.to_string().matches("\nbody ").count() > verdict.contraction.by_rank.len());
+}
+
+/// The message says how large the core is.
+#[test]
+fn a_core_beyond_the_limit_is_refused() {
+    let nodes = 1002;
+    let around = (0..nodes).flat_map(|v| [1, 31].map(|step| (v, (v + step) % nodes)));
+    let graph = Graph::new(nodes, around).unwrap();
+    match proof_of(&graph, Question::default()) {
+        Ok(proof) => assert!(proof.to_string().matches("\nbody ").count() > 1),
+        Err(why) => assert_eq!(why, Unproved::Core(1002)),
+    }
+}
