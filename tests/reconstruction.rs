@@ -47,6 +47,28 @@ fn the_global_mapper_places_right_what_tracks_determine() {
     assert_ne!(cells[2], "0", "{said}");
 }
 
+/// Frames of rigs that hold groups of images together, and frames that do not. Its exit code says whether
+/// each prediction is right.
+#[test]
+fn rigs_hold_together_what_the_global_mapper_places_right() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/frames.py");
+    let run = Command::new(python)
+        .arg(script)
+        .args(["--verify", env!("CARGO_BIN_EXE_verify")])
+        .args(["--seeds", "1-2", "--ways", "0,1,2,3,6"])
+        .env("PYTHONDONTWRITEBYTECODE", "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stdout);
+    let errors = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{said}{errors}");
+    let row = said.lines().last().unwrap();
+    assert!(row.starts_with("| all | 10 | 6 | 6 | 0 | 0 | 0 | 0 | 6 |"), "{said}");
+}
+
 /// Models that the global mapper has glued, and some that are right: each part that `verify split`
 /// writes agrees with the truth, and nothing right is cut. Its exit code says so.
 #[test]

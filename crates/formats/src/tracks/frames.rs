@@ -240,7 +240,8 @@ impl Frames {
             let frames = counted(self.groups.len(), "frame");
             let images: usize = self.groups.iter().map(Vec::len).sum();
             notes.push(format!(
-                "rigs: the base lines of {frames} with {} are known, and with them the scale (--no-rigs)",
+                "rigs: the base lines of {frames} with {} are known, and with them the scale, the better the more the frames turn \
+                 against each other (--no-rigs)",
                 counted(images, "image")
             ));
         }
