@@ -467,7 +467,9 @@ fn suggestions_for_tracks_join_what_they_say() {
         &["advise", "--tracks", "--suggest"],
     );
     assert_eq!(line["components"][0]["cameras"], 8);
-    assert_eq!(line["suggestions"], json!([]));
+    let left = line["suggestions"].as_array().unwrap();
+    assert!(!left.is_empty());
+    assert!(left.iter().all(|one| one["pairs"][0][1] == "8"), "{left:?}");
 }
 
 #[test]

@@ -61,6 +61,7 @@ pub(crate) fn reason(reason: Reason, names: &Names) -> String {
         Reason::Near(Near::Position(1)) => "nearest by position".to_owned(),
         Reason::Near(Near::Position(rank)) => format!("number {rank} of the nearest by position"),
         Reason::Common(third) => format!("both match {}", names.of(third)),
+        Reason::Beside(a, b) => format!("beside {} and {}", names.of(a), names.of(b)),
         Reason::Any => "one of each side".to_owned(),
     }
 }

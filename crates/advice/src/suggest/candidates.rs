@@ -2,7 +2,8 @@
 //! docs/reconstruction.md. What a pair would join is decided elsewhere.
 //!
 //! A pair costs as many steps as its images are apart: by the names of their files, by position, or
-//! by how many matches both have with one third image. Each failure of either image with an image
+//! by what they are matched with: how many matches both have with one third image, or that they
+//! stand beside two that are matched. Each failure of either image with an image
 //! that it is in no component with costs one step more. What was tried already comes behind what was
 //! not. Between two groups of images several pairs are chosen, on different images.
 
@@ -16,6 +17,9 @@ const STEP: u32 = 10;
 
 /// What a pair costs that nothing is known of.
 const UNKNOWN: u32 = 8 * STEP;
+
+/// What a pair costs of which each image is matched with one of two that are matched with each other.
+const BESIDE: u32 = 5 * STEP / 2;
 
 /// Up to so many images every pair is looked at.
 const ALL: usize = 1500;
@@ -36,6 +40,8 @@ pub enum Reason {
     Near(Near),
     /// Both are matched with this image.
     Common(u32),
+    /// Each is matched with one of these two, which are matched with each other.
+    Beside(u32, u32),
     /// Images of the two groups, for want of anything better.
     Any,
 }
@@ -65,8 +71,8 @@ impl Candidate {
 /// What costs are made of.
 pub(super) struct Costs<'a> {
     search: &'a Search<'a>,
-    /// Pairs with a common neighbour: how many matches both have with it, and which it is.
-    common: HashMap<Pair, (u32, u32)>,
+    /// What pairs cost that are near by what is matched, and why.
+    common: HashMap<Pair, (u32, Reason)>,
     /// How often matching every image with another group has failed.
     failures: Vec<u32>,
     /// How far the number of neighbours of every image is from the mean of its group, in percent.
@@ -121,11 +127,7 @@ impl<'a> Costs<'a> {
             .nearness
             .and_then(|near| near.of(pair.0, pair.1));
         let near = near.map(|near| (STEP.saturating_mul(near.steps()), Reason::Near(near)));
-        // 30 matches and more with a third image are as good as standing next to each other.
-        let common = self.common.get(&pair).map(|&(inliers, third)| {
-            let cost = STEP * 30 / inliers.clamp(15, 60);
-            (cost, Reason::Common(third))
-        });
+        let common = self.common.get(&pair).copied();
         let known = common.into_iter().chain(near).min_by_key(|(cost, _)| *cost);
         let (cost, reason) = known.unwrap_or((UNKNOWN, Reason::Any));
         let failed = self.failures[pair.0 as usize] + self.failures[pair.1 as usize];
@@ -281,32 +283,56 @@ impl Gap {
     }
 }
 
-/// Pairs of different groups with a common neighbour: the most matches that both have with one.
-fn common(search: &Search, neighbours: Vec<Vec<(u32, u32)>>) -> HashMap<Pair, (u32, u32)> {
-    let mut found: HashMap<Pair, (u32, u32)> = HashMap::new();
-    for (third, mut of) in (0..).zip(neighbours) {
-        of.sort_unstable_by(|a, b| b.cmp(a));
-        let mut groups: HashMap<u32, usize> = HashMap::new();
-        of.retain(|&(_, v)| {
-            let count = groups.entry(search.group(v)).or_default();
-            *count += 1;
-            *count <= COMMON
-        });
-        if groups.len() < 2 {
-            continue;
+/// Pairs of different groups that are near by what is matched: those with a common neighbour, and
+/// those of which each is a neighbour of one of two that are matched across the groups. What they
+/// cost, and why.
+fn common(search: &Search, neighbours: Vec<Vec<(u32, u32)>>) -> HashMap<Pair, (u32, Reason)> {
+    let best: Vec<Vec<(u32, u32)>> = neighbours
+        .into_iter()
+        .map(|of| of_groups(search, of))
+        .collect();
+    let mut found: HashMap<Pair, (u32, Reason)> = HashMap::new();
+    let mut near = |a: u32, b: u32, cost: u32, reason: Reason| {
+        if a != b && !search.parts.are_together(a, b) {
+            let known = found.entry(ordered((a, b))).or_insert((cost, reason));
+            if cost < known.0 {
+                *known = (cost, reason);
+            }
         }
+    };
+    for (third, of) in (0..).zip(&best) {
         for (k, &(_, a)) in of.iter().enumerate() {
-            // The later ones have no more matches.
             for &(inliers, b) in &of[k + 1..] {
-                if search.parts.are_together(a, b) {
-                    continue;
+                // The later ones have no more matches. 30 are as good as standing side by side.
+                let cost = STEP * 30 / inliers.clamp(15, 60);
+                near(a, b, cost, Reason::Common(third));
+            }
+        }
+    }
+    for (one, of) in (0..).zip(&best) {
+        let across = of.iter().filter(|&&(_, other)| one < other);
+        for &(_, other) in across.filter(|&&(_, other)| !search.parts.are_together(one, other)) {
+            for &(_, a) in best[one as usize].iter().take(COMMON) {
+                for &(_, b) in best[other as usize].iter().take(COMMON) {
+                    near(a, b, BESIDE, Reason::Beside(one, other));
                 }
-                let best = found.entry(ordered((a, b))).or_default();
-                *best = (*best).max((inliers, third));
             }
         }
     }
     found
+}
+
+/// The neighbours of an image with most inliers in every group, falling.
+fn of_groups(search: &Search, mut of: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
+    of.sort_unstable_by(|a, b| b.cmp(a));
+    let mut groups: HashMap<u32, usize> = HashMap::new();
+    of.retain(|&(_, v)| {
+        let count = groups.entry(search.group(v)).or_default();
+        *count += 1;
+        *count <= COMMON
+    });
+    of.truncate(4 * COMMON);
+    of
 }
 
 /// For every image how far its number of neighbours is from the mean of its group, in percent.
