@@ -602,7 +602,7 @@ impl Problem {
             Self::Complex => "save its real part, or the matrix of its non-zero entries",
             Self::NotANumber { .. } => "put zero where there is no pair",
             Self::Uneven { .. } => {
-                "write A + A' if only one triangle is filled; if this is no matrix of counts, write one pair a line"
+                "write A + A' if only one triangle is filled; if this is no matrix of counts, write one pair a line; if these are pairs with weights, say `--format edges`"
             }
             Self::NoPairs(_) => {
                 "write pairs as natural numbers, or a square matrix with 1 for a pair and 0 for none"

@@ -26,6 +26,7 @@ pub mod read;
 mod read_as;
 mod recognise;
 pub mod sparse6;
+mod tables;
 pub mod tracks;
 mod variables;
 

@@ -11,7 +11,7 @@ use crate::edge_list::is_image;
 use crate::error::{Problem, TRACKS};
 use crate::inflate::Compression;
 use crate::lines::{Encoding, trimmed};
-use crate::{colmap, matlab, matrix_market, numpy, own, sparse6, tracks};
+use crate::{colmap, matlab, matrix_market, numpy, own, sparse6, tables, tracks};
 use viewcert::graph::graph6;
 
 /// How much of an input is looked at.
@@ -339,7 +339,10 @@ fn certain(head: &[u8]) -> Option<Problem> {
             return Some(foreign(what, advice));
         }
     }
-    if let Some(problem) = kapture(text).or_else(|| large_layout(text)) {
+    if let Some(problem) = kapture(text)
+        .or_else(|| large_layout(text))
+        .or_else(|| tables::skew(text))
+    {
         return Some(problem);
     }
     let lines = text.lines().map(str::trim);
@@ -500,29 +503,40 @@ fn encoded(head: &[u8], whole: bool) -> Option<Problem> {
     None
 }
 
-/// Formats of words and numbers, by the shape of their first lines.
-fn words(text: &str, whole: bool) -> Option<Problem> {
+/// The words of complete lines that are no comments.
+fn words_of(text: &str, whole: bool) -> Option<Vec<Vec<&str>>> {
     let end = match text.rfind('\n') {
         _ if whole => text.len(),
         end => end?,
     };
-    let lines: Vec<Vec<&str>> = text[..end]
-        .lines()
-        .map(|line| {
-            line.split([' ', '\t', ',', '\r'])
-                .filter(|w| !w.is_empty())
-                .collect()
-        })
-        .filter(|words: &Vec<&str>| words.first().is_some_and(|w| !w.starts_with(['#', '%'])))
-        .collect();
+    let lines = text[..end].lines().map(|line| {
+        let words = line.split([' ', '\t', ',', '\r']);
+        words.filter(|w| !w.is_empty()).collect::<Vec<_>>()
+    });
+    let has_words = |words: &Vec<&str>| words.first().is_some_and(|w| !w.starts_with(['#', '%']));
+    Some(lines.filter(has_words).collect())
+}
+
+/// What a list with pairs of a label with itself is, if it is a table.
+pub(super) fn with_self_pairs(head: &[u8], whole: bool) -> Option<Problem> {
+    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
+    tables::has_self_pairs(&words_of(str_up_to_cut(head).ok()?, whole)?)
+}
+
+/// Formats of words and numbers, by the shape of their first lines.
+fn words(text: &str, whole: bool) -> Option<Problem> {
+    let lines = words_of(text, whole)?;
     let first = lines.first()?;
     let (integer, number) = (|w: &&str| is_integer(w), |w: &&str| is_number(w.as_bytes()));
-    let dimacs = |line: &Vec<&str>| matches!(line[..], ["p", kind, n, m] if !is_integer(kind) && is_integer(n) && is_integer(m));
-    if lines
+    let problem = |line: &&Vec<&str>| matches!(line[..], ["p", kind, n, m] if !is_integer(kind) && is_integer(n) && is_integer(m));
+    let formula = |line: &Vec<&str>| line[1] == "cnf" || line[1] == "wcnf" || line[1] == "sat";
+    let mut beginning = lines
         .iter()
-        .take_while(|line| ["c", "p"].contains(&line[0]))
-        .any(dimacs)
-    {
+        .take_while(|line| ["c", "p"].contains(&line[0]));
+    if let Some(line) = beginning.find(problem) {
+        if formula(line) {
+            return Some(foreign("a formula in DIMACS CNF", PAIRS));
+        }
         return Some(foreign(
             DIMACS,
             "write the two nodes of every edge and nothing else: awk '/^[cp] / { next } /^[ea] / { print $2, $3; next } { print $1, $2 }' FILE",
@@ -546,14 +560,7 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
     {
         return Some(foreign("COLMAP's points3D.txt", COLMAP));
     }
-    if first.len() == 3
-        && first.iter().all(integer)
-        && let Some([camera, point, x, y]) = lines.get(1).map(|line| &line[..])
-        && integer(camera)
-        && integer(point)
-        && number(x)
-        && number(y)
-    {
+    if tables::is_bal(&lines, whole) {
         return Some(foreign("a bundle adjustment problem (BAL)", TRACKS));
     }
     if first.len() == 1 && first[0].starts_with("sep=") {
@@ -562,7 +569,12 @@ fn words(text: &str, whole: bool) -> Option<Problem> {
             "delete that line",
         ));
     }
-    if let Some(problem) = sets_of_names(&lines).or_else(|| vectors(&lines)) {
+    if let Some(problem) = tables::counts(&lines)
+        .or_else(|| tables::neighbours(&lines))
+        .or_else(|| tables::named_matrix(text, whole))
+        .or_else(|| sets_of_names(&lines))
+        .or_else(|| vectors(&lines))
+    {
         return Some(problem);
     }
     if let Some(what) = table(&lines) {

@@ -18,6 +18,8 @@ import numpy as np
 import pandas as pd
 import polars as pl
 
+import tables
+
 ROWS = []
 FILES = {}
 
@@ -441,6 +443,8 @@ for suffix, write in [("edgelist", nx.write_edgelist), ("adjlist", nx.write_adjl
         doubled = nx.MultiGraph(pairs + [(0, 1), (1, 0)])
         read(f"nx-doubled.{suffix}", H, written(write, doubled), "2 pairs are given again", writer=f"networkx.{write.__name__}")
         read(f"nx-doubled.{suffix}", H, written(write, doubled), "--min-weight is ignored: no weights are read from such a file", "--min-weight 3", f"networkx.{write.__name__}")
+
+tables.add(read, no)
 
 for name, data in FILES.items():
     with open(name, "wb") as file:

@@ -3,7 +3,8 @@
 //! Tags by g2o's own types (slam2d, slam3d, sba, sim3): `VERTEX_...` of a pose is a node,
 //! `EDGE_...` between two poses a pair; numbers behind the ids (poses, measurements, information
 //! matrices) are of no concern. All other lines are ignored, and their tags named in a note:
-//! landmarks are no cameras, and their edges no pairs of cameras.
+//! landmarks are no cameras, and their edges no pairs of cameras. Unknown edges between two poses
+//! are refused, as they may be pairs.
 
 use std::collections::BTreeMap;
 
@@ -53,6 +54,8 @@ pub(super) fn is_g2o(head: &str) -> bool {
 pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
     let mut collected = Collected::new(options);
     let mut ignored: BTreeMap<&str, usize> = BTreeMap::new();
+    // Lines of edges that are unknown, and the two ids on each.
+    let mut unknown = Vec::new();
     for (line, number) in text.lines().zip(1..) {
         let fault = |problem| Place::Line(number).fault(problem);
         let mut words = line.split_ascii_whitespace();
@@ -73,10 +76,26 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
             collected.pair(a, b).map_err(fault)?;
         } else if is_tag(tag) {
             *ignored.entry(tag).or_default() += 1;
+            // A prior has one pose, and a number behind it.
+            let is_edge = tag.starts_with("EDGE_") && !tag.contains("PRIOR");
+            if let (true, Some(a), Some(b)) = (is_edge, words.next(), words.next()) {
+                unknown.push((number, tag, [a, b]));
+            }
         } else {
             let what = format!("the line begins with no tag: `{}`", shown(tag));
             return Err(fault(malformed(FORMAT, what)));
         }
+    }
+    // Landmarks have ids of their own.
+    let is_pose = |id: &&str| collected.find(id).is_some();
+    if let Some((number, tag, [a, b])) = unknown.iter().find(|(.., ids)| ids.iter().all(is_pose)) {
+        let what = format!(
+            "edges {} are unknown here, and this one joins two poses, {} and {}",
+            shown(tag),
+            shown(a),
+            shown(b)
+        );
+        return Err(Place::Line(*number).fault(malformed(FORMAT, what)));
     }
     for (tag, count) in ignored.iter().take(MOST_TAGS) {
         let (lines, are) = (

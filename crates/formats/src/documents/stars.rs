@@ -12,12 +12,20 @@ use std::collections::HashSet;
 
 use crate::documents::collected::Collected;
 use crate::edge_list::fields::{self, Field, integer};
+use crate::edge_list::is_image;
 use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::Parsed;
 
 const DOUBT: &str = "these could be lists of neighbours, and are no edge list";
 const DOUBT_ADVICE: &str = "write one pair a line; if every line joins its first field with each of the others, say --format openmvg-pairs";
+
+const COUNT: &str = "the first line has one field, which is in no other: a count, perhaps, or a camera without neighbours";
+const COUNT_ADVICE: &str =
+    "delete the line of the count; if it is a camera, say --format openmvg-pairs";
+const LOOPS: &str = "some lines begin with a field that they have twice: a table, perhaps, and no lists of neighbours";
+const SETS: &str = "lines of different lengths are taken for lists of neighbours: if they are sets, as communities are, \
+     this is another graph";
 
 /// What networkx writes above adjacency lists, in the second of three comments.
 const NETWORKX: &str = "# GMT ";
@@ -40,6 +48,8 @@ struct Shape<'a> {
     twice: bool,
     /// The other nodes.
     others: HashSet<&'a str>,
+    /// Some line has its first node twice.
+    loops: bool,
 }
 
 impl<'a> Shape<'a> {
@@ -53,6 +63,7 @@ impl<'a> Shape<'a> {
         self.long |= words.len() > 3;
         self.twice |= !self.starts.insert(words[0]);
         self.others.extend(&words[1..]);
+        self.loops |= words[1..].contains(&words[0]);
         let numbers: Option<Vec<u64>> = words.iter().map(|word| integer(word)).collect();
         let Some(mut numbers) = numbers else {
             self.no_integers = true;
@@ -74,6 +85,32 @@ impl<'a> Shape<'a> {
         let count = self.first.first().and_then(|first| integer(first));
         let counts = (2..=4).contains(&self.first.len()) && count == Some(self.lines - 1);
         !self.no_integers && self.uneven && self.long && !(whole && counts)
+    }
+
+    /// Whether the first line is a single field that counts the lines below or their labels, or is like
+    /// none of these.
+    fn has_count(&self) -> bool {
+        let [count] = self.first[..] else {
+            return false;
+        };
+        if self.others.contains(count) || self.others.is_empty() {
+            return false;
+        }
+        let mut labels = self
+            .others
+            .union(&self.starts)
+            .filter(|label| **label != count);
+        match integer(count) {
+            Some(value) => {
+                let all = labels.clone().count() as u64;
+                [self.lines - 1, all].contains(&value)
+                    || labels.all(|label| integer(label).is_none())
+            }
+            None => {
+                labels.clone().all(|label| integer(label).is_some())
+                    || !is_image(count) && labels.all(|label| is_image(label))
+            }
+        }
     }
 
     /// Whether every node begins one line.
@@ -138,12 +175,20 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
     if of_networkx && text.lines().any(|line| line.contains('{')) {
         return of_several_lines(text, options);
     }
-    let sure = shape(text).is_some_and(|shape| shape.are_stars(true) || shape.is_closed());
-    if !asked && !of_networkx && !sure {
-        return Err(Place::Input.fault(Problem::Doubtful {
-            what: DOUBT,
-            advice: DOUBT_ADVICE,
-        }));
+    let shape = shape(text);
+    let is_closed = shape.as_ref().is_some_and(Shape::is_closed);
+    let sure = is_closed || shape.as_ref().is_some_and(|shape| shape.are_stars(true));
+    let count = shape.as_ref().is_some_and(Shape::has_count);
+    let loops = shape.as_ref().is_some_and(|shape| shape.loops);
+    let doubt = match () {
+        () if of_networkx || asked => None,
+        () if count => Some((COUNT, COUNT_ADVICE)),
+        () if loops => Some((LOOPS, DOUBT_ADVICE)),
+        () if !sure => Some((DOUBT, DOUBT_ADVICE)),
+        () => None,
+    };
+    if let Some((what, advice)) = doubt {
+        return Err(Place::Input.fault(Problem::Doubtful { what, advice }));
     }
     let mut collected = Collected::new(options);
     let mut fields = Vec::new();
@@ -161,6 +206,14 @@ pub(super) fn read(text: &str, asked: bool, options: &ListOptions) -> Result<Par
     }
     let mut parsed = collected.finish()?;
     parsed.read.taken = Some("each line joins its first field with all others".to_owned());
+    if count && !of_networkx {
+        let count = shape.as_ref().map_or("", |shape| shape.first[0]);
+        let note = format!("the first line, {count}, is taken for a camera without pairs");
+        parsed.notes.push(note);
+    }
+    if !asked && !of_networkx && !is_closed {
+        parsed.notes.push(SETS.to_owned());
+    }
     Ok(parsed)
 }
 

@@ -12,6 +12,9 @@ use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError, Labels};
 use viewcert::wording::counted;
 
+const DIAGONAL: &str = "a matrix with nothing beside its diagonal, as the identity is: no image is paired with another";
+const DIAGONAL_ADVICE: &str = "give the matrix of the pairs, or one pair a line";
+
 /// The smallest matrix that is told from a list of pairs.
 const LEAST: usize = 3;
 /// More rows than that are no text that anybody writes.
@@ -109,16 +112,37 @@ pub(super) fn is_matrix(head: &str, whole: bool) -> bool {
         .all(|field| value(field).is_some());
     // Three fields are a pair with a weight otherwise.
     let size = table.rows[0].1.len();
-    naturals && (size > LEAST || whole && (table.names.is_some() || is_symmetric(&table)))
+    naturals && (size > LEAST || whole && (table.names.is_some() || is_of_three(&table)))
 }
 
-fn is_symmetric(table: &Table) -> bool {
-    let entry = |i: usize, j: usize| value(table.rows[i].1[j]);
-    let size = table.rows.len();
-    (0..size).all(|i| {
-        entry(i, i).is_some_and(|value| value.is_zero())
-            && (0..i).all(|j| entry(i, j) == entry(j, i))
-    })
+/// Whether three lines of three numbers are a matrix, and no pairs with weights: it is symmetric, and
+/// on the diagonal are zeros or what is no less than anything beside it (the features of an image); or
+/// twice as much is on the diagonal as anywhere beside it (what was taken for what); or zeros are on
+/// the diagonal, and in the third column on the last line alone.
+fn is_of_three(table: &Table) -> bool {
+    let rows: Option<Vec<[f64; LEAST]>> = table
+        .rows
+        .iter()
+        .map(|(_, row)| {
+            let values: Result<Vec<f64>, _> = row.iter().map(|field| field.parse()).collect();
+            values.ok()?.try_into().ok()
+        })
+        .collect();
+    let Some([a, b, c]) = rows.as_deref() else {
+        return false;
+    };
+    let diagonal = [a[0], b[1], c[2]];
+    let beside = [[a[1], b[0]], [a[2], c[0]], [b[2], c[1]]];
+    let ends = [[0, 1], [0, 2], [1, 2]];
+    let all = |holds: &dyn Fn([f64; 2], f64) -> bool| {
+        let mut entries = beside.iter().zip(ends);
+        entries.all(|(two, ends)| ends.iter().all(|&end| holds(*two, diagonal[end])))
+    };
+    let zeros = diagonal == [0.0; LEAST];
+    let symmetric = beside.iter().all(|[one, other]| one == other);
+    symmetric && all(&|two, own| own == 0.0 || own >= two[0])
+        || zeros && (a[2] > 0.0 || b[2] > 0.0)
+        || all(&|two, own| own > 0.0 && own >= 2.0 * two[0].max(two[1]))
 }
 
 /// Reads a matrix.
@@ -134,15 +158,28 @@ pub(super) fn read(text: &str, options: &ListOptions) -> Result<Parsed, Fault> {
         .map(|(_, row)| row.iter().map(|field| value(field)).collect())
         .collect();
     let entries = entries.ok_or_else(|| wrong("an entry is no natural number"))?;
+    for (i, row) in entries.iter().enumerate() {
+        if let Some(j) = (0..size).find(|&j| row[j] != entries[j][i]) {
+            let (row, column) = (i as u32 + 1, j as u32 + 1);
+            return Err(Place::Line(table.rows[i].0).fault(Problem::Uneven { row, column }));
+        }
+    }
+    let beside = |(i, row): (usize, &Vec<Decimal>)| {
+        let mut others = row.iter().enumerate().filter(|&(j, _)| j != i);
+        others.any(|(_, entry)| !entry.is_zero())
+    };
+    let has_diagonal = (0..size).any(|i| !entries[i][i].is_zero());
+    if has_diagonal && !entries.iter().enumerate().any(beside) {
+        return Err(fault(Problem::Doubtful {
+            what: DIAGONAL,
+            advice: DIAGONAL_ADVICE,
+        }));
+    }
     let (mut pairs, mut light, mut loops) = (Vec::new(), 0, 0);
     for (i, row) in entries.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().filter(|(_, entry)| !entry.is_zero()) {
             if i == j && !options.skip_loops {
                 return Err(Place::Line(table.rows[i].0).fault(Problem::Diagonal(i as u32 + 1)));
-            }
-            if *entry != entries[j][i] {
-                let (row, column) = (i as u32 + 1, j as u32 + 1);
-                return Err(Place::Line(table.rows[i].0).fault(Problem::Uneven { row, column }));
             }
             if i == j {
                 loops += 1;

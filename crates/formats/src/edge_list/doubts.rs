@@ -3,19 +3,23 @@
 //! What is watched line by line is little, and only while it can still matter; the rest is
 //! settled when all pairs are there.
 
+use std::collections::HashSet;
+
 use crate::edge_list::First;
-use crate::edge_list::fields::{integer, is_number};
+use crate::edge_list::fields::is_number;
+use crate::edge_list::heads;
 use crate::edge_list::nodes::Index;
+use crate::edge_list::triangles::Triangles;
 use crate::error::Problem;
 
-const COUNTS: &str = "the first line counts nodes and lines, or is a pair like the others";
-const COUNTS_ADVICE: &str = "delete the line of counts; if it is a pair, say `--format edges`; if each line lists the neighbours of a node, as in METIS, convert it";
 const MATRIX: &str = "it could be an adjacency matrix";
 const MATRIX_ADVICE: &str = "write one pair a line, or a MatrixMarket or MATLAB file; if it is an edge list, say `--format edges`";
 const STARS: &str =
     "it could be an adjacency list or a list of stars as well as pairs with weights";
 const STARS_ADVICE: &str =
     "write one pair a line; if the third column is of no concern, say `--format edges`";
+const TRIANGLES: &str = "every third field is a label as well: three cameras a line, as in triangles or lists of neighbours, \
+     or pairs with weights";
 const TRIVIAL_GRAPH: &str =
     "it could be in the Trivial Graph Format: nodes, a line `#`, and pairs of these nodes";
 const TRIVIAL_GRAPH_ADVICE: &str =
@@ -36,6 +40,7 @@ pub(super) struct Doubts {
     no_stars: bool,
     /// Some line is not one of an adjacency list.
     no_neighbours: bool,
+    triangles: Triangles,
     largest_second: u64,
     largest_third: u64,
     /// First and third labels of the lines while they could be an adjacency list.
@@ -65,6 +70,11 @@ impl Doubts {
         self.has_quotes |= quotes;
     }
 
+    /// Whether some line had labels in quotes.
+    pub(super) fn has_quotes(&self) -> bool {
+        self.has_quotes
+    }
+
     /// A line that is nothing but `#`, after so many pairs.
     pub(super) fn lone_hash(&mut self, pairs: usize) {
         self.hash = Some(match self.hash {
@@ -81,7 +91,7 @@ impl Doubts {
     /// Whether third fields still matter.
     #[inline]
     pub(super) fn watch_thirds(&self) -> bool {
-        !(self.no_stars && self.no_neighbours)
+        !(self.no_stars && self.no_neighbours) || self.triangles.watch()
     }
 
     /// The labels and the third field of a line, as far as they are integers.
@@ -89,8 +99,10 @@ impl Doubts {
         let (Some([a, b]), Some(c)) = (ends, third) else {
             self.no_stars = true;
             self.drop_neighbours();
+            self.triangles.line(None);
             return;
         };
+        self.triangles.line(Some([a, b, c]));
         self.no_stars |= a >= b || b >= c;
         self.largest_second = self.largest_second.max(a).max(b);
         self.largest_third = self.largest_third.max(c);
@@ -120,16 +132,21 @@ impl Doubts {
             return None;
         }
         let plain = !self.has_head && !self.has_quotes;
-        if plain && first.columns == 2 && counts(pairs, names, first) {
-            return doubt(COUNTS, COUNTS_ADVICE);
-        }
         if plain && !self.no_bits && pairs.len() == first.columns {
             return doubt(MATRIX, MATRIX_ADVICE);
         }
-        if plain && first.columns == 3 {
+        // Names of columns may say what the third one holds.
+        let weighs = self.has_head && heads::name_weights(&first.names);
+        if !self.has_quotes && !weighs && first.names.len() == 3 {
             let near = self.largest_third <= self.largest_second.saturating_add(1);
             if !self.no_stars && near || !self.no_neighbours && self.lists_neighbours() {
                 return doubt(STARS, STARS_ADVICE);
+            }
+            if self
+                .triangles
+                .are_there(|labels| are_labels(labels, pairs, names))
+            {
+                return doubt(TRIANGLES, STARS_ADVICE);
             }
         }
         if let Some(Some(before)) = self.hash
@@ -157,23 +174,6 @@ impl Doubts {
     }
 }
 
-/// Whether the first of two integers a line count nodes and other lines.
-fn counts(pairs: &[(u32, u32)], names: Option<&Index>, first: &First) -> bool {
-    let [Some(nodes), Some(lines)] = [&first.labels[0], &first.labels[1]].map(|l| integer(l))
-    else {
-        return false;
-    };
-    let others = &pairs[1..];
-    if lines != others.len() as u64 {
-        return false;
-    }
-    let mut ends: Vec<u32> = others.iter().flat_map(|&(a, b)| [a, b]).collect();
-    ends.sort_unstable();
-    ends.dedup();
-    nodes >= ends.len() as u64
-        && names.is_none_or(|names| names.nodes.keys().all(|label| integer(label).is_some()))
-}
-
 /// Whether different nodes stand first in the pairs `before` a line `#`, and all later pairs are
 /// of these.
 fn trivial_graph(pairs: &[(u32, u32)], before: usize) -> bool {
@@ -187,6 +187,23 @@ fn trivial_graph(pairs: &[(u32, u32)], before: usize) -> bool {
         && given > 0
         && nodes.len() == given
         && pairs.iter().all(|&(a, b)| listed(a) && listed(b))
+}
+
+/// Whether all of some integers stand in the pairs.
+fn are_labels(integers: &[u64], pairs: &[(u32, u32)], names: Option<&Index>) -> bool {
+    if let Some(names) = names {
+        let is_label = |value: &u64| names.nodes.contains_key(&*value.to_string());
+        return integers.iter().all(is_label);
+    }
+    let mut wanted: HashSet<u64> = integers.iter().copied().collect();
+    for &(a, b) in pairs {
+        wanted.remove(&a.into());
+        wanted.remove(&b.into());
+        if wanted.is_empty() {
+            return true;
+        }
+    }
+    wanted.is_empty()
 }
 
 /// Whether all labels are numbers, some of them with a fraction or an exponent.

@@ -1,7 +1,9 @@
 //! Names of columns: which two of them are a pair, and which are none.
 
+use crate::edge_list::marks;
+
 /// Names of two columns with the ends of a pair, in lower case and without `_`, `-`, `.` and blanks.
-const PAIRS: [[&str; 2]; 12] = [
+const PAIRS: [[&str; 2]; 13] = [
     ["source", "target"],
     ["from", "to"],
     ["src", "dst"],
@@ -14,10 +16,11 @@ const PAIRS: [[&str; 2]; 12] = [
     ["sourceid", "targetid"],
     ["sourcenode", "targetnode"],
     ["queryimage", "mapimage"],
+    ["startid", "endid"],
 ];
 
 /// The same, which could be names of cameras as well.
-const PERHAPS: [[&str; 2]; 18] = [
+const PERHAPS: [[&str; 2]; 25] = [
     ["start", "end"],
     ["head", "tail"],
     ["tail", "head"],
@@ -32,31 +35,21 @@ const PERHAPS: [[&str; 2]; 18] = [
     ["query", "retrieved"],
     ["query", "match"],
     ["reference", "query"],
+    ["reference", "target"],
+    ["ref", "target"],
+    ["anchor", "positive"],
+    ["base", "match"],
+    ["master", "slave"],
+    ["parent", "node"],
+    ["qname", "dbname"],
     ["ref", "src"],
     ["i", "j"],
     ["u", "v"],
     ["a", "b"],
 ];
 
-/// Marks that tell the two ends apart, before or behind a word that both have.
-const MARKS: [[&str; 2]; 13] = [
-    ["1", "2"],
-    ["a", "b"],
-    ["i", "j"],
-    ["l", "r"],
-    ["left", "right"],
-    ["one", "two"],
-    ["from", "to"],
-    ["src", "dst"],
-    ["src", "tgt"],
-    ["source", "target"],
-    ["query", "ref"],
-    ["query", "db"],
-    ["query", "map"],
-];
-
 /// What cameras are called in heads.
-const CAMERAS: [&str; 20] = [
+const CAMERAS: [&str; 30] = [
     "image",
     "img",
     "im",
@@ -77,6 +70,16 @@ const CAMERAS: [&str; 20] = [
     "name",
     "id",
     "path",
+    "imagepath",
+    "imgpath",
+    "filepath",
+    "viewid",
+    "camid",
+    "cameraid",
+    "nodeid",
+    "keyframe",
+    "kf",
+    "bild",
 ];
 
 /// What the other end is called then.
@@ -189,7 +192,7 @@ const WEIGHTS: [&str; 16] = [
 
 /// A name of a column without what people write differently.
 fn plain(name: &str) -> String {
-    let kept = name.chars().filter(|c| !" _-.#\t".contains(*c));
+    let kept = name.chars().filter(|c| !" _-.#:\t".contains(*c));
     kept.flat_map(char::to_lowercase).collect()
 }
 
@@ -200,25 +203,38 @@ pub(super) fn is_pair(first: &str, second: &str) -> bool {
     {
         return true;
     }
-    MARKS.iter().any(|marks| are_marked(first, second, *marks))
-}
-
-/// Whether these are one word for cameras with the two marks before or behind it.
-fn are_marked(first: &str, second: &str, [one, two]: [&str; 2]) -> bool {
-    let word = |name: &str, mark: &str| {
-        let rest = name.strip_suffix(mark).or_else(|| name.strip_prefix(mark));
-        rest.filter(|rest| CAMERAS.contains(rest))
-            .map(str::to_owned)
-    };
-    let first = word(first, one);
-    first.is_some() && first == word(second, two)
+    marks::word(first, second).is_some_and(|word| CAMERAS.contains(&&*word))
 }
 
 /// Whether these may be such names.
 pub(super) fn may_be_pair(first: &str, second: &str) -> bool {
     let plain = [&*plain(first), &*plain(second)];
     // `image0` may well be an image.
-    is_pair(first, second) || PERHAPS.contains(&plain) || are_marked(plain[0], plain[1], ["0", "1"])
+    let zero = || marks::word_from_zero(plain[0], plain[1]);
+    is_pair(first, second)
+        || PERHAPS.contains(&plain)
+        || zero().is_some_and(|word| CAMERAS.contains(&&*word))
+}
+
+/// Whether the first two of some labels may be names of columns if nothing below is like them: they
+/// are known, or one word with two marks, or two letters one after the other.
+pub(super) fn could_be_pair(first: &str, second: &str) -> bool {
+    let [a, b] = [plain(first), plain(second)];
+    may_be_pair(first, second)
+        || [marks::word(&a, &b), marks::word_from_zero(&a, &b)]
+            .into_iter()
+            .flatten()
+            .any(|word| word.chars().all(char::is_alphabetic))
+}
+
+/// Whether names of three columns are those of a pair and of its weight, as far as names can tell:
+/// `id1,id2,id3` are none.
+pub(super) fn name_weights(names: &[Box<str>]) -> bool {
+    let [first, second, third, ..] = names else {
+        return false;
+    };
+    let alike = shape(first) == shape(third) || shape(second) == shape(third);
+    is_weight(third) || is_pair(first, second) && !alike
 }
 
 /// Whether a column of this name holds no cameras.
@@ -281,6 +297,20 @@ pub(super) fn has_ending(label: &str) -> bool {
         && bytes.iter().all(u8::is_ascii_alphanumeric)
 }
 
+/// Whether two labels of a first line, which are those of no other line, are names of columns by what
+/// stands below: nothing there looks like them, and it hangs together.
+pub(super) fn stand_apart<'a>(
+    labels: [&str; 2],
+    mut others: impl Iterator<Item = &'a str>,
+    hangs_together: impl FnOnce() -> bool,
+) -> bool {
+    let shapes = labels.map(shape);
+    let letters = labels.iter().all(|label| label.chars().count() == 1);
+    let like =
+        |other: &str| shapes.contains(&shape(other)) || letters && other.chars().count() == 1;
+    could_be_pair(labels[0], labels[1]) && !others.any(like) && hangs_together()
+}
+
 /// Whether two labels of a first line look unlike all others, so that they name columns. `columns`
 /// are the labels below each.
 pub(super) fn look_unlike<'a, I>(labels: [&str; 2], columns: [I; 2]) -> bool
@@ -323,7 +353,7 @@ where
 }
 
 /// A label with every run of digits replaced.
-fn shape(label: &str) -> String {
+pub(super) fn shape(label: &str) -> String {
     let mut shape = String::new();
     for c in label.chars() {
         match c.is_ascii_digit() {
@@ -354,6 +384,11 @@ mod tests {
             ["Image 1", "Image 2"],
             ["name_a", "name_b"],
             ["#query_image", "map_image"],
+            ["first_image", "second_image"],
+            ["imageA_path", "imageB_path"],
+            ["view_id_a", "view_id_b"],
+            [":START_ID", ":END_ID"],
+            ["image_gauche", "image_droite"],
         ] {
             assert!(is_pair(a, b), "{a} {b}");
         }
@@ -404,5 +439,24 @@ mod tests {
         ] {
             assert!(!unlike([a, b], &[c, d]), "{a} {b}");
         }
+    }
+
+    #[test]
+    fn names_of_columns_stand_apart() {
+        let apart =
+            |labels, others: &[&str], hangs| stand_apart(labels, others.iter().copied(), || hangs);
+        for labels in [
+            ["V1", "V2"],
+            ["A", "B"],
+            ["u", "v"],
+            ["name0", "name1"],
+            ["start", "end"],
+        ] {
+            assert!(apart(labels, &["alpha", "beta"], true), "{labels:?}");
+            assert!(!apart(labels, &["alpha", "beta"], false), "{labels:?}");
+        }
+        assert!(!apart(["a", "b"], &["c", "d"], true));
+        assert!(!apart(["node1", "node2"], &["node3", "hub"], true));
+        assert!(!apart(["hall", "kitchen"], &["roof", "cellar"], true));
     }
 }

@@ -485,7 +485,9 @@ fn unasked(sample: &Sample) -> Option<Layout> {
     let columns = sample.columns();
     let (head, pair) = sample.head().unzip();
     let pair = pair.flatten();
-    let usual = [2, 3].contains(&columns) && sample.separator != Some(b';') && !sample.has_empty();
+    let mut below = sample.lines.iter().skip(1);
+    let weighed = columns == 3 && below.all(|line| line[2].is_number());
+    let usual = (columns == 2 || weighed) && sample.separator != Some(b';') && !sample.has_empty();
     let ends = match pair {
         Some([0, 1]) if usual && !sample.has_inner_blanks() => return None,
         Some(ends) => ends,

@@ -23,15 +23,18 @@ use crate::read_as::{Parsed, ReadAs};
 use viewcert::graph::{Graph, GraphError};
 use viewcert::wording::counted;
 
+mod counts;
 pub(super) mod decimal;
 mod doubts;
 pub(super) mod fields;
 mod heads;
 pub(super) mod layout;
+mod marks;
 pub(super) mod nodes;
 mod plain;
 mod plausible;
 mod poses;
+mod triangles;
 
 use decimal::Decimal;
 use doubts::Doubts;
@@ -617,7 +620,18 @@ impl Collector {
         let mut notes = Vec::new();
         let mut read = ReadAs::new("edge list");
         if let Some(first) = self.first.take() {
-            if let Some(head) = self.head(&first)? {
+            let known = self.knows_first(&first);
+            let head = self.head(&first)?;
+            let is_head = head.is_some();
+            // The first line is a pair of cameras that are in no other.
+            let lone = !is_head
+                && first.head == Head::Perhaps
+                && !known
+                && !first.light
+                && first.labels[0] != first.labels[1]
+                && self.pairs.len() > 1;
+            let asked = self.layout.as_ref().is_some_and(|layout| layout.asked);
+            if let Some(head) = head {
                 read.guessed.push(head.clone());
                 notes.push(head);
             }
@@ -625,10 +639,30 @@ impl Collector {
             let strict = self.reading == Reading::Strict;
             let doubt = self.doubts.settle(pairs, names, &first);
             let doubt = doubt.filter(|_| strict && self.layout.is_none());
+            let lines = counts::Lines {
+                pairs,
+                names,
+                first: &first,
+                head: is_head.then(|| heads::may_be_pair(&first.labels[0], &first.labels[1])),
+                left_out: self.light + self.loops,
+            };
+            let doubt = doubt.or_else(|| lines.problem().filter(|_| !self.doubts.has_quotes()));
             let doubt = doubt.or_else(|| plausible::problem(pairs, names));
+            let below = || plausible::problem(&pairs[1..], names).filter(|_| lone);
+            let doubt = doubt.or_else(below);
             match doubt {
                 Some(problem) if strict => return Err(fault(problem)),
                 Some(problem) => notes.push(problem.to_string()),
+                None if strict && first.columns == 9 && plausible::is_one_star(pairs) => {
+                    notes.push(format!(
+                        "the first column is {} on all lines: is this a list of pairs?",
+                        first.labels[0]
+                    ));
+                }
+                None if lone && self.is_odd(asked) => notes.push(format!(
+                    "the cameras of the first line, {}, are in no other pair: delete it if it is a head",
+                    first.labels.join(" and ")
+                )),
                 None => {}
             }
             if let Some(&(a, b)) = self.pairs.first()
@@ -648,6 +682,7 @@ impl Collector {
             return Err(fault(Problem::NoNodes));
         }
         self.say(&mut read);
+        let odd = plausible::odd_columns(&self.pairs, self.names.as_ref());
         let Self {
             reading,
             mut pairs,
@@ -669,7 +704,7 @@ impl Collector {
         read.merged = merged;
         notes.extend(crate::merged(merged));
         if reading == Reading::Strict {
-            notes.extend(plausible::note(&graph));
+            notes.extend(plausible::note(&graph).or(odd));
         }
         Ok(Parsed {
             graph,
@@ -717,16 +752,28 @@ impl Collector {
         }
     }
 
+    /// Whether a label of the first line, which has not been taken in, is known from another.
+    fn knows_first(&self, first: &First) -> bool {
+        let mut labels = first.labels.iter();
+        let names = self.names.as_ref();
+        names.is_some_and(|names| labels.any(|label| names.nodes.contains_key(label)))
+    }
+
+    /// Whether the first pair, which is alone, could be a head after all: the user has named columns of
+    /// several lines, or those below hang together.
+    fn is_odd(&self, asked: bool) -> bool {
+        let nodes = self.names.as_ref().map_or(0, |names| names.nodes.len());
+        let below = &self.pairs[1..];
+        asked && below.len() > 1 || plausible::hang_together(below, nodes)
+    }
+
     /// Settles whether the first line is a head: then a note about it, else the pair is taken in.
     fn head(&mut self, first: &First) -> Result<Option<String>, Fault> {
         if first.head == Head::No {
             return Ok(None);
         }
         let labels = [&*first.labels[0], &*first.labels[1]];
-        let known = self
-            .names
-            .as_ref()
-            .is_some_and(|names| labels.iter().any(|label| names.nodes.contains_key(*label)));
+        let known = self.knows_first(first);
         let unlike = match &self.names {
             Some(names) => {
                 let mut texts = vec![""; names.nodes.len()];
@@ -740,7 +787,9 @@ impl Collector {
                     let runs = self.pairs.chunk_by(move |one, next| end(one) == end(next));
                     runs.map(move |run| texts[end(&run[0]) as usize])
                 };
+                let below = || plausible::hang_together(&self.pairs, texts.len());
                 heads::look_unlike(labels, [false, true].map(column))
+                    || !known && heads::stand_apart(labels, texts.iter().copied(), below)
             }
             None if self.pairs.is_empty() => {
                 heads::look_unlike(labels, [(); 2].map(|()| std::iter::empty()))
@@ -798,6 +847,9 @@ impl Collector {
             return Err(Place::Line(first.line).fault(Problem::NoCameras { name }));
         }
         let shown = first.shown();
+        if first.has_three_alike() && !asked {
+            return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
+        }
         let told = asked || first.head == Head::Sure || self.reading == Reading::Lenient;
         if !told && !self.heads_pairs(first) {
             return Err(Place::Line(first.line).fault(Problem::NoPairOfNames { head: shown }));
@@ -817,11 +869,17 @@ impl Collector {
             let images = |names: &Index| names.nodes.keys().all(|label| is_image(label));
             pairs().any(|pair| starts.contains(&pair.1)) || self.names.as_ref().is_some_and(images)
         };
-        heads::is_pair(a, b) || weights && (heads::may_be_pair(a, b) || below())
+        heads::is_pair(a, b) || weights && (heads::could_be_pair(a, b) || below())
     }
 }
 
 impl First {
+    /// Whether these are three names that are the same but for numbers.
+    fn has_three_alike(&self) -> bool {
+        let shapes: Vec<String> = self.names.iter().map(|name| heads::shape(name)).collect();
+        matches!(&shapes[..], [first, second, third] if first == second && second == third)
+    }
+
     /// Its first fields.
     fn shown(&self) -> String {
         const SHOWN: usize = 4;

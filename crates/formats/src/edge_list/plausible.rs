@@ -223,13 +223,13 @@ pub(super) fn note(graph: &Graph) -> Option<String> {
     }
     let alone = |&&(a, b): &&(u32, u32)| degree[a as usize] == 1 && degree[b as usize] == 1;
     let single = edges.iter().filter(alone).count();
-    if single == edges.len() && single >= FEW {
+    if single == edges.len() && single > 1 {
         return Some(format!(
             "no camera is in two of the {single} pairs: is this a list of pairs?"
         ));
     }
     // Every other component has two nodes at least, or is a camera without pairs.
-    let others = components(graph) - single;
+    let others = components(nodes, edges) - single;
     (single >= FEW && single > others).then(|| {
         format!(
             "{single} of {} connected parts are single pairs: is this a list of pairs?",
@@ -238,9 +238,54 @@ pub(super) fn note(graph: &Graph) -> Option<String> {
     })
 }
 
+/// What is odd about pairs of integers, or about names, in words: the first column counts the lines and
+/// the second goes beyond and does not; or every camera of the second column is in one pair, and none of
+/// the first is there. (A single star may well be written so.)
+pub(super) fn odd_columns(pairs: &[(u32, u32)], names: Option<&Index>) -> Option<String> {
+    let start = pairs.first()?.0;
+    let behind = start as usize + pairs.len();
+    let counts = || pairs.iter().zip(start..).all(|(pair, at)| pair.0 == at);
+    let beyond = |&(_, b): &(u32, u32)| b as usize >= behind;
+    if names.is_none()
+        && pairs.len() > FEW
+        && start <= 1
+        && counts()
+        && pairs.iter().any(beyond)
+        && !pairs.iter().all(beyond)
+    {
+        return Some("the first column counts the lines: is this a list of pairs?".to_owned());
+    }
+    let stars = stars(pairs, names?.nodes.len())?;
+    (stars > 1 && pairs.len() >= FEW).then(|| {
+        "every camera of the second column is in one pair, and none is in the first column: is this a \
+         list of pairs?"
+            .to_owned()
+    })
+}
+
+/// Whether three pairs or more have the same first camera.
+pub(super) fn is_one_star(pairs: &[(u32, u32)]) -> bool {
+    pairs.len() >= FEW && pairs.iter().all(|pair| pair.0 == pairs[0].0)
+}
+
+/// How many stars there are, with two pairs or more one of them, if the second column has all leaves.
+fn stars(pairs: &[(u32, u32)], nodes: usize) -> Option<usize> {
+    let (mut centre, mut leaf) = (vec![false; nodes], vec![false; nodes]);
+    let mut count = 0;
+    for &(a, b) in pairs {
+        if leaf[a as usize] || centre[b as usize] || leaf[b as usize] {
+            return None;
+        }
+        count += usize::from(!centre[a as usize]);
+        centre[a as usize] = true;
+        leaf[b as usize] = true;
+    }
+    Some(count).filter(|&count| count < pairs.len())
+}
+
 /// How many connected parts a graph has. Nearly linear.
-fn components(graph: &Graph) -> usize {
-    let mut parent: Vec<u32> = (0..graph.nodes() as u32).collect();
+fn components(nodes: usize, pairs: &[(u32, u32)]) -> usize {
+    let mut parent: Vec<u32> = (0..nodes as u32).collect();
     fn root(parent: &mut [u32], mut node: u32) -> u32 {
         while parent[node as usize] != node {
             parent[node as usize] = parent[parent[node as usize] as usize];
@@ -248,8 +293,8 @@ fn components(graph: &Graph) -> usize {
         }
         node
     }
-    let mut parts = graph.nodes();
-    for &(a, b) in graph.edges() {
+    let mut parts = nodes;
+    for &(a, b) in pairs {
         let (a, b) = (root(&mut parent, a), root(&mut parent, b));
         if a != b {
             parent[a as usize] = b;
@@ -257,6 +302,17 @@ fn components(graph: &Graph) -> usize {
         }
     }
     parts
+}
+
+/// Whether two pairs or more, of so many nodes in all, are one connected part.
+pub(super) fn hang_together(pairs: &[(u32, u32)], nodes: usize) -> bool {
+    let mut in_pairs = vec![false; nodes];
+    for &(a, b) in pairs {
+        in_pairs[a as usize] = true;
+        in_pairs[b as usize] = true;
+    }
+    let alone = in_pairs.iter().filter(|is_in| !**is_in).count();
+    pairs.len() > 1 && components(nodes, pairs) == alone + 1
 }
 
 #[cfg(test)]
@@ -338,7 +394,7 @@ mod tests {
             notes("a b\nc d\ne f\ng h\nh i\n"),
             ["3 of 4 connected parts are single pairs: is this a list of pairs?"]
         );
-        assert!(notes("a b\nc d\n").is_empty());
+        assert!(notes("a b\n").is_empty());
         assert!(notes("a b\nc d\ne f\ng h\nh i\nj k\nk l\nm n\nn o\n").is_empty());
     }
 }

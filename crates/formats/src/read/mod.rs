@@ -405,7 +405,19 @@ fn list(sampled: Sampled, reading: Reading, options: &ListOptions) -> Result<Par
         _ => edge_list::layout::layout(&head, whole, options)
             .map_err(|problem| Place::Input.fault(problem))?,
     };
-    let read = edge_list::read_with(sampled.into_input(), reading, layout, options);
+    let mut read = edge_list::read_with(sampled.into_input(), reading, layout, options);
+    // What stands beside itself may be a table, and is no pair less then.
+    let has_self_pairs = match &read {
+        Ok(_) => options.skip_loops,
+        Err(fault) => matches!(fault.problem, Problem::SelfLoop(_)),
+    };
+    if has_self_pairs
+        && reading == Reading::Strict
+        && options.columns.is_none()
+        && let Some(problem) = recognise::with_self_pairs(&head, whole)
+    {
+        read = Err(Place::Input.fault(problem));
+    }
     read.map_err(|Fault { place, problem }| {
         let likely = || recognise::likely(&head, whole);
         match reading {
