@@ -52,6 +52,8 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     let options = ReadOptions {
         tracks: Some(TrackOptions {
             min_views: arguments.min_views.unwrap_or(default.min_views),
+            // Frames are looked at below: all images have to be there, to be written.
+            rigs: false,
             ..default
         }),
         ..ReadOptions::default()

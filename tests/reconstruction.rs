@@ -66,7 +66,10 @@ fn rigs_hold_together_what_the_global_mapper_places_right() {
     let errors = String::from_utf8_lossy(&run.stderr);
     assert!(run.status.success(), "{said}{errors}");
     let row = said.lines().last().unwrap();
-    assert!(row.starts_with("| all | 10 | 6 | 6 | 0 | 0 | 0 | 0 | 6 |"), "{said}");
+    assert!(
+        row.starts_with("| all | 10 | 6 | 6 | 0 | 0 | 0 | 0 | 6 |"),
+        "{said}"
+    );
 }
 
 /// Models that the global mapper has glued, and some that are right: each part that `verify split`

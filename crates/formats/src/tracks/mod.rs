@@ -15,6 +15,7 @@ mod join;
 mod kind;
 mod model;
 mod model_binary;
+mod model_rigs;
 mod model_text;
 mod nvm;
 mod openmvg;

@@ -9,7 +9,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::graph::{TrackGraph, TrackOptions, sorted};
-use super::{model_binary, model_text};
+use super::{model_binary, model_rigs, model_text};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use viewcert::wording::counted;
@@ -99,7 +99,12 @@ pub(super) fn beside(
     };
     let unnamed = images.is_none();
     let images = images.unwrap_or_else(|| numbered(&points));
-    let mut graph = graph(images, unnamed, &points, options)?;
+    let rigs = if options.rigs && !unnamed {
+        rigs_beside(folder, encoding)?.map(|rigs| (encoding, rigs))
+    } else {
+        None
+    };
+    let mut graph = graph(images, unnamed, &points, rigs, options)?;
     if unnamed {
         graph.notes.insert(
             0,
@@ -111,6 +116,25 @@ pub(super) fn beside(
         );
     }
     Ok(graph)
+}
+
+/// The files of rigs and of frames, if both are there.
+fn rigs_beside(folder: Option<&Path>, encoding: Encoding) -> Result<Option<[Vec<u8>; 2]>, Fault> {
+    let names = match encoding {
+        Encoding::Binary => ["rigs.bin", "frames.bin"],
+        Encoding::Text => ["rigs.txt", "frames.txt"],
+    };
+    let Some(folder) = folder else {
+        return Ok(None);
+    };
+    let paths = names.map(|name| folder.join(name));
+    if !paths.iter().all(|path| path.is_file()) {
+        return Ok(None);
+    }
+    let read = |path: &Path| {
+        std::fs::read(path).map_err(|error| within(path, Place::Input.fault(error.into())))
+    };
+    Ok(Some([read(&paths[0])?, read(&paths[1])?]))
 }
 
 fn open(path: &Path) -> Result<File, Fault> {
@@ -158,6 +182,7 @@ fn graph(
     images: Vec<Image>,
     in_order: bool,
     points: &Points,
+    rigs: Option<(Encoding, [Vec<u8>; 2])>,
     options: TrackOptions,
 ) -> Result<NamedGraph, Fault> {
     let input = |problem: Problem| Place::Input.fault(problem);
@@ -174,7 +199,16 @@ fn graph(
     if node_of.len() < count {
         return Err(input(Problem::Corrupt("two images have one number".into())));
     }
+    let frames = match &rigs {
+        Some((encoding, [rigs, frames])) => Some(model_rigs::frames(
+            rigs, frames, *encoding, &names, &node_of,
+        )?),
+        None => None,
+    };
     let mut graph = TrackGraph::new(names, options)?;
+    if let Some(frames) = frames {
+        graph.set_frames(frames);
+    }
     let mut views = Vec::new();
     let (mut from, mut doubled) = (0, 0);
     for &end in &points.ends {
