@@ -415,6 +415,7 @@ fn the_threshold_and_what_is_left_out() {
             "ignored: 1 verified pair with an image that the database does not have",
             "ignored: 1 verified pair of an image with itself",
             "1 image is in no pair that is used: it is a camera that nothing determines",
+            "the numbers of the images are not in the order of their names",
         ]
     );
     assert_eq!(line["database"]["connected"], json!([3, 1]));

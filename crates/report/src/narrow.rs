@@ -45,10 +45,8 @@ pub(crate) fn write<W: Write>(
 
 /// A line for each special place.
 fn warnings(found: &Narrow) -> Vec<String> {
-    const SPECIAL: &str =
-        "from one place: panoramic, or rays less than a degree apart in the median";
-    const MEANS: &str =
-        "what the verdict says of positions there does not hold of these photographs";
+    const SPECIAL: &str = "from one place";
+    const MEANS: &str = "verdicts are about generic places";
     let few = found.few.iter().filter(|few| few.special).map(|few| {
         let [one, other] = few.sides;
         format!(

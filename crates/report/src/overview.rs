@@ -360,9 +360,22 @@ impl Overview<'_> {
         self.write_joints(out)?;
         narrow::write(out, &self.narrow, wrapped)?;
         let follows = self.follows();
-        wrapped(out, "follows", &format!("global: {}", follows.global))?;
-        wrapped(out, "", &format!("incremental: {}", follows.incremental))?;
-        wrapped(out, "", &format!("averaging {}", follows.averaging))?;
+        let mut words = vec![
+            format!("global: {}", follows.global),
+            format!("incremental: {}", follows.incremental),
+            format!("averaging {}", follows.averaging),
+        ];
+        // The first lines have said it.
+        if self
+            .mappers
+            .as_ref()
+            .is_some_and(|foreseen| foreseen.global.parts.len() > 1)
+        {
+            words.remove(0);
+        }
+        for (k, words) in words.iter().enumerate() {
+            wrapped(out, if k == 0 { "follows" } else { "" }, words)?;
+        }
         for (k, next) in self.next.iter().enumerate() {
             let title = if k == 0 { "next" } else { "" };
             writeln!(out, "  {title:<12}{}", next.command)?;
