@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Generic Counting Rigid Components Elimination Flows Checker Separation Sanity.
+From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Checker Separation Sanity.
 
 Extract Inlined Constant muln => "(( * ) : int -> int -> int)".
 Extract Inlined Constant addn => "((+) : int -> int -> int)".
@@ -19,6 +19,9 @@ Print Assumptions exact_rank.
 Print Assumptions has_full_rank.
 Print Assumptions lacks_full_rank.
 Print Assumptions lemma_1_1.
+Print Assumptions lemma_1_2.
+Print Assumptions differential.
+Print Assumptions kernel_of_map.
 Print Assumptions proposition_1_4.
 Print Assumptions lemma_3_1.
 Print Assumptions corollary_3_3.
