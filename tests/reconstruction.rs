@@ -135,6 +135,41 @@ fn most_of_what_is_foreseen_happens() {
     }
 }
 
+/// Photographs that were matched exhaustively are cut, and the advice is followed: nine of ten cuts are
+/// whole again, with two tries for each join at most in half of them.
+#[test]
+fn advice_on_photographs_can_be_followed() {
+    let Some(python) = python_with("sqlite3") else {
+        return;
+    };
+    let Some(data) = common::data() else { return };
+    let photos = ["banana", "monstree", "lund"].map(|name| {
+        let path = data.join(format!("colmap/photos_{name}.db"));
+        path.into_os_string()
+    });
+    if !photos.iter().all(|path| Path::new(path).is_file()) {
+        absent("the databases of photographs are not there");
+        return;
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/advice.py");
+    let run = Command::new(python)
+        .arg(script)
+        .args(["--verify", env!("CARGO_BIN_EXE_verify"), "--every", "12"])
+        .args(photos)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stdout);
+    let errors = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{said}{errors}");
+    let row = said.lines().find(|line| line.starts_with("| all | all | "));
+    let cells: Vec<&str> = row.unwrap().split(" | ").collect();
+    let number = |cell: &str| -> f64 { cell.split(' ').next().unwrap().parse().unwrap() };
+    let (cuts, mended) = (number(cells[2]), number(cells[3]));
+    assert!(cuts >= 40.0, "{said}");
+    assert!(mended >= 0.9 * cuts, "{said}");
+    assert!(number(cells[4]) <= 2.0, "{said}");
+}
+
 /// A database of two clusters that share an image, as mappers.py makes it; a list of matches for
 /// every pair.
 fn clusters(python: &OsStr, folder: &Path) {

@@ -54,6 +54,11 @@ class Suggestion:
         How many these are more than in the largest component that is joined.
     inliers, matches : tuple of int, optional
         Of each pair, as far as a database knows.
+    tried : tuple of str, optional
+        What has become of matching each pair so far, as far as a database knows: ``'left-out'``,
+        ``'not-verified'``, ``'not-tried'``, ``'few'``, ``'in-vain'`` or ``'used'``.
+    why : tuple of str
+        Why each pair is worth trying, in words: a guess.
     """
 
     pairs: Tuple[_Pair, ...]
