@@ -56,7 +56,8 @@ pub struct Lists {
     pub lists: Vec<Found>,
     /// Which lists have images in common.
     pub overlaps: Vec<Overlap>,
-    /// Sets of parts whose relative scale is fixed by overlaps, the sets with most images first.
+    /// Sets of parts whose relative scale is fixed by overlaps, the sets with most images first, then
+    /// those of the first lists.
     pub fixed: Vec<Fixed>,
     /// Whether every list is whole, and one set has them all.
     pub determined: bool,
@@ -185,7 +186,7 @@ fn fixed(
         });
     }
     assert!(left.is_empty(), "every body lies in a component");
-    fixed.sort_by_key(|set| std::cmp::Reverse(set.images));
+    fixed.sort_by_key(|set| (std::cmp::Reverse(set.images), set.parts.clone()));
     Ok(fixed)
 }
 
