@@ -36,9 +36,8 @@ pub(super) struct CheckArguments {
     /// The graph it is about; not needed if the certificate embeds it.
     #[arg(value_name = "GRAPH")]
     graph: Option<PathBuf>,
-    /// Run the checker that is proved correct as well, `viewcert-proved`, on GRAPH, as `verify convert`
-    /// writes it, and this explicit proof, as `verify GRAPH --proof` does; and say of each claim which
-    /// checkers vouch for it.
+    /// Ask `viewcert-proved` as well, with this explicit proof (`verify GRAPH --proof`), and say which
+    /// checkers vouch for each claim.
     #[arg(
         long,
         value_name = "PROOF",
