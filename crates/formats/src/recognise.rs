@@ -270,7 +270,7 @@ const FIRST_WORDS: [(&str, &str, &str); 10] = [
 const TORO: &str = "write the two ids of every edge: awk '/^EDGE/ { print $2, $3 }' FILE";
 
 /// First comments of texts that might pass for edge lists.
-const FIRST_COMMENTS: [(&str, &str, &str); 6] = [
+const FIRST_COMMENTS: [(&str, &str, &str); 7] = [
     (
         "# Image list with two lines of data per image",
         "COLMAP's images.txt",
@@ -289,6 +289,11 @@ const FIRST_COMMENTS: [(&str, &str, &str); 6] = [
     (
         "# Rig calib list with one line of data per calib",
         "COLMAP's rigs.txt",
+        COLMAP,
+    ),
+    (
+        "# Frame list with one line of data per frame",
+        "COLMAP's frames.txt",
         COLMAP,
     ),
     ("# Bundle file", "a Bundler file", TRACKS),

@@ -81,7 +81,7 @@ pub(super) fn counts(lines: &[Vec<&str>]) -> Option<Problem> {
 pub(super) fn neighbours(lines: &[Vec<&str>]) -> Option<Problem> {
     let width = lines.first()?.len();
     let even = lines.iter().all(|line| line.len() == width);
-    if width < 4 || !even || lines.len() <= width - 1 {
+    if width < 4 || !even || lines.len() < width {
         return None;
     }
     let starts: HashSet<&str> = lines.iter().map(|line| line[0]).collect();

@@ -216,6 +216,7 @@ def misled(read, no):
     no("triangle.ele", "2 3 0\n0 0 1 2\n1 1 2 3\n", "another number of fields than all others", writer="Triangle, .ele")
     no("metis-weights.graph", "% comment\n4 4 001\n2 5 4 7\n1 5 3 2\n2 2 4 1\n3 1 1 7\n", "; ", writer="METIS with weights")
     no("bal.txt", "2 2 3\n0 0 1.5 2.5\n1 0 3.5 4.5\n0 1 1.5 0.5\n0.1\n0.2\n", "bundle adjustment problem", writer="BAL")
+    no("colmap-frames.txt", "# Frame list with one line of data per frame:\n#   FRAME_ID, RIG_ID, RIG_FROM_WORLD[QW, QX, QY, QZ, TX, TY, TZ], NUM_DATA_IDS, DATA_IDS[] as (SENSOR_TYPE, SENSOR_ID, DATA_ID)\n# Number of frames: 1\n1 1 1 0 0 0 0 0 0 1 CAMERA 1 1\n", "COLMAP's frames.txt", writer="COLMAP, frames.txt")
     no("formula.cnf", "p cnf 3 2\n1 -3 0\n2 3 -1 0\n", "DIMACS CNF", writer="DIMACS CNF")
     for degree, size in [(8, 12), (4, 7)]:
         graph = nx.random_regular_graph(degree, size, seed=1)

@@ -60,7 +60,12 @@ impl Lines<'_> {
                     (1..=3).contains(&field.len()) && field.bytes().all(|b| b == b'0' || b == b'1')
                 };
                 let further = self.first.names.get(2..).unwrap_or_default();
-                let alone = further.is_empty() || further.len() == 1 && flags(&further[0]);
+                let few = self.pairs.len() <= FEW;
+                let alone = match further {
+                    [] => true,
+                    [flag] => flags(flag) && !few,
+                    _ => false,
+                };
                 let labels = &self.first.labels;
                 alone.then_some([digits(&labels[0])?, digits(&labels[1])?])
             }
@@ -142,8 +147,10 @@ impl Lines<'_> {
             return false;
         }
         let mut kinds = vec![Kind::Word; names.nodes.len()];
+        let mut letters = vec![false; kinds.len()];
         for (label, &node) in &names.nodes {
             kinds[node as usize] = Kind::of(label);
+            letters[node as usize] = !label.bytes().any(|b| b.is_ascii_digit());
         }
         let kind = |node: u32| kinds[node as usize];
         let mut times = vec![0u32; kinds.len()];
@@ -151,10 +158,11 @@ impl Lines<'_> {
             times[a as usize] += 1;
             times[b as usize] += 1;
         }
-        let word = |node: u32| kind(node) == Kind::Word && times[node as usize] == 1;
-        let is_of_words = |&&(a, b): &&(u32, u32)| {
-            word(a) && (word(b) || kind(b) == Kind::Number) || kind(a) == Kind::Number && word(b)
-        };
+        let other = |node: u32| kind(node) == Kind::Word && times[node as usize] == 1;
+        // `12b` is a camera beside `12`.
+        let word = |node: u32| other(node) && letters[node as usize];
+        let beside = |node: u32| other(node) || kind(node) == Kind::Number;
+        let is_of_words = |&&(a, b): &&(u32, u32)| word(a) && beside(b) || word(b) && beside(a);
         let is_usual = |&&(a, b): &&(u32, u32)| kind(a) == usual && kind(b) == usual;
         let words = self.pairs.iter().filter(is_of_words).count();
         let usual = self.pairs.iter().filter(is_usual).count();

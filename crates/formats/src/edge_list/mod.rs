@@ -20,7 +20,7 @@ use std::io::{self, Read};
 
 use crate::error::{Fault, Place, Problem};
 use crate::read_as::{Parsed, ReadAs};
-use viewcert::graph::{Graph, GraphError};
+use viewcert::graph::{Graph, GraphError, Labels};
 use viewcert::wording::counted;
 
 mod counts;
@@ -648,7 +648,12 @@ impl Collector {
             };
             let doubt = doubt.or_else(|| lines.problem().filter(|_| !self.doubts.has_quotes()));
             let doubt = doubt.or_else(|| plausible::problem(pairs, names));
-            let below = || plausible::problem(&pairs[1..], names).filter(|_| lone);
+            let below = || {
+                let is_odd = lone && !self.doubts.has_quotes();
+                is_odd
+                    .then(|| plausible::problem(&pairs[1..], names))
+                    .flatten()
+            };
             let doubt = doubt.or_else(below);
             match doubt {
                 Some(problem) if strict => return Err(fault(problem)),
@@ -704,7 +709,8 @@ impl Collector {
         read.merged = merged;
         notes.extend(crate::merged(merged));
         if reading == Reading::Strict {
-            notes.extend(plausible::note(&graph).or(odd));
+            let has_names = matches!(labels, Labels::Names(_));
+            notes.extend(plausible::note(&graph, has_names).or(odd));
         }
         Ok(Parsed {
             graph,

@@ -209,7 +209,7 @@ fn is_index(pairs: &[(u32, u32)]) -> bool {
 }
 
 /// What is odd about a graph, in words.
-pub(super) fn note(graph: &Graph) -> Option<String> {
+pub(super) fn note(graph: &Graph, has_names: bool) -> Option<String> {
     let (nodes, edges) = (graph.nodes(), graph.edges());
     // A connected graph has a node more than pairs at most.
     if nodes <= edges.len() + 1 {
@@ -223,7 +223,9 @@ pub(super) fn note(graph: &Graph) -> Option<String> {
     }
     let alone = |&&(a, b): &&(u32, u32)| degree[a as usize] == 1 && degree[b as usize] == 1;
     let single = edges.iter().filter(alone).count();
-    if single == edges.len() && single > 1 {
+    // Two pairs of numbers are an example of two pairs.
+    let few = if has_names { FEW - 1 } else { FEW };
+    if single == edges.len() && single >= few {
         return Some(format!(
             "no camera is in two of the {single} pairs: is this a list of pairs?"
         ));
@@ -394,7 +396,8 @@ mod tests {
             notes("a b\nc d\ne f\ng h\nh i\n"),
             ["3 of 4 connected parts are single pairs: is this a list of pairs?"]
         );
-        assert!(notes("a b\n").is_empty());
+        assert_eq!(notes("a b\nc d\n").len(), 1);
+        assert!(notes("0 1\n2 3\n").is_empty() && notes("a b\n").is_empty());
         assert!(notes("a b\nc d\ne f\ng h\nh i\nj k\nk l\nm n\nn o\n").is_empty());
     }
 }

@@ -171,7 +171,9 @@ fn heads() {
     ] {
         for reading in [Reading::Strict, Reading::Lenient] {
             let (edges, labels, notes) = listed(text, reading);
-            assert_eq!((edges.len(), labels.len(), notes.len()), (2, nodes, 0));
+            // Two single pairs of names are odd.
+            let odd = usize::from(nodes == 4 && reading == Reading::Strict);
+            assert_eq!((edges.len(), labels.len(), notes.len()), (2, nodes, odd));
         }
     }
     for (text, phrase) in [
@@ -378,6 +380,7 @@ fn what_could_be_something_else() {
         (b"0 1\n1 0\n", "an adjacency matrix"),
         (b"0 1 2\n1 2 3\n", "a list of stars"),
         (b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 1\n", "an adjacency list"),
+        (b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 2\n", "every third field"),
         (b"1 a\n2 b\n3 c\n#\n1 2\n2 3\n", "the Trivial Graph Format"),
         (b"0.5 1.5\n2 3e1\n", "these could be coordinates"),
     ] {
@@ -399,7 +402,7 @@ fn what_could_be_something_else() {
         b"0 1\n1 0\n0 1\n",
         b"0 1 2\n1 2 9\n",
         b"0 1 2\n2 1 3\n",
-        b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 2\n",
+        b"1 2 5\n2 1 3\n3 2 4\n4 3 5\n5 4 7\n",
         b"a b\n#\nb c\n",
         b"07 08\n08 09\n",
         b"\"1.5\" 2.5\n",

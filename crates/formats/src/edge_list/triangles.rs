@@ -9,7 +9,7 @@
 /// More lines say no more.
 const MOST: usize = 1 << 12;
 /// Fewer lines may be weights by chance.
-const FEW: usize = 3;
+const FEW: usize = 4;
 /// Of more lines than that, a quarter has another pair of theirs on a line of its own.
 const SURE: usize = 64;
 
