@@ -25,6 +25,7 @@ mod limits;
 mod lists;
 mod merge;
 mod models;
+mod next;
 mod overview;
 mod plan;
 mod question;

@@ -1,0 +1,110 @@
+//! The commands that lead on from an overview.
+
+use super::input::InputArguments;
+use std::path::Path;
+use viewcert_advice::export::shell;
+use viewcert_formats::ReadOptions;
+use viewcert_report::overview::{Next, Overview};
+
+/// Commands that lead on from here.
+pub(super) fn next(arguments: &InputArguments, path: &Path, found: &Overview) -> Vec<Next> {
+    let with_tracks = found.tracks.is_some();
+    let (graph, tracks) = if with_tracks {
+        (" --tracks", arguments.words_of_tracks())
+    } else {
+        (" --model calibrated", String::new())
+    };
+    let read = options_of(&arguments.read_options());
+    let file = shell(&path.display().to_string());
+    let command = |verb: &str, graph: &str, what: &str, purpose: &'static str| Next {
+        command: format!("verify {verb} {file}{graph}{read}{what}"),
+        purpose,
+    };
+    // Advice is about images that have a centre each.
+    let displaced = found
+        .tracks
+        .as_ref()
+        .is_some_and(|report| !report.verdict.displacements.is_empty());
+    let advise = |graph: &str, what: &str, purpose| {
+        let rigs = if displaced && graph.starts_with(" --tracks") {
+            " --no-rigs"
+        } else {
+            ""
+        };
+        command("advise", &format!("{graph}{rigs}"), what, purpose)
+    };
+    let decided = format!("{graph}{tracks}");
+    // How many tracks can be missing does not tell kept promises from broken ones
+    // (docs/reconstruction.md, 'Margin').
+    let few = "how many pairs can be missing before parts fall apart";
+    let margin = (!with_tracks).then(|| advise(&decided, " --margin", few));
+    if found.determined() {
+        return Vec::from_iter(margin);
+    }
+    let mut next = Vec::new();
+    // These are about one graph, and a path may hold several.
+    let single = found.name == path.display().to_string();
+    if single && found.has_parts() && !found.is_one_part() {
+        next.push(command(
+            "export",
+            &format!(" DIR{decided}"),
+            "",
+            "the images of every part, as lists for the mappers",
+        ));
+    }
+    if found.has_parts() && !found.is_one_part() {
+        next.push(advise(
+            &decided,
+            " --suggest",
+            if with_tracks {
+                "images to match that would join parts, and how much has to come of it"
+            } else {
+                "pairs to match that would join parts"
+            },
+        ));
+    }
+    if with_tracks && found.averaging().is_some_and(|parts| !parts.whole) {
+        next.push(advise(
+            " --model calibrated",
+            " --suggest",
+            "pairs to match that would join parts of the pairs",
+        ));
+    }
+    if let Some(image) = found.outside().filter(|_| single) {
+        next.push(advise(
+            &decided,
+            &format!(" --explain {}", shell(&image)),
+            "an image outside the largest part, and what it would need",
+        ));
+    }
+    next.extend(margin);
+    next
+}
+
+/// The options by which graphs were read, as they are written.
+fn options_of(read: &ReadOptions) -> String {
+    let mut text = String::new();
+    if let Some(format) = read.format {
+        text += &format!(" --format {format}");
+    }
+    if let Some(variable) = &read.variable {
+        text += &format!(" --variable {}", shell(variable));
+    }
+    if let Some(pipeline) = read.pipeline {
+        text += &format!(" --pipeline {pipeline}");
+    }
+    if let Some(count) = read.min_inliers {
+        text += &format!(" --min-inliers {count}");
+    }
+    let list = &read.list;
+    if let Some(columns) = &list.columns {
+        text += &format!(" --columns {}", shell(&columns.to_string()));
+    }
+    if let Some(least) = &list.min_weight {
+        text += &format!(" --min-weight {least}");
+    }
+    if list.skip_loops {
+        text += " --skip-loops";
+    }
+    text
+}
