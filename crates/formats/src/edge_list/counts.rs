@@ -175,8 +175,10 @@ impl Lines<'_> {
         self.names.is_none_or(|names| {
             let plain =
                 |label: &str| digits(label).is_some() && (label == "0" || !label.starts_with('0'));
-            let padded =
-                |label: &str| digits(label).is_some() && first.iter().any(|one| **one == *label);
+            let enough = self.pairs.len() > FEW;
+            let padded = |label: &str| {
+                enough && digits(label).is_some() && first.iter().any(|one| **one == *label)
+            };
             names
                 .nodes
                 .keys()
