@@ -80,7 +80,7 @@ impl Lines<'_> {
         let lines = others.len() as u64 + self.left_out;
         let few = others.len() < FEW;
         let (usual, reversed) = (y == lines, x == lines && x >= y && !few);
-        let twice = lines % 2 == 0 && lines / 2 == y && self.left_out == 0 && !few;
+        let twice = lines.is_multiple_of(2) && lines / 2 == y && self.left_out == 0 && !few;
         if !(usual || reversed || twice) || !self.are_numbers() {
             return false;
         }
