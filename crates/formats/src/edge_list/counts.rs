@@ -80,7 +80,7 @@ impl Lines<'_> {
         let lines = others.len() as u64 + self.left_out;
         let few = others.len() < FEW;
         let (usual, reversed) = (y == lines, x == lines && x >= y && !few);
-        let twice = lines == 2 * y && self.left_out == 0 && !few;
+        let twice = lines.is_multiple_of(2) && lines / 2 == y && self.left_out == 0 && !few;
         if !(usual || reversed || twice) || !self.are_numbers() {
             return false;
         }
@@ -175,8 +175,10 @@ impl Lines<'_> {
         self.names.is_none_or(|names| {
             let plain =
                 |label: &str| digits(label).is_some() && (label == "0" || !label.starts_with('0'));
-            let padded =
-                |label: &str| digits(label).is_some() && first.iter().any(|one| **one == *label);
+            let enough = self.pairs.len() > FEW;
+            let padded = |label: &str| {
+                enough && digits(label).is_some() && first.iter().any(|one| **one == *label)
+            };
             names
                 .nodes
                 .keys()
