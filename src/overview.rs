@@ -21,7 +21,7 @@ use viewcert::wording::counted;
 use viewcert_advice::{Advice, Request, Shapes, named_joints};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs, with_rigs};
+use viewcert_formats::{NamedGraph, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Overview, Wanted};

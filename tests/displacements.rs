@@ -262,7 +262,6 @@ fn what_knows_nothing_of_displacements_refuses_by_name() {
             &["--method", "matrix"],
             "the matrix of the whole graph has none",
         ),
-        (&["--tracks"], "tracks are decided by themselves"),
         (
             &["--proof", "p.txt"],
             "explicit proofs are written in the projective",
@@ -281,18 +280,18 @@ fn what_knows_nothing_of_displacements_refuses_by_name() {
         assert!(run.err.contains(why), "{}", run.err);
     }
     let file = File::new("known.txt", "displacement 0 1\n");
-    let export = [
-        "export",
-        "-",
-        "out",
-        "--model",
-        "calibrated",
-        "--given",
-        file.text(),
-    ];
-    let run = verify_with(cycle(4).as_bytes(), &export);
+    let known = ["--model", "calibrated", "--given", file.text()];
+    let advise = [&["advise", "-", "--suggest"], &known[..]].concat();
+    let run = verify_with(cycle(4).as_bytes(), &advise);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("in ways of their own"), "{}", run.err);
+    // Components can be written all the same.
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let export = [&["export", "-", out.to_str().unwrap()], &known[..]].concat();
+    let run = verify_with(cycle(4).as_bytes(), &export);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(out.join("components/001/images.txt").is_file());
     for model in [&[][..], &["--model", "projective"], &["--model", "affine"]] {
         let own = ["-", "--given", file.text()];
         let run = verify_with(cycle(4).as_bytes(), &[&own[..], model].concat());

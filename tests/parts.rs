@@ -261,7 +261,6 @@ fn what_is_wrong_is_said() {
             vec!["--method", "matrix"],
             "the matrix of the whole graph has none",
         ),
-        (vec!["--tracks"], "tracks are decided by themselves"),
         (vec![two.as_str()], "this is about one graph"),
         (vec!["--proof", "p"], "explicit proofs rest on pairs alone"),
         (vec!["--certificate", &own], "parts.txt"),
