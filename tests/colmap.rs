@@ -1148,6 +1148,8 @@ fn rigs_hold_parts_together() {
             .iter()
             .any(|note| note.contains("not used here"))
     );
+    let advise = [&["advise", "--suggest", text(&path)], &OF_TWO[..]].concat();
+    is_refusal(&verify(&advise), &["in ways of their own", "--no-rigs"]);
     // The certificate states the base lines, and both checkers ask for them.
     let file = |name: &str| made.folder.path().join(name);
     let [certificate, graph, given] = ["c.json", "g.txt", "given.txt"].map(file);

@@ -49,7 +49,7 @@ pub struct Hinges {
 /// by a flow (Gusfield 1990). O(m d) for degrees d, and O(k^3) for k groups.
 pub fn cuts(graph: &Graph) -> Vec<Cut> {
     let (mut groups, count) = groups(graph);
-    if count < 2 || count > GROUPS {
+    if !(2..=GROUPS).contains(&count) {
         return Vec::new();
     }
     let images = graph.nodes();
@@ -99,18 +99,18 @@ pub fn cuts(graph: &Graph) -> Vec<Cut> {
                 Ordering::Greater => false,
             };
             let all = 0..images as u32;
-            let of_side = all
+            let of_side: Vec<u32> = all
                 .filter(|&v| side[group_of[v as usize]] == smaller)
                 .collect();
             found.insert((pairs.len(), pairs), of_side);
         }
     }
-    let cut = |((_, pairs), side): ((usize, Vec<(u32, u32)>), Vec<u32>)| Cut {
+    let cuts = found.into_iter().map(|((_, pairs), side)| Cut {
         others: images - side.len(),
         pairs,
         side,
-    };
-    found.into_iter().map(cut).collect()
+    });
+    cuts.collect()
 }
 
 /// Groups that more than [`FEW`] pairs hold together, as far as common neighbours and parallel pairs
@@ -243,12 +243,10 @@ fn without(graph: &Graph, hinges: [u32; 2]) -> Vec<Vec<u32>> {
         paired[b as usize] = true;
     }
     let mut groups: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
-    for image in 0..graph.nodes() {
-        if paired[image] && !hinges.contains(&(image as u32)) {
-            groups
-                .entry(sets.find(image))
-                .or_default()
-                .push(image as u32);
+    for (image, paired) in (0u32..).zip(paired) {
+        if paired && !hinges.contains(&image) {
+            let group = groups.entry(sets.find(image as usize)).or_default();
+            group.push(image);
         }
     }
     let mut groups: Vec<Vec<u32>> = groups.into_values().collect();
