@@ -229,6 +229,10 @@ impl Frames {
     }
 
     /// The camera of an image, by their numbers.
+    #[cfg_attr(
+        not(feature = "databases"),
+        expect(dead_code, reason = "databases alone know pairs of images")
+    )]
     pub(crate) fn camera_of(&self, image: u32) -> u32 {
         self.cameras.get(image as usize).copied().unwrap_or(image)
     }
