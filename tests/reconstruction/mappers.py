@@ -163,18 +163,8 @@ class Scene:
         inverse = numpy.linalg.inv(camera.calibration_matrix())
         for (first, second), points in sorted(self.pairs.items()):
             rows = [(self.seen[first][p][0], self.seen[second][p][0]) for p in sorted(points)]
-            (r1, c1), (r2, c2) = self.pose[first], self.pose[second]
-            rotation, translation = r2 @ r1.T, r2 @ (c1 - c2)
-            geometry = pycolmap.TwoViewGeometry()
-            geometry.config = int(pycolmap.TwoViewGeometryConfiguration.CALIBRATED)
-            geometry.inlier_matches = numpy.array(rows, dtype=numpy.uint32)
-            geometry.cam2_from_cam1 = pycolmap.Rigid3d(pycolmap.Rotation3d(rotation), translation)
-            x, y, z = translation
-            cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-            geometry.E = cross @ rotation
-            geometry.F = inverse.T @ geometry.E @ inverse
-            database.write_matches(ids[first], ids[second], geometry.inlier_matches)
-            database.write_two_view_geometry(ids[first], ids[second], geometry)
+            poses = self.pose[first], self.pose[second]
+            write_pair(database, (ids[first], ids[second]), poses, inverse, rows)
         database.close()
 
     def placed(self, models, one, other):
@@ -188,6 +178,22 @@ class Scene:
                 b = numpy.array([truth[name] for name in names])
                 return misfit(a, b)
         return None
+
+
+def write_pair(database, ids, poses, inverse, rows):
+    """A verified pair of two images, by their true poses (rotation, centre) and the inverse of their calibration."""
+    (r1, c1), (r2, c2) = poses
+    rotation, translation = r2 @ r1.T, r2 @ (c1 - c2)
+    geometry = pycolmap.TwoViewGeometry()
+    geometry.config = int(pycolmap.TwoViewGeometryConfiguration.CALIBRATED)
+    geometry.inlier_matches = numpy.array(rows, dtype=numpy.uint32)
+    geometry.cam2_from_cam1 = pycolmap.Rigid3d(pycolmap.Rotation3d(rotation), translation)
+    x, y, z = translation
+    cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    geometry.E = cross @ rotation
+    geometry.F = inverse.T @ geometry.E @ inverse
+    database.write_matches(*ids, geometry.inlier_matches)
+    database.write_two_view_geometry(*ids, geometry)
 
 
 def misfit(a, b):
