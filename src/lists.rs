@@ -4,7 +4,6 @@ use super::input::InputArguments;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -16,7 +15,6 @@ use viewcert_advice::lists::{self, List};
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_report::lists::ListReport;
 use viewcert_session::Session;
-use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
 
 /// Lists, and what they are about.
@@ -66,14 +64,12 @@ pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<ExitCo
         lists: &found,
         time: start.elapsed(),
     };
-    let mut out = outputs::text(&[]);
-    if arguments.json {
-        report.write_json(&mut out)?
-    } else {
-        report.write(&mut out)?
-    }
-    out.flush().context("standard output")?;
-    Ok(ExitCode::from(if found.determined { GOOD } else { NOT }))
+    outputs::answer(
+        arguments.json,
+        found.determined,
+        |out| report.write_json(out),
+        |out| report.write(out),
+    )
 }
 
 /// The one graph of a file.

@@ -3,7 +3,6 @@
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -12,7 +11,6 @@ use viewcert_advice::merge;
 use viewcert_formats::{Model, read_graphs};
 use viewcert_report::merge::MergeReport;
 use viewcert_session::Session;
-use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
 
 /// Two models, and what they come from.
@@ -73,14 +71,12 @@ pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<ExitC
         merge: &found,
         time: start.elapsed(),
     };
-    let mut out = outputs::text(&[]);
-    if arguments.json {
-        report.write_json(&mut out)?
-    } else {
-        report.write(&mut out)?
-    }
-    out.flush().context("standard output")?;
-    Ok(ExitCode::from(if found.determined { GOOD } else { NOT }))
+    outputs::answer(
+        arguments.json,
+        found.determined,
+        |out| report.write_json(out),
+        |out| report.write(out),
+    )
 }
 
 fn read(session: &Session, path: &Path) -> Result<Model> {

@@ -2,7 +2,6 @@
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -15,7 +14,6 @@ use viewcert_report::assumptions::Scope;
 use viewcert_report::split::SplitReport;
 use viewcert_report::{Report, counted};
 use viewcert_session::Session;
-use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
 
 /// What to take apart, and where to.
@@ -113,12 +111,10 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
         report,
         split: &found,
     };
-    let mut out = outputs::text(&[]);
-    if arguments.json {
-        report.write_json(&mut out)?
-    } else {
-        report.write(&mut out)?
-    }
-    out.flush().context("standard output")?;
-    Ok(ExitCode::from(if report.is_whole() { GOOD } else { NOT }))
+    outputs::answer(
+        arguments.json,
+        report.is_whole(),
+        |out| report.write_json(out),
+        |out| report.write(out),
+    )
 }

@@ -1,6 +1,6 @@
 //! What a folder of certificates holds, and whether that is all of it.
 
-use super::{is_list, printable};
+use super::names::{is_list, printable};
 use anyhow::{Context, Result, anyhow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};

@@ -2,9 +2,11 @@
 
 pub(crate) mod checker;
 mod folder;
+mod names;
 mod proved;
 
 use self::folder::{Listing, name};
+use self::names::{is_list, printable};
 use super::given::GivenArguments;
 use super::input::InputArguments;
 use anyhow::{Context, Result, bail, ensure};
@@ -178,28 +180,6 @@ fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<
     bail!("{}: {}", path.display(), no_certificate(swapped))
 }
 
-/// Longest text from a certificate or a file name that is printed, in characters.
-const LONGEST: usize = 1000;
-
-/// Text from elsewhere without what a terminal would obey: control characters and those that turn
-/// the direction of writing are spelt out; what is too long is cut.
-fn printable(text: &str) -> String {
-    let mut safe = String::new();
-    for c in text.chars().take(LONGEST) {
-        let turns = matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')
-            || matches!(c, '\u{2060}'..='\u{2069}' | '\u{feff}');
-        if c.is_control() || turns {
-            safe.extend(c.escape_unicode());
-        } else {
-            safe.push(c);
-        }
-    }
-    if text.chars().nth(LONGEST).is_some() {
-        safe.push_str("...");
-    }
-    safe
-}
-
 fn read(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let done = if path == Path::new("-") {
@@ -211,15 +191,6 @@ fn read(path: &Path) -> Result<Vec<u8>> {
         fs::read(path)
     };
     done.with_context(|| path.display().to_string())
-}
-
-/// Whether a file holds a certificate a line.
-fn is_list(path: &Path) -> bool {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or("");
-    name.ends_with(".jsonl") || name.ends_with(".jsonl.gz")
 }
 
 /// Checks every certificate of every file; each must hold its graph. Then, by its manifest, whether

@@ -13,6 +13,7 @@
 
 pub mod candidates;
 pub mod canonical;
+pub mod counts;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;
@@ -24,6 +25,7 @@ pub mod minimal;
 pub mod multigraph;
 pub mod random;
 pub mod set_digest;
+pub mod settings;
 pub mod shard_files;
 pub mod siblings;
 pub mod source;
@@ -33,7 +35,9 @@ pub mod verdicts;
 pub mod work;
 
 pub use candidates::{Candidates, SizeError, least_edges};
-pub use merge::{Merged, merged};
+pub use counts::{Counts, Merged};
+pub use merge::merged;
+pub use settings::{Files, Settings};
 pub use shard_files::Shard;
 pub use source::Source;
-pub use work::{Files, Settings, Work};
+pub use work::Work;

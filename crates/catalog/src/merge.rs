@@ -1,31 +1,13 @@
 //! All shards of a run, once each.
 
+use crate::counts::{Counts, Merged};
 use crate::mine::Summary;
 use crate::shard_files::{DONE, Done, Shard, part_path, read_part};
 use crate::verdict_files;
-use crate::verdicts::Tally;
 use anyhow::{Context, Result, bail, ensure};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-
-/// The whole of a run.
-#[derive(Clone, Debug)]
-pub struct Merged {
-    /// What was decided.
-    pub source: String,
-    /// What was counted.
-    pub counts: Counts,
-}
-
-/// What a run has counted.
-#[derive(Clone, Debug)]
-pub enum Counts {
-    /// Entries.
-    Entries(Summary),
-    /// Verdicts alone.
-    Verdicts(Tally),
-}
 
 /// Checks every shard in a folder: those of one run are there, once each.
 ///

@@ -8,7 +8,7 @@
 //! description and digest and computes the rest. `done.json` says how many parts there are.
 
 use crate::mine::{COLUMNS, Entry, Summary};
-use crate::work::{Files, Settings};
+use crate::settings::{Files, Settings};
 use anyhow::{Context, Result, bail, ensure};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -7,7 +7,7 @@
 //! together).
 
 use crate::Candidates;
-use crate::merge::{Counts, Merged};
+use crate::counts::{Counts, Merged};
 use crate::shard_files::{PROGRAM, Shard, differences};
 use crate::source::Source;
 use crate::verdicts::{Tally, tally};

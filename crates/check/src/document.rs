@@ -1,11 +1,16 @@
 //! The JSON text as typed values, by the grammar of sections 1, 3 and 5 to 7 of the specification.
 
-use crate::json::{Big, Name, Optional, Strict, Value, fill, objects, present, unknown};
+mod number;
+pub(crate) mod solutions;
+
+use crate::json::{Big, Optional, Strict, Value, any_members, objects, present};
 use crate::rejection::{Checked, Failure};
-use crate::solutions::{Number, grammar::Solutions};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
+use solutions::Solutions;
 use std::fmt;
+
+pub use number::Number;
 
 /// Reads a certificate.
 pub(crate) fn parse(text: &[u8]) -> Checked<Document> {
@@ -292,43 +297,6 @@ impl Evidence {
         }
     }
 }
-
-/// Declares the members that evidence of any kind may have. A name has one type in all kinds, so
-/// that `kind` need not be the first member.
-macro_rules! any_members {
-    ($($member:ident: $type:ty),* $(,)?) => {
-        #[derive(Default)]
-        struct AnyMembers {
-            kind: Option<String>,
-            $($member: Option<$type>),*
-        }
-
-        impl AnyMembers {
-            fn read<'de, A: MapAccess<'de>>(mut object: A) -> Result<Self, A::Error> {
-                let mut members = AnyMembers::default();
-                while let Some(name) = object.next_key::<Name>()? {
-                    match name.as_str() {
-                        "kind" => fill(&mut object, "kind", &mut members.kind)?,
-                        $(stringify!($member) => fill(
-                            &mut object, stringify!($member), &mut members.$member,
-                        )?,)*
-                        other => return Err(unknown(other)),
-                    }
-                }
-                Ok(members)
-            }
-
-            /// Rejects members that the kind does not have: all that it has were taken.
-            fn nothing_left<E: Error>(&self) -> Result<(), E> {
-                $(if self.$member.is_some() {
-                    return Err(unknown(stringify!($member)));
-                })*
-                Ok(())
-            }
-        }
-    };
-}
-pub(crate) use any_members;
 
 any_members! {
     prime: Option<Big<u64>>, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,

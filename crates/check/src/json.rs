@@ -286,3 +286,40 @@ macro_rules! objects {
     )*};
 }
 pub(crate) use objects;
+
+/// Declares the members that objects of any `kind` may have. A name has one type in all kinds, so that
+/// `kind` need not be the first member.
+macro_rules! any_members {
+    ($($member:ident: $type:ty),* $(,)?) => {
+        #[derive(Default)]
+        struct AnyMembers {
+            kind: Option<String>,
+            $($member: Option<$type>),*
+        }
+
+        impl AnyMembers {
+            fn read<'de, A: serde::de::MapAccess<'de>>(mut object: A) -> Result<Self, A::Error> {
+                let mut members = AnyMembers::default();
+                while let Some(name) = object.next_key::<$crate::json::Name>()? {
+                    match name.as_str() {
+                        "kind" => $crate::json::fill(&mut object, "kind", &mut members.kind)?,
+                        $(stringify!($member) => $crate::json::fill(
+                            &mut object, stringify!($member), &mut members.$member,
+                        )?,)*
+                        other => return Err($crate::json::unknown(other)),
+                    }
+                }
+                Ok(members)
+            }
+
+            /// Rejects members that the kind does not have: all that it has were taken.
+            fn nothing_left<E: serde::de::Error>(&self) -> Result<(), E> {
+                $(if self.$member.is_some() {
+                    return Err($crate::json::unknown(stringify!($member)));
+                })*
+                Ok(())
+            }
+        }
+    };
+}
+pub(crate) use any_members;

@@ -17,7 +17,7 @@
 //! | given vectors are, and nodes independent | 3, 5, 6 | 13.21 | `vectors` |
 //! | bodies come from parts, merges and ranks | 5 | 4.1, 4.9, 4.14, 4.15, 13.9, 13.16 | `bodies` |
 //! | no edge is covered twice | 6 | 4.4 | `structure` |
-//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `evidence` |
+//! | pieces: a partition, no cycle | 6 | 4.3, 4.7, 4.10, 13.10, 13.17 | `division` |
 //! | cores are formed | 6 | 4.4, 4.11, 13.11, 13.18 | `structure` |
 //! | lower bounds: pivots | 7 | 1.4, 3.3, 8.1 | `lower`, `plane_flow`, `integer_minor` |
 //! | the same in the plane | 7 | 13.5, 13.12 | `pinching`, `plane_minor` |
@@ -42,6 +42,7 @@ mod claim;
 mod core;
 mod counting;
 mod displacements;
+mod division;
 mod document;
 mod draws;
 mod elimination;
@@ -70,10 +71,11 @@ mod vectors;
 pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
 pub use document::Model;
+pub use document::Number;
 pub use graph::Graph;
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
-pub use solutions::{Count, Number};
+pub use solutions::Count;
 
 use rejection::Within;
 

@@ -2,8 +2,8 @@
 //! overlap, and a lower bound on the rank of what is in both.
 
 use crate::counting::check_block;
+use crate::division::{Sizes, divide};
 use crate::document::{Block, Model, Overlap, Piece, Split};
-use crate::evidence::{Sizes, divide};
 use crate::lower::check_lower;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::structure::{Part, Structure};

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use viewcert_catalog::merge::{Counts, Merged};
 use viewcert_catalog::mine::Summary;
 use viewcert_catalog::verdicts::Tally;
+use viewcert_catalog::{Counts, Merged};
 
 /// One source of candidates.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! The table of exit codes; the help of the program and the README say the same.
 
-use crate::outputs::is_broken_pipe;
 use std::error::Error;
 use std::fmt;
+use std::io;
 use viewcert::decide::VerdictError;
 use viewcert::watch::{Reason, Stopped};
 use viewcert_formats::ReadError;
@@ -30,6 +30,18 @@ pub(crate) fn stopped(error: &anyhow::Error) -> Option<&Stopped> {
             Some(VerdictError::Stopped(stopped)) => Some(stopped),
             _ => cause.downcast_ref(),
         })
+}
+
+/// Whether an error says that nobody reads a pipe any more, as in `verify ... | head`. That is
+/// no reason for a message.
+pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        let kind = cause
+            .downcast_ref::<io::Error>()
+            .map(io::Error::kind)
+            .or_else(|| cause.downcast_ref::<serde_json::Error>()?.io_error_kind());
+        kind == Some(io::ErrorKind::BrokenPipe)
+    })
 }
 
 /// Whether an error ends the whole run: not that of a graph, but of the time, by a signal, or since

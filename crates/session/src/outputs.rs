@@ -7,12 +7,14 @@
 //! Nothing but a file is ever replaced. A symbolic link stays and what it points at is
 //! written; an input is never an output.
 
+use crate::exit::{GOOD, NOT};
 use crate::unpoisoned;
 use anyhow::{Context, Result, ensure};
 use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::{Mutex, MutexGuard};
 
 /// The outputs of a run: its temporary files and folders, which are made, and take their names, while
@@ -229,15 +231,40 @@ pub fn is_standard(path: &Path) -> bool {
     found.is_some() && found == Identity::of_standard_output()
 }
 
+/// Where the text of a command goes.
+pub type Text = BufWriter<Box<dyn Write>>;
+
 /// Where the text of a command goes: to standard output, unless one of its outputs goes there;
 /// then to standard error.
-pub fn text(outputs: &[Option<&Path>]) -> BufWriter<Box<dyn Write>> {
+pub fn text(outputs: &[Option<&Path>]) -> Text {
     let taken = outputs.iter().flatten().any(|path| is_standard(path));
     BufWriter::new(if taken {
         Box::new(io::stderr())
     } else {
         Box::new(io::stdout().lock())
     })
+}
+
+/// Prints the one answer of a command on standard output, as JSON or as text, and says by the exit
+/// code whether it is good.
+///
+/// # Errors
+/// Standard output cannot be written.
+pub fn answer(
+    is_json: bool,
+    is_good: bool,
+    json: impl FnOnce(&mut Text) -> io::Result<()>,
+    words: impl FnOnce(&mut Text) -> io::Result<()>,
+) -> Result<ExitCode> {
+    let mut out = text(&[]);
+    let written = if is_json {
+        json(&mut out)
+    } else {
+        words(&mut out)
+    };
+    let written = written.and_then(|()| out.flush());
+    written.context("standard output")?;
+    Ok(ExitCode::from(if is_good { GOOD } else { NOT }))
 }
 
 /// Refuses an output that is one of the inputs, by whatever names, or one of the outputs before
@@ -342,18 +369,6 @@ impl Identity {
     fn of_standard_output() -> Option<Self> {
         None
     }
-}
-
-/// Whether an error says that nobody reads a pipe any more, as in `verify ... | head`. That is
-/// no reason for a message.
-pub fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.chain().any(|cause| {
-        let kind = cause
-            .downcast_ref::<io::Error>()
-            .map(io::Error::kind)
-            .or_else(|| cause.downcast_ref::<serde_json::Error>()?.io_error_kind());
-        kind == Some(io::ErrorKind::BrokenPipe)
-    })
 }
 
 #[cfg(test)]

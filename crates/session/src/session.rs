@@ -7,10 +7,11 @@
 
 use crate::bar::Bar;
 use crate::exit::{
-    BAD_INPUT, BROKEN_PIPE, INTERRUPTED, TERMINATED, TOO_LARGE, is_too_large, stopped,
+    BAD_INPUT, BROKEN_PIPE, INTERRUPTED, TERMINATED, TOO_LARGE, is_broken_pipe, is_too_large,
+    stopped,
 };
 use crate::limits::{RunLimits, resident_memory};
-use crate::outputs::{Outputs, is_broken_pipe};
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::unpoisoned;
 use anyhow::{Context, Error, Result};

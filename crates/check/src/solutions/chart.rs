@@ -1,6 +1,6 @@
 //! Charts: which scales are one and which are unknowns. Conditions (S4) to (S6) of section 12.
 
-use super::grammar;
+use crate::document::solutions as grammar;
 use crate::elimination::SPARSE;
 use crate::forest::unite;
 use crate::limits::Meter;

@@ -1,9 +1,9 @@
 //! Steps by linear algebra: conditions (S9) to (S11) of section 12 (theory, Theorem 10.6).
 
 use super::dense::{Sparse, columns};
-use super::grammar::Linear;
 use super::system::{Known, System};
 use crate::algebra::Ring;
+use crate::document::solutions::Linear;
 use crate::elimination::Echelon;
 use crate::rejection::{Checked, Failure, ensure};
 

@@ -1,7 +1,7 @@
 //! Members, and their merges: conditions (S1) to (S3) of section 12.
 
 use super::check_part;
-use super::grammar::Merge;
+use crate::document::solutions::Merge;
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, ensure};

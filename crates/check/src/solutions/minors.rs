@@ -2,9 +2,9 @@
 //! 10.2), and their coefficients, by interpolation.
 
 use super::dense::{ENTRY, Sparse, determinant};
-use super::grammar::Minor;
 use super::system::{Known, System};
 use crate::algebra::{Field, Ring};
+use crate::document::solutions::Minor;
 use crate::elimination::Echelon;
 use crate::rejection::{Checked, ensure};
 use std::collections::BTreeSet;

@@ -5,16 +5,14 @@
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`, less those `outside`), a lower one from simple points of a tight core (`simple`).
-//! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`, `number`).
-//! `dense` has the linear algebra, `grammar` the text.
+//! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
+//! `dense` has the linear algebra; the text is `document::solutions`.
 
 mod chart;
 mod dense;
-pub(crate) mod grammar;
 mod linear;
 mod members;
 mod minors;
-mod number;
 mod outside;
 mod points;
 mod product;
@@ -23,15 +21,14 @@ mod support;
 mod system;
 mod zeros;
 
-use crate::document::Model;
+use crate::document::solutions::{Lower, Solutions, Step, Upper};
+use crate::document::{Model, Number};
 use crate::evidence::Piece;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Within, ensure};
 use crate::structure::{Part, Structure};
 use chart::Chart;
-use grammar::{Lower, Solutions, Upper};
 use members::Members;
-pub use number::Number;
 use std::fmt;
 use system::{Known, System};
 
@@ -177,8 +174,8 @@ fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<u
     let mut known: Known = vec![None; chart.unknowns];
     for (k, step) in upper.steps.iter().enumerate() {
         let checked = match step {
-            grammar::Step::Linear(step) => linear::check(step, &system, &mut known),
-            grammar::Step::Support(step) => support::check(step, &system, &mut known),
+            Step::Linear(step) => linear::check(step, &system, &mut known),
+            Step::Support(step) => support::check(step, &system, &mut known),
         };
         checked.within(|| format!("steps[{k}] ({})", step.kind()))?;
     }

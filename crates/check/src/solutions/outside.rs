@@ -2,9 +2,9 @@
 //! section 12 (theory, Theorem 10.14).
 
 use super::dense::{Sparse, columns, dot};
-use super::grammar::Outside;
 use super::system::{Known, System};
 use crate::algebra::Ring;
+use crate::document::solutions::Outside;
 use crate::elimination::Echelon;
 use crate::rejection::{Checked, ensure};
 use std::collections::BTreeSet;

@@ -2,12 +2,12 @@
 //! of section 12 (theory, Theorems 10.8 and 10.13).
 
 use super::chart::Chart;
-use super::grammar::{Point, Points, Step, Term};
 use super::linear;
 use super::outside;
 use super::support::{Span, Text, sum};
 use super::system::{Known, System, ensure_all_known};
 use crate::algebra::{Field, Ring};
+use crate::document::solutions::{Point, Points, Step, Term};
 use crate::elimination::Echelon;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, Within, ensure};

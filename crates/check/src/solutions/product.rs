@@ -2,12 +2,12 @@
 //! conditions (S24) to (S26) of section 12 (theory, Corollary 10.17).
 
 use super::chart::Chart;
-use super::grammar::{Factor, Rigid};
 use super::members::{Members, Nodes};
-use super::number::Number;
 use super::simple;
 use super::system::System;
 use super::{Count, Of, bounds};
+use crate::document::Number;
+use crate::document::solutions::{Factor, Rigid};
 use crate::elimination::SPARSE;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, Within, ensure};

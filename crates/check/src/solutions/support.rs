@@ -1,10 +1,10 @@
 //! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
 
 use super::dense::{ENTRY, Sparse};
-use super::grammar::{Minor, Support};
 use super::minors::{Exponents, Place};
 use super::system::{Known, System};
 use super::zeros::Pattern;
+use crate::document::solutions::{Minor, Support};
 use crate::elimination::Echelon;
 use crate::rejection::{Checked, Failure, Within, ensure};
 use std::collections::HashSet;

@@ -2,8 +2,8 @@
 
 use super::chart::Chart;
 use super::dense::Sparse;
-use super::grammar::Centres;
 use crate::algebra::{Field, Ring};
+use crate::document::solutions::Centres;
 use crate::elimination::Echelon;
 use crate::json::Big;
 use crate::limits::Meter;

@@ -1,9 +1,9 @@
 //! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
 //! Theorem 10.7).
 
-use super::grammar::Minor;
 use super::minors::Place;
 use super::system::Side;
+use crate::document::solutions::Minor;
 
 /// What may be in the rows of a minor: columns, by their places among those of the minor.
 pub(super) struct Pattern {

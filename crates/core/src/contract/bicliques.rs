@@ -5,7 +5,7 @@
 //! member, b by another. That the six differ follows from what goes in (Proposition 10.12). A member
 //! is used by one merge a call; whoever calls closes under the other rules again and comes back.
 
-use super::{Body, Merge, Part, Seed};
+use super::body::{Body, Merge, Part, Seed};
 use crate::graph::{Graph, Lists, prune_leaves};
 use std::cell::Cell;
 use std::collections::HashMap;

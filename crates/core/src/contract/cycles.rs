@@ -9,7 +9,8 @@
 mod from_body;
 mod from_node;
 
-use super::{Body, General, Part};
+use super::body::{Body, Part};
+use super::general::General;
 use crate::graph::{Lists, prune_leaves};
 use from_body::FromBody;
 use from_node::FromNode;

@@ -1,8 +1,8 @@
 //! What contraction starts from: known parts or groups of known displacements as bodies, and the
 //! graph without the edges that they cover (docs/theory.md, Theorems 4.14 and 13.16).
 
+use super::body::{Body, Seed};
 use super::grow::Growth;
-use super::{Body, Seed};
 use crate::graph::{Adjacency, Graph, Lists};
 use std::borrow::Cow;
 

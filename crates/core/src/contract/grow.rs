@@ -1,6 +1,6 @@
 //! Growing bodies from triangles: a node seen from two nodes of a body joins it.
 
-use super::{Body, Seed};
+use super::body::{Body, Seed};
 use crate::graph::{Adjacency, Lists};
 
 const NONE: u32 = u32::MAX;

@@ -1,6 +1,6 @@
 //! Merging bodies: two that share two nodes, three that pairwise share a node.
 
-use super::{Body, Merge, Part, Seed};
+use super::body::{Body, Merge, Part, Seed};
 use crate::graph::{Adjacency, Lists};
 use std::collections::{HashMap, VecDeque};
 

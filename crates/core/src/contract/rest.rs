@@ -2,7 +2,7 @@
 //! edges name them: so neighbours lie close to each other in memory, and nothing is as long as the
 //! graph has nodes.
 
-use super::{Body, Merge, Part, Seed};
+use super::body::{Body, Merge, Part, Seed};
 use crate::graph::{Adjacency, Lists};
 
 const NONE: u32 = u32::MAX;

@@ -3,7 +3,7 @@
 //! In: bodies, of which the groups of displacements are the first. Out: the same, closed under the
 //! rule that is theirs alone: scaled bodies that share one node are one.
 
-use super::{Body, Merge, Part, Seed};
+use super::body::{Body, Merge, Part, Seed};
 use crate::graph::Lists;
 use std::collections::VecDeque;
 

@@ -1,7 +1,7 @@
 //! Growing bodies from cycles of three and four edges, in the calibrated model.
 
+use super::body::{Body, Merge, Part, Seed};
 use super::grow::{Growth, Marked, by_falling_degree};
-use super::{Body, Merge, Part, Seed};
 use crate::graph::Adjacency;
 
 const NONE: u32 = u32::MAX;

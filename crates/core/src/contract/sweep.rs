@@ -8,7 +8,8 @@
 //! bodies may stay smaller than they could be. That is no loss: `seeds` and `cycles` complete
 //! them, and the closure does not depend on the order (Proposition 4.13).
 
-use super::{Body, General, Merge, Part, Seed};
+use super::body::{Body, Merge, Part, Seed};
+use super::general::General;
 use crate::graph::Graph;
 
 /// The body has no edge to the node so far.

@@ -1,6 +1,8 @@
 //! Neighbours of every node, in one array.
 
-use super::{Graph, Lists, prune_leaves};
+use super::leaves::prune_leaves;
+use super::lists::Lists;
+use super::viewing_graph::Graph;
 
 /// Neighbour lists in compressed form: 8 bytes an edge and 8 bytes a node. The
 /// lists can shrink.

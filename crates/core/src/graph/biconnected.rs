@@ -4,7 +4,7 @@
 //! connected without any one of its vertices; every other edge is one by itself (a *bridge*). Two
 //! components share at most one vertex, an *articulation*.
 
-use super::Lists;
+use super::lists::Lists;
 
 const UNSEEN: u32 = u32::MAX;
 

@@ -1,7 +1,8 @@
 //! Known displacements: which cameras know the whole vector to each other, with its length.
 
+use super::error::GraphError;
+use super::union_find::UnionFind;
 use super::vectors::{self, Coordinate, Hanging, MAX_DIGITS, Vector, minus};
-use super::{GraphError, UnionFind};
 use sha2::{Digest, Sha256};
 use std::fmt;
 

@@ -5,7 +5,8 @@
 //! column by column, (0,1), (0,2), (1,2), (0,3), ..., six bits a character,
 //! padded with zeros; to every six bits 63 is added.
 
-use crate::graph::{Graph, GraphError};
+use super::error::GraphError;
+use super::viewing_graph::Graph;
 use std::fmt;
 
 /// The optional header; it stands on the same line as the first graph.

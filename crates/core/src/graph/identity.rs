@@ -9,7 +9,7 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::graph::Graph;
+use super::viewing_graph::Graph;
 
 const HEADER: &[u8] = b"viewcert graph 1\n";
 const CORE_HEADER: &[u8] = b"viewcert core 2\n";

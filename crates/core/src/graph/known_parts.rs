@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::GraphError;
+use super::error::GraphError;
 
 /// Sets of nodes whose cameras are known relative to each other, up to the maps of the model: from
 /// trifocal tensors, rigs or partial reconstructions. They may overlap, and need hold no edges.

@@ -1,6 +1,6 @@
 //! A graph whose nodes keep what its user calls them.
 
-use crate::graph::Graph;
+use super::viewing_graph::Graph;
 use std::fmt;
 
 /// A graph with a label per node, increasing with the nodes.

@@ -1,6 +1,6 @@
 //! Pruning of leaves: what lies on a cycle, or between cycles, is left.
 
-use super::Lists;
+use super::lists::Lists;
 
 /// Removes the edges at vertices with a single neighbour from symmetric neighbour lists, again
 /// and again until there is no such vertex but those that are `held`. Returns the removed edges,

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::{Graph, SHARE};
+use super::sort::SHARE;
+use super::viewing_graph::Graph;
 
 /// Lists of neighbours are made by so many threads at most, as each of them looks at all edges.
 const MOST_SHARES: usize = 4;

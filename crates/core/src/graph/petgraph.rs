@@ -1,6 +1,7 @@
 //! Conversions from and to the undirected graphs of the crate petgraph.
 
-use crate::graph::{Graph, GraphError};
+use super::error::GraphError;
+use super::viewing_graph::Graph;
 use ::petgraph::graph::{NodeIndex, UnGraph};
 use ::petgraph::visit::EdgeRef;
 

@@ -8,7 +8,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::graph::{GraphError, SHARE};
+use super::error::GraphError;
+
+/// How many pairs a core takes at least: fewer are not worth waking another one.
+pub(super) const SHARE: usize = 1 << 14;
 
 /// If more than one in so many pairs is out of order, all are sorted.
 const RARE: usize = 16;

@@ -2,7 +2,8 @@
 //! (docs/theory.md, Theorem 4.1).
 
 use super::Unproved;
-use super::core::{Eliminated, eliminate};
+use super::core::eliminate;
+use super::eliminated::Eliminated;
 use super::text::{Listed, Reason};
 use crate::contract::{Contraction, Members, Merge, Part, Seed};
 use crate::graph::Graph;

@@ -4,7 +4,7 @@
 //! In: a graph, and centres whose first coordinates differ on its edges. Out: what is used of each
 //! edge, the flows, and a motion. N has a quarter as many columns as J_P, and Lambda fewer still.
 
-use super::core::{Eliminated, PRIME, next};
+use super::eliminated::{Eliminated, PRIME, next};
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::Graph;
 use crate::linalg::matrix::Matrix;

@@ -7,6 +7,7 @@
 mod bodies;
 mod components;
 mod core;
+mod eliminated;
 mod flows;
 mod text;
 

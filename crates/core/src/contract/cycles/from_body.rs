@@ -1,7 +1,7 @@
 //! A search from a body, which absorbs what stands around a cycle with it.
 
 use super::{Reach, Structure, Way, append_smaller};
-use crate::contract::{Body, Merge, Part, Seed};
+use crate::contract::body::{Body, Merge, Part, Seed};
 
 /// One body that absorbs what stands around a cycle with it.
 pub(super) struct FromBody<'a> {

@@ -4,7 +4,7 @@
 //! that touch it elsewhere, and to their nodes. Where two branches meet there is a cycle.
 
 use super::{Reach, Structure, Way, append_smaller};
-use crate::contract::{Body, Merge, Part, Seed};
+use crate::contract::body::{Body, Merge, Part, Seed};
 
 /// One node at which members merge that stand around a cycle through it.
 pub(super) struct FromNode<'a> {

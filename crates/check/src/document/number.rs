@@ -17,7 +17,7 @@ const BASE: u64 = 1_000_000_000;
 
 impl Number {
     /// The product with another number.
-    pub(super) fn times(&self, other: &Number) -> Number {
+    pub(crate) fn times(&self, other: &Number) -> Number {
         let mut digits = vec![0u32; self.digits.len() + other.digits.len()];
         for (k, &x) in self.digits.iter().enumerate() {
             let mut carry = 0;
@@ -31,7 +31,7 @@ impl Number {
     }
 
     /// How many operations a product with it takes, for each digit of the other number.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.digits.len()
     }
 

@@ -1,7 +1,6 @@
 //! The text of section 12 as typed values.
 
-use crate::document::any_members;
-use crate::json::{Big, Name, Optional, Value, fill, objects, present, unknown};
+use crate::json::{Big, Optional, Value, any_members, objects, present};
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
