@@ -1,5 +1,9 @@
 //! docs/house.md against the code: who imports whom, and what no crate may have.
 
+#[path = "house/imports.rs"]
+mod imports;
+
+use imports::{circles, imports};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -113,6 +117,31 @@ fn nobody_imports_upward() {
         listed.sort_unstable();
         assert_eq!(own, listed, "{folder}");
     }
+}
+
+/// Whoever reads a file needs only those below it.
+#[test]
+fn no_modules_import_each_other() {
+    let folders = rooms().into_keys().filter(|folder| folder != "proofs");
+    for folder in folders {
+        let found = imports(&root().join(&folder).join("src"), &sources(&folder));
+        let count: usize = found.values().map(|imported| imported.len()).sum();
+        assert!(
+            found.len() < 5 || count > found.len() / 2,
+            "{folder}: {count}"
+        );
+        let circles = circles(found);
+        assert!(circles.is_empty(), "{folder}: {circles:?}");
+    }
+}
+
+#[test]
+fn circles_are_found() {
+    let names = |text: &str| text.split(' ').map(|name| vec![name.to_owned()]).collect();
+    let line = |(name, imported): &(&str, &str)| (vec![(*name).to_owned()], names(imported));
+    let round = [("a", "b"), ("b", "c"), ("c", "b"), ("d", "e"), ("e", "x")];
+    let left = circles(round.iter().map(line).collect());
+    assert_eq!(left, names("a b c"));
 }
 
 #[test]

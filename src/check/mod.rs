@@ -298,16 +298,3 @@ fn certificates(
         BufReader::with_capacity(1 << 16, input).split(b'\n'),
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nothing_printable_moves_the_cursor() {
-        let text = "a\u{1b}[2J\nVERIFIED \u{202e}\u{e4}";
-        let expected = "a\\u{1b}[2J\\u{a}VERIFIED \\u{202e}\u{e4}";
-        assert_eq!(printable(text), expected);
-        assert_eq!(printable(&"x".repeat(2000)).len(), LONGEST + 3);
-    }
-}

@@ -3,24 +3,18 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-use rusqlite::types::ValueRef;
 use rusqlite::{Connection, Row};
 
 use super::open::Opened;
 use super::positions;
 use super::rigs;
+use super::tables::{NoPair, columns, ends, images, verified_table};
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
 use crate::{Frames, Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
 use viewcert::wording::counted;
-
-/// A pair's number is this times the smaller image's number, plus the larger one's.
-pub(super) const PAIR_FACTOR: i64 = 2_147_483_647;
-
-/// The tables of verified pairs; the second is that of versions before 2018.
-const VERIFIED: [&str; 2] = ["two_view_geometries", "inlier_matches"];
 
 /// What decides about tracks in global mapping and stands in no database.
 const NOT_KNOWN: &str = "not known from a database: the pairs that global mapping drops because their \
@@ -443,66 +437,6 @@ fn of_cameras(matching: Matching, frames: &Frames) -> Matching {
     Matching { others, ..matching }
 }
 
-/// The table of verified pairs.
-pub(super) fn verified_table(connection: &Connection) -> Result<&'static str, DatabaseError> {
-    let needed = |table, needed: &[&str]| -> Result<Option<String>, DatabaseError> {
-        let present = columns(connection, table)?;
-        if present.is_empty() {
-            return Ok(Some(format!("it has no table `{table}`")));
-        }
-        let missing = needed
-            .iter()
-            .find(|&&name| !present.iter().any(|is| is == name));
-        Ok(missing.map(|name| format!("its table `{table}` has no column `{name}`")))
-    };
-    if let Some(missing) = needed("images", &["image_id", "name"])? {
-        return Err(DatabaseError::NotColmap(missing));
-    }
-    let mut first = None;
-    for table in VERIFIED {
-        match needed(table, &["pair_id", "rows"])? {
-            None => return Ok(table),
-            Some(missing) => first = first.or(Some(missing)),
-        }
-    }
-    Err(DatabaseError::NotColmap(first.unwrap_or_default()))
-}
-
-/// The names of a table's columns; none if there is no such table.
-pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<String>, DatabaseError> {
-    let mut statement = connection.prepare("select name from pragma_table_info(?)")?;
-    let names = statement.query_map([table], |row| row.get(0))?;
-    Ok(names.collect::<Result<_, _>>()?)
-}
-
-/// The images: names in bytewise order, and the node of every number.
-pub(super) type Images = (Vec<Box<str>>, HashMap<i64, u32>);
-
-/// Reads the table of images.
-pub(super) fn images(connection: &Connection) -> Result<Images, DatabaseError> {
-    let mut statement = connection.prepare("select image_id, name from images")?;
-    let mut rows = statement.query([])?;
-    let mut images: Vec<(Box<str>, i64)> = Vec::new();
-    while let Some(row) = rows.next()? {
-        let id = row.get(0)?;
-        let name = match row.get_ref(1)? {
-            ValueRef::Text(bytes) => std::str::from_utf8(bytes),
-            _ => return Err(DatabaseError::Damaged(format!("image {id} has no name"))),
-        };
-        images.push((name.map_err(|_| DatabaseError::NameNotUtf8(id))?.into(), id));
-    }
-    if images.is_empty() {
-        return Err(DatabaseError::NoImages);
-    }
-    images.sort_unstable();
-    if let Some(two) = images.windows(2).find(|two| two[0].0 == two[1].0) {
-        return Err(DatabaseError::NameTwice(two[0].0.to_string()));
-    }
-    let nodes = (0..).zip(&images).map(|(node, (_, id))| (*id, node));
-    let nodes = nodes.collect();
-    Ok((images.into_iter().map(|(name, _)| name).collect(), nodes))
-}
-
 /// How many rigs have sensors besides their reference sensor.
 fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
     if !columns(connection, "rig_sensors")?
@@ -520,22 +454,6 @@ fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
 fn version(connection: &Connection) -> Result<Option<u32>, DatabaseError> {
     let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
     Ok(u32::try_from(version).ok().filter(|&version| version > 0))
-}
-
-/// Why a number of a pair gives no edge.
-pub(super) enum NoPair {
-    Dangling,
-    Loop,
-}
-
-/// The nodes of the two images of a pair's number.
-pub(super) fn ends(pair: i64, nodes: &HashMap<i64, u32>) -> Result<(u32, u32), NoPair> {
-    let (first, second) = (pair.div_euclid(PAIR_FACTOR), pair.rem_euclid(PAIR_FACTOR));
-    match (nodes.get(&first), nodes.get(&second)) {
-        (Some(a), Some(b)) if a == b => Err(NoPair::Loop),
-        (Some(&a), Some(&b)) => Ok((a.min(b), a.max(b))),
-        _ => Err(NoPair::Dangling),
-    }
 }
 
 /// A number of matches.

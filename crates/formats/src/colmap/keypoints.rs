@@ -9,7 +9,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension};
 
 use super::DatabaseError;
-use super::database::columns;
+use super::tables::columns;
 use crate::error::Problem;
 use crate::tracks::Places;
 

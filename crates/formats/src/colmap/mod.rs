@@ -20,6 +20,8 @@ mod positions;
 #[cfg(feature = "databases")]
 mod rigs;
 #[cfg(feature = "databases")]
+mod tables;
+#[cfg(feature = "databases")]
 mod tracks;
 mod two_views;
 #[cfg(feature = "databases")]

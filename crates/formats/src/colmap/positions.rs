@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
 use super::DatabaseError;
-use super::database::columns;
+use super::tables::columns;
 
 /// COLMAP's number of latitude, longitude and altitude (`PosePrior::CoordinateSystem::WGS84`).
 const WGS84: i64 = 0;

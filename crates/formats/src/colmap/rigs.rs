@@ -6,7 +6,7 @@ use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
 use super::DatabaseError;
-use super::database::columns;
+use super::tables::columns;
 use crate::tracks::{Frame, Frames, Pose, Rig, read_frames};
 
 /// What COLMAP calls a camera among sensors (`SensorType::CAMERA`).

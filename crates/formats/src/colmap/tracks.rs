@@ -6,9 +6,9 @@ use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
 use super::DatabaseError;
-use super::database::{NoPair, PAIR_FACTOR, columns, ends};
 use super::doubles::doubles;
 use super::keypoints::Keypoints;
+use super::tables::{NoPair, PAIR_FACTOR, columns, ends};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use crate::tracks::{Frames, Joined, TrackGraph, TrackOptions};

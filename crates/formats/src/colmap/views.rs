@@ -9,8 +9,8 @@ use std::path::Path;
 use rusqlite::types::ValueRef;
 use rusqlite::{OptionalExtension, Row, params};
 
-use super::database::{PAIR_FACTOR, columns, images, verified_table};
 use super::open::Opened;
+use super::tables::{PAIR_FACTOR, columns, images, verified_table};
 use super::{DatabaseError, TwoViews};
 
 /// A database whose pairs are asked for one by one.

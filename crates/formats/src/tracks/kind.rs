@@ -1,6 +1,6 @@
 //! Which of the files with tracks an input is, by its beginning.
 
-use super::model::{Encoding, Part};
+use super::model_files::{Encoding, Part};
 use super::{model_binary, words};
 
 /// A file with tracks, or a part of one.

@@ -15,6 +15,7 @@ mod join;
 mod kind;
 mod model;
 mod model_binary;
+mod model_files;
 mod model_rigs;
 mod model_text;
 mod nvm;
@@ -31,7 +32,8 @@ pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::{Encoding as ModelEncoding, encoding_in, is_model};
+pub(crate) use model::{encoding_in, is_model};
+pub(crate) use model_files::Encoding as ModelEncoding;
 
 use std::io::Read;
 use std::path::Path;

@@ -8,7 +8,7 @@
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
 
-use super::model::{Image, Part, Points};
+use super::model_files::{Image, Part, Points};
 use crate::error::{Fault, Place, Problem};
 
 /// The longest name of an image.

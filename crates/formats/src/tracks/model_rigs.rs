@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::frames::{Frame, Frames, Pose, Rig, read};
-use super::model::Encoding;
+use super::model_files::Encoding;
 use crate::error::{Fault, Place, Problem};
 
 /// The type of cameras among sensors.

@@ -6,7 +6,7 @@
 
 use std::io::Read;
 
-use super::model::{Image, Points};
+use super::model_files::{Image, Points};
 use super::words::{Words, integer, shown};
 use crate::error::Fault;
 

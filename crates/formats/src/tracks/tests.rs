@@ -1,6 +1,6 @@
 use std::io::Cursor;
 
-use super::model::{Encoding, Part};
+use super::model_files::{Encoding, Part};
 use super::*;
 use crate::read::graphs;
 use crate::{ReadError, ReadOptions};
