@@ -235,21 +235,102 @@ fn printed_commands_reconstruct_what_is_exported() {
                 .unwrap();
             let said = String::from_utf8_lossy(&run.stderr);
             assert!(run.status.success(), "{command}: {said}");
-            let model = folder.path().join(format!("sparse/{k:03}/0"));
-            let script = "import pycolmap, sys
-model = pycolmap.Reconstruction(sys.argv[1])
-print(*sorted(image.name for image in model.images.values() if image.has_pose), sep='\\n')";
-            let run = Command::new(&python)
-                .args(["-c", script])
-                .arg(&model)
-                .output()
-                .unwrap();
-            let placed = String::from_utf8(run.stdout).unwrap();
+            let placed = placed(&python, &folder.path().join(format!("sparse/{k:03}/0")));
             let list = format!("it's out/components/{k:03}/images.txt");
             let list = std::fs::read_to_string(folder.path().join(list)).unwrap();
             assert_eq!(placed, list, "{command}");
             std::fs::remove_dir_all(folder.path().join("sparse")).unwrap();
         }
+    }
+}
+
+/// The images that a model has placed, a line each, sorted.
+fn placed(python: &OsStr, model: &Path) -> String {
+    let script = "import pycolmap, sys
+model = pycolmap.Reconstruction(sys.argv[1])
+print(*sorted(image.name for image in model.images.values() if image.has_pose), sep='\\n')";
+    let run = Command::new(python)
+        .args(["-c", script])
+        .arg(model)
+        .output()
+        .unwrap();
+    String::from_utf8(run.stdout).unwrap()
+}
+
+/// Debian's COLMAP 3.8 with a database of its own: the command that is printed for that version runs,
+/// and reconstructs the images of each list and no other.
+#[test]
+fn commands_for_version_3_8_run() {
+    let Some(python) = python_with("numpy, pycolmap") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("old.db");
+    let made = Command::new("colmap")
+        .args(["database_creator", "--database_path"])
+        .arg(&path)
+        .output();
+    let Ok(made) = made else {
+        return absent("colmap is not installed");
+    };
+    assert!(made.status.success(), "{made:?}");
+    let database = rusqlite::Connection::open(&path).unwrap();
+    let version = database.pragma_query_value(None, "user_version", |row| row.get(0));
+    let version: u32 = version.unwrap();
+    if version != 3800 {
+        eprintln!("SKIPPED: this COLMAP writes version {version}");
+        return;
+    }
+    clusters(&python, folder.path());
+    let copied = [
+        (
+            "cameras",
+            "camera_id, model, width, height, params, prior_focal_length",
+        ),
+        ("images", "image_id, name, camera_id"),
+        ("keypoints", "image_id, rows, cols, data"),
+        ("matches", "pair_id, rows, cols, data"),
+        (
+            "two_view_geometries",
+            "pair_id, rows, cols, data, config, F, E, H, qvec, tvec",
+        ),
+    ];
+    let new = folder.path().join("x.db");
+    database
+        .execute("attach ? as new", [new.to_str().unwrap()])
+        .unwrap();
+    for (table, columns) in copied {
+        let copy =
+            format!("insert into main.{table} ({columns}) select {columns} from new.{table}");
+        assert!(database.execute(&copy, []).unwrap() > 0, "{table}");
+    }
+    drop(database);
+    std::fs::create_dir(folder.path().join("images")).unwrap();
+    let export = ["export", "--tracks", "--json", "old.db", "out"];
+    let (code, out, err) = verify_in(folder.path(), &export);
+    assert_eq!(code, Some(1), "{err}");
+    let line: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let parts = line["export"]["commands"].as_array().unwrap();
+    assert_eq!(parts.len(), 2);
+    for (k, commands) in (1..).zip(parts) {
+        let commands = commands.as_array().unwrap().iter();
+        let commands = commands.map(|command| command.as_str().unwrap());
+        let own: Vec<&str> = commands
+            .filter(|text| text.contains("colmap mapper"))
+            .collect();
+        assert_eq!(own.len(), 1, "{own:?}");
+        let run = Command::new("sh")
+            .args(["-c", own[0]])
+            .env("QT_QPA_PLATFORM", "offscreen")
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{run:?}");
+        let placed = placed(&python, &folder.path().join(format!("sparse/{k:03}/0")));
+        let list = folder
+            .path()
+            .join(format!("out/components/{k:03}/images.txt"));
+        assert_eq!(placed, std::fs::read_to_string(list).unwrap(), "{}", own[0]);
     }
 }
 
