@@ -34,6 +34,7 @@ What --given FILE holds: what is known besides the pairs, one thing on each line
   position A                 The position of a calibrated camera is known (GPS).
   position A X Y Z           It is this one.
 
+A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
 Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
 on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
 without them about vectors in general position. Parts and displacements do not go together.

@@ -1284,3 +1284,199 @@ fn positions_and_tracks() {
         &["displacements with vectors do not", "--no-rigs"],
     );
 }
+
+const PRIORS: &str = "
+    create table pose_priors (pose_prior_id integer primary key, corr_data_id integer, corr_sensor_id integer,
+        corr_sensor_type integer, position blob, position_covariance blob, gravity blob, coordinate_system integer);";
+
+/// The stereo images, their rig not calibrated, with a prior for each: its position and system.
+fn with_priors(priors: [([f64; 3], i64); 4]) -> Made {
+    let made = stereo(None);
+    made.execute(PRIORS);
+    for (image, (position, system)) in (1..).zip(priors) {
+        let bytes = |numbers: &[f64]| Vec::from_iter(numbers.iter().flat_map(|x| x.to_le_bytes()));
+        let covariance = [6.25, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 9.0];
+        let values = params![image, bytes(&position), bytes(&covariance), system];
+        let insert = "insert into pose_priors values (?1, ?1, 1, 0, ?2, ?3, null, ?4)";
+        made.connection.execute(insert, values).unwrap();
+    }
+    made
+}
+
+/// Positions of pose priors count where they are asked for and nowhere else, and certificates state them.
+#[test]
+fn pose_priors_are_positions_that_are_asked_for() {
+    let places = [
+        [47.0, 8.0, 400.0],
+        [47.1, 8.0, 410.0],
+        [47.0, 8.1, 405.0],
+        [47.2, 8.3, 400.0],
+    ];
+    let made = with_priors(places.map(|place| (place, 0)));
+    let path = made.path();
+    let database = text(&path);
+    let unasked = json_of(&path, &OF_TWO);
+    assert_eq!(unasked["components"].as_array().unwrap().len(), 2);
+    assert_eq!(unasked["database"]["positions"], 4);
+    let says = |line: &Value, phrase: &str| {
+        assert!(
+            notes(line).iter().any(|note| note.contains(phrase)),
+            "{line}"
+        );
+    };
+    says(&unasked, "pose priors of 4 images are not used: --given ");
+    let given = [&OF_TWO[..], &["--given", database]].concat();
+    let line = json_of(&path, &given);
+    assert_eq!(line["verdict"], "solvable", "{line}");
+    assert_eq!(line["displacements"]["groups"], 1);
+    assert_eq!(line["displacements"]["cameras"], 4);
+    says(
+        &line,
+        "positions of 4 cameras (latitude, longitude and altitude)",
+    );
+    says(&line, "standard deviations up to 3.000");
+    // The same as from a file, by the hash that certificates are bound to.
+    let file = |name: &str| made.folder.path().join(name);
+    let [certificate, graph, known, by_hand] =
+        ["c.json", "g.txt", "given.txt", "gps.txt"].map(file);
+    fs::write(
+        &by_hand,
+        "position l1\nposition r1\nposition l2\nposition r2\n",
+    )
+    .unwrap();
+    let same = json_of(&path, &[&OF_TWO[..], &["--given", text(&by_hand)]].concat());
+    assert_eq!(
+        same["displacements"]["sha256"],
+        line["displacements"]["sha256"]
+    );
+    let done = |options: &[&str]| verify(&[options, &given].concat()).code;
+    assert_eq!(done(&[database, "--certificate", text(&certificate)]), 0);
+    assert_eq!(done(&["convert", database, "-o", text(&known)]), 0);
+    let pairs = [&["convert", database, "-o", text(&graph)], &OF_TWO[..]].concat();
+    assert_eq!(verify(&pairs).code, 0);
+    assert_eq!(done(&["check", text(&certificate), database]), 0);
+    let check = [&["check", text(&certificate), database], &OF_TWO[..]].concat();
+    assert_eq!(verify(&check).code, 1);
+    let arguments = [text(&certificate), text(&graph), "--given", text(&known)];
+    assert_eq!(common::first_checker(&arguments).code, 0);
+    assert_eq!(common::second_checker(&arguments).code, 0);
+    // Three positions leave the size of the right part open.
+    made.execute("delete from pose_priors where corr_data_id = 4");
+    let line = json_of(&path, &given);
+    assert_eq!(line["components"].as_array().unwrap().len(), 2);
+}
+
+/// What is no position is said or refused by name.
+#[test]
+fn pose_priors_that_say_less() {
+    let priors = [
+        [0.0, 1.0, 2.0],
+        [0.0, 1.0, 2.5],
+        [3.0, 1.0, 2.0],
+        [f64::NAN; 3],
+    ];
+    let made = || with_priors(priors.map(|place| (place, 1)));
+    let options = |path: &Path| {
+        let given = [&OF_TWO[..], &["--given", text(path)]].concat();
+        Vec::from_iter(given.into_iter().map(str::to_owned))
+    };
+    let line_of = |sql: &str| {
+        let made = made();
+        made.execute(sql);
+        let (path, options) = (made.path(), options(&made.path()));
+        json_of(&path, &Vec::from_iter(options.iter().map(String::as_str)))
+    };
+    for (sql, phrase) in [
+        ("", "positions of 3 cameras (x, y and z)"),
+        ("", "1 image has a pose prior without a position"),
+        (
+            "update pose_priors set position = (select position from pose_priors where corr_data_id = 1) \
+             where corr_data_id = 3",
+            "1 camera has the very position of another one, first l2 that of l1",
+        ),
+        // Undefined counts as x, y, z, as in COLMAP; other sensors say nothing.
+        (
+            "update pose_priors set coordinate_system = -1 where corr_data_id = 1",
+            "positions of 3 cameras (x, y and z)",
+        ),
+        (
+            "update pose_priors set corr_sensor_type = 1 where corr_data_id = 1",
+            "positions of 2 cameras",
+        ),
+    ] {
+        let line = line_of(sql);
+        assert!(
+            notes(&line).iter().any(|note| note.contains(phrase)),
+            "{sql}: {line}"
+        );
+    }
+    for (sql, phrases) in [
+        (
+            "update pose_priors set position = x'00' where corr_data_id = 2",
+            [
+                "position of the image r1 is not three numbers",
+                "`position`",
+            ],
+        ),
+        (
+            "update pose_priors set coordinate_system = 0 where corr_data_id = 2",
+            ["position of the image r1 is in another system", "of l1"],
+        ),
+        (
+            "update pose_priors set coordinate_system = 7 where corr_data_id = 2",
+            ["image r1 has a coordinate system that COLMAP", "`position`"],
+        ),
+        (
+            "update pose_priors set corr_data_id = 1",
+            ["position of the image l1 is there twice", "`position`"],
+        ),
+        (
+            "update pose_priors set position_covariance = x'0000' where corr_data_id = 3",
+            ["image l2 has a covariance that is not nine", "`position`"],
+        ),
+        (
+            "delete from pose_priors where corr_data_id > 1",
+            [
+                "give 1 camera of the graph a position, and two",
+                "`position`",
+            ],
+        ),
+        (
+            "drop table pose_priors",
+            ["give 0 cameras of the graph a position", "`position`"],
+        ),
+    ] {
+        let made = made();
+        made.execute(sql);
+        let options = options(&made.path());
+        let options = Vec::from_iter(options.iter().map(String::as_str));
+        refused(&made.path(), &options, &phrases);
+    }
+    let far = with_priors([([91.0, 0.0, 0.0], 0); 4]);
+    let path = far.path();
+    let given = [&OF_TWO[..], &["--given", text(&path)]].concat();
+    refused(
+        &path,
+        &given,
+        &["l1 is no latitude and longitude in degrees"],
+    );
+}
+
+/// Photographs with GPS: their positions settle the scale.
+#[test]
+fn positions_of_photographs() {
+    let Some(folder) = samples() else { return };
+    let path = folder.join("photos_monstree.db");
+    let free = json_of(&path, &["--tracks"]);
+    let line = json_of(&path, &["--tracks", "--given", text(&path)]);
+    assert_eq!(free["verdict"], line["verdict"]);
+    assert_eq!(line["displacements"]["cameras"], 23);
+    let required = |line: &Value| line["rank_required"].as_u64().unwrap();
+    assert_eq!(required(&line), required(&free) + 1);
+    let path = folder.join("photos_banana.db");
+    refused(
+        &path,
+        &["--tracks", "--given", text(&path)],
+        &["give 0 cameras of the graph a position"],
+    );
+}

@@ -152,6 +152,9 @@ pub enum Problem {
     /// A file of known displacements without one.
     #[error("the file holds no displacement")]
     NoDisplacements,
+    /// Pose priors with positions of fewer than two cameras.
+    #[error("the pose priors of the database give {} of the graph a position, and two are needed", viewcert::wording::counted(*.0, "camera"))]
+    NoPositions(usize),
     /// A known displacement without two cameras.
     #[error("the line does not name two cameras")]
     NoPair,
@@ -503,6 +506,9 @@ impl Problem {
             Self::BesideRigs(_) => "leave the rigs out of account (--no-rigs), or what is given",
             Self::UnknownCamera(_) => {
                 "call cameras what the graph calls them; one without pairs stands alone on a line of an edge list (--format edges)"
+            }
+            Self::NoPositions(_) => {
+                "import positions into the database, or write the cameras whose position is known into a file, `position` before each"
             }
             Self::NoDisplacements => {
                 "write pairs of cameras, one a line, or cameras with known positions, two at least"

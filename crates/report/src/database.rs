@@ -22,6 +22,9 @@ pub struct DatabaseLine {
     inliers: Vec<BinLine>,
     rigs: usize,
     version: Option<u32>,
+    /// Absent if there are none.
+    #[serde(skip_serializing_if = "is_zero")]
+    positions: usize,
     connected: Vec<usize>,
 }
 
@@ -40,6 +43,10 @@ struct BinLine {
     #[serde(skip_serializing_if = "Option::is_none")]
     to: Option<u32>,
     pairs: usize,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl From<&DatabaseFacts> for DatabaseLine {
@@ -67,6 +74,7 @@ impl From<&DatabaseFacts> for DatabaseLine {
             inliers: inliers.collect(),
             rigs: facts.rigs,
             version: facts.version,
+            positions: facts.positions,
             connected: facts.connected.clone(),
         }
     }

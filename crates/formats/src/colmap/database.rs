@@ -35,7 +35,7 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
         positions,
         ..matching
     };
-    let facts = database.facts(&pairs);
+    let facts = database.facts(&pairs, matching.positions.iter().flatten().count());
     let mut notes = Vec::from_iter(opened.note.clone());
     notes.extend(database.notes(&facts));
     let mut graph = match options.tracks {
@@ -61,6 +61,9 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
                 }),
                 ..graph
             };
+            graph
+                .notes
+                .extend(positions_not_used(name, facts.positions));
             graph.notes.push(NOT_KNOWN.to_owned());
             graph
         }
@@ -304,7 +307,7 @@ impl Tables {
         found.ok().map(|at| self.matches[at].1)
     }
 
-    fn facts(&self, graph: &Graph) -> DatabaseFacts {
+    fn facts(&self, graph: &Graph, positions: usize) -> DatabaseFacts {
         let mut configs: BTreeMap<i64, ConfigCount> = BTreeMap::new();
         for pair in &self.pairs {
             let config = pair.config;
@@ -329,6 +332,7 @@ impl Tables {
             inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
             rigs: self.rigs,
             version: self.version,
+            positions,
             connected,
         }
     }
@@ -420,6 +424,17 @@ impl Tables {
         }
         notes
     }
+}
+
+/// That pose priors would be known positions if they were asked for: they are metres off, so nothing
+/// rests on them unasked.
+fn positions_not_used(name: &str, positions: usize) -> Option<String> {
+    (positions > 1).then(|| {
+        format!(
+            "the pose priors of {} are not used: --given {name} takes their positions for known",
+            counted(positions, "image")
+        )
+    })
 }
 
 /// What is known of pairs of images, for cameras that may stand for several: of two cameras the pair

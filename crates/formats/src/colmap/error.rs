@@ -70,6 +70,14 @@ pub enum DatabaseError {
     /// Rigs and frames that contradict themselves.
     #[error("the rigs of the database contradict themselves: {0}")]
     Rigs(String),
+    /// A pose prior that COLMAP cannot take.
+    #[error("the position of the image {image} {why}")]
+    PosePrior {
+        /// The name of the image.
+        image: String,
+        /// What is wrong.
+        why: String,
+    },
     /// Matches were emptied.
     #[error("{0} of the pairs that are used have inliers, but no list of them")]
     NoLists(usize),
@@ -112,6 +120,9 @@ impl DatabaseError {
             }
             Self::Rigs(_) => {
                 "configure them again (`colmap rig_configurator`), or leave them out of account: --no-rigs"
+            }
+            Self::PosePrior { .. } => {
+                "write the pose priors again, all in one system of coordinates, or write the cameras whose position is known into a file, `position` before each"
             }
             Self::NameNotUtf8(_) | Self::NameTwice(_) => "rename the image",
             Self::NoLists(_) => {

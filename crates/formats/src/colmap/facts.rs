@@ -29,6 +29,8 @@ pub struct DatabaseFacts {
     pub version: Option<u32>,
     /// How many rigs have more than one sensor.
     pub rigs: usize,
+    /// How many images have a position by their pose priors.
+    pub positions: usize,
     /// The sizes of the connected parts of the viewing graph in images, falling; images without a
     /// pair are parts of one.
     pub connected: Vec<usize>,

@@ -35,8 +35,13 @@ pub use views::Views;
 
 #[cfg(feature = "databases")]
 pub(crate) use database::read;
+#[cfg(feature = "databases")]
+pub(crate) use positions::pose_priors;
 
 use std::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 /// Says that this build reads none.
 ///
@@ -45,10 +50,26 @@ use std::fmt;
 #[cfg(not(feature = "databases"))]
 pub(crate) fn read(
     _: &str,
-    _: &std::path::Path,
+    _: &Path,
     _: &crate::ReadOptions,
 ) -> Result<crate::NamedGraph, crate::error::Fault> {
     Err(crate::error::Place::Input.fault(DatabaseError::NotBuilt.into()))
+}
+
+/// Says that this build reads none.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "databases"))]
+pub(crate) fn pose_priors(_: &Path) -> Result<crate::given::PosePriors, DatabaseError> {
+    Err(DatabaseError::NotBuilt)
+}
+
+/// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none.
+pub(crate) fn is_database(path: &Path) -> bool {
+    let mut head = [0; MAGIC.len()];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut head));
+    read.is_ok() && head == MAGIC
 }
 
 /// What every SQLite database begins with.

@@ -1,5 +1,5 @@
-//! What is given besides the pairs: known parts, and known displacements and positions, from files
-//! and from the rigs of the input.
+//! What is given besides the pairs: known parts, and known displacements and positions, from files,
+//! from pose priors and from the rigs of the input.
 //!
 //! In: a text, and the graph whose cameras it names. Out: [`Given`], with notes about what counts once
 //! or says nothing. Each line begins with the word that says what it is: `part`, `displacement` or
@@ -7,18 +7,20 @@
 
 mod displacements;
 mod parts;
+mod priors;
 
 use std::io::Read;
 use std::path::Path;
 
-use crate::NamedGraph;
 use crate::cameras::{for_each_line, read_file};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
+use crate::{NamedGraph, colmap};
 use viewcert::Known;
 use viewcert::graph::Displacements;
 
 pub use parts::NamedParts;
+pub(crate) use priors::PosePriors;
 
 /// What a file gives.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,8 +31,8 @@ pub struct Given {
     pub notes: Vec<String>,
 }
 
-/// Reads what is given besides the pairs of a graph from a file (`-` is standard input). Notes begin
-/// with its name. O(n + k log k) for k fields, and for parts inside of others what it takes to compare
+/// Reads what is given besides the pairs of a graph from a file (`-` is standard input); of a COLMAP
+/// database these are the positions of its pose priors. Notes begin with its name. O(n + k log k) for k fields, and for parts inside of others what it takes to compare
 /// them.
 ///
 /// # Errors
@@ -38,8 +40,12 @@ pub struct Given {
 /// displacements, vectors on some lines only or that contradict each other; a file that cannot be read
 /// or gives nothing.
 pub fn read_given(path: impl AsRef<Path>, input: &NamedGraph) -> Result<Given, ReadError> {
+    let path = path.as_ref();
+    if colmap::is_database(path) {
+        return priors::read(path, input);
+    }
     let read = |text: &mut dyn Read| read(text, input);
-    read_file(path.as_ref(), read, |given| &mut given.notes)
+    read_file(path, read, |given| &mut given.notes)
 }
 
 /// What is given besides the pairs of a graph: by its rigs, and by a file if there is one; see
