@@ -313,7 +313,7 @@ fn named_subcommands_are_those_of_colmap() {
         .collect();
     named.extend(["mapper", "global_mapper"]);
     assert!(named.len() >= 6, "{named:?}");
-    let newer = ["geometric_verifier", "global_mapper"];
+    let newer = ["geometric_verifier", "global_mapper", "rig_configurator"];
     let is_new = has("global_mapper");
     for name in named {
         assert!(

@@ -31,7 +31,7 @@ pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::{Encoding as ModelEncoding, encoding_in, is_model};
+pub(crate) use model::{Encoding as ModelEncoding, encoding_in, frames_in, is_model};
 
 use std::io::Read;
 use std::path::Path;
