@@ -40,7 +40,7 @@ pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<ExitC
     ];
     let both = models.each_ref();
     let seed = Options::default().seed;
-    let tracks = match &arguments.database {
+    let mut tracks = match &arguments.database {
         None => {
             ensure!(
                 !arguments.input.says_anything(),
@@ -56,7 +56,7 @@ pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<ExitC
             Some(input.with_context(|| format!("{}: no graph", path.display()))??)
         }
     };
-    let (found, verdict) = match &tracks {
+    let (found, verdict) = match &mut tracks {
         None => (merge::of_models(both), None),
         Some(input) => {
             let found = merge::of_tracks(both, input, seed, &session.shown_watch());

@@ -20,19 +20,7 @@ pub(super) fn next(arguments: &InputArguments, path: &Path, found: &Overview) ->
         command: format!("verify {verb} {file}{graph}{read}{what}"),
         purpose,
     };
-    // Advice is about images that have a centre each.
-    let displaced = found
-        .tracks
-        .as_ref()
-        .is_some_and(|report| !report.verdict.displacements.is_empty());
-    let advise = |graph: &str, what: &str, purpose| {
-        let rigs = if displaced && graph.starts_with(" --tracks") {
-            " --no-rigs"
-        } else {
-            ""
-        };
-        command("advise", &format!("{graph}{rigs}"), what, purpose)
-    };
+    let advise = |graph: &str, what: &str, purpose| command("advise", graph, what, purpose);
     let decided = format!("{graph}{tracks}");
     // How many tracks can be missing does not tell kept promises from broken ones
     // (docs/reconstruction.md, 'Margin').

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Options, Verdict, decide};
+use viewcert::decide::{Calibrated, Options, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
 use viewcert_advice::{Advice, Request, Shapes, named_joints};
@@ -168,10 +168,11 @@ fn overview(
     out: &mut impl Write,
 ) -> Result<u8> {
     let decided = |input: &NamedGraph, model: Model| {
-        let mut options = Options::default().model(model);
-        if let Known::Displacements(rigs) = with_rigs(Known::default(), input)? {
-            options = options.displacements(rigs);
-        }
+        let known = with_rigs(Known::default(), input)?;
+        let options = match model {
+            Model::Calibrated => Options::default().question(Calibrated::with(known)),
+            _ => Options::default().model(model),
+        };
         let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
         session.hide();
         verdict.with_context(|| input.name.clone())
@@ -192,12 +193,7 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    // There is no theory of joints between parts with known base lines.
-    let joints = if verdict.displacements.is_empty() {
-        named_joints(input, verdict, Options::default().seed, session.watch())
-    } else {
-        Ok(Advice::default())
-    };
+    let joints = named_joints(input, verdict, Options::default().seed, session.watch());
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
@@ -266,8 +262,7 @@ fn write_page(
 ) -> Result<()> {
     session.doing(format!("drawing {}", input.name));
     let request = Request {
-        // There are none where base lines are known.
-        suggest: verdict.displacements.is_empty().then_some(SUGGESTED),
+        suggest: Some(SUGGESTED),
         ..Request::default()
     };
     let (outputs, seed) = (session.outputs(), Options::default().seed);

@@ -6,13 +6,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Calibrated, Options, Question, decide};
-use viewcert::geometry::model::Model as Geometry;
-use viewcert_advice::{Advice, named_joints, split};
-use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs};
+use viewcert::decide::{Calibrated, Options, decide};
+use viewcert_advice::{named_joints, split};
+use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs, with_rigs};
+use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::split::SplitReport;
-use viewcert_report::{Report, counted};
 use viewcert_session::Session;
 use viewcert_session::outputs;
 
@@ -31,6 +30,10 @@ pub(super) struct SplitArguments {
     /// mapping].
     #[arg(long, value_name = "N")]
     min_views: Option<u32>,
+    /// Leave the rigs of the model out of account, as if every image had a centre of its own: for rigs
+    /// whose base lines the mapper had to find.
+    #[arg(long)]
+    no_rigs: bool,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -50,40 +53,22 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     let options = ReadOptions {
         tracks: Some(TrackOptions {
             min_views: arguments.min_views.unwrap_or(default.min_views),
-            // Frames are looked at below: all images have to be there, to be written.
-            rigs: false,
+            rigs: !arguments.no_rigs,
             ..default
         }),
         ..ReadOptions::default()
     };
     session.reading(path);
     let input = read_graphs(path, &options).next();
-    let mut input = input.with_context(|| format!("{}: no graph", path.display()))??;
+    let input = input.with_context(|| format!("{}: no graph", path.display()))??;
     let model = Model::read(path)?;
     session.hide();
-    let known = split::base_lines(&model, &input)?;
-    let has_rigs = !known.is_empty();
-    if has_rigs {
-        input.notes.push(format!(
-            "{} with several images: the base lines of rigs are taken for known",
-            counted(model.frames().count(), "frame")
-        ));
-    }
-    let question: Question = Calibrated::with(Known::Displacements(known)).into();
-    let options = if has_rigs {
-        Options::default().question(question)
-    } else {
-        Options::default().model(Geometry::Calibrated)
-    };
+    let question = Calibrated::with(with_rigs(Known::default(), &input)?);
+    let options = Options::default().question(question);
     let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
     session.hide();
     let verdict = verdict.with_context(|| input.name.clone())?;
-    // Base lines join components in ways of their own, and nothing is said about these.
-    let joints = if has_rigs {
-        Ok(Advice::default())
-    } else {
-        named_joints(&input, &verdict, Options::default().seed, session.watch())
-    };
+    let joints = named_joints(&input, &verdict, Options::default().seed, session.watch());
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
     let scope = Scope::default();

@@ -1148,8 +1148,13 @@ fn rigs_hold_parts_together() {
             .iter()
             .any(|note| note.contains("not used here"))
     );
-    let advise = [&["advise", "--suggest", text(&path)], &OF_TWO[..]].concat();
-    is_refusal(&verify(&advise), &["in ways of their own", "--no-rigs"]);
+    let advise = [&["advise", text(&path)], &OF_TWO[..]].concat();
+    assert!(verify(&advise).out.contains("nothing is to be joined"));
+    let weak = [&["advise", "--weak", text(&path)], &OF_TWO[..]].concat();
+    is_refusal(
+        &verify(&weak),
+        &["would be left out with them", "--no-rigs"],
+    );
     // The certificate states the base lines, and both checkers ask for them.
     let file = |name: &str| made.folder.path().join(name);
     let [certificate, graph, given] = ["c.json", "g.txt", "given.txt"].map(file);

@@ -1,8 +1,10 @@
 //! Rigid parts and pairs as one small graph with the same number of degrees of freedom
-//! (docs/theory.md, Theorem 4.4; 4.11 in the calibrated model).
+//! (docs/theory.md, Theorem 4.4; 4.11 in the calibrated model, 13.18 with known displacements).
 
+use crate::parts::Parts;
 use std::collections::HashMap;
 use viewcert::decide::{Options, Verdict, VerdictError, decide};
+use viewcert::graph::Displacements;
 use viewcert::{Graph, Strength};
 
 /// Rigid parts, each of them a chain of triangles on its terminals, and pairs.
@@ -18,6 +20,8 @@ pub struct Condensation {
     pub graph: Graph,
     /// The terminals of every part, increasing, as nodes of the graph.
     pub terminals: Vec<Vec<u32>>,
+    /// Pairs of the graph whose displacement is known: those of parts of known scale.
+    pub known: Vec<(u32, u32)>,
 }
 
 impl Condensation {
@@ -46,7 +50,42 @@ impl Condensation {
             nodes,
             graph,
             terminals,
+            known: Vec::new(),
         }
+    }
+
+    /// The same where some of the parts have a known scale: all displacements in them are known.
+    /// Nothing changes if there are none. O(edges times parts of a node).
+    #[must_use]
+    pub fn with_scales(mut self, parts: &Parts) -> Self {
+        let edges = self.graph.edges().iter().copied();
+        let of = |v: u32| self.nodes[v as usize];
+        let known = edges.filter(|&(i, j)| parts.is_displacement((of(i), of(j))));
+        self.known = known.collect();
+        self
+    }
+
+    /// The question about this graph, or one with further edges.
+    pub fn options(&self, options: &Options) -> Options {
+        if self.known.is_empty() {
+            return options.clone();
+        }
+        let known = Displacements::new(self.nodes.len() as u32, self.known.iter().copied());
+        let known = known.expect("edges of the graph");
+        options.clone().displacements(known)
+    }
+
+    /// How many degrees of freedom it has with further edges, and how strong that is.
+    ///
+    /// # Errors
+    /// Those of [`decide`].
+    pub fn freedom(
+        &self,
+        more: impl IntoIterator<Item = (u32, u32)>,
+        options: &Options,
+    ) -> Result<(usize, Strength), VerdictError> {
+        let verdict = decide(&with(&self.graph, more), &self.options(options))?;
+        Ok((shortfall(&verdict), verdict.rank_claim().strength))
     }
 
     /// The same with some nodes in the place of others, pair by pair: two nodes become one.
@@ -65,6 +104,7 @@ impl Condensation {
             nodes: self.nodes.clone(),
             graph: graph.expect("the nodes of no edge become one"),
             terminals: terminals.collect(),
+            known: self.known.iter().map(|&(i, j)| (of(i), of(j))).collect(),
         }
     }
 
@@ -122,15 +162,6 @@ pub fn without(graph: &Graph, gone: &[(u32, u32)]) -> Graph {
 pub fn with(graph: &Graph, more: impl IntoIterator<Item = (u32, u32)>) -> Graph {
     let edges = graph.edges().iter().copied().chain(more);
     Graph::new(graph.nodes() as u32, edges).expect("edges between its nodes")
-}
-
-/// How many degrees of freedom a graph has, and how strong that is.
-///
-/// # Errors
-/// Those of [`decide`].
-pub fn freedom(graph: &Graph, options: &Options) -> Result<(usize, Strength), VerdictError> {
-    let verdict = decide(graph, options)?;
-    Ok((shortfall(&verdict), verdict.rank_claim().strength))
 }
 
 /// By how much the rank falls short of that of a solvable graph.

@@ -42,13 +42,13 @@ pub fn explain(graph: &Graph, parts: &Parts, known: Known, image: u32, most: usi
     };
     let at_image = |&&(i, j): &&(u32, u32)| i == image || j == image;
     let pairs = graph.edges().iter().filter(at_image).count();
-    let mut links: Vec<Link> = parts
-        .links_at(image)
-        .map(|(other, _)| Link {
+    // Another image of its frame is no pair.
+    let links = parts.links_at(image);
+    let links = links.filter_map(|(other, _)| Some((other, graph.edge_number(image, other)?)));
+    let mut links: Vec<Link> = links
+        .map(|(other, edge)| Link {
             other,
-            inliers: graph
-                .edge_number(image, other)
-                .and_then(|k| known.inliers.get(k).copied()),
+            inliers: known.inliers.get(edge).copied(),
             reaches: larger(other),
         })
         .collect();

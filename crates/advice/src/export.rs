@@ -202,17 +202,8 @@ fn write_part(folder: &Path, task: &Task, part: &Exported) -> Result<()> {
     fs::create_dir(folder)?;
     let labels = &task.input.labels;
     let mut images = file(&folder.join(LISTS[0]))?;
-    for &v in &part.images {
-        writeln!(images, "{}", labels.display(v))?;
-        // Images that are one camera, as those of a frame that were taken at one place.
-        let frames = task.input.frames.as_ref();
-        for name in frames
-            .and_then(|frames| frames.together.get(&v))
-            .into_iter()
-            .flatten()
-        {
-            writeln!(images, "{name}")?;
-        }
+    for name in part.images.iter().flat_map(|&v| task.names.all_of(v)) {
+        writeln!(images, "{name}")?;
     }
     images.flush()?;
     if task.input.cameras.is_none() {

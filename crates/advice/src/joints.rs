@@ -1,6 +1,6 @@
 //! Joints: how components touch, and what that leaves free.
 
-use crate::condensation::{Condensation, freedom};
+use crate::condensation::Condensation;
 use crate::parts::Parts;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use viewcert::decide::{Options, VerdictError};
@@ -51,6 +51,9 @@ impl How {
 #[derive(Clone, Debug, Default)]
 pub struct Shapes(HashMap<Vec<(u32, u32)>, (usize, Strength)>);
 
+/// Stands between the edges of a shape and those of known displacement.
+const KNOWN: (u32, u32) = (u32::MAX, u32::MAX);
+
 impl Shapes {
     /// Most shapes that are kept.
     const MOST: usize = 100_000;
@@ -58,17 +61,22 @@ impl Shapes {
     /// What a condensed joint leaves free.
     fn freedom(
         &mut self,
-        condensed: &Graph,
+        condensed: &Condensation,
         options: &Options,
     ) -> Result<(usize, Strength), VerdictError> {
-        if let Some(&known) = self.0.get(condensed.edges()) {
+        let mut shape = condensed.graph.edges().to_vec();
+        if !condensed.known.is_empty() {
+            shape.push(KNOWN);
+            shape.extend(&condensed.known);
+        }
+        if let Some(&known) = self.0.get(&shape) {
             return Ok(known);
         }
-        let found = freedom(condensed, options)?;
+        let found = condensed.freedom([], options)?;
         if self.0.len() == Self::MOST {
             self.0.clear();
         }
-        self.0.insert(condensed.edges().to_vec(), found);
+        self.0.insert(shape, found);
         Ok(found)
     }
 }
@@ -86,7 +94,8 @@ pub struct Joints {
 /// between larger ones; only if there is no larger one they have joints themselves.
 ///
 /// What a joint leaves free is decided on the two components' cores
-/// (docs/theory.md, Theorem 4.4); at a shared node ranks add up (4.3).
+/// (docs/theory.md, Theorem 4.4; 13.18 with known displacements); at a shared node ranks add up (4.3,
+/// 13.17).
 ///
 /// O(n + k log k) for k places where two components meet, of which about `4 most` are looked at,
 /// and a decision of a small graph for each shape of joint that is not in `shapes` yet.
@@ -116,11 +125,13 @@ pub fn joints(
     for (components, how) in found.into_iter().take(most) {
         let (freedom, strength) = if how.pairs.is_empty() && how.through.is_empty() {
             let sizes = components.map(|k| verdict.components[k].node_count());
-            let [one, other] = sizes.map(|n| verdict.model.required(n));
-            let both = verdict.model.required(sizes[0] + sizes[1] - 1);
+            let required = |n, scaled| verdict.model.required(n) + usize::from(scaled);
+            let scaled = components.map(|k| parts.is_scaled(k));
+            let [one, other] = [0, 1].map(|k| required(sizes[k], scaled[k]));
+            let both = required(sizes[0] + sizes[1] - 1, scaled[0] || scaled[1]);
             (both - one - other, Strength::Proof)
         } else {
-            shapes.freedom(&joint_graph(parts, components, &how), options)?
+            shapes.freedom(&condensed(parts, components, &how), options)?
         };
         joints.push(Joint {
             components,
@@ -248,7 +259,7 @@ fn two_of(list: &[usize]) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// Two components and what joins them, condensed and relabelled: equal for joints of one shape.
-fn joint_graph(parts: &Parts, components: [usize; 2], how: &How) -> Graph {
+fn condensed(parts: &Parts, components: [usize; 2], how: &How) -> Condensation {
     let sides = [0, 1].map(|side| {
         let pairs = how.pairs.iter().map(|&(a, b)| [a, b][side]);
         let through = how.through.iter().map(|by| by[2 * side]);
@@ -257,7 +268,7 @@ fn joint_graph(parts: &Parts, components: [usize; 2], how: &How) -> Graph {
     });
     let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
     let all = how.pairs.iter().copied().chain(by);
-    Condensation::new(sides.to_vec(), all, std::iter::empty()).graph
+    Condensation::new(sides.to_vec(), all, std::iter::empty()).with_scales(parts)
 }
 
 /// Terminals of a part, two at least.

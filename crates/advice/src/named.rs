@@ -116,6 +116,9 @@ pub struct WeakItem {
 pub struct Suggestion {
     /// The pairs.
     pub pairs: Vec<[String; 2]>,
+    /// Images of a frame at the place of one of these, which are the same camera: to be matched as well.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub also: Vec<String>,
     /// Verified matches of each pair, if they are known.
     pub inliers: Option<Vec<u32>>,
     /// Matches before verification of each pair, if they are known.
@@ -124,6 +127,9 @@ pub struct Suggestion {
     pub joins: Vec<usize>,
     /// How many single pairs become part of it as well.
     pub single_pairs: usize,
+    /// How many frames without points of their own become part of it as well.
+    #[serde(skip_serializing_if = "is_none")]
+    pub frames: usize,
     /// How many images.
     pub images: usize,
     /// How many images the largest of the components gains.
@@ -289,6 +295,10 @@ pub struct Export {
     pub commands: Vec<Vec<String>>,
 }
 
+fn is_none(count: &usize) -> bool {
+    *count == 0
+}
+
 /// Most names that are offered for one that is not there.
 const MEANT: usize = 3;
 
@@ -302,6 +312,14 @@ impl<'a> Names<'a> {
 
     pub(crate) fn of(&self, node: u32) -> String {
         self.0.labels.label(node).into_owned()
+    }
+
+    /// All images that a camera stands for: those of a frame that were taken at one place are one.
+    pub(crate) fn all_of(&self, node: u32) -> impl Iterator<Item = String> {
+        let frames = self.0.frames.as_ref();
+        let others = frames.and_then(|frames| frames.together.get(&node));
+        let others = others.into_iter().flatten().map(ToString::to_string);
+        std::iter::once(self.of(node)).chain(others)
     }
 
     pub(crate) fn pair(&self, (a, b): (u32, u32)) -> [String; 2] {

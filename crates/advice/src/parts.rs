@@ -29,6 +29,8 @@ pub struct Parts {
     pub links: Vec<((u32, u32), usize)>,
     /// For every component of the verdict where it is.
     places: Vec<Place>,
+    /// For every component of the verdict whether it holds a known displacement.
+    scaled: Vec<bool>,
     of_node: Lists,
     links_of_node: Lists,
 }
@@ -40,8 +42,8 @@ enum Place {
 }
 
 impl Parts {
-    /// Sorts the components of a verdict out. O(n + k) for k nodes of components together, up to
-    /// sorting.
+    /// Sorts the components of a verdict out. Two images of a frame that are a component by themselves
+    /// are a link, as a pair is. O(n + k) for k nodes of components together, up to sorting.
     pub fn new(graph: &Graph, verdict: &Verdict) -> Self {
         let mut parts = Vec::new();
         let mut links = Vec::new();
@@ -70,13 +72,51 @@ impl Parts {
         let ends = (0..)
             .zip(&links)
             .flat_map(|(k, &((a, b), _))| [(a, k), (b, k)]);
-        Self {
+        let mut found = Self {
             of_node: Lists::group(graph.nodes(), of_node),
             links_of_node: Lists::group(graph.nodes(), ends),
+            scaled: vec![false; places.len()],
             parts,
             links,
             places,
+        };
+        for group in verdict.displacements.groups() {
+            let component = found.component_of((group[0], group[1]));
+            let component = component.expect("a group lies in one component");
+            found.scaled[component] = true;
         }
+        found
+    }
+
+    /// The component that holds two nodes, if there is one: there is one at most.
+    fn component_of(&self, (a, b): (u32, u32)) -> Option<usize> {
+        let part = self.common(a, b).map(|part| self.parts[part].component);
+        part.or_else(|| self.link((a, b)))
+    }
+
+    /// The component that a pair is by itself.
+    fn link(&self, (a, b): (u32, u32)) -> Option<usize> {
+        let pair = (a.min(b), a.max(b));
+        let found = self.links.binary_search_by_key(&pair, |link| link.0);
+        found.ok().map(|at| self.links[at].1)
+    }
+
+    /// Whether a component of the verdict holds a known displacement, so that its scale is known
+    /// (docs/theory.md, 13.16).
+    pub fn is_scaled(&self, component: usize) -> bool {
+        self.scaled[component]
+    }
+
+    /// Whether one component of known scale holds two nodes: then the displacement between them is
+    /// determined with its length. O(k) for k parts of one of them.
+    pub fn is_displacement(&self, pair: (u32, u32)) -> bool {
+        let component = self.component_of(pair);
+        component.is_some_and(|component| self.scaled[component])
+    }
+
+    /// Whether a component holds both images, a single pair or a frame included.
+    pub fn are_of_one(&self, pair: (u32, u32)) -> bool {
+        self.component_of(pair).is_some()
     }
 
     /// The images of a component of the verdict, increasing.

@@ -3,7 +3,7 @@
 use crate::named::Advice;
 use crate::task::{Task, Weak};
 use crate::{Shapes, export, folder};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
 use viewcert::watch::Watch;
@@ -62,6 +62,17 @@ impl Request {
         asked.find_map(|(asked, option)| asked.then_some(option))
     }
 
+    /// The first option that has no answer where displacements are known, if there is one.
+    fn asked_without_displacements(&self) -> Option<&'static str> {
+        let asked = [
+            (self.weak.is_some(), "--weak"),
+            (!self.sweep.is_empty(), "--sweep"),
+            (self.margin.is_some(), "--margin"),
+        ];
+        let mut asked = asked.into_iter();
+        asked.find_map(|(asked, option)| asked.then_some(option))
+    }
+
     /// Refuses what a graph has no answer to.
     ///
     /// # Errors
@@ -85,9 +96,9 @@ impl Request {
         self.asked_of_pairs().is_some() || self.export.is_some()
     }
 
-    /// Does what is asked for; joints are always looked for, but with known displacements, which
-    /// join components in ways of their own. What they leave free is kept in
-    /// `shapes` for the next graph of the same model.
+    /// Does what is asked for; joints are always looked for, but not with displacements that are given
+    /// as numbers, which are in no general position. What joints leave free is kept in `shapes` for the
+    /// next graph of the same model.
     ///
     /// # Errors
     /// Those of decisions and of the folder; an image that is not there; work that was stopped.
@@ -107,11 +118,19 @@ impl Request {
                  leave out one of the two"
             );
         }
-        if !verdict.displacements.is_empty() {
+        if !verdict.displacements.is_empty()
+            && let Some(option) = self.asked_without_displacements()
+        {
+            bail!(
+                "{option} leaves pairs or tracks out, and known displacements would be left out with them; \
+                 leave out --given, and rigs by --no-rigs"
+            );
+        }
+        if verdict.displacements.vectors().is_some() {
             ensure!(
                 self.asked_of_pairs().is_none(),
-                "known displacements join components in ways of their own, and nothing is said about \
-                 these; leave out --given, and rigs by --no-rigs"
+                "displacements that are given as numbers join components in ways of their own, and nothing \
+                 is said about these; give them without numbers"
             );
             let mut advice = Advice::without_joints(verdict.components.len() < 2);
             if let Some(folder) = &self.export {

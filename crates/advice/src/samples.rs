@@ -7,6 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::Graph;
 use viewcert::decide::{Options, Question};
+use viewcert::graph::Displacements;
 use viewcert::{Model, Verdict, decide};
 
 /// Random graphs of 4 to 9 nodes, sparse ones and dense ones.
@@ -66,6 +67,40 @@ pub fn tracks(count: u64) -> impl Iterator<Item = Graph> {
             observations.extend((first..first + views).map(|c| (c % cameras, point)));
         }
         Graph::new(cameras + points, observations).unwrap()
+    })
+}
+
+/// Camera-point graphs in two groups of cameras, with few tracks between these, and frames of two or
+/// three cameras of any groups.
+pub fn frames(count: u64) -> impl Iterator<Item = (Graph, Displacements)> {
+    (0..count).map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(4000 + seed);
+        let cameras: u32 = random.random_range(6..11);
+        let half = cameras / 2;
+        let points: u32 = random.random_range(6..17);
+        let mut observations = Vec::new();
+        for point in cameras..cameras + points {
+            let side = if random.random_range(0..2) == 0 {
+                0..half
+            } else {
+                half..cameras
+            };
+            let seen = side.filter(|_| random.random_range(0..10) < 7);
+            observations.extend(seen.map(|camera| (camera, point)));
+            if random.random_range(0..12) == 0 {
+                observations.push((random.random_range(0..cameras), point));
+            }
+        }
+        let mut all: Vec<u32> = (0..cameras).collect();
+        all.shuffle(&mut random);
+        let mut pairs = Vec::new();
+        for _ in 0..random.random_range(1..4) {
+            let size = random.random_range(2..4);
+            let frame = all.split_off(all.len().saturating_sub(size));
+            pairs.extend(frame.windows(2).map(|two| (two[0], two[1])));
+        }
+        let graph = Graph::from_pairs(cameras + points, observations).unwrap().0;
+        (graph, Displacements::new(cameras + points, pairs).unwrap())
     })
 }
 

@@ -17,7 +17,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
-use viewcert::graph::Displacements;
 use viewcert_formats::NamedGraph;
 use viewcert_formats::model::{Model, is_file_of_model};
 use viewcert_session::Outputs;
@@ -44,6 +43,14 @@ pub struct Split {
     pub points_cut: usize,
     /// How many points no two images of one part see: they are in no part.
     pub points_left_out: usize,
+}
+
+impl Split {
+    /// How many images the model has.
+    pub fn image_count(&self) -> usize {
+        let parts = self.parts.iter().flat_map(|part| &part.images);
+        parts.chain(&self.outside).collect::<BTreeSet<_>>().len()
+    }
 }
 
 /// A part of a model: a model of its own.
@@ -127,33 +134,10 @@ fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
     Ok(None)
 }
 
-/// What the frames of a model tell besides its tracks: images of one frame are of one rig, whose base
-/// lines are taken for known, with their lengths (docs/theory.md, Theorems 13.16 to 13.19). Images
-/// have the names of the graph's cameras. O(n log n) for n images.
-///
-/// # Errors
-/// None for the graph of this model.
-pub fn base_lines(model: &Model, input: &NamedGraph) -> Result<Displacements> {
-    let names = Names::new(input);
-    let nodes: BTreeMap<String, u32> = names.images().map(|v| (names.of(v), v)).collect();
-    let images = model.images.iter();
-    let nodes = images.filter_map(|image| Some((image.id, *nodes.get(&*image.name)?)));
-    let nodes: BTreeMap<u32, u32> = nodes.collect();
-    let pairs = model.frames().flat_map(|frame| {
-        let frame: Vec<u32> = frame
-            .iter()
-            .filter_map(|id| nodes.get(id).copied())
-            .collect();
-        let pairs = frame.windows(2).map(|two| (two[0], two[1]));
-        pairs.collect::<Vec<_>>()
-    });
-    let pairs = pairs.filter(|(a, b)| a != b);
-    Ok(Displacements::new(input.graph.nodes() as u32, pairs)?)
-}
-
 /// Takes a model apart by the components of its camera-point graph, whose cameras have the names of
-/// the model's images, and writes the folder, whole or not at all. `page` writes what the parts are
-/// and why, for people. Linear in the model for each part.
+/// the model's images, and writes the folder, whole or not at all. A camera that stands for several
+/// images of a frame, as these were taken at one place, is all of them; a frame without points is no
+/// part. `page` writes what the parts are and why, for people. Linear in the model for each part.
 ///
 /// # Errors
 /// Those of the file system; a folder with something else in it.
@@ -168,7 +152,9 @@ pub fn split(
     let names = Names::new(input);
     let parts = Parts::new(&input.graph, verdict);
     let cameras = names.images().end;
-    let members = parts.parts.iter().map(|part| {
+    let has_points = |component: usize| verdict.components[component].edge_count() > 0;
+    let members = parts.parts.iter().filter(|part| has_points(part.component));
+    let members = members.map(|part| {
         let images = part.nodes.iter().copied().filter(|&v| v < cameras);
         (part.component, images.collect::<Vec<u32>>())
     });
@@ -188,15 +174,13 @@ pub fn split(
         shared: components
             .iter()
             .filter(|(_, of)| of.len() > 1)
-            .map(|(&v, of)| Shared {
-                image: names.of(v),
-                components: of.clone(),
-            })
+            .flat_map(|(&v, of)| names.all_of(v).map(|image| (image, of.clone())))
+            .map(|(image, components)| Shared { image, components })
             .collect(),
         outside: names
             .images()
             .filter(|v| !components.contains_key(v))
-            .map(|v| names.of(v))
+            .flat_map(|v| names.all_of(v))
             .collect(),
         points_cut: 0,
         points_left_out: 0,
@@ -204,8 +188,10 @@ pub fn split(
     let mut fates = Fates::default();
     outputs.folder(folder, |new| {
         for (component, images) in &members {
-            let images: BTreeSet<String> = images.iter().map(|&v| names.of(v)).collect();
-            let part = model.of_images(|image| images.contains(&*image.name));
+            let images = images.iter();
+            let images = images.flat_map(|&v| names.all_of(v).map(move |name| (name, v)));
+            let images: BTreeMap<String, u32> = images.collect();
+            let part = model.of_images(|image| images.get(&*image.name).copied());
             let name = format!("{:0digits$}", number(*component));
             fs::create_dir(new.join(&name))?;
             part.write(&new.join(&name))?;
@@ -213,7 +199,7 @@ pub fn split(
             found.parts.push(Piece {
                 component: number(*component),
                 folder: name,
-                images: images.into_iter().collect(),
+                images: images.into_keys().collect(),
                 points: part.points.len(),
                 observations: part.points.iter().map(|point| point.track.len()).sum(),
             });

@@ -5,7 +5,7 @@
 //! matches, else images that are near each other ([`nearness`]); what was matched in vain comes last
 //! ([`tried`]).
 
-use crate::condensation::{Condensation, freedom, terminals, with};
+use crate::condensation::{Condensation, terminals, with};
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
@@ -223,8 +223,8 @@ impl<'a> Search<'a> {
     fn is_candidate(&self, (a, b): Pair, at: Option<u32>) -> bool {
         a != b
             && at.is_none_or(|v| v == a || v == b)
-            && !self.parts.are_together(a, b)
-            && self.graph.edge_number(a, b).is_none()
+            // Nor two images of a frame, whose base line is known.
+            && !self.parts.are_of_one((a, b))
             // Of two cameras that are placed nowhere no point is known that would place either.
             && !(self.is_of_tracks() && self.parts.of(a).is_empty() && self.parts.of(b).is_empty())
     }
@@ -407,9 +407,10 @@ impl<'a> Search<'a> {
         let parts = [&nodes[0][..], &nodes[1]];
         let alone = pool.iter().flat_map(|&(a, b)| [a, b]);
         let small = Condensation::new(terminals(&parts, ends), links, alone);
+        let small = small.with_scales(self.parts);
         let free = |set: &[Pair]| {
             let more = set.iter().map(|&pair| small.pair(pair));
-            Ok::<usize, VerdictError>(freedom(&with(&small.graph, more), options)?.0)
+            Ok::<usize, VerdictError>(small.freedom(more, options)?.0)
         };
         let mut chosen: Vec<Pair> = Vec::new();
         let mut left = free(&chosen)?;
@@ -492,6 +493,7 @@ impl<'a> Search<'a> {
         let ends = || sets.iter().flatten().flat_map(|&(a, b)| [a, b]);
         let touched = links.clone().flat_map(|(a, b)| [a, b]).chain(ends());
         let small = Condensation::new(terminals(&nodes, touched), links, ends());
+        let small = small.with_scales(self.parts);
         let each = sets
             .par_iter()
             .map(|set| self.joined_by_no_less(&small, set, options));
@@ -557,7 +559,7 @@ impl<'a> Search<'a> {
         pairs: &[Pair],
         options: &Options,
     ) -> Result<Option<Together>, VerdictError> {
-        let verdict: Verdict = decide(graph, options)?;
+        let verdict: Verdict = decide(graph, &small.options(options))?;
         let found = Parts::new(graph, &verdict);
         let mut places = pairs.iter().map(|&(a, b)| found.common(a, b));
         let Some(place) = places.next().flatten() else {

@@ -5,6 +5,7 @@ use crate::mapper::Thresholds;
 use crate::margin::MISSING;
 use crate::named::{self, Advice, Names};
 use crate::suggest::{IMAGE_NEEDS, PAIR_NEEDS, Wanted};
+use crate::words::Scales;
 use crate::{Candidate, Known, Nearness, OtherPair, Parts, Shapes, Thinning, words};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -13,7 +14,7 @@ use viewcert::watch::Watch;
 use viewcert::{Strength, Verdict};
 use viewcert_formats::NamedGraph;
 
-/// The joints alone.
+/// The joints alone; none where displacements are given as numbers, which are in no general position.
 ///
 /// # Errors
 /// Those of a decision.
@@ -23,6 +24,9 @@ pub fn named_joints(
     seed: u64,
     watch: Watch,
 ) -> Result<Advice> {
+    if verdict.displacements.vectors().is_some() {
+        return Ok(Advice::default());
+    }
     let task = Task::new(input, verdict, seed, watch);
     Ok(task.joints(&mut Shapes::default())?.0)
 }
@@ -130,8 +134,20 @@ impl<'a> Task<'a> {
             crossing: how.pairs.len() + how.through.len(),
             inliers: known.filter(|known| !known.is_empty()),
             freedom: joint.freedom,
-            meaning: words::meaning(self.verdict.model, joint.freedom),
+            meaning: words::meaning(self.verdict.model, joint.freedom, self.scales(joint)),
             strength: joint.strength.name(),
+        }
+    }
+
+    /// What is known of scales at a joint.
+    fn scales(&self, joint: &advice::Joint) -> Scales {
+        let by = joint.how.through.iter();
+        let by = by.flat_map(|&[a, x, b]| [(a, x), (x, b)]);
+        let mut between = joint.how.pairs.iter().copied().chain(by);
+        match joint.components.map(|k| self.parts.is_scaled(k)) {
+            [true, true] => Scales::Both,
+            _ if between.any(|pair| self.parts.is_displacement(pair)) => Scales::Between,
+            _ => Scales::Free,
         }
     }
 
@@ -194,7 +210,7 @@ impl<'a> Task<'a> {
         let (graph, parts) = (&self.input.graph, &self.parts);
         let found = advice::suggest(graph, parts, joints, known, wanted, &self.options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
-            let (links, joins) = self.links_and_parts(&found.components);
+            let (links, frames, joins) = self.links_and_parts(&found.components);
             let known = |pick: fn(OtherPair) -> Option<u32>| {
                 let all: Option<Vec<u32>> = found
                     .pairs
@@ -209,10 +225,12 @@ impl<'a> Task<'a> {
                     .iter()
                     .map(|&(pair, _)| self.names.pair(pair))
                     .collect(),
+                also: Vec::new(),
                 inliers: known(|pair| Some(pair.inliers)),
                 matches: known(|pair| pair.matches),
                 joins,
                 single_pairs: links,
+                frames,
                 images: found.images,
                 gain: found.gain,
                 tried: self.tried(&found.candidates),
@@ -245,12 +263,16 @@ impl<'a> Task<'a> {
         })
     }
 
-    /// How many of some components are single pairs, and the numbers of the others.
-    fn links_and_parts(&self, components: &[usize]) -> (usize, Vec<usize>) {
-        let single = |component: usize| self.verdict.components[component].node_count() == 2;
-        let larger = components.iter().filter(|&&component| !single(component));
+    /// How many of some components are single pairs, how many frames without points, and the numbers
+    /// of the others.
+    fn links_and_parts(&self, components: &[usize]) -> (usize, usize, Vec<usize>) {
+        let of = |component: usize| &self.verdict.components[component];
+        let is_frame = |&component: &usize| of(component).edge_count() == 0;
+        let (frames, others): (Vec<usize>, Vec<usize>) =
+            components.iter().partition(|k| is_frame(k));
+        let larger = others.iter().filter(|&&k| of(k).node_count() > 2);
         let larger: Vec<usize> = larger.copied().map(number).collect();
-        (components.len() - larger.len(), larger)
+        (others.len() - larger.len(), frames.len(), larger)
     }
 
     /// The same in a camera-point graph.
@@ -265,14 +287,16 @@ impl<'a> Task<'a> {
         let options = &self.options;
         let found = advice::suggest_matches(graph, parts, cameras, joints, known, wanted, options);
         let named = found.context("--suggest")?.into_iter().map(|found| {
-            let (links, joins) = self.links_and_parts(&found.components);
+            let (links, frames, joins) = self.links_and_parts(&found.components);
             let known = found.known;
             named::Suggestion {
                 pairs: vec![self.names.pair(found.cameras)],
+                also: self.also(found.cameras),
                 inliers: known.map(|known| vec![known.inliers]),
                 matches: known.and_then(|known| Some(vec![known.matches?])),
                 joins,
                 single_pairs: links,
+                frames,
                 images: found.images,
                 gain: found.gain,
                 tried: self.tried(&[found.candidate]),
@@ -286,6 +310,12 @@ impl<'a> Task<'a> {
             }
         });
         Ok(named.collect())
+    }
+
+    /// The images that were taken at the place of one of two, besides the one that has its name.
+    fn also(&self, (a, b): (u32, u32)) -> Vec<String> {
+        let others = [a, b].into_iter().map(|v| self.names.all_of(v).skip(1));
+        others.flatten().collect()
     }
 
     /// Further observations, by the camera and the component whose points it would see.

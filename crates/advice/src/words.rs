@@ -14,11 +14,17 @@ pub(crate) fn how(how: &How, cameras: Option<u32>) -> String {
         (Some(_), Some(_)) => words.push("a shared point".to_owned()),
         (None, _) => {}
     }
-    match (how.pairs.len(), cameras) {
+    // Two cameras are no observation, but images of a frame.
+    let is_frame = |&&(a, b): &&(u32, u32)| cameras.is_some_and(|c| a < c && b < c);
+    let frames = how.pairs.iter().filter(is_frame).count();
+    match (how.pairs.len() - frames, cameras) {
         (0, _) => {}
         (1, None) => words.push("one pair".to_owned()),
         (n, None) => words.push(format!("{n} pairs of different images")),
         (n, Some(_)) => words.push(counted(n, "observation")),
+    }
+    if frames > 0 {
+        words.push(counted(frames, "frame"));
     }
     let through = how.through.iter();
     let points = cameras.map_or(0, |c| through.filter(|by| by[1] >= c).count());
@@ -33,9 +39,26 @@ pub(crate) fn how(how: &How, cameras: Option<u32>) -> String {
     words.join(" and ")
 }
 
+/// What is known of scales where two components touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scales {
+    /// Nothing, or that of one of the two.
+    Free,
+    /// Those of both, by the base lines in them.
+    Both,
+    /// Both would follow from a base line between the two.
+    Between,
+}
+
 /// What a joint leaves free.
-pub(crate) fn meaning(model: Model, freedom: usize) -> String {
+pub(crate) fn meaning(model: Model, freedom: usize, scales: Scales) -> String {
     match (model, freedom) {
+        (Model::Calibrated, _) if scales == Scales::Both => counted(freedom, "translation"),
+        (Model::Calibrated, 1) if scales == Scales::Between => "one scale".to_owned(),
+        (Model::Calibrated, 2) if scales == Scales::Between => "the scale of each".to_owned(),
+        (Model::Calibrated, _) if scales == Scales::Between => {
+            format!("{freedom} degrees of freedom of scales and translations")
+        }
         (Model::Calibrated, 1) => "relative scale".to_owned(),
         (Model::Calibrated, 2) => "relative scale and one translation".to_owned(),
         (Model::Calibrated, 3) => "relative scale and two translations".to_owned(),

@@ -180,6 +180,13 @@ pub(crate) fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Res
         if let Some(enough) = &one.enough {
             writeln!(out, "      enough: {}", sufficient(enough))?;
         }
+        if !one.also.is_empty() {
+            writeln!(
+                out,
+                "      at the same places, to be matched as well: {}",
+                one.also.join(", ")
+            )?;
+        }
     }
     Ok(())
 }
@@ -265,13 +272,21 @@ fn joins(one: &Suggestion) -> String {
         0 => String::new(),
         count => counted(count, single),
     };
-    let both: Vec<String> = [parts, pairs]
+    let frames = match one.frames {
+        0 => String::new(),
+        count => counted(count, "frame"),
+    };
+    let both: Vec<String> = [parts, pairs, frames]
         .into_iter()
         .filter(|part| !part.is_empty())
         .collect();
-    match (one.joins.len() + one.single_pairs, both.join(" and ")) {
-        (1, alone) => format!("adds {} to {alone}", counted(one.gain, "image")),
-        (_, both) => format!("joins {both}"),
+    match one.joins.len() + one.single_pairs + one.frames {
+        1 => format!(
+            "adds {} to {}",
+            counted(one.gain, "image"),
+            both.join(" and ")
+        ),
+        _ => format!("joins {}", both.join(" and ")),
     }
 }
 

@@ -101,7 +101,7 @@ impl MergeReport<'_> {
     /// What the answer rests on.
     fn because(&self) -> String {
         let merge = self.merge;
-        let images = merge.shared_images.len();
+        let images = merge.shared_places;
         match (merge.by, merge.determined) {
             ("tracks", true) => {
                 "with both models known, the tracks of the database leave nothing free between them".into()
@@ -114,10 +114,20 @@ impl MergeReport<'_> {
                  scale"
                     .into()
             }
+            (_, true) if merge.scaled == [true, true] => {
+                "the place in both fixes rotation and translation, and the base lines of rigs in both the \
+                 scale"
+                    .into()
+            }
             (_, true) => "the image in both fixes rotation and translation, and how far the points in both \
                           are from it the scale"
                 .into(),
             (_, false) if images == 0 => "nothing is in both".into(),
+            (_, false) if merge.shared_images.len() > 1 => {
+                "the images in both are of one frame and at one place: they fix rotation and translation, and \
+                 say nothing about scale"
+                    .into()
+            }
             (_, false) => {
                 "the image in both fixes rotation and translation; one place in both says nothing about \
                  scale"
@@ -130,6 +140,10 @@ impl MergeReport<'_> {
     fn merger(&self) -> String {
         let shared = self.merge.shared_images.len();
         match (self.merge.model_merger, self.merge.determined) {
+            (true, false) if self.merge.shared_places < 2 => format!(
+                "colmap model_merger needs {MERGER} images in both and finds {shared}, all at one place: it would \
+                 make up the scale"
+            ),
             (true, _) => {
                 format!("colmap model_merger needs {MERGER} images in both and finds {shared}")
             }

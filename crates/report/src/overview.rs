@@ -130,8 +130,10 @@ impl Parts {
         let components = &report.verdict.components;
         let all: Vec<Vec<u32>> = match report.input.cameras {
             None => components.iter().map(|part| part.nodes()).collect(),
+            // A frame that no point holds to anything is no part.
             Some(cameras) => components
                 .iter()
+                .filter(|part| part.edge_count() > 0)
                 .map(|part| tracks::members(part, cameras).0)
                 .collect(),
         };

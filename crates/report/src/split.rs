@@ -99,7 +99,7 @@ impl SplitReport<'_> {
 
     /// Why there are so many parts.
     pub fn why(&self) -> String {
-        let all = counted(self.report.input.cameras.unwrap_or(0) as usize, "image");
+        let all = counted(self.split.image_count(), "image");
         let without = match self.split.outside.len() {
             0 => String::new(),
             count => format!(

@@ -1,5 +1,6 @@
 use super::*;
-use crate::samples::{clusters, found, options, verdict};
+use crate::samples::{clusters, found, frames, options, verdict};
+use viewcert::graph::Displacements;
 use viewcert::{Model, decide};
 
 type Pair = (u32, u32);
@@ -90,6 +91,66 @@ fn freedom_is_that_of_the_whole_subgraph() {
         }
     }
     assert!(kinds.len() >= 4, "{kinds:?}");
+}
+
+/// The same with frames, of which one may lie in neither component or lead from one to the other.
+#[test]
+fn freedom_with_frames_is_that_of_the_whole_subgraph() {
+    let mut kinds = BTreeSet::new();
+    for (graph, known) in frames(300) {
+        let plain = options(Model::Calibrated);
+        let verdict = decide(&graph, &plain.clone().displacements(known.clone())).unwrap();
+        let parts = Parts::new(&graph, &verdict);
+        let all = joints(
+            &graph,
+            &verdict,
+            &parts,
+            &plain,
+            1000,
+            &mut Shapes::default(),
+        )
+        .unwrap();
+        for joint in &all.joints {
+            let how = &joint.how;
+            let sides = joint.components.map(|k| parts.nodes_of(k));
+            let within = |pair: (u32, u32)| {
+                let mut sides = sides.iter();
+                sides.any(|side| side.contains(&pair.0) && side.contains(&pair.1))
+            };
+            let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
+            let links: Vec<Pair> = how.pairs.iter().copied().chain(by).collect();
+            let is_link = |(i, j): Pair| links.contains(&(i, j)) || links.contains(&(j, i));
+            let edges = graph.edges().iter().copied();
+            let edges: Vec<Pair> = edges
+                .filter(|&pair| within(pair) || is_link(pair))
+                .collect();
+            let twos = known.groups().iter().flat_map(|group| {
+                let each = group.iter().enumerate();
+                each.flat_map(|(k, &i)| group[k + 1..].iter().map(move |&j| (i, j)))
+            });
+            let twos: Vec<Pair> = twos.filter(|&pair| within(pair) || is_link(pair)).collect();
+            let nodes = edges.iter().chain(&twos).flat_map(|&(i, j)| [i, j]);
+            let nodes: Vec<u32> = nodes.collect::<BTreeSet<u32>>().into_iter().collect();
+            let number = |v: &u32| nodes.binary_search(v).unwrap() as u32;
+            let again = |pairs: &[Pair]| -> Vec<Pair> {
+                pairs.iter().map(|(i, j)| (number(i), number(j))).collect()
+            };
+            let count = nodes.len() as u32;
+            let alone = Graph::new(count, again(&edges)).unwrap();
+            let known = Displacements::new(count, again(&twos)).unwrap();
+            let verdict = decide(&alone, &plain.clone().displacements(known)).unwrap();
+            assert_eq!(joint.freedom, verdict.required - verdict.rank, "{joint:?}");
+            assert!(joint.freedom > 0);
+            let scaled = joint.components.map(|k| parts.is_scaled(k));
+            kinds.insert((
+                how.shared.is_some(),
+                scaled,
+                twos.iter().any(|&two| !within(two)),
+            ));
+        }
+    }
+    // Shared or not, neither or one or both of known scale, with a frame between and without.
+    assert!(kinds.len() >= 6, "{kinds:?}");
 }
 
 /// A 4-cycle: its pairs touch at four images.

@@ -5,7 +5,7 @@
 //! (docs/theory.md, 4.11): each number is proved, for any points that lie in one component only.
 
 use super::{Candidate, Costs, Pair, Search, TRIED, Together, Wanted, ordered, touched};
-use crate::condensation::{Condensation, freedom, terminals, with};
+use crate::condensation::{Condensation, terminals, with};
 use crate::joints::{How, Joint};
 use crate::parts::Parts;
 use crate::{Known, OtherPair};
@@ -86,7 +86,7 @@ pub fn suggest_matches(
     near.truncate(wanted.most);
     let ends = || near.iter().flat_map(|near| near.attempt.nodes());
     let touched = links.clone().flat_map(|(a, b)| [a, b]).chain(ends());
-    let small = Condensation::new(terminals(&nodes, touched), links, ends());
+    let small = Condensation::new(terminals(&nodes, touched), links, ends()).with_scales(parts);
     let most = (WORK / (small.graph.edges().len() + 1)).max(LEAST);
     let each = near.par_iter().take(most);
     let found = each.map(|near| near.enough(&search, &small, options));
@@ -189,7 +189,8 @@ fn between(search: &Search, components: [usize; 2], how: &How, at: Option<u32>) 
 fn hanging(search: &Search, at: Option<u32>) -> Vec<Pair> {
     let mut found = Vec::new();
     for &((camera, point), _) in &search.parts.links {
-        if !search.parts.of(camera).is_empty() || at.is_some_and(|v| v != camera) {
+        let is_frame = search.images.contains(&point);
+        if is_frame || !search.parts.of(camera).is_empty() || at.is_some_and(|v| v != camera) {
             continue;
         }
         let near = search.neighbours.neighbours(point).iter();
@@ -229,7 +230,9 @@ impl Attempt {
         let side = |camera: u32| {
             let part = *search.parts.of(camera).first()?;
             let alone = |&&point: &&u32| {
-                search.parts.of(point) == [part] && search.parts.links_at(point).next().is_none()
+                let is_point = !search.images.contains(&point);
+                let is_alone = search.parts.links_at(point).next().is_none();
+                is_point && is_alone && search.parts.of(point) == [part]
             };
             let points = search.neighbours.neighbours(camera).iter().filter(alone);
             Some((part as usize, points.take(2).copied().collect()))
@@ -260,11 +263,8 @@ impl Attempt {
             .into_iter()
             .filter_map(|seen| Some(vec![*seen.first()?]))
             .collect();
-        match &self.sides {
-            [Some(_), Some(_)] => {
-                let both = by_b.first().zip(by_a.first());
-                sets.extend(both.map(|(&one, &other)| vec![one, other]));
-            }
+        match (by_b.first(), by_a.first()) {
+            (Some(&one), Some(&other)) => sets.push(vec![one, other]),
             _ => sets.extend([by_b, by_a].into_iter().filter(|seen| seen.len() == 2)),
         }
         sets
@@ -300,9 +300,10 @@ impl Attempt {
         };
         let ends = || links.iter().flat_map(|&(a, b)| [a, b]).chain(self.nodes());
         let small = Condensation::new(terminals(&nodes, ends()), links.iter().copied(), ends());
+        let small = small.with_scales(search.parts);
         for set in self.observations() {
             let more = set.iter().map(|&pair| small.pair(pair));
-            if freedom(&with(&small.graph, more), options)?.0 == 0 {
+            if small.freedom(more, options)?.0 == 0 {
                 return Ok(Some(set.len()));
             }
         }

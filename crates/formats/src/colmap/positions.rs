@@ -12,6 +12,9 @@ use super::open::Opened;
 use super::tables::{columns, images};
 use crate::given::PosePriors;
 
+/// COLMAP's number of a system that is not said (`PosePrior::CoordinateSystem::UNDEFINED`).
+const UNDEFINED: i64 = -1;
+
 /// COLMAP's number of latitude, longitude and altitude (`PosePrior::CoordinateSystem::WGS84`).
 const WGS84: i64 = 0;
 

@@ -10,13 +10,13 @@
 mod binary;
 mod text;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::tracks::ModelEncoding as Encoding;
+use crate::tracks::{Frames, ModelEncoding as Encoding};
 
 /// A model: who sees what, and everything else as it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub struct Model {
     rigs: Option<Vec<u8>>,
     /// The frames, if there are any.
     frames: Option<Vec<Frame>>,
+    /// What rigs and frames say of the images, by their places in `images`.
+    known: Frames,
 }
 
 /// An image of a model.
@@ -136,7 +138,10 @@ impl Model {
             None
         };
         let rigs = there(RIGS).then(|| bytes(RIGS)).transpose()?;
+        let names: Vec<Box<str>> = images.iter().map(|image| image.name.clone()).collect();
+        let places = images.iter().map(|image| image.id).zip(0..).collect();
         let model = Self {
+            known: crate::tracks::frames_in(folder, encoding, &names, &places)?,
             encoding,
             cameras: bytes(CAMERAS)?,
             rigs,
@@ -154,7 +159,7 @@ impl Model {
             .images
             .iter()
             .map(|image| (image.id, image.points.len()));
-        let features: std::collections::HashMap<u32, usize> = features.collect();
+        let features: HashMap<u32, usize> = features.collect();
         let corrupt = |why| Place::Input.fault(Problem::Corrupt(why));
         if features.len() < self.images.len() {
             return Err(corrupt("two images have one number".to_owned()));
@@ -173,14 +178,18 @@ impl Model {
         Ok(())
     }
 
-    /// The model that some of the images make: themselves, the points that two of them see at
-    /// least, each with the views in these images, and the frames with one of them. Cameras and
+    /// The model that some of the images make, which have a number for their place: themselves, the
+    /// points that are seen from two places at least, each with the views in these images, and the
+    /// frames with one of them. Cameras and
     /// rigs stay as they are. Nothing is computed anew: positions are those of the whole model,
     /// and the error of a point that has lost a view is not known. Linear in the model.
     #[must_use]
-    pub fn of_images(&self, is_in: impl Fn(&Image) -> bool) -> Self {
-        let images: Vec<&Image> = self.images.iter().filter(|image| is_in(image)).collect();
-        let ids: HashSet<u32> = images.iter().map(|image| image.id).collect();
+    pub fn of_images(&self, place: impl Fn(&Image) -> Option<u32>) -> Self {
+        let placed = self.images.iter();
+        let placed = placed.filter_map(|image| Some((image, place(image)?)));
+        let (images, places): (Vec<&Image>, Vec<u32>) = placed.unzip();
+        let ids = images.iter().map(|image| image.id).zip(places);
+        let ids: HashMap<u32, u32> = ids.collect();
         let points = self.points.iter().filter_map(|point| point.seen_in(&ids));
         let points: Vec<Point> = points.collect();
         let kept: HashSet<u64> = points.iter().map(|point| point.id).collect();
@@ -201,6 +210,7 @@ impl Model {
             cameras: self.cameras.clone(),
             rigs: self.rigs.clone(),
             frames,
+            known: Frames::default(),
             images: images.collect(),
             points,
         }
@@ -241,16 +251,11 @@ impl Model {
         Ok(())
     }
 
-    /// The images of every frame that has several, by their numbers.
-    pub fn frames(&self) -> impl Iterator<Item = Vec<u32>> {
-        let frames = self.frames.iter().flatten();
-        let images = frames.map(|frame| {
-            let images = frame.data.iter().filter(|datum| datum.is_image);
-            images
-                .filter_map(|datum| u32::try_from(datum.id).ok())
-                .collect()
-        });
-        images.filter(|images: &Vec<u32>| images.len() > 1)
+    /// Which images know their place to each other by their rig, and which were taken at one place;
+    /// images are called by their places in [`images`](Self::images). Of a part that was taken out of a
+    /// model nothing is known.
+    pub fn known_frames(&self) -> &Frames {
+        &self.known
     }
 
     /// The names of the files that [`write`](Self::write) makes.
@@ -264,15 +269,16 @@ impl Model {
 }
 
 impl Point {
-    /// The point with its views in some images, if two of these see it.
-    fn seen_in(&self, images: &HashSet<u32>) -> Option<Self> {
-        let track = self
-            .track
-            .iter()
-            .filter(|(image, _)| images.contains(image));
+    /// The point with its views in some images, whose places are given, if it is seen from two.
+    fn seen_in(&self, images: &HashMap<u32, u32>) -> Option<Self> {
+        let track = self.track.iter();
+        let track = track.filter(|(image, _)| images.contains_key(image));
         let track: Vec<(u32, u32)> = track.copied().collect();
-        let &(first, _) = track.first()?;
-        if track.iter().all(|&(image, _)| image == first) {
+        let (first, _) = track.first()?;
+        if track
+            .iter()
+            .all(|(image, _)| images[image] == images[first])
+        {
             return None;
         }
         let is_whole = track.len() == self.track.len();
@@ -287,9 +293,9 @@ impl Point {
 
 impl Frame {
     /// The frame with some images, if it has one of them; what is no image stays.
-    fn with(&self, images: &HashSet<u32>) -> Option<Self> {
+    fn with(&self, images: &HashMap<u32, u32>) -> Option<Self> {
         let is_in = |datum: &&Datum| {
-            !datum.is_image || u32::try_from(datum.id).is_ok_and(|id| images.contains(&id))
+            !datum.is_image || u32::try_from(datum.id).is_ok_and(|id| images.contains_key(&id))
         };
         let data: Vec<Datum> = self.data.iter().filter(is_in).cloned().collect();
         data.iter().any(|datum| datum.is_image).then(|| Self {

@@ -93,6 +93,7 @@ fn binary_model() -> tempfile::TempDir {
         frames: Some(frames.collect()),
         images: images.collect(),
         points: points.collect(),
+        known: Frames::default(),
     };
     model.write(folder.path()).unwrap();
     folder
@@ -120,9 +121,13 @@ fn a_copy_is_the_same() {
 fn a_part_has_what_two_of_its_images_see() {
     for folder in [text_model(), binary_model()] {
         let model = Model::read(folder.path()).unwrap();
-        let whole = model.of_images(|_| true);
-        assert_eq!(whole, model);
-        let part = model.of_images(|image| image.id != 2);
+        let own_place = |image: &Image| Some(image.id);
+        let known = model.known.clone();
+        let whole = model.of_images(own_place);
+        assert_eq!(Model { known, ..whole }, model);
+        // From one place nothing is seen twice.
+        assert!(model.of_images(|_| Some(0)).points.is_empty());
+        let part = model.of_images(|image| own_place(image).filter(|&id| id != 2));
         assert_eq!(part.images.len(), 2);
         assert_eq!(&*part.images[0].name, "north/a b.jpg");
         assert_eq!(part.images[0].points, [None; 3]);
@@ -130,7 +135,7 @@ fn a_part_has_what_two_of_its_images_see() {
         let frames = part.frames.as_ref().unwrap();
         assert_eq!(frames.len(), 1, "a frame without an image is no frame");
         assert_eq!(frames[0].data.len(), 2);
-        let part = model.of_images(|image| image.id != 3);
+        let part = model.of_images(|image| Some(image.id).filter(|&id| id != 3));
         assert_eq!(part.points, model.points);
         let frames = part.frames.unwrap();
         assert_eq!(frames[0].data.len(), 1);
@@ -147,7 +152,7 @@ fn errors_are_those_of_their_tracks() {
     let images = IMAGES_TEXT.replace("c.jpg\n", "c.jpg\n5 6 7");
     std::fs::write(folder.path().join("images.txt"), images).unwrap();
     let model = Model::read(folder.path()).unwrap();
-    let part = model.of_images(|image| image.id != 3);
+    let part = model.of_images(|image| Some(image.id).filter(|&id| id != 3));
     assert_eq!(part.points[0].error, None);
     assert_eq!(part.points[1].error, model.points[1].error);
     let copy = tempfile::tempdir().unwrap();

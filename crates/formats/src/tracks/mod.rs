@@ -32,7 +32,7 @@ pub(crate) use frames::{Frame, Pose, Rig, read as read_frames};
 pub(crate) use graph::TrackGraph;
 pub(crate) use join::Joined;
 pub(crate) use kind::{TrackFile, kind};
-pub(crate) use model::{encoding_in, is_model};
+pub(crate) use model::{encoding_in, frames_in, is_model};
 pub(crate) use model_files::Encoding as ModelEncoding;
 
 use std::io::Read;

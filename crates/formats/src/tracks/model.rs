@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::graph::{TrackGraph, TrackOptions, sorted};
 use super::model_files::{Encoding, Image, Part, Points};
-use super::{model_binary, model_rigs, model_text};
+use super::{Frames, model_binary, model_rigs, model_text};
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use viewcert::wording::counted;
@@ -106,6 +106,20 @@ fn rigs_beside(folder: Option<&Path>, encoding: Encoding) -> Result<Option<[Vec<
         std::fs::read(path).map_err(|error| within(path, Place::Input.fault(error.into())))
     };
     Ok(Some([read(&paths[0])?, read(&paths[1])?]))
+}
+
+/// What the rigs of the model in a folder say of the images `names`, whose nodes are known by their
+/// numbers; nothing, if it has none.
+pub(crate) fn frames_in(
+    folder: &Path,
+    encoding: Encoding,
+    names: &[Box<str>],
+    nodes: &HashMap<u32, u32>,
+) -> Result<Frames, Fault> {
+    match rigs_beside(Some(folder), encoding)? {
+        Some([rigs, frames]) => model_rigs::frames(&rigs, &frames, encoding, names, nodes),
+        None => Ok(Frames::default()),
+    }
 }
 
 fn open(path: &Path) -> Result<File, Fault> {

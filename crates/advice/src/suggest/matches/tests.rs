@@ -1,5 +1,5 @@
 use super::*;
-use crate::samples::{found, options, verdict};
+use crate::samples::{found, frames, options, verdict};
 use crate::suggest::{Reason, Tried};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -203,4 +203,73 @@ fn suggestions_are_true() {
         }
     }
     assert!(one > 20 && two > 20 && merged > 20, "{one} {two} {merged}");
+}
+
+/// With frames: what is enough joins the two cameras in the whole graph, one observation fewer does not,
+/// and no two images of one frame are named.
+#[test]
+fn enough_with_frames_is_enough_in_the_whole_graph() {
+    let mut sizes = BTreeSet::new();
+    for (graph, known) in frames(200) {
+        let plain = options(Model::Calibrated);
+        let options = plain.clone().displacements(known.clone());
+        let verdict = viewcert::decide(&graph, &options).unwrap();
+        let parts = Parts::new(&graph, &verdict);
+        let cameras = graph.edges().iter().map(|edge| edge.1).min().unwrap();
+        let joints = crate::joints(
+            &graph,
+            &verdict,
+            &parts,
+            &plain,
+            1000,
+            &mut Default::default(),
+        );
+        let wanted = Wanted {
+            most: 1000,
+            at: None,
+        };
+        let joints = joints.unwrap().joints;
+        let found = suggest_matches(
+            &graph,
+            &parts,
+            cameras,
+            &joints,
+            Known::default(),
+            wanted,
+            &plain,
+        );
+        for one in found.unwrap() {
+            let (a, b) = one.cameras;
+            let of_one = known
+                .groups()
+                .iter()
+                .any(|group| group.contains(&a) && group.contains(&b));
+            assert!(!of_one, "{one:?}");
+            // The components of both, where they have one.
+            let mut wanted = vec![a, b];
+            let of = [a, b].into_iter().filter_map(|v| parts.of(v).first());
+            wanted.extend(of.flat_map(|&part| &parts.parts[part as usize].nodes));
+            let joined = |more: &[Pair]| {
+                let graph = with(&graph, more.iter().copied());
+                let verdict = viewcert::decide(&graph, &options).unwrap();
+                verdict.components.iter().any(|component| {
+                    let nodes = component.nodes();
+                    wanted.iter().all(|v| nodes.binary_search(v).is_ok())
+                })
+            };
+            assert!(joined(&one.observations), "{one:?}");
+            for k in 0..one.observations.len() {
+                let mut fewer = one.observations.clone();
+                fewer.remove(k);
+                assert!(!joined(&fewer), "{one:?}");
+            }
+            let scaled = one
+                .components
+                .iter()
+                .filter(|&&k| parts.is_scaled(k))
+                .count();
+            sizes.insert((one.observations.len(), scaled.min(2)));
+        }
+    }
+    assert!(sizes.len() >= 5, "{sizes:?}");
 }
