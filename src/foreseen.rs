@@ -8,7 +8,8 @@ use viewcert_advice::special::{Narrow, narrow};
 use viewcert_formats::NamedGraph;
 
 /// Simulates both mappers on the tracks of a database, and finds the narrow places of its pairs; of
-/// other inputs only the latter. A graph of cameras and points alone has no pairs.
+/// other inputs only the latter. A graph of cameras and points alone has no pairs. `each` are the tracks
+/// with a camera for every image, if these are others.
 ///
 /// # Errors
 /// A database that cannot be read a third time, or was written to meanwhile.
@@ -16,11 +17,12 @@ pub(super) fn foreseen(
     path: &Path,
     pairs: &NamedGraph,
     tracks: Option<(&NamedGraph, &Verdict)>,
+    each: Option<&NamedGraph>,
 ) -> Result<(Option<Foreseen>, Narrow)> {
     #[cfg(feature = "databases")]
     if pairs.database.is_some() {
         let mut geometry = geometry::OfDatabase::open(path)?;
-        let found = with_geometry(pairs, tracks, &mut geometry)?;
+        let found = with_geometry(pairs, tracks, each, &mut geometry)?;
         geometry.finish()?;
         return Ok(found);
     }
@@ -28,16 +30,17 @@ pub(super) fn foreseen(
     if pairs.cameras.is_some() {
         return Ok((None, Narrow::default()));
     }
-    with_geometry(pairs, tracks, &mut ())
+    with_geometry(pairs, tracks, each, &mut ())
 }
 
 fn with_geometry(
     pairs: &NamedGraph,
     tracks: Option<(&NamedGraph, &Verdict)>,
+    each: Option<&NamedGraph>,
     geometry: &mut dyn Geometry,
 ) -> Result<(Option<Foreseen>, Narrow)> {
     let foreseen = match tracks {
-        Some((tracks, verdict)) => foresee(tracks, verdict, geometry)?,
+        Some(tracks) => foresee(each.unwrap_or(tracks.0), tracks, geometry)?,
         None => None,
     };
     Ok((foreseen, narrow(pairs, tracks, geometry)?))

@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
-use viewcert::decide::{Calibrated, Options, Verdict, decide};
+use viewcert::decide::{Calibrated, Options, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
-use viewcert_advice::{Advice, Request, Shapes, named_joints};
+use viewcert_advice::{Advice, Request, Shapes};
 use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
 use viewcert_formats::error::Problem;
 use viewcert_formats::{NamedGraph, read_graphs, with_rigs};
@@ -50,7 +50,7 @@ pub(super) struct OverviewArguments {
 /// The page in messages.
 const PAGE: &str = "--html";
 
-/// Most suggestions on the page.
+/// Most suggestions that are looked for.
 const SUGGESTED: u32 = 10;
 
 /// What an input holds.
@@ -109,7 +109,7 @@ fn source(
                 error.problem
             );
             let tracks =
-                read_tracks(session, arguments, path)?.map_err(|reason| anyhow!(reason))?;
+                read_tracks(session, arguments, path, true)?.map_err(|reason| anyhow!(reason))?;
             return Ok(Source {
                 pairs: None,
                 tracks: Ok(tracks),
@@ -120,7 +120,7 @@ fn source(
     let tracks = match &pairs.database {
         None => Err("this input has pairs alone".to_owned()),
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
-        Some(_) => read_tracks(session, arguments, path)?,
+        Some(_) => read_tracks(session, arguments, path, true)?,
     };
     if let Ok(tracks) = &tracks {
         ensure!(
@@ -136,13 +136,17 @@ fn source(
     })
 }
 
-/// The cameras and points of a file, or why there are none in a database that has pairs.
+/// The cameras and points of a file, with the rigs or as if every image had a centre of its own, or why there are none in a database that has pairs.
 fn read_tracks(
     session: &Session,
     arguments: &OverviewArguments,
     path: &Path,
+    rigs: bool,
 ) -> Result<Result<NamedGraph, String>> {
-    let options = arguments.input.of_tracks();
+    let mut options = arguments.input.of_tracks();
+    if let Some(tracks) = &mut options.tracks {
+        tracks.rigs &= rigs;
+    }
     session.reading(path);
     let read = read_graphs(path, &options).next();
     session.hide();
@@ -193,17 +197,26 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
-    let joints = named_joints(input, verdict, Options::default().seed, session.watch());
+    let request = Request {
+        suggest: Some(SUGGESTED),
+        ..Request::default()
+    };
+    let (outputs, seed) = (session.outputs(), Options::default().seed);
+    let (shapes, watch) = (&mut Shapes::default(), session.watch());
+    let advice = request.advise(outputs, input, verdict, seed, shapes, watch);
     session.hide();
-    let joints = joints.with_context(|| input.name.clone())?;
+    let advice = advice.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
     let of_tracks = tracks.as_ref().map(|(input, verdict)| (*input, verdict));
     let frames = input.frames.as_ref();
-    let (mappers, narrow) = if frames.is_some_and(|frames| frames.say_something()) {
-        Default::default()
-    } else {
-        foreseen(path, of_pairs, of_tracks)?
+    let each = match frames {
+        // Mappers place images, of which several may be one camera here.
+        Some(frames) if !frames.together.is_empty() => {
+            read_tracks(session, arguments, path, false)?.ok()
+        }
+        _ => None,
     };
+    let (mappers, narrow) = foreseen(path, of_pairs, of_tracks, each.as_ref())?;
     let no_joints = Advice::default();
     let any_scope = Scope::default();
     let report = |input, verdict, advice| Report {
@@ -225,9 +238,9 @@ fn overview(
             .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),
         tracks: tracks
             .as_ref()
-            .map(|(input, verdict)| report(*input, verdict, &joints)),
+            .map(|(input, verdict)| report(*input, verdict, &advice)),
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
-        joints: &joints,
+        joints: &advice,
         // Where images of a frame are one camera, images have other numbers than cameras.
         wanted: Wanted::of(match frames {
             Some(frames) if !frames.together.is_empty() => input,
@@ -242,7 +255,7 @@ fn overview(
     found.next = next(&arguments.input, path, &found);
     found.time = start.elapsed();
     if let Some(file) = &arguments.html {
-        write_page(session, file, &found, input, verdict)?;
+        write_page(session, file, &found)?;
     }
     if arguments.json {
         found.write_json(out)?;
@@ -252,25 +265,14 @@ fn overview(
     Ok(if found.determined() { GOOD } else { NOT })
 }
 
-/// Writes the page; `input` is the graph that decides.
-fn write_page(
-    session: &Session,
-    file: &Path,
-    found: &Overview,
-    input: &NamedGraph,
-    verdict: &Verdict,
-) -> Result<()> {
-    session.doing(format!("drawing {}", input.name));
-    let request = Request {
-        suggest: Some(SUGGESTED),
-        ..Request::default()
-    };
-    let (outputs, seed) = (session.outputs(), Options::default().seed);
-    let (shapes, watch) = (&mut Shapes::default(), session.watch());
-    let advice = request.advise(outputs, input, verdict, seed, shapes, watch)?;
-    let page = overview_page::html(found, &advice)?;
+/// Writes the page.
+fn write_page(session: &Session, file: &Path, found: &Overview) -> Result<()> {
+    session.doing(format!("drawing {}", found.name));
+    let page = overview_page::html(found, found.joints)?;
     session.hide();
-    outputs.write(file, |out| out.write_all(page.as_bytes()))
+    session
+        .outputs()
+        .write(file, |out| out.write_all(page.as_bytes()))
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
@@ -289,17 +291,6 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
     let other = facts.and_then(|facts| other_mapper(facts));
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
-    let frames = source
-        .tracks
-        .as_ref()
-        .ok()
-        .and_then(|tracks| tracks.frames.as_ref());
-    if frames.is_some_and(|frames| frames.say_something()) {
-        notes.push(
-            "rigs: mappers place frames, which is not simulated, and no narrow places are looked for"
-                .to_owned(),
-        );
-    }
     if arguments.input.min_views.is_some() && source.tracks.is_err() {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }

@@ -3,12 +3,11 @@
 mod common;
 
 use common::schema::keeps_to;
-use common::{Run, absent, data, verify};
+use common::{Run, data, verify};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// Writes a model of images that are called by their places, and of tracks, each a list of images.
 fn model(folder: &Path, images: usize, tracks: &[Vec<usize>]) {
@@ -539,27 +538,4 @@ fn lists_of_a_database_have_tracks_of_their_own() {
         "--json",
     ]);
     assert_eq!(found.json()[0]["lists"][0]["whole"], true, "{}", found.out);
-}
-
-/// pycolmap reads the parts of a model with rigs, also where a frame has images in two parts; base lines
-/// hold images together, and sensors at one place have none.
-#[test]
-fn pycolmap_reads_parts_with_rigs() {
-    let python = std::env::var_os("VIEWCERT_PYTHON").unwrap_or_else(|| "python3".into());
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reconstruction/rigs.py");
-    let import = Command::new(&python)
-        .args(["-c", "import numpy, pycolmap"])
-        .output();
-    if !import.is_ok_and(|run| run.status.success()) {
-        return absent("python cannot import numpy and pycolmap; pip installs them");
-    }
-    let ran = Command::new(&python)
-        .arg(script)
-        .args(["--verify", env!("CARGO_BIN_EXE_verify")])
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&ran.stdout);
-    let errors = String::from_utf8_lossy(&ran.stderr);
-    assert!(ran.status.success(), "{said}{errors}");
-    assert!(said.contains("read 12 parts"), "{said}");
 }

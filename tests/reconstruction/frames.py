@@ -9,6 +9,8 @@ one similarity takes all of them to their true places. Printed are a line for ea
     false promises   verify says that the groups belong together, the mapper misplaces them
     false alarms     verify says that they do not, the mapper places them right
 
+and how often the models of incremental mapping have exactly the images that `verify overview` foresees.
+
 Needs pycolmap and numpy. Exit code 1 if a prediction with rigs is wrong.
 
     python3 tests/reconstruction/frames.py --verify target/debug/verify [--seeds 1-12] [--ways 0,2]
@@ -24,11 +26,10 @@ import tempfile
 import numpy
 import pycolmap
 
-from mappers import FOCAL, SIZE, TOLERANCE, components, misfit, reconstruct, write_pair
+from scenes import CAMERA, FOCAL, SIZE, TOLERANCE, around, asked, components, keypoints, names, placed, reconstruct, see, write_pair
 
 FRAMES = 8
 POINTS = 140
-CAMERA = pycolmap.SensorType.CAMERA
 
 
 def half(frame):
@@ -73,7 +74,7 @@ class Frames:
         groups = {(f, k): group_of(f, k) for f in range(FRAMES) for k in range(sensors)}
         self.images = sorted(image for image, group in groups.items() if group is not None)
         self.groups = [[i for i in self.images if groups[i] == g] for g in (0, 1)]
-        poses = [self.on_a_road(f) if way.startswith("a vehicle") else self.around() for f in range(FRAMES)]
+        poses = [self.on_a_road(f) if way.startswith("a vehicle") else around(self.random, 5, 7) for f in range(FRAMES)]
         self.pose = {}
         for f, k in self.images:
             (rotation, centre), (turned, place) = poses[f], self.sensors[k]
@@ -82,15 +83,6 @@ class Frames:
         self.pairs = collections.defaultdict(set)
         for point in range(POINTS * len(self.groups)):
             self.look(point, self.groups[point % len(self.groups)])
-
-    def around(self):
-        """A rotation and a centre on a shell around the points, which it looks at."""
-        centre = self.random.normal(size=3)
-        centre *= self.random.uniform(5, 7) / numpy.linalg.norm(centre)
-        axis = -centre / numpy.linalg.norm(centre)
-        side = numpy.cross(axis, self.random.normal(size=3))
-        side /= numpy.linalg.norm(side)
-        return numpy.stack([side, numpy.cross(axis, side), axis]), centre
 
     def on_a_road(self, frame):
         """A rotation about the vertical, and a centre on a curve before the points."""
@@ -103,11 +95,7 @@ class Frames:
         some = self.random.permutation(len(group))[: self.random.integers(3, len(group) + 1)]
         images = sorted(group[k] for k in some)
         for image in images:
-            rotation, centre = self.pose[image]
-            x, y, z = rotation @ (where - centre)
-            noise = self.random.normal(scale=0.2, size=2)
-            pixel = numpy.array([x, y]) / z * FOCAL + SIZE / 2 + noise
-            self.seen[image][point] = (len(self.seen[image]), pixel)
+            see(self.seen[image], point, where, self.pose[image], 0.2, self.random)
         for pair in itertools.combinations(images, 2):
             self.pairs[pair].add(point)
 
@@ -136,8 +124,7 @@ class Frames:
                 sensor = sensors[image[1]]
                 ids[image] = database.write_image(pycolmap.Image(name=self.name(image), camera_id=sensor.id))
                 frame.add_data_id(pycolmap.data_t(sensor, ids[image]))
-                keypoints = [pixel for _, pixel in sorted(self.seen[image].values(), key=lambda seen: seen[0])]
-                database.write_keypoints(ids[image], numpy.array(keypoints, dtype=numpy.float32))
+                database.write_keypoints(ids[image], keypoints(self.seen[image]))
             database.write_frame(frame)
         inverse = numpy.linalg.inv(camera.calibration_matrix())
         for (first, second), points in sorted(self.pairs.items()):
@@ -148,12 +135,7 @@ class Frames:
 
     def placed(self, models):
         """How far the images are from their true places in one model; None if none has them all."""
-        truth = {self.name(image): self.pose[image][1] for image in self.images}
-        for model in models:
-            found = {i.name: i.projection_center() for i in model.images.values() if i.has_pose}
-            if truth.keys() <= found.keys():
-                return misfit(*(numpy.array([of[name] for name in sorted(truth)]) for of in (found, truth)))
-        return None
+        return placed(models, {self.name(image): self.pose[image][1] for image in self.images})
 
 
 def main():
@@ -173,21 +155,28 @@ def main():
             scene.write(path)
             off = scene.placed(reconstruct("global", path, folder, seed))
             right = off is not None and off < TOLERANCE
-            names = {scene.name(image) for image in scene.images}
+            images = {scene.name(image) for image in scene.images}
             said = []
             for what, options in (("rigs", []), ("no rigs", ["--no-rigs"])):
-                promise = any(names <= part for part in components(arguments.verify, path, "--tracks", *options))
+                promise = any(images <= part for part in components(arguments.verify, path, "--tracks", *options))
                 tally[way][what, "false promises"] += promise and not right
                 tally[way][what, "false alarms"] += right and not promise
                 tally[way][what, "together"] += promise
                 said.append(f"{what}: {'together' if promise else 'not'}")
+            models = reconstruct("incremental", path, folder, seed, smallest=3)
+            models = sorted(map(names, models))
+            foreseen = asked(arguments.verify, "overview", path)["mappers"]["incremental"]["models"]
+            foreseen = sorted(sorted(model["images"]) for model in foreseen)
+            tally[way]["incremental", "same models"] += models == foreseen
+            said.append(f"incremental: {[*map(len, models)]}, foreseen {[*map(len, foreseen)]}")
             tally[way]["runs"] += 1
             tally[way]["right"] += right
             how = "apart" if off is None else f"{'right' if right else 'MISPLACED'} ({off:.1e})"
             print(f"{way}, seed {seed}: {how}; {', '.join(said)}", flush=True)
-    print("\n| | runs | placed right | together | false promises | false alarms | the same with `--no-rigs` | | |")
-    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|")
+    print("\n| | runs | placed right | together | false promises | false alarms | the same with `--no-rigs` | | | incremental models foreseen |")
+    print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
     columns = [(what, name) for what in ("rigs", "no rigs") for name in ("together", "false promises", "false alarms")]
+    columns.append(("incremental", "same models"))
     for way, counted in [*tally.items(), ("all", sum(tally.values(), collections.Counter()))]:
         cells = [way, counted["runs"], counted["right"], *(counted[column] for column in columns)]
         print("| " + " | ".join(map(str, cells)) + " |")

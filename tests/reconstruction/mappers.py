@@ -19,23 +19,18 @@ Needs pycolmap and numpy. Exit code 1 if the prediction by tracks is wrong for t
 import argparse
 import collections
 import itertools
-import json
 import os
-import pathlib
-import subprocess
 import sys
 import tempfile
 
 import numpy
 import pycolmap
 
+from scenes import TOLERANCE, around, components, keypoints, placed, reconstruct, see, write_images, write_pair
+
 IMAGES = 6
 POINTS = 90
-SIZE = 1000
-FOCAL = 1200.0
 NOISE = 0.1
-# A similarity that fits leaves so much of the cameras' spread at most.
-TOLERANCE = 0.01
 
 # A way: number of clusters, images shared by clusters, pairs across. An image is (cluster, k).
 WAYS = {
@@ -76,7 +71,7 @@ class Scene:
             names[second] = names[first]
         self.clusters = [{names[c, k] for k in range(IMAGES)} for c in range(clusters)]
         self.images = sorted(set(names.values()))
-        self.pose = {image: self.camera() for image in self.images}
+        self.pose = {image: around(self.random, 4, 6) for image in self.images}
         self.points = []
         self.seen = collections.defaultdict(dict)  # image -> point -> keypoint
         self.pairs = collections.defaultdict(set)  # pair of images -> points
@@ -85,26 +80,12 @@ class Scene:
         for first, second in across:
             self.bridge(names[first], names[second], kind)
 
-    def camera(self):
-        """A camera on a shell around the origin, which it looks at."""
-        centre = self.random.normal(size=3)
-        centre *= self.random.uniform(4, 6) / numpy.linalg.norm(centre)
-        axis = -centre / numpy.linalg.norm(centre)
-        side = numpy.cross(axis, self.random.normal(size=3))
-        side /= numpy.linalg.norm(side)
-        return numpy.stack([side, numpy.cross(axis, side), axis]), centre
-
     def point(self):
         self.points.append(self.random.uniform(-1, 1, size=3))
         return len(self.points) - 1
 
     def see(self, image, point):
-        if point not in self.seen[image]:
-            rotation, centre = self.pose[image]
-            x, y, z = rotation @ (self.points[point] - centre)
-            noise = self.random.normal(scale=NOISE, size=2)
-            pixel = numpy.array([x, y]) / z * FOCAL + SIZE / 2 + noise
-            self.seen[image][point] = (len(self.seen[image]), pixel)
+        see(self.seen[image], point, self.points[point], self.pose[image], NOISE, self.random)
 
     def fill(self, images):
         """Points of a cluster, each seen by three of its images or more, every pair matched."""
@@ -145,21 +126,9 @@ class Scene:
     def write(self, path):
         """A database as COLMAP leaves it after verification."""
         database = pycolmap.Database.open(path)
-        camera = pycolmap.Camera.create_from_model_name(1, "PINHOLE", FOCAL, SIZE, SIZE)
-        camera.has_prior_focal_length = True
-        camera_id = database.write_camera(camera)
-        rig = pycolmap.Rig()
-        rig.add_ref_sensor(pycolmap.sensor_t(pycolmap.SensorType.CAMERA, camera_id))
-        rig_id = database.write_rig(rig)
-        ids = {}
-        for image in self.images:
-            ids[image] = database.write_image(pycolmap.Image(name=self.name(image), camera_id=camera_id))
-            frame = pycolmap.Frame()
-            frame.rig_id = rig_id
-            frame.add_data_id(pycolmap.data_t(pycolmap.sensor_t(pycolmap.SensorType.CAMERA, camera_id), ids[image]))
-            database.write_frame(frame)
-            keypoints = [pixel for _, pixel in sorted(self.seen[image].values(), key=lambda seen: seen[0])]
-            database.write_keypoints(ids[image], numpy.array(keypoints, dtype=numpy.float32))
+        images = ((self.name(image), keypoints(self.seen[image])) for image in self.images)
+        ids, camera = write_images(database, "PINHOLE", images)
+        ids = dict(zip(self.images, ids))
         inverse = numpy.linalg.inv(camera.calibration_matrix())
         for (first, second), points in sorted(self.pairs.items()):
             rows = [(self.seen[first][p][0], self.seen[second][p][0]) for p in sorted(points)]
@@ -169,63 +138,12 @@ class Scene:
 
     def placed(self, models, one, other):
         """How far two clusters are from their true places in a model; None if none has both."""
-        truth = {self.name(i): self.pose[i][1] for i in one | other}
-        for model in models:
-            found = {i.name: i.projection_center() for i in model.images.values() if i.has_pose}
-            if truth.keys() <= found.keys():
-                names = sorted(truth)
-                a = numpy.array([found[name] for name in names])
-                b = numpy.array([truth[name] for name in names])
-                return misfit(a, b)
-        return None
-
-
-def write_pair(database, ids, poses, inverse, rows):
-    """A verified pair of two images, by their true poses (rotation, centre) and the inverse of their calibration."""
-    (r1, c1), (r2, c2) = poses
-    rotation, translation = r2 @ r1.T, r2 @ (c1 - c2)
-    geometry = pycolmap.TwoViewGeometry()
-    geometry.config = int(pycolmap.TwoViewGeometryConfiguration.CALIBRATED)
-    geometry.inlier_matches = numpy.array(rows, dtype=numpy.uint32)
-    geometry.cam2_from_cam1 = pycolmap.Rigid3d(pycolmap.Rotation3d(rotation), translation)
-    x, y, z = translation
-    cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    geometry.E = cross @ rotation
-    geometry.F = inverse.T @ geometry.E @ inverse
-    database.write_matches(*ids, geometry.inlier_matches)
-    database.write_two_view_geometry(*ids, geometry)
-
-
-def misfit(a, b):
-    """The largest distance after the best similarity (Umeyama 1991), by the spread of b."""
-    a, b = a - a.mean(axis=0), b - b.mean(axis=0)
-    u, s, v = numpy.linalg.svd(b.T @ a)
-    sign = numpy.diag([1, 1, numpy.sign(numpy.linalg.det(u @ v))])
-    scale = numpy.trace(numpy.diag(s) @ sign) / (a**2).sum()
-    left = numpy.linalg.norm(b - scale * a @ (u @ sign @ v).T, axis=1)
-    return left.max() / numpy.linalg.norm(b, axis=1).max()
-
-
-def components(verify, path, *options):
-    """The components of a database, each a set of images' names, as verify says."""
-    run = subprocess.run([verify, path, "--json", "--components", *options], capture_output=True, text=True)
-    if run.returncode not in (0, 1):
-        sys.exit(f"{verify} {path}: {run.stderr}")
-    found = json.loads(run.stdout)["components"]
-    return [set(part["labels"]) for part in found]
+        return placed(models, {self.name(i): self.pose[i][1] for i in one | other})
 
 
 def together(scene, parts, one, other):
     names = {scene.name(image) for image in one | other}
     return any(names <= part for part in parts)
-
-
-def reconstruct(mapper, path, folder, seed):
-    options = {"global": pycolmap.GlobalPipelineOptions, "incremental": pycolmap.IncrementalPipelineOptions}[mapper]()
-    options.random_seed = seed
-    options.num_threads = 1
-    run = {"global": pycolmap.global_mapping, "incremental": pycolmap.incremental_mapping}[mapper]
-    return list(run(path, folder, folder, options).values())
 
 
 def main():

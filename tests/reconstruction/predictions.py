@@ -26,13 +26,13 @@ import itertools
 import json
 import pathlib
 import shutil
-import subprocess
 import tempfile
 
 import numpy
 import pycolmap
 
-from mappers import FOCAL, SIZE, TOLERANCE, misfit
+from scenes import SIZE, TOLERANCE, around, asked, keypoints, looking, names, placed, see, write_images
+from scenes import reconstruct as mapped
 
 SHAPES = ("around", "row", "forward")
 SMALLEST = 3
@@ -66,21 +66,14 @@ class Case:
         for k in range(count):
             shaken = self.random.normal(scale=0.05, size=3)
             if shape == "around":
-                centre = self.random.normal(size=3)
-                centre *= self.random.uniform(4, 6) / numpy.linalg.norm(centre)
-                axis = -centre
+                rotation, centre = around(self.random, 4, 6)
             elif shape == "row":
                 centre = numpy.array([(k - (count - 1) / 2) * step * 2, 0, -5]) + shaken
-                axis = numpy.array([0, 0, 1.0])
             else:
                 centre = numpy.array([0, 0, -8 + k * step]) + shaken
-                axis = numpy.array([0, 0, 1.0])
-            axis = axis / numpy.linalg.norm(axis)
-            side = numpy.cross(axis, self.random.normal(size=3) if shape == "around" else [0, 1, 0.1])
-            side /= numpy.linalg.norm(side)
-            rotation = numpy.stack([side, numpy.cross(axis, side), axis])
             if shape != "around":
-                rotation, centre = rotation @ turn.T, turn @ centre
+                ahead = looking(numpy.array([0, 0, 1.0]), [0, 1, 0.1])
+                rotation, centre = ahead @ turn.T, turn @ centre
             self.poses.append((rotation, centre))
         self.clusters.append(images)
         width = count if self.random.random() < 0.6 else int(self.random.integers(3, count + 1))
@@ -96,12 +89,7 @@ class Case:
             point = len(self.points)
             self.points.append(self.random.uniform(-1, 1, size=3))
         for image in map(int, images):
-            if point not in self.seen[image]:
-                rotation, centre = self.poses[image]
-                x, y, z = rotation @ (self.points[point] - centre)
-                noise = self.random.normal(scale=self.noise, size=2)
-                pixel = numpy.array([x, y]) / z * FOCAL + SIZE / 2 + noise
-                self.seen[image][point] = (len(self.seen[image]), pixel)
+            see(self.seen[image], point, self.points[point], self.poses[image], self.noise, self.random)
         for a, b in itertools.combinations(sorted(map(int, images)), 2):
             self.matched[a, b].add(point)
         return point
@@ -134,22 +122,9 @@ class Case:
     def write(self, path):
         """Keypoints and matches, some of them wrong; the rest is COLMAP's."""
         database = pycolmap.Database.open(path)
-        camera = pycolmap.Camera.create_from_model_name(1, "SIMPLE_RADIAL", FOCAL, SIZE, SIZE)
-        camera.has_prior_focal_length = True
-        camera_id = database.write_camera(camera)
-        rig = pycolmap.Rig()
-        rig.add_ref_sensor(pycolmap.sensor_t(pycolmap.SensorType.CAMERA, camera_id))
-        rig_id = database.write_rig(rig)
-        ids = {}
-        for image in range(len(self.poses)):
-            ids[image] = database.write_image(pycolmap.Image(name=self.name(image), camera_id=camera_id))
-            frame = pycolmap.Frame()
-            frame.rig_id = rig_id
-            frame.add_data_id(pycolmap.data_t(pycolmap.sensor_t(pycolmap.SensorType.CAMERA, camera_id), ids[image]))
-            database.write_frame(frame)
-            pixels = [pixel for _, pixel in sorted(self.seen[image].values(), key=lambda seen: seen[0])]
-            stray = self.random.uniform(0, SIZE, size=(20, 2))
-            database.write_keypoints(ids[image], numpy.array([*pixels, *stray], dtype=numpy.float32))
+        images = range(len(self.poses))
+        images = ((self.name(k), keypoints(self.seen[k], self.random.uniform(0, SIZE, size=(20, 2)))) for k in images)
+        ids, _ = write_images(database, "SIMPLE_RADIAL", images)
         for (a, b), points in sorted(self.matched.items()):
             rows = [[self.seen[a][p][0], self.seen[b][p][0]] for p in sorted(points)]
             bad = int(len(rows) * self.wrong)
@@ -168,13 +143,8 @@ class Case:
     def placed(self, models, one, other):
         """Whether one model has both clusters where they are in truth."""
         truth = {self.name(i): self.poses[i][1] for k in (one, other) for i in self.clusters[k]}
-        for model in models:
-            found = {i.name: i.projection_center() for i in model.images.values() if i.has_pose}
-            if truth.keys() <= found.keys():
-                names = sorted(truth)
-                left = misfit(*(numpy.array([of[name] for name in names]) for of in (found, truth)))
-                return bool(left < TOLERANCE)
-        return None
+        left = placed(models, truth)
+        return None if left is None else bool(left < TOLERANCE)
 
 
 class Joined(Case):
@@ -193,16 +163,12 @@ class Joined(Case):
         for _ in range(2):
             first = len(self.poses)
             for _ in range(6):
-                self.poses.append(self.camera())
+                self.poses.append(around(random, 4, 6))
             self.clusters.append(list(range(first, first + 6)))
         one, other = (0, 1) if shared else (0, 6)
         if self.close:
-            rotation, _ = self.poses[other]
-            self.poses[other] = (rotation, self.poses[one][1] + random.normal(scale=0.004, size=3))
-            axis = -self.poses[other][1] / numpy.linalg.norm(self.poses[other][1])
-            side = numpy.cross(axis, random.normal(size=3))
-            side /= numpy.linalg.norm(side)
-            self.poses[other] = (numpy.stack([side, numpy.cross(axis, side), axis]), self.poses[other][1])
+            centre = self.poses[one][1] + random.normal(scale=0.004, size=3)
+            self.poses[other] = (looking(-centre, random.normal(size=3)), centre)
         if shared:
             self.clusters[1] += [0, 1]
         for images in self.clusters:
@@ -215,36 +181,14 @@ class Joined(Case):
                 for point in random.permutation(mine)[:40]:
                     self.track([host, guest], int(point))
 
-    def camera(self):
-        centre = self.random.normal(size=3)
-        centre *= self.random.uniform(4, 6) / numpy.linalg.norm(centre)
-        axis = -centre / numpy.linalg.norm(centre)
-        side = numpy.cross(axis, self.random.normal(size=3))
-        side /= numpy.linalg.norm(side)
-        return numpy.stack([side, numpy.cross(axis, side), axis]), centre
-
 
 def reconstruct(path, seed):
     """The models of both mappers."""
     models = {}
     for mapper in ("incremental", "global"):
         with tempfile.TemporaryDirectory() as folder:
-            if mapper == "incremental":
-                options = pycolmap.IncrementalPipelineOptions()
-                options.min_model_size = SMALLEST
-                run = pycolmap.incremental_mapping
-            else:
-                options = pycolmap.GlobalPipelineOptions()
-                run = pycolmap.global_mapping
-            options.random_seed = seed
-            options.num_threads = 1
-            copy = shutil.copy(path, folder)
-            models[mapper] = list(run(copy, folder, folder, options).values())
+            models[mapper] = mapped(mapper, shutil.copy(path, folder), folder, seed, SMALLEST)
     return models
-
-
-def names(model):
-    return sorted(image.name for image in model.images.values() if image.has_pose)
 
 
 def make(arguments):
@@ -282,17 +226,9 @@ def run(arguments):
         print(path.stem, {mapper: [len(names(m)) for m in found] for mapper, found in models.items()}, flush=True)
 
 
-def overview(verify, path):
-    ran = subprocess.run([verify, "overview", "--json", path], capture_output=True, text=True)
-    if ran.returncode not in (0, 1):
-        raise SystemExit(f"{path}: {ran.stderr}")
-    return json.loads(ran.stdout)
-
-
 def thin(verify, path):
     """Whether the largest component falls apart when half of the tracks are missing."""
-    ran = subprocess.run([verify, "advise", "--tracks", "--margin", "--json", path], capture_output=True, text=True)
-    margin = json.loads(ran.stdout)["margin"]
+    margin = asked(verify, "advise", "--tracks", "--margin", path)["margin"]
     return 2 * margin["components"][0]["whole"][margin["missing"].index(50)] < margin["draws"]
 
 
@@ -309,7 +245,7 @@ def judge(arguments):
     tally = collections.Counter()
     for record in sorted(arguments.folder.glob("*.json"), key=lambda path: (len(path.stem), path.stem)):
         truth = json.loads(record.read_text())
-        line = overview(arguments.verify, str(record.with_suffix(".db")))
+        line = asked(arguments.verify, "overview", str(record.with_suffix(".db")))
         said = line["mappers"]
         warned = any(place["special"] for places in line["narrow"].values() for place in places)
         predicted = [set(model["images"]) for model in said["incremental"]["models"]]

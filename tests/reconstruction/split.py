@@ -25,10 +25,10 @@ import numpy
 import pycolmap
 
 import mappers
+from scenes import TOLERANCE as RIGHT, misfit, reconstruct
 
-# A part that is right leaves so much of the cameras' spread at most, and a model that is right.
+# A part that is right leaves so much of the cameras' spread at most.
 AGREES = 1e-3
-RIGHT = mappers.TOLERANCE
 
 
 def left(scene, model, names=None):
@@ -36,7 +36,7 @@ def left(scene, model, names=None):
     truth = {scene.name(image): scene.pose[image][1] for image in scene.images}
     found = {i.name: i.projection_center() for i in model.images.values() if i.has_pose}
     names = sorted(found if names is None else names)
-    return mappers.misfit(numpy.array([found[n] for n in names]), numpy.array([truth[n] for n in names]))
+    return misfit(numpy.array([found[n] for n in names]), numpy.array([truth[n] for n in names]))
 
 
 def files(folder):
@@ -109,7 +109,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "x.db")
             scene.write(path)
-            for k, model in enumerate(mappers.reconstruct("global", path, folder, seed)):
+            for k, model in enumerate(reconstruct("global", path, folder, seed)):
                 own = os.path.join(folder, f"model{k}")
                 os.mkdir(own)
                 problems = len(tally.problems)

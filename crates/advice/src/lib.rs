@@ -25,6 +25,7 @@ pub mod weak;
 
 mod condensation;
 mod folder;
+mod frames;
 #[cfg(test)]
 mod samples;
 mod task;

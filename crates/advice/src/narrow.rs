@@ -42,13 +42,14 @@ pub struct Hinges {
 }
 
 /// The cuts of at most [`FEW`] pairs, smallest first, with three images or more on each side; of
-/// cuts that separate the same two images one. Nothing, if there are too many groups to look at.
+/// cuts that separate the same two images one. Nothing, if there are too many groups to look at. Images
+/// of one of the `frames` are never separated.
 ///
 /// Images that more pairs hold together are made one first: two neighbours with three common
 /// neighbours, two groups with four pairs between them. Then each two of what is left are separated
 /// by a flow (Gusfield 1990). O(m d) for degrees d, and O(k^3) for k groups.
-pub fn cuts(graph: &Graph) -> Vec<Cut> {
-    let (mut groups, count) = groups(graph);
+pub fn cuts(graph: &Graph, frames: &[Vec<u32>]) -> Vec<Cut> {
+    let (mut groups, count) = groups(graph, frames);
     if !(2..=GROUPS).contains(&count) {
         return Vec::new();
     }
@@ -115,11 +116,17 @@ pub fn cuts(graph: &Graph) -> Vec<Cut> {
 
 /// Groups that more than [`FEW`] pairs hold together, as far as common neighbours and parallel pairs
 /// tell, and how many there are.
-fn groups(graph: &Graph) -> (UnionFind, usize) {
+fn groups(graph: &Graph, frames: &[Vec<u32>]) -> (UnionFind, usize) {
     let images = graph.nodes();
     let neighbours = Adjacency::new(graph);
     let mut groups = UnionFind::new(images);
     let mut count = images;
+    for frame in frames {
+        for two in frame.windows(2) {
+            groups.union(two[0] as usize, two[1] as usize);
+            count -= 1;
+        }
+    }
     for &(a, b) in graph.edges() {
         let apart = groups.find(a as usize) != groups.find(b as usize);
         if apart && common(neighbours.neighbours(a), neighbours.neighbours(b), FEW) == FEW {

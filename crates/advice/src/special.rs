@@ -6,6 +6,7 @@
 //! generic positions; those of photographs that were taken from one place are not. The angles are
 //! estimates of the database, and no verdict depends on them.
 
+use crate::frames::Images;
 use crate::mapper::{Estimate, Geometry};
 use crate::named::Names;
 use crate::narrow::{self, Cut, Hinges};
@@ -106,7 +107,8 @@ struct Look<'a> {
     geometry: &'a mut dyn Geometry,
 }
 
-/// The narrow places of the pairs of `pairs`, whose images are the first nodes of `tracks`.
+/// The narrow places of the pairs of `pairs`, whose images are the cameras of `tracks`. Images of a
+/// frame are held together by it; where there are any, no hinges are looked for.
 ///
 /// # Errors
 /// Those of the geometry.
@@ -127,14 +129,19 @@ pub fn narrow(
         geometry,
     };
     let mut found = Narrow::default();
-    for cut in narrow::cuts(graph).iter().take(MOST) {
+    let known = tracks.map_or_else(Images::default, |(tracks, _)| Images::new(pairs, tracks));
+    for cut in narrow::cuts(graph, &known.frames).iter().take(MOST) {
         found.few.push(look.few(cut)?);
     }
     let Some((tracks, verdict)) = tracks else {
         return Ok(found);
     };
-    for ((one, other), pairs) in between(graph, verdict).into_iter().take(MOST) {
+    for ((one, other), pairs) in between(graph, verdict, &known).into_iter().take(MOST) {
         found.between.push(look.between([one, other], pairs)?);
+    }
+    // Hinges are about the scale of groups, which base lines tell.
+    if !known.frames.is_empty() {
+        return Ok(found);
     }
     let hinges = narrow::hinges(graph);
     let alone = hinges
@@ -230,18 +237,26 @@ fn is_special(known: &Estimate) -> bool {
 }
 
 /// The pairs between images of different components, of which neither is in both.
-fn between(graph: &Graph, verdict: &Verdict) -> BTreeMap<(usize, usize), Vec<(u32, u32)>> {
-    let mut of: Vec<Vec<usize>> = vec![Vec::new(); graph.nodes()];
+fn between(
+    graph: &Graph,
+    verdict: &Verdict,
+    images: &Images,
+) -> BTreeMap<(usize, usize), Vec<(u32, u32)>> {
+    // There are as many cameras as images, or fewer.
+    let mut of_camera: Vec<Vec<usize>> = vec![Vec::new(); graph.nodes()];
     for (k, part) in (1..).zip(&verdict.components) {
-        let images = part.nodes();
-        let images = &images[..images.partition_point(|&v| (v as usize) < graph.nodes())];
-        if images.len() > 1 {
-            images.iter().for_each(|&image| of[image as usize].push(k));
+        let cameras = part.nodes();
+        let cameras = &cameras[..cameras.partition_point(|&v| (v as usize) < graph.nodes())];
+        if cameras.len() > 1 && part.edge_count() > 0 {
+            cameras
+                .iter()
+                .for_each(|&camera| of_camera[camera as usize].push(k));
         }
     }
+    let of = |image: u32| &of_camera[images.camera_of(image) as usize][..];
     let mut found: BTreeMap<(usize, usize), Vec<(u32, u32)>> = BTreeMap::new();
     for &(a, b) in graph.edges() {
-        if let ([one], [other]) = (&of[a as usize][..], &of[b as usize][..])
+        if let ([one], [other]) = (of(a), of(b))
             && one != other
         {
             let key = (*one.min(other), *one.max(other));

@@ -17,6 +17,7 @@ use viewcert::decide::{Options, VerdictError, decide};
 use viewcert::graph::{Adjacency, UnionFind};
 use viewcert::{Graph, Verdict};
 
+mod anywhere;
 pub mod candidates;
 mod matches;
 pub mod nearness;
@@ -112,10 +113,12 @@ pub fn suggest(
     let is_seen = |v: u32| search.neighbours.degree(v) > 0;
     let seen = costs.best(near, wanted.at, |(a, b)| is_seen(a) && is_seen(b), TRIED);
     let mut sets: Vec<Vec<Pair>> = seen.iter().map(|one| vec![one.pair]).collect();
+    // Two pairs place any image that is in no part, however it hangs on single ones.
+    let is_placed = |v: u32| !parts.of(v).is_empty();
     let alone = costs.best(
         std::iter::empty(),
         wanted.at,
-        |(a, b)| is_seen(a) != is_seen(b),
+        |(a, b)| is_placed(a) != is_placed(b),
         TRIED,
     );
     sets.extend(search.twice(&alone));
@@ -137,6 +140,10 @@ pub fn suggest(
     if wanted.at.is_none() {
         let several = search.several(joints, &found, &costs, options)?;
         found.extend(explained(search.proved(several, options)?));
+        if found.iter().all(Suggestion::has_failed) {
+            let anywhere = search.anywhere(&costs, options)?;
+            found.extend(explained(search.proved(anywhere, options)?));
+        }
     }
     Ok(ranked(found, wanted.most))
 }
@@ -301,19 +308,37 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// The two best pairs with one part, for images that have no pair.
+    /// The two best pairs with one part, for images that are in none; and for two such images that are a
+    /// pair the best pair of each with one part, of different images there as far as there are any.
     fn twice(&self, best: &[Candidate]) -> Vec<Vec<Pair>> {
         let mut by_gap: BTreeMap<Pair, Vec<Pair>> = BTreeMap::new();
         for &Candidate { pair: (a, b), .. } in best {
             let gap = ordered((self.group(a), self.group(b)));
             by_gap.entry(gap).or_default().push((a, b));
         }
+        let apart = |one: &Pair, other: &Pair| {
+            let [a, b] = [one.0, one.1];
+            ![a, b].contains(&other.0) && ![a, b].contains(&other.1)
+        };
+        let mut sets = Vec::new();
+        for &((x, y), _) in &self.parts.links {
+            for part in 0..self.parts.parts.len() as u32 {
+                let of = |v: u32| by_gap.get(&(part, self.group(v)));
+                let (Some(of_x), Some(of_y)) = (of(x), of(y)) else {
+                    continue;
+                };
+                let other = of_y.iter().find(|other| apart(&of_x[0], other));
+                sets.push(vec![of_x[0], *other.unwrap_or(&of_y[0])]);
+            }
+        }
         let two = by_gap.into_values().filter_map(|mut pairs| {
             pairs.truncate(2);
-            pairs.sort_unstable();
             (pairs.len() == 2).then_some(pairs)
         });
-        two.take(TRIED).collect()
+        sets.extend(two);
+        sets.truncate(TRIED);
+        sets.iter_mut().for_each(|set| set.sort_unstable());
+        sets
     }
 
     /// Sets of pairs for joints that no single pair closes, and for the largest part and parts that

@@ -148,7 +148,10 @@ fn weak(out: &mut impl Write, found: &Weak, single_pairs_only: bool) -> io::Resu
     Ok(())
 }
 
-pub(crate) fn suggestions(out: &mut impl Write, found: &[Suggestion]) -> io::Result<()> {
+pub(crate) fn suggestions<'a>(
+    out: &mut impl Write,
+    found: impl IntoIterator<Item = &'a Suggestion>,
+) -> io::Result<()> {
     for one in found {
         let pairs: Vec<String> = one.pairs.iter().map(|[a, b]| format!("{a} {b}")).collect();
         let enough = match pairs.len() {

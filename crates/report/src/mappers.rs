@@ -22,6 +22,9 @@ pub(crate) fn write<W: Write>(
     wrapped(out, "global", &global(foreseen))?;
     wrapped(out, "incremental", &incremental(foreseen))?;
     let models = &foreseen.incremental;
+    if models.refused {
+        return Ok(());
+    }
     if models.models.is_empty() || models.starts.iter().any(|start| start.unfit.is_some()) {
         for words in beginnings(models) {
             wrapped(out, "begins at", &words)?;
@@ -37,7 +40,7 @@ fn global(foreseen: &Foreseen) -> String {
     if size == 0 {
         return "no model: no image sees a track that counts".to_owned();
     }
-    let images = all_of(size, global.of);
+    let images = all_of(size, global.of) + &in_frames(global.frames);
     let whole = global.parts.iter().any(|part| part.len() == size);
     if whole {
         return format!("one model of {images}, all determined");
@@ -60,6 +63,11 @@ fn global(foreseen: &Foreseen) -> String {
 /// "likely 8 + 4 + 4, stops at DSC_0434 (sees 17 of the 30 points it needs)".
 fn incremental(foreseen: &Foreseen) -> String {
     let models = &foreseen.incremental;
+    if models.refused {
+        return "no model: it has to know the poses of all sensors in their rigs (map without rigs first, \
+                and derive the poses from that model)"
+            .to_owned();
+    }
     let simulated = match unfit(models) {
         None => "(simulated, not proved)".to_owned(),
         Some(unfit) => format!(
@@ -75,8 +83,9 @@ fn incremental(foreseen: &Foreseen) -> String {
     let mut words = match sizes[..] {
         [] => return format!("likely no model: no pair is fit to begin with {simulated}"),
         [size] => format!(
-            "likely one model of {} {simulated}",
-            all_of(size, foreseen.global.of)
+            "likely one model of {}{} {simulated}",
+            all_of(size, foreseen.global.of),
+            in_frames(models.models[0].frames)
         ),
         _ => format!("likely {} images {simulated}", several(&sizes, " + ")),
     };
@@ -149,6 +158,13 @@ fn beginning(start: &Beginning) -> String {
         Some(unfit) => format!("unfit: {unfit}"),
     };
     format!("{one} {other} ({}): {verdict}", numbers.join(", "))
+}
+
+/// " (10 frames)", where frames have several images.
+fn in_frames(frames: Option<usize>) -> String {
+    frames.map_or(String::new(), |count| {
+        format!(" ({})", counted(count, "frame"))
+    })
 }
 
 /// "all 15 images", "15 of 16 images".

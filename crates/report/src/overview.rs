@@ -9,7 +9,7 @@ use super::json::{AnswerLine, GraphLine, write_line};
 use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
-use crate::advice::joints as write_joints;
+use crate::advice::{joints as write_joints, suggestions as write_suggestions};
 use serde::Serialize;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -17,11 +17,15 @@ use std::io::{self, Write};
 use std::time::Duration;
 use viewcert_advice::Advice;
 use viewcert_advice::mapper::{Foreseen, Sees};
+use viewcert_advice::named::Suggestion;
 use viewcert_advice::special::Narrow;
 use viewcert_formats::{NamedGraph, ReadAs, TrackOptions};
 
 /// How many parts are shown with their sizes.
 const SHOWN: usize = 8;
+
+/// How many gaps are shown with what to match.
+const GAPS: usize = 3;
 
 /// Where words begin, and where lines end.
 const MARGIN: usize = 14;
@@ -360,6 +364,7 @@ impl Overview<'_> {
         }
         self.write_parts(out)?;
         self.write_joints(out)?;
+        self.write_suggested(out)?;
         narrow::write(out, &self.narrow, wrapped)?;
         let follows = self.follows();
         let mut words = vec![
@@ -431,6 +436,26 @@ impl Overview<'_> {
             return writeln!(out, "  joints      none: no two parts touch");
         }
         write_joints(out, self.joints)
+    }
+
+    /// What to match, the first for each gap.
+    fn write_suggested(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut gaps: Vec<&[usize]> = Vec::new();
+        let all = self.joints.suggestions.iter().flatten();
+        let first = all.filter(|one| {
+            let is_new = !gaps.contains(&&one.joins[..]);
+            gaps.push(&one.joins);
+            is_new
+        });
+        let first: Vec<&Suggestion> = first.take(GAPS).collect();
+        if first.is_empty() {
+            return Ok(());
+        }
+        writeln!(
+            out,
+            "  suggested   to match (proved: each would join components; the first for each gap):"
+        )?;
+        write_suggestions(out, first)
     }
 
     /// Writes everything as one line of JSON.

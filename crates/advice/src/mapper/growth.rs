@@ -1,11 +1,11 @@
-//! How a model grows: an image is added if it sees enough points that two images of the model see,
-//! whose rays are not nearly parallel.
+//! How a model grows: an image is added, with all of its frame, if it sees enough points that two images
+//! of the model see, whose rays are not nearly parallel.
 //!
 //! Images only become more visible as a model grows, so what is reached does not depend on the order;
 //! only where a model stops because it shares too much with earlier ones, it does.
 
 use super::{Scene, Thresholds};
-use std::collections::{HashSet, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use viewcert::graph::Lists;
 
 /// The tracks, and a model that grows in them.
@@ -22,6 +22,8 @@ pub(super) struct Growth<'a> {
     /// How many points of the model each image sees.
     visible: Vec<u32>,
     in_model: Vec<bool>,
+    /// For every image its place in the frames of the scene, if it is in one.
+    frame_of: HashMap<u32, usize>,
     /// The images of the model in the order in which they came.
     pub(super) model: Vec<u32>,
 }
@@ -33,8 +35,11 @@ impl<'a> Growth<'a> {
         let points = scene.tracks.nodes() - scene.images;
         let seen_by = scene.tracks.edges().iter();
         let seen_by = seen_by.map(move |&(image, point)| (point - images, image));
+        let frames = scene.frames.iter().enumerate();
+        let frames = frames.flat_map(|(k, frame)| frame.iter().map(move |&image| (image, k)));
         Self {
             scene,
+            frame_of: frames.collect(),
             images_of: Lists::group(points, seen_by),
             blind,
             made: vec![false; points],
@@ -88,11 +93,27 @@ impl<'a> Growth<'a> {
             if self.has(image) {
                 continue;
             }
-            self.add(image, needs, &mut next);
-            if crowded(image) {
+            let mut is_crowded = false;
+            for image in self.frame(image) {
+                self.add(image, needs, &mut next);
+                is_crowded |= crowded(image);
+            }
+            if is_crowded {
                 break;
             }
         }
+    }
+
+    /// The images of the frame of an image.
+    fn frame(&self, image: u32) -> Vec<u32> {
+        let frame = self.frame_of.get(&image);
+        frame.map_or_else(|| vec![image], |&k| self.scene.frames[k].clone())
+    }
+
+    /// Whether two images are of one frame.
+    pub(super) fn are_of_one_frame(&self, (a, b): (u32, u32)) -> bool {
+        let frame = self.frame_of.get(&a);
+        frame.is_some() && frame == self.frame_of.get(&b)
     }
 
     /// Adds an image; those that see enough points because of it are put behind `next`.

@@ -4,6 +4,8 @@
 //! geometry of pairs. Out: the models of incremental mapping, with what each starts from and where
 //! it stops, and the images of the one model of global mapping ([`Foreseen`]).
 //!
+//! COLMAP registers frames, not images: an image that sees enough brings all of its frame along.
+//!
 //! COLMAP estimates poses and triangulates; here only its thresholds are applied to numbers of
 //! points ([`Thresholds`]), and points are taken to be right. No verdict and no certificate depends
 //! on this module, and it is the only one of the library that says what is likely. How often it was
@@ -34,6 +36,9 @@ pub struct Scene<'a> {
     pub images: usize,
     /// The pairs with enough verified matches, and how many they have; the smaller image first.
     pub pairs: &'a [((u32, u32), u32)],
+    /// The images of every frame that has several: they are placed together, as the rig says how they lie
+    /// to each other.
+    pub frames: &'a [Vec<u32>],
 }
 
 #[cfg(test)]

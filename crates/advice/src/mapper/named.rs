@@ -4,6 +4,7 @@
 use super::global::global;
 use super::incremental::{Incremental, Stop, incremental};
 use super::{Geometry, Scene, Start, Thresholds};
+use crate::frames::Images;
 use crate::named::Names;
 use anyhow::Result;
 use serde::Serialize;
@@ -28,6 +29,9 @@ pub struct Global {
     pub images: Vec<String>,
     /// How many images the database has.
     pub of: usize,
+    /// In how many frames these are, if any frame has several images.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<usize>,
     /// What of them the tracks determine against each other: the parts of two images and more.
     pub parts: Vec<Vec<String>>,
 }
@@ -43,6 +47,8 @@ pub struct Models {
     pub starts: Vec<Beginning>,
     /// With how many images a model is kept by default, unless it is the first.
     pub kept_from: usize,
+    /// Whether COLMAP refuses to make any: it has to know the poses of all sensors in their rigs.
+    pub refused: bool,
     /// The thresholds, by COLMAP's names.
     pub thresholds: Thresholds,
 }
@@ -52,6 +58,9 @@ pub struct Models {
 pub struct Model {
     /// Its images.
     pub images: Vec<String>,
+    /// In how many frames these are, if any frame has several images.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frames: Option<usize>,
     /// The pair that it begins with.
     pub start: [String; 2],
     /// The image that comes nearest to being added.
@@ -86,60 +95,77 @@ pub struct Beginning {
     pub angle: Option<f64>,
     /// The part of the motion that is forward, if a relative pose is known.
     pub forward: Option<f64>,
-    /// What disqualified it, as thresholds stood last: `configuration`, `forward motion`, `angle` or
-    /// `points`.
+    /// What disqualified it, as thresholds stood last: `configuration`, `forward motion`, `angle`, `one
+    /// frame` or `points`.
     pub unfit: Option<&'static str>,
 }
 
 /// Simulates both mappers on the tracks of a database that `verdict` is about; nothing for tracks
-/// that are not from a database.
+/// that are not from a database. `each` are the tracks with a camera for every image: these themselves,
+/// unless images of a frame are one camera.
 ///
 /// # Errors
 /// Those of the geometry.
 pub fn foresee(
-    tracks: &NamedGraph,
-    verdict: &Verdict,
+    each: &NamedGraph,
+    (tracks, verdict): (&NamedGraph, &Verdict),
     geometry: &mut dyn Geometry,
 ) -> Result<Option<Foreseen>> {
-    let (Some(cameras), Some(facts), Some(matching)) =
-        (tracks.cameras, &tracks.database, &tracks.matching)
+    let (Some(count), Some(facts), Some(matching)) = (each.cameras, &each.database, &each.matching)
     else {
         return Ok(None);
     };
-    let enough = matching
-        .others
-        .iter()
-        .filter(|pair| pair.inliers >= facts.min_inliers);
+    let enough = matching.others.iter();
+    let enough = enough.filter(|pair| pair.inliers >= facts.min_inliers);
     let pairs: Vec<((u32, u32), u32)> = enough.map(|pair| (pair.images, pair.inliers)).collect();
+    let known = Images::new(each, tracks);
     let scene = Scene {
-        tracks: &tracks.graph,
-        images: cameras as usize,
+        tracks: &each.graph,
+        images: count as usize,
         pairs: &pairs,
+        frames: &known.frames,
     };
     let thresholds = Thresholds::default();
-    let names = Names::new(tracks);
+    let names = Names::new(each);
     let all = |images: &[u32]| images.iter().map(|&image| names.of(image)).collect();
     let one_model = global(scene);
     let parts = verdict.components.iter().map(|part| {
-        let mut images = part.nodes();
-        images.retain(|image| one_model.binary_search(image).is_ok());
-        images
+        let cameras = part.nodes();
+        let is_in = |image: &u32| cameras.binary_search(&known.camera_of(*image)).is_ok();
+        one_model.iter().copied().filter(is_in).collect()
     });
-    let mut parts: Vec<Vec<u32>> = parts.filter(|images| images.len() > 1).collect();
+    let mut parts: Vec<Vec<u32>> = parts.filter(|images: &Vec<u32>| images.len() > 1).collect();
     parts.sort_by_key(|images| std::cmp::Reverse(images.len()));
-    let found = incremental(scene, geometry, thresholds)?;
+    let frames = |images: &[u32]| (!known.frames.is_empty()).then(|| known.count(images));
+    let refused = tracks
+        .frames
+        .as_ref()
+        .is_some_and(|frames| frames.unknown > 0);
+    let found = match refused {
+        true => Incremental::default(),
+        false => incremental(scene, geometry, thresholds)?,
+    };
     Ok(Some(Foreseen {
         simulated: true,
         global: Global {
+            frames: frames(&one_model),
             images: all(&one_model),
-            of: cameras as usize,
+            of: count as usize,
             parts: parts.iter().map(|images| all(images)).collect(),
         },
-        incremental: models(&found, &names, thresholds),
+        incremental: Models {
+            refused,
+            ..models(&found, &names, frames, thresholds)
+        },
     }))
 }
 
-fn models(found: &Incremental, names: &Names, thresholds: Thresholds) -> Models {
+fn models(
+    found: &Incremental,
+    names: &Names,
+    frames: impl Fn(&[u32]) -> Option<usize>,
+    thresholds: Thresholds,
+) -> Models {
     let sees = |stop: &Stop| Sees {
         image: names.of(stop.image),
         sees: stop.sees,
@@ -147,6 +173,7 @@ fn models(found: &Incremental, names: &Names, thresholds: Thresholds) -> Models 
     };
     let model = |model: &super::SimulatedModel| Model {
         images: model.images.iter().map(|&image| names.of(image)).collect(),
+        frames: frames(&model.images),
         start: names.pair(model.start),
         stop: model.stop.as_ref().map(sees),
         kept: model.kept,
@@ -167,6 +194,7 @@ fn models(found: &Incremental, names: &Names, thresholds: Thresholds) -> Models 
         outside: outside.iter().map(sees).collect(),
         starts: found.starts.iter().map(beginning).collect(),
         kept_from: found.kept_from,
+        refused: false,
         thresholds,
     }
 }

@@ -33,6 +33,8 @@ pub enum Unfit {
     Forward,
     /// The angle between rays is too small.
     Angle,
+    /// Both images are of one frame.
+    Frame,
     /// Too few points that a third image sees: the next image would find too few.
     Points,
 }
@@ -44,6 +46,7 @@ impl Unfit {
             Self::Configuration => "configuration",
             Self::Forward => "forward motion",
             Self::Angle => "angle",
+            Self::Frame => "one frame",
             Self::Points => "points",
         }
     }
@@ -140,6 +143,9 @@ impl Starts {
                     estimate,
                     unfit: estimate.and_then(|estimate| unfit(&estimate, thresholds)),
                 };
+                if growth.are_of_one_frame(pair) {
+                    start.unfit = Some(Unfit::Frame);
+                }
                 let fit = start.unfit.is_none();
                 if fit && start.points < thresholds.abs_pose_min_num_inliers as usize {
                     start.unfit = Some(Unfit::Points);

@@ -8,6 +8,7 @@ use viewcert_formats::colmap::TwoViews;
 struct Sample {
     images: usize,
     tracks: Vec<Vec<u32>>,
+    frames: Vec<Vec<u32>>,
 }
 
 impl Sample {
@@ -15,6 +16,7 @@ impl Sample {
         Self {
             images,
             tracks: Vec::new(),
+            frames: Vec::new(),
         }
     }
 
@@ -46,6 +48,7 @@ impl Sample {
             tracks: &graph,
             images: self.images,
             pairs: &pairs,
+            frames: &self.frames,
         };
         incremental(scene, geometry, Thresholds::default()).unwrap()
     }
@@ -93,6 +96,36 @@ fn models_may_overlap() {
     assert!(found.models[0].kept);
     // Three of six images: half of them is kept.
     assert_eq!((found.kept_from, found.models[1].kept), (3, true));
+}
+
+/// An image that is added brings its frame along, which goes on from there; and a pair of one frame is
+/// nothing to begin with.
+#[test]
+fn frames_are_added_whole() {
+    let sample = || {
+        Sample::new(6)
+            .seen(&[0, 1, 2], 120)
+            .seen(&[3, 4, 5], 110)
+            .seen(&[0, 1], 40)
+    };
+    assert_eq!(sizes(&sample().simulated(&mut ())), [3, 3]);
+    // Image 5 is of the frame of image 2; alone it sees no second image of the others.
+    let with = |frames: &[[u32; 2]], joined: usize| {
+        let mut sample = sample().seen(&[3, 5], joined);
+        sample.frames = frames.iter().map(|frame| frame.to_vec()).collect();
+        sample.simulated(&mut ())
+    };
+    let sorted = |found: &Incremental| {
+        let mut sizes = sizes(found);
+        sizes.sort_unstable();
+        sizes
+    };
+    assert_eq!(sorted(&with(&[[2, 5]], 0)), [4, 4]);
+    assert_eq!(sorted(&with(&[[2, 5], [1, 4]], 0)), [6]);
+    let found = with(&[[0, 1], [2, 3]], 0);
+    let begun = found.starts.iter().find(|start| start.images == (0, 1));
+    assert_eq!(begun.unwrap().unfit, Some(Unfit::Frame));
+    assert_ne!(found.models[0].start, (0, 1));
 }
 
 /// A model needs a pair with 100 matches, 50 or 25.
@@ -176,6 +209,7 @@ fn shared_points_are_counted() {
         tracks: &graph,
         images: 3,
         pairs: &[],
+        frames: &[],
     };
     let growth = Growth::new(scene, Default::default());
     assert_eq!((growth.shared((0, 1)), growth.shared((0, 2))), (2, 0));

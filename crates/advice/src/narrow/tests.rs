@@ -19,7 +19,7 @@ fn cliques(sizes: &[u32], between: &[(u32, u32)]) -> Graph {
 fn three_pairs_are_few_and_four_are_not() {
     let bridge = [(0, 6), (1, 7), (2, 8), (3, 9)];
     for count in 1..=4 {
-        let found = cuts(&cliques(&[6, 6], &bridge[..count]));
+        let found = cuts(&cliques(&[6, 6], &bridge[..count]), &[]);
         if count <= FEW {
             let cut = Cut {
                 pairs: bridge[..count].to_vec(),
@@ -32,13 +32,17 @@ fn three_pairs_are_few_and_four_are_not() {
         }
     }
     // Two images hang on; and what is not connected at all is held by nothing.
-    assert_eq!(cuts(&cliques(&[6, 2], &[(0, 6), (1, 7)])), []);
-    assert_eq!(cuts(&cliques(&[6, 6], &[])), []);
+    assert_eq!(cuts(&cliques(&[6, 2], &[(0, 6), (1, 7)]), &[]), []);
+    assert_eq!(cuts(&cliques(&[6, 6], &[]), &[]), []);
+    // Images of one frame are on one side.
+    let two = cliques(&[6, 6], &[(0, 6)]);
+    assert_eq!(cuts(&two, &[]).len(), 1);
+    assert_eq!(cuts(&two, &[vec![3, 9]]), []);
 }
 
 #[test]
 fn a_chain_has_a_cut_for_each_link() {
-    let found = cuts(&cliques(&[5, 5, 5], &[(0, 5), (6, 10), (7, 11)]));
+    let found = cuts(&cliques(&[5, 5, 5], &[(0, 5), (6, 10), (7, 11)]), &[]);
     let pairs: Vec<&[(u32, u32)]> = found.iter().map(|cut| &cut.pairs[..]).collect();
     assert_eq!(pairs, [&[(0, 5)][..], &[(6, 10), (7, 11)]]);
     assert_eq!((found[0].side.len(), found[1].side.len()), (5, 5));
@@ -72,7 +76,7 @@ fn cuts_of_random_graphs() {
             }
         }
         let graph = Graph::new(9, edges).unwrap();
-        let found = cuts(&graph);
+        let found = cuts(&graph, &[]);
         several += usize::from(!found.is_empty());
         for cut in &found {
             let inside = |v: u32| cut.side.binary_search(&v).is_ok();
