@@ -6,7 +6,7 @@ use super::question::{GRAPHS, QuestionArguments};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use viewcert_advice::{Request, Weak};
+use viewcert_advice::{Lost, Request, Weak};
 
 /// What to do about which graphs. Joints between components are listed in any case.
 #[derive(Args)]
@@ -26,6 +26,19 @@ pub(super) struct AdviceArguments {
     #[arg(long, value_name = "WHAT", num_args = 0..=1, require_equals = true)]
     #[arg(value_enum, default_missing_value = "pairs")]
     weak: Option<WeakName>,
+    /// Say of every pair in how many of its equations the rest checks it, and which pairs check each
+    /// other: an error in what nothing checks cannot be seen by anyone.
+    #[arg(long)]
+    surplus: bool,
+    /// Say whether every component stays one whatever N pairs are lost (`images:N`: images), N being 1
+    /// or 2, and what breaks it.
+    #[arg(long, value_name = "N")]
+    redundant: Option<Lost>,
+    /// Count the pairs that are determined though they are not in the graph, and list N of them at
+    /// most [default: 1000].
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "1000")]
+    implied: Option<u32>,
     /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
     /// also how much has to come of it. `advise` does this if nothing else is asked.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
@@ -78,6 +91,9 @@ impl AdviceArguments {
                 WeakName::Pairs => Weak::Pairs,
                 WeakName::Images => Weak::Images,
             }),
+            surplus: self.surplus,
+            redundant: self.redundant,
+            implied: self.implied,
             suggest: self.suggest,
             explain: self.explain.clone(),
             sweep: self.sweep.clone(),

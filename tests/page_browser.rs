@@ -309,6 +309,34 @@ fn tracks() -> String {
     )
 }
 
+/// Pairs that the rest does not check in full are lines of their own over the picture, by surplus, and
+/// rows of a table.
+#[test]
+fn surplus_is_drawn_over_the_picture() {
+    let graph = b"a b\na c\na d\nb c\nb d\nc d\na two\nb two\na one\n";
+    let page = Page::of(graph, &["-", "--json", "--components", "--surplus"]);
+    let report = page.report();
+    assert_eq!(report["surplus"]["items"].as_array().unwrap().len(), 3);
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let opened = page.opened(&browser, "");
+    let lines = |surplus: u32| {
+        let (_, tag) = opened.split_once(&format!("data-surplus=\"{surplus}\""))?;
+        let before = &opened[..opened.len() - tag.len()];
+        Some(
+            before[before.rfind("<path").unwrap()..]
+                .matches('M')
+                .count(),
+        )
+    };
+    assert_eq!([0, 1, 2, 3].map(lines), [Some(1), None, None, Some(2)]);
+    let found = rows(&opened, "part-surplus");
+    let names: Vec<&str> = found.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(names, ["a – one", "a – two", "b – two"]);
+    assert_eq!(found[0][1], "0 of 7");
+}
+
 /// A page of cameras and points: its numbers are those of the JSON, and of the graph by hand.
 #[test]
 fn cameras_and_points_have_a_page() {

@@ -15,6 +15,7 @@ use viewcert::graph::{Coordinate, Displacements};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
+use viewcert_advice::noticed::UnknownLoss;
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
@@ -316,7 +317,8 @@ impl Decided {
     /// What the program says: `kind` is `json`, `text` or `html`.
     #[pyo3(signature = (
         kind, *, list_components=false, weak=None, suggest=None, explain=None, sweep=vec![],
-        margin=None, export=None
+        margin=None, export=None, surplus=false,
+        redundant=None, implied=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -330,6 +332,9 @@ impl Decided {
         sweep: Vec<u32>,
         margin: Option<u32>,
         export: Option<PathBuf>,
+        surplus: bool,
+        redundant: Option<&str>,
+        implied: Option<u32>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let weak = match weak {
             None => None,
@@ -341,8 +346,14 @@ impl Decided {
                 )));
             }
         };
+        let redundant = redundant.map(str::parse).transpose();
+        let redundant =
+            redundant.map_err(|why: UnknownLoss| InputError::new_err(why.to_string()))?;
         let request = Request {
             weak,
+            surplus,
+            redundant,
+            implied,
             suggest,
             explain,
             sweep,

@@ -91,3 +91,27 @@ def test_a_suggestion_keeps_its_promise(edges: set[tuple[int, int]]) -> None:
         component = verdict.components[weak.component]
         rest = [pair for pair in verdict.pairs_of(weak.component) if pair != weak.nodes]
         assert component not in viewcert.verify(rest).components
+
+
+@settings(deadline=None, max_examples=60)
+@given(edge_sets)
+def test_surplus_is_the_rank_that_a_removal_does_not_take(edges: set[tuple[int, int]]) -> None:
+    nodes = sorted({node for edge in edges for node in edge})
+    verdict = viewcert.verify(edges)
+    graph = nx.Graph(list(edges))
+    nx.set_edge_attributes(graph, viewcert.surplus(verdict))
+    for i, j, found in graph.edges(data=True):
+        rest = nx.Graph()
+        rest.add_nodes_from(nodes)
+        rest.add_edges_from(edge for edge in edges if set(edge) != {i, j})
+        taken = verdict.rank - viewcert.verify(rest).rank
+        assert found["surplus"] == found["full"] - taken, (i, j)
+    for broken in viewcert.redundant(verdict, 2):
+        component = verdict.components[broken.component]
+        gone = {frozenset(pair) for pair in broken.without}
+        left = [pair for pair in verdict.pairs_of(broken.component) if frozenset(pair) not in gone]
+        assert component not in viewcert.verify(left).components
+    found = viewcert.implied(verdict)
+    assert found.count == len(found.pairs)
+    for pair in found.pairs:
+        assert viewcert.verify([*edges, pair]).rank == verdict.rank

@@ -15,6 +15,7 @@ pub mod margin;
 pub mod merge;
 pub mod named;
 pub mod narrow;
+pub mod noticed;
 pub mod parts;
 pub mod request;
 pub mod special;
@@ -35,6 +36,7 @@ pub use explain::{Explanation, explain};
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use margin::{Margin, Thinning, margin};
 pub use named::Advice;
+pub use noticed::{Break, Lost, Surplus, redundant, surplus};
 pub use parts::{Part, Parts};
 pub use request::Request;
 pub use suggest::{

@@ -2,6 +2,7 @@
 //! Components are counted from 1 here, as in the text.
 
 use crate::margin::MISSING;
+use crate::noticed::{Implied, Redundant, Surpluses};
 use serde::Serialize;
 use viewcert_formats::NamedGraph;
 
@@ -24,6 +25,15 @@ pub struct Advice {
     /// What components hang on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weak: Option<Weak>,
+    /// Which pairs the rest checks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surplus: Option<Surpluses>,
+    /// What may be lost.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub redundant: Option<Redundant>,
+    /// Pairs that are determined though never matched.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub implied: Option<Implied>,
     /// Pairs that would join components.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub suggestions: Option<Vec<Suggestion>>,

@@ -2,7 +2,7 @@
 
 use crate::named::Advice;
 use crate::task::{Task, Weak};
-use crate::{Shapes, export, folder};
+use crate::{Lost, Shapes, export, folder};
 use anyhow::{Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Verdict;
@@ -15,6 +15,12 @@ use viewcert_session::Outputs;
 pub struct Request {
     /// What a component hangs on.
     pub weak: Option<Weak>,
+    /// How much of each pair the rest checks.
+    pub surplus: bool,
+    /// What is lost, to see whether components stay.
+    pub redundant: Option<Lost>,
+    /// Pairs that are determined though never matched; so many are listed at most.
+    pub implied: Option<u32>,
     /// Pairs that would join components, so many at most; with tracks also how much has to come of it.
     pub suggest: Option<u32>,
     /// An image, by its label, to be explained.
@@ -53,6 +59,9 @@ impl Request {
     fn asked_of_pairs(&self) -> Option<&'static str> {
         let asked = [
             (self.weak.is_some(), "--weak"),
+            (self.surplus, "--surplus"),
+            (self.redundant.is_some(), "--redundant"),
+            (self.implied.is_some(), "--implied"),
             (self.suggest.is_some(), "--suggest"),
             (self.explain.is_some(), "--explain"),
             (!self.sweep.is_empty(), "--sweep"),
@@ -66,6 +75,9 @@ impl Request {
     fn asked_without_displacements(&self) -> Option<&'static str> {
         let asked = [
             (self.weak.is_some(), "--weak"),
+            (self.surplus, "--surplus"),
+            (self.redundant.is_some(), "--redundant"),
+            (self.implied.is_some(), "--implied"),
             (!self.sweep.is_empty(), "--sweep"),
             (self.margin.is_some(), "--margin"),
         ];
@@ -122,7 +134,7 @@ impl Request {
             && let Some(option) = self.asked_without_displacements()
         {
             bail!(
-                "{option} leaves pairs or tracks out, and known displacements would be left out with them; \
+                "{option} looks at pairs or tracks alone, and known displacements would be left out of account; \
                  leave out --given, and rigs by --no-rigs"
             );
         }
@@ -146,6 +158,15 @@ impl Request {
         let (mut advice, joints) = task.joints(shapes)?;
         if let Some(what) = self.weak {
             advice.weak = Some(task.weak(what)?);
+        }
+        if self.surplus {
+            advice.surplus = Some(task.surplus()?);
+        }
+        if let Some(lost) = self.redundant {
+            advice.redundant = Some(task.redundant(lost)?);
+        }
+        if let Some(most) = self.implied {
+            advice.implied = Some(task.implied(most as usize)?);
         }
         if let Some(most) = self.suggest {
             advice.suggestions = Some(task.suggest(&joints, most as usize, None)?);

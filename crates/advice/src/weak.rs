@@ -8,10 +8,11 @@
 
 mod decisions;
 mod halves;
-mod left_out;
+pub(crate) mod left_out;
 
 use crate::condensation::{Condensation, terminals, without};
 use crate::parts::{Alone, Parts};
+pub(crate) use decisions::by_distance;
 use halves::Sorted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -129,7 +130,10 @@ pub fn weak_images(
 type Pair = (u32, u32);
 
 /// The weak pairs of a component with three nodes or more, increasing.
-fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
+pub(crate) fn pairs_of(
+    graph: &Graph,
+    options: &Options,
+) -> Result<Vec<(Pair, Why, Strength)>, VerdictError> {
     let model = options.question.model();
     let neighbours = Adjacency::new(graph);
     let mut weak: Vec<(Pair, Why, Strength)> = Vec::new();
@@ -162,7 +166,7 @@ fn pairs_of(graph: &Graph, options: &Options) -> Result<Vec<(Pair, Why, Strength
 
 /// The pairs that a contraction uses, and those that it leaves loose, increasing: every other pair
 /// joins two nodes of a body that stands without it.
-fn used(contraction: &Contraction) -> Vec<Pair> {
+pub(crate) fn used(contraction: &Contraction) -> Vec<Pair> {
     let mut used: BTreeSet<Pair> = contraction.loose.iter().copied().collect();
     let ordered = |a: u32, b: u32| (a.min(b), a.max(b));
     for body in &contraction.bodies {
@@ -205,7 +209,7 @@ fn thinned(graph: &Graph, model: Model) -> Graph {
     Graph::new(graph.nodes() as u32, kept).expect("edges of a graph")
 }
 
-fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
+pub(crate) fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
     Ok(options
         .watch
         .task(Step::Contraction, graph.nodes())
@@ -213,20 +217,20 @@ fn check(graph: &Graph, options: &Options) -> Result<(), VerdictError> {
 }
 
 /// The nodes of every final body, increasing.
-fn final_nodes(contraction: &Contraction) -> impl Iterator<Item = &[u32]> + Clone {
+pub(crate) fn final_nodes(contraction: &Contraction) -> impl Iterator<Item = &[u32]> + Clone {
     let finals = contraction.finals.iter();
     finals.map(|&body| &contraction.bodies[body as usize].nodes[..])
 }
 
 /// For every node the final bodies that it lies in, by their place in the list.
-fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
+pub(crate) fn bodies_of_nodes(contraction: &Contraction, nodes: usize) -> Lists {
     let of_node = (0..).zip(final_nodes(contraction));
     let of_node = of_node.flat_map(|(k, nodes): (u32, _)| nodes.iter().map(move |&v| (v, k)));
     Lists::group(nodes, of_node)
 }
 
 /// Whether one body holds both ends.
-fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
+pub(crate) fn is_in_one(bodies: &Lists, (a, b): Pair) -> bool {
     let other = bodies.of(b as usize);
     let mut one = bodies.of(a as usize).iter();
     one.any(|k| other.binary_search(k).is_ok())
@@ -259,7 +263,10 @@ fn decided(
 }
 
 /// The weak images of a component with three nodes or more, increasing.
-fn images_of(graph: &Graph, options: &Options) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
+pub(crate) fn images_of(
+    graph: &Graph,
+    options: &Options,
+) -> Result<Vec<(u32, Why, Strength)>, VerdictError> {
     let model = options.question.model();
     let n = graph.nodes() as u32;
     // Without an image of a triangle there is a pair, which is solvable.
@@ -329,7 +336,7 @@ fn is_one_body(contraction: &Contraction, nodes: usize) -> bool {
 /// Nodes that are pairwise no edges are left out together: if the rest holds together, each of them
 /// is seen from two nodes of it, and so the graph without any one of them holds
 /// together as well (docs/theory.md, Theorem 4.1, rule 3). Every node must have two neighbours.
-fn falling_apart(
+pub(crate) fn falling_apart(
     graph: &Graph,
     nodes: Vec<u32>,
     test: impl Fn(&Graph) -> Result<Option<Strength>, VerdictError>,
@@ -372,7 +379,7 @@ fn independent(graph: &Graph, nodes: Vec<u32>) -> Vec<Vec<u32>> {
 }
 
 /// A graph without some nodes, given increasing, renumbered.
-fn without_nodes(graph: &Graph, gone: &[u32]) -> Graph {
+pub(crate) fn without_nodes(graph: &Graph, gone: &[u32]) -> Graph {
     let stays = |v: &u32| gone.binary_search(v).is_err();
     let nodes: Vec<u32> = (0..graph.nodes() as u32).filter(|v| stays(v)).collect();
     let edges = graph.edges().iter().copied();

@@ -1,5 +1,6 @@
 //! What was found, in a few lines for people.
 
+use crate::noticed;
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::named::{
@@ -7,7 +8,7 @@ use viewcert_advice::named::{
 };
 
 /// How many joints, and weak pairs, are shown.
-const SHOWN: usize = 8;
+pub(crate) const SHOWN: usize = 8;
 
 /// Length of the longest bar of a plot.
 const BAR: usize = 40;
@@ -21,6 +22,7 @@ pub fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     if let Some(found) = &advice.weak {
         weak(out, found, advice.single_pairs_only)?;
     }
+    noticed::write(out, advice)?;
     if let Some(found) = &advice.suggestions {
         let joined = "proved: these would join components";
         let count = match advice.is_whole {
@@ -85,7 +87,7 @@ pub fn joints(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
     rest(out, count, "--json lists them")
 }
 
-fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
+pub(crate) fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
     match count.saturating_sub(SHOWN) {
         0 => Ok(()),
         more => writeln!(out, "    and {more} more ({advice})"),

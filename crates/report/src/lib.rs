@@ -20,6 +20,7 @@ mod mappers;
 pub mod merge;
 pub mod models;
 mod narrow;
+mod noticed;
 pub mod overview;
 pub mod overview_page;
 pub mod page;

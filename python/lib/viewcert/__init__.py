@@ -18,8 +18,10 @@ Warnings about what was merged, ignored or guessed go to ``logging.getLogger("vi
 import logging as _logging
 
 from ._act import (
+    Break,
     Explanation,
     Export,
+    Implied,
     Margin,
     Outside,
     Suggestion,
@@ -28,8 +30,11 @@ from ._act import (
     Weak,
     explain,
     export,
+    implied,
     margin,
+    redundant,
     suggest,
+    surplus,
     sweep,
     weak,
 )
@@ -47,11 +52,13 @@ from ._native import Verified, __version__
 from ._verdict import Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
+    "Break",
     "Entry",
     "Error",
     "Explanation",
     "Export",
     "Graph",
+    "Implied",
     "InputError",
     "Joint",
     "Margin",
@@ -76,9 +83,12 @@ __all__ = [
     "explain",
     "export",
     "from_database",
+    "implied",
     "margin",
     "read",
+    "redundant",
     "suggest",
+    "surplus",
     "sweep",
     "tracks_from_database",
     "tracks_from_reconstruction",

@@ -173,6 +173,39 @@ class Export:
     commands: Tuple[Tuple[str, ...], ...]
 
 
+@dataclass(frozen=True)
+class Break:
+    """A component that falls apart, without which pairs (of nodes) or nodes it does, and how strong
+    that is: ``'proof'`` or ``'error-bound'``."""
+
+    component: int
+    without: Tuple[Any, ...]
+    strength: str
+
+
+@dataclass(frozen=True)
+class Implied:
+    """Pairs that are determined though they are not in the graph.
+
+    Attributes
+    ----------
+    count : int
+        How many there are; of a camera-point graph pairs of cameras.
+    beyond_components : int
+        How many of them no component holds.
+    pairs : tuple
+        The first of them.
+    strength, complete : str
+        How strong it is that these are determined, and that no others are.
+    """
+
+    count: int
+    beyond_components: int
+    pairs: Tuple[Tuple[Node, Node], ...]
+    strength: str
+    complete: str
+
+
 def _decided(verdict: Any) -> Verdict:
     return verdict if isinstance(verdict, Verdict) else verify(verdict)
 
@@ -224,6 +257,120 @@ def weak(verdict: Any, of: str = "pairs") -> List[Weak]:
         )
         for item in _asked(verdict, "weak", weak=of)["items"]
     ]
+
+
+def surplus(verdict: Any) -> Dict[Tuple[Node, Node], Dict[str, Any]]:
+    """In how many of its equations the rest of the graph checks each pair.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+
+    Returns
+    -------
+    dict
+        For every pair ``surplus`` (0: an error in it cannot be seen by anyone), ``full`` (the
+        equations of a pair: 7, calibrated 2, affine 4) and ``strength`` (``'proof'`` or
+        ``'error-bound'``), as :func:`networkx.set_edge_attributes` takes them.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> found = viewcert.surplus([(0, 1), (0, 2), (1, 2), (2, 3)])
+    >>> found[0, 1]["surplus"], found[2, 3]["surplus"]
+    (3, 0)
+    """
+    verdict = _decided(verdict)
+    by_text = verdict.graph._by_text()
+    found = _asked(verdict, "surplus", surplus=True)
+    full = found["full"]
+    nodes = verdict.graph.nodes
+    pairs: Dict[Tuple[Node, Node], Dict[str, Any]] = {
+        (nodes[int(i)], nodes[int(j)]): {"surplus": full, "full": full, "strength": "proof"}
+        for i, j in verdict.graph.pairs
+    }
+    for item in found["items"]:
+        a, b = (by_text[text] for text in item["images"])
+        pair = (a, b) if (a, b) in pairs else (b, a)
+        pairs[pair].update(surplus=item["surplus"], strength=item["strength"])
+    return pairs
+
+
+def redundant(verdict: Any, lost: int = 1, of: str = "pairs") -> List[Break]:
+    """The components that do not stay one whatever is lost.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    lost : {1, 2}
+        How many are lost.
+    of : {'pairs', 'images'}
+        What is lost.
+
+    Returns
+    -------
+    list of Break
+        Each with a set that breaks it. All other components with three nodes or more stay, which is
+        proved.
+
+    Examples
+    --------
+    >>> import itertools, viewcert
+    >>> complete = list(itertools.combinations(range(5), 2))
+    >>> viewcert.redundant(complete, 2)
+    []
+    >>> viewcert.redundant(complete[1:], 2)[0].without
+    ((0, 2), (0, 3))
+    """
+    verdict = _decided(verdict)
+    by_text = verdict.graph._by_text()
+    if of not in ("pairs", "images"):
+        raise InputError(f"of={of!r}: pairs or images are lost")
+    what = str(lost) if of == "pairs" else f"images:{lost}"
+    found = _asked(verdict, "redundant", redundant=what)
+
+    def named(texts: Sequence[str]) -> Any:
+        return tuple(by_text[text] for text in texts) if of == "pairs" else by_text[texts[0]]
+
+    return [
+        Break(
+            component=one["component"] - 1,
+            without=tuple(named(texts) for texts in one["without"]),
+            strength=one["strength"],
+        )
+        for one in found["broken"]
+    ]
+
+
+def implied(verdict: Any, most: int = 1000) -> Implied:
+    """The pairs that are determined though they are not in the graph.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Or a graph, which is decided first.
+    most : int
+        How many are listed.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> found = viewcert.implied([(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)])
+    >>> found.count, found.pairs
+    (1, ((0, 3),))
+    """
+    verdict = _decided(verdict)
+    by_text = verdict.graph._by_text()
+    found = _asked(verdict, "implied", implied=most)
+    return Implied(
+        count=found["count"],
+        beyond_components=found["beyond_components"],
+        pairs=tuple((by_text[a], by_text[b]) for a, b in found["pairs"]),
+        strength=found["strength"],
+        complete=found["complete"],
+    )
 
 
 def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[Suggestion]:

@@ -100,6 +100,9 @@ class Decided:
         sweep: list[int] = ...,
         margin: int | None = None,
         export: str | os.PathLike[str] | None = None,
+        surplus: bool = False,
+        redundant: str | None = None,
+        implied: int | None = None,
     ) -> bytes: ...
     def picture(self) -> str: ...
     @staticmethod

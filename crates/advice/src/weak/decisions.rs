@@ -51,7 +51,7 @@ struct Open {
 
 /// Where each node comes in a search by distance, from one of those farthest from node 0 in its
 /// connected part.
-fn by_distance(graph: &Graph) -> Vec<u32> {
+pub(crate) fn by_distance(graph: &Graph) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let neighbours = Adjacency::new(graph);
     let nodes = graph.nodes() as u32;

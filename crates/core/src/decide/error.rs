@@ -39,6 +39,8 @@ pub enum VerdictError {
     },
     /// Displacements that say nothing about the question, and why.
     Displacements(&'static str),
+    /// What is asked is answered for pairs alone, and the verdict rests on more.
+    PairsAlone,
     /// The work was stopped before there was an answer.
     Stopped(Stopped),
 }
@@ -67,6 +69,10 @@ impl fmt::Display for VerdictError {
                 "a known part has the node {node}, and the graph has {nodes} nodes"
             ),
             Self::Displacements(why) => write!(f, "known displacements: {why}"),
+            Self::PairsAlone => f.write_str(
+                "this is answered for pairs alone, and the verdict rests on known parts or displacements; \
+                 decide the graph without them",
+            ),
             Self::Stopped(inner) => inner.fmt(f),
         }
     }

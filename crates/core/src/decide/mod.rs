@@ -24,7 +24,7 @@
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `solution_count`. What is asked is in `question`, with what it is decided in `options`, what is
+//! `solution_count`. What a decided graph can notice (section 15) is in `noticed`. What is asked is in `question`, with what it is decided in `options`, what is
 //! found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
@@ -37,6 +37,7 @@ mod draft;
 mod drawn;
 mod error;
 mod motion_class;
+mod noticed;
 mod one_piece;
 mod options;
 mod overlap;
@@ -53,6 +54,7 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
 pub use evidence::{Block, Bound, Counting, Hub, Overlap, Shared, SharedPiece, Upper};
+pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};
 pub use question::{

@@ -6,11 +6,13 @@
 //! the projective model the smallest bound by a partition (Theorem 5.1). No arithmetic: pebble games.
 
 mod blocks;
+mod circuits;
 mod game;
 mod pinching;
 #[cfg(test)]
 mod tests;
 
+pub use circuits::groups;
 pub use pinching::{Pinching, Step as PinchingStep};
 
 use crate::graph::Graph;

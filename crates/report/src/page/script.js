@@ -678,6 +678,9 @@
     margin: "Margin",
     parts: "Known parts",
     weak: "Weak places",
+    surplus: "What the rest checks",
+    redundant: "What may be lost",
+    implied: "Determined though not there",
     suggestions: "What would join components",
     explain: "Explanation",
     sweep: "Components by threshold",
@@ -690,6 +693,45 @@
     const said = items.length > 0 ? `Without any one of these ${of} a component falls apart.` : `No ${of} are weak.`;
     if (items.length > 0) objectsTable(section, said + rest, items);
     else section.append(html("p", {}, said + rest));
+    return section;
+  };
+  // In how many equations the rest checks each pair: a sentence, lines over the picture, from red (in
+  // none) to yellow, and the list in the same colours.
+  const surplusPart = (id, { of, full, checked, items, groups }) => {
+    const section = html("section", { id }, html("h2", {}, TITLES.surplus));
+    const blind = items.filter((item) => item.surplus === 0).length;
+    const said = [`${counted(checked, edgeWord)} of ${grouped(report.graph.edges)} are checked by the rest in all ${full} equations.`,
+      blind > 0 ? `${counted(blind, edgeWord)} are checked in none: an error there cannot be seen by anyone.` : "",
+      groups && groups.count > 0
+        ? `${counted(groups.count, "group")} of ${of} check each other and nothing else; the largest has ${grouped(groups.larger[0].pairs)}.`
+        : ""].filter(Boolean).join(" ");
+    const pairOf = (item) => item.images.join(" – ");
+    const strengthOf = (item) => told("strength", item.strength);
+    const colour = (surplus) => `hsl(${Math.round(60 * surplus / full)} 90% 45%)`;
+    const lines = svg("g", { class: "surplus", "aria-hidden": "true", fill: "none", "stroke-width": 2.5 });
+    for (let surplus = 0; surplus < full; surplus += 1) {
+      const ends = items.filter((item) => item.surplus === surplus)
+        .map(({ images }) => images.map((name) => drawn.get(nodeOf.get(name))))
+        .filter((both) => both.every(Boolean));
+      const path = ends.map((both) => both.map(place)).map(([[x, y], [a, b]]) => `M${x} ${y}L${a} ${b}`).join("");
+      if (path) lines.append(svg("path", { d: path, stroke: colour(surplus), "data-surplus": surplus }));
+    }
+    picture.insertBefore(lines, overlay);
+    if (items.length > 0) {
+      table(section, `${said} All others, in the colours of their lines in the picture.`, [
+        { title: edgeWord, value: pairOf, show: pairOf },
+        {
+          title: "surplus",
+          number: true,
+          value: (item) => item.surplus,
+          show: (item) => html("span", { style: `border-left: .6em solid ${colour(item.surplus)}; padding-left: .4em` },
+            `${item.surplus} of ${full}`),
+        },
+        { title: "strength", value: strengthOf, show: strengthOf },
+      ], items);
+    } else {
+      section.append(html("p", {}, said));
+    }
     return section;
   };
   // How often components stay whole, and how much of them together, by how much is missing.
@@ -711,6 +753,7 @@
   const partOf = (name, value) => {
     const id = `part-${name}`;
     if (name === "weak" && Array.isArray(value.items)) return weakPart(id, value);
+    if (name === "surplus" && Array.isArray(value.items)) return surplusPart(id, value);
     if (name === "margin" && Array.isArray(value.missing)) return marginPart(id, value);
     return part(id, TITLES[name] ?? named(name), value);
   };

@@ -1,0 +1,336 @@
+//! Against ranks by textbook elimination of whole matrices at random cameras, without each pair in
+//! turn, and against the loss of every set in turn.
+
+use super::*;
+use crate::condensation::without;
+use crate::parts::Parts;
+use crate::samples::{clusters, graphs, options, sequences, together, tracks, verdict};
+use crate::weak::without_nodes;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use viewcert::geometry::camera::normal_form;
+use viewcert::geometry::jacobian::{dense, jacobian};
+use viewcert::geometry::plane_direction::direction_rows;
+use viewcert::geometry::plane_flow::rigidity_rows;
+use viewcert::linalg::prime::PrimeField;
+use viewcert::linalg::textbook;
+use viewcert::{Graph, Model, Strength};
+
+type Pair = (u32, u32);
+
+/// The rank of J_P (calibrated: of N; affine: four times that of R) at random cameras.
+fn rank(graph: &Graph, model: Model) -> usize {
+    let field = PrimeField::mersenne61();
+    let mut random = ChaCha8Rng::seed_from_u64(77);
+    let mut residue = || field.from_u64(random.random_range(0..field.modulus()));
+    let n = graph.nodes();
+    let centres: Vec<[u64; 3]> = (0..n).map(|_| [residue(), residue(), residue()]).collect();
+    let points: Vec<[u64; 2]> = centres.iter().map(|c| [c[0], c[1]]).collect();
+    let (rows, columns, times) = match model {
+        Model::Projective => {
+            let cameras: Vec<_> = centres.iter().map(|c| normal_form(&field, c)).collect();
+            (jacobian(&field, graph, &cameras), 12 * n, 1)
+        }
+        Model::Calibrated => (rigidity_rows(&field, graph, &centres), 3 * n, 1),
+        Model::Affine => (direction_rows(&field, graph, &points), 2 * n, 4),
+    };
+    times * textbook::eliminate(&field, &dense(&field, &rows, columns)).rank()
+}
+
+/// The pairs without full surplus, by ranks.
+fn expected(graph: &Graph, model: Model) -> Vec<(Pair, usize)> {
+    let (whole, own) = (model.required(2), rank(graph, model));
+    let of_pair = graph.edges().iter().map(|&pair| {
+        let taken = own - rank(&without(graph, &[pair]), model);
+        (pair, whole - taken)
+    });
+    of_pair.filter(|&(_, surplus)| surplus < whole).collect()
+}
+
+/// 500 random graphs in each model: sparse and dense ones, clusters, camera-point graphs, sequences.
+#[test]
+fn surplus_is_what_ranks_say() {
+    for model in Model::ALL {
+        let all = graphs(300)
+            .chain(clusters(30))
+            .chain(tracks(80))
+            .chain(sequences(90, 10));
+        let all: Vec<Graph> = all.collect();
+        assert_eq!(all.len(), 500);
+        let counts: Vec<[usize; 8]> = all
+            .par_iter()
+            .map(|graph| {
+                let verdict = verdict(graph, model);
+                let found = surplus(graph, &verdict, &options(model)).unwrap();
+                assert!(
+                    found.iter().all(|one| one.strength == Strength::Proof),
+                    "{graph:?}"
+                );
+                let found: Vec<(Pair, usize)> =
+                    found.iter().map(|one| (one.pair, one.surplus)).collect();
+                assert_eq!(found, expected(graph, model), "{model} {graph:?}");
+                let mut counts = [0; 8];
+                for (_, surplus) in &found {
+                    counts[*surplus] += 1;
+                }
+                counts[7] = graph.edges().len() - found.len();
+                counts
+            })
+            .collect();
+        let sum = |k: usize| counts.iter().map(|counts| counts[k]).sum::<usize>();
+        assert!(
+            sum(0) > 500 && sum(7) > 1000,
+            "{model} {} {}",
+            sum(0),
+            sum(7)
+        );
+        match model {
+            Model::Projective => assert!((1..=4).all(|k| sum(k) > 3), "{counts:?}"),
+            Model::Calibrated => assert!(sum(1) > 100),
+            Model::Affine => assert!((1..=3).all(|k| sum(k) == 0)),
+        }
+    }
+}
+
+/// What is alone in its group is what nothing checks.
+#[test]
+fn alone_in_a_group_is_surplus_zero() {
+    for model in Model::ALL {
+        for graph in graphs(60)
+            .chain(clusters(20))
+            .chain(tracks(30))
+            .chain(sequences(14, 30))
+        {
+            let verdict = verdict(&graph, model);
+            let options = options(model);
+            let found = surplus(&graph, &verdict, &options).unwrap();
+            let none = found
+                .iter()
+                .filter(|one| one.surplus == 0)
+                .map(|one| one.pair);
+            let groups = viewcert::decide::groups(&graph, &verdict, &options)
+                .unwrap()
+                .unwrap();
+            let mut sizes = vec![0; groups.count];
+            groups
+                .of_pairs
+                .iter()
+                .for_each(|&group| sizes[group as usize] += 1);
+            let of_pairs = graph.edges().iter().zip(&groups.of_pairs);
+            let alone = of_pairs.filter(|(_, group)| sizes[**group as usize] == 1);
+            let alone: Vec<Pair> = alone.map(|(&pair, _)| pair).collect();
+            assert_eq!(none.collect::<Vec<_>>(), alone, "{model} {graph:?}");
+        }
+    }
+}
+
+/// Gamma of Example 5.6 has 12 pairs and rank 83: one stress, which every pair is in. No partition
+/// into its components, which are single pairs, shows that.
+#[test]
+fn one_stress_of_a_flexible_graph() {
+    let pairs = [
+        (0, 2),
+        (0, 3),
+        (0, 5),
+        (1, 4),
+        (1, 5),
+        (1, 6),
+        (1, 7),
+        (1, 8),
+        (2, 4),
+        (2, 6),
+        (3, 7),
+        (3, 8),
+    ];
+    // And a pair that hangs on it.
+    let graph = Graph::new(10, pairs.into_iter().chain([(8, 9)])).unwrap();
+    let verdict = verdict(&graph, Model::Projective);
+    let found = surplus(&graph, &verdict, &options(Model::Projective)).unwrap();
+    let ones = found.iter().filter(|one| one.surplus == 1);
+    assert_eq!(ones.count(), 12);
+    assert_eq!(
+        found.last().map(|one| (one.pair, one.surplus)),
+        Some(((8, 9), 0))
+    );
+    assert!(found.iter().all(|one| one.strength == Strength::Proof));
+}
+
+/// Graphs in which little is weak: random ones with most pairs, some of them two that share nodes.
+fn tough(count: u64) -> impl Iterator<Item = Graph> {
+    (0..count).map(|seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(9000 + seed);
+        let nodes = random.random_range(4..10);
+        let percent = random.random_range(60..100);
+        let shift = if seed % 3 == 0 {
+            nodes - random.random_range(1..4)
+        } else {
+            nodes
+        };
+        let one = (0..nodes).flat_map(|i| (i + 1..nodes).map(move |j| (i, j)));
+        let all: Vec<Pair> = if seed % 3 == 0 {
+            one.flat_map(|(i, j)| [(i, j), (i + shift, j + shift)])
+                .collect()
+        } else {
+            one.collect()
+        };
+        let mut pairs: Vec<Pair> = all
+            .into_iter()
+            .filter(|_| random.random_range(0..100) < percent)
+            .collect();
+        if seed % 3 == 0 {
+            for _ in 0..random.random_range(0..6) {
+                let (a, b) = (
+                    random.random_range(0..shift),
+                    random.random_range(nodes..nodes + shift),
+                );
+                if a < b {
+                    pairs.push((a, b));
+                }
+            }
+        }
+        Graph::new(2 * nodes, pairs).unwrap()
+    })
+}
+
+/// Whether a component breaks, by leaving out every set in turn.
+fn breaks(graph: &Graph, model: Model, nodes: &[u32], edges: &[Pair], lost: Lost) -> bool {
+    match lost {
+        Lost::Pairs(count) => {
+            let gone = |gone: &[Pair]| !together(&without(graph, gone), model, nodes);
+            edges.iter().enumerate().any(|(k, &one)| match count {
+                1 => gone(&[one]),
+                _ => edges[k + 1..].iter().any(|&other| gone(&[one, other])),
+            })
+        }
+        Lost::Images(count) => {
+            let gone = |gone: &[u32]| {
+                let left: Vec<u32> = nodes
+                    .iter()
+                    .copied()
+                    .filter(|v| !gone.contains(v))
+                    .collect();
+                let place = |v: u32| v - gone.iter().filter(|&&w| w < v).count() as u32;
+                let left: Vec<u32> = left.into_iter().map(place).collect();
+                left.len() > 1 && !together(&without_nodes(graph, gone), model, &left)
+            };
+            nodes.iter().enumerate().any(|(k, &one)| match count {
+                1 => gone(&[one]),
+                _ => nodes[k + 1..].iter().any(|&other| gone(&[one, other])),
+            })
+        }
+    }
+}
+
+#[test]
+fn redundant_is_what_no_loss_breaks() {
+    let all = [
+        Lost::Pairs(1),
+        Lost::Pairs(2),
+        Lost::Images(1),
+        Lost::Images(2),
+    ];
+    for model in Model::ALL {
+        for lost in all {
+            let graphs: Vec<Graph> = graphs(40).chain(tough(60)).chain(tracks(10)).collect();
+            let counts: Vec<[usize; 2]> = graphs
+                .par_iter()
+                .map(|graph| check_redundant(graph, model, lost))
+                .collect();
+            let sum = |k: usize| counts.iter().map(|count| count[k]).sum::<usize>();
+            assert!(
+                sum(0) > 5 && sum(1) > 5,
+                "{model} {lost:?} {} {}",
+                sum(0),
+                sum(1)
+            );
+        }
+    }
+}
+
+/// How many components stay, and how many break.
+fn check_redundant(graph: &Graph, model: Model, lost: Lost) -> [usize; 2] {
+    let verdict = verdict(graph, model);
+    let parts = Parts::new(graph, &verdict);
+    let found = redundant(graph, &parts, lost, &options(model)).unwrap();
+    let mut counts = [0; 2];
+    for (part, edges) in parts.parts.iter().zip(parts.edges(graph)) {
+        let broken = found.iter().find(|one| one.component == part.component);
+        let expected = breaks(graph, model, &part.nodes, &edges, lost);
+        assert_eq!(
+            broken.is_some(),
+            expected,
+            "{model} {lost:?} {:?} {graph:?}",
+            part.nodes
+        );
+        counts[usize::from(expected)] += 1;
+        let Some(broken) = broken else {
+            continue;
+        };
+        // The set that is named does break it.
+        let (Lost::Pairs(most) | Lost::Images(most)) = lost;
+        assert!((1..=usize::from(most)).contains(&broken.without.len()));
+        let named = match lost {
+            Lost::Pairs(_) => {
+                let pairs: Vec<Pair> = broken.without.iter().map(|one| (one[0], one[1])).collect();
+                assert!(pairs.iter().all(|pair| edges.contains(pair)));
+                let mut gone = pairs;
+                gone.sort_unstable();
+                !together(&without(graph, &gone), model, &part.nodes)
+            }
+            Lost::Images(_) => {
+                let gone = broken.without.concat();
+                breaks(
+                    graph,
+                    model,
+                    &part.nodes,
+                    &edges,
+                    Lost::Images(gone.len() as u8),
+                ) && gone.iter().all(|v| part.contains(*v))
+            }
+        };
+        assert!(named, "{model} {lost:?} {broken:?} {graph:?}");
+    }
+    counts
+}
+
+/// A thin sequence of 2,000 cameras: each pair of its inside takes 4 of its 7 equations away where
+/// the next two are paired, and all check each other. With the next three paired all
+/// is checked in full, and with the next four whatever two are lost does no harm.
+#[test]
+fn sequences_are_near_linear() {
+    let n = 2000;
+    let next =
+        |most: u32| (0..n).flat_map(move |i| (i + 1..n.min(i + most + 1)).map(move |j| (i, j)));
+    let graph = Graph::new(n, next(2)).unwrap();
+    let of = options(Model::Projective);
+    let found = surplus(&graph, &verdict(&graph, Model::Projective), &of).unwrap();
+    assert_eq!(found.len(), graph.edges().len());
+    assert!(found.iter().all(|one| one.strength == Strength::Proof));
+    let at = |pair| found.iter().find(|one| one.pair == pair).unwrap().surplus;
+    // At the end: 7 of 11 equations of a camera are left, 18 - 14 = 4 are taken.
+    assert_eq!(at((0, 1)), 3);
+    // The next three: at the end a camera has three pairs, and three cameras separate the rest.
+    for (most, losses) in [(3, 2), (4, 0)] {
+        let graph = Graph::new(n, next(most)).unwrap();
+        let verdict = verdict(&graph, Model::Projective);
+        assert_eq!(surplus(&graph, &verdict, &of).unwrap(), []);
+        let parts = Parts::new(&graph, &verdict);
+        for lost in [
+            Lost::Pairs(1),
+            Lost::Images(1),
+            Lost::Pairs(2),
+            Lost::Images(2),
+        ] {
+            let broken = redundant(&graph, &parts, lost, &of).unwrap();
+            let expected = match lost {
+                Lost::Pairs(1) | Lost::Images(1) => 0,
+                _ => losses,
+            };
+            assert_eq!(
+                broken.iter().map(|one| one.without.len()).sum::<usize>(),
+                expected
+            );
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! What a graph can notice, in a few lines for people.
+
+use crate::advice::{SHOWN, rest};
+use std::io::{self, Write};
+use viewcert::wording::counted;
+use viewcert_advice::Advice;
+use viewcert_advice::noticed::{GroupsOf, Implied, Redundant, Surpluses};
+
+/// Writes what was asked for of it.
+///
+/// # Errors
+/// Those of the writer.
+pub(crate) fn write(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
+    if let Some(found) = &advice.surplus {
+        surplus(out, found)?;
+    }
+    if let Some(found) = &advice.redundant {
+        redundant(out, found)?;
+    }
+    if let Some(found) = &advice.implied {
+        implied(out, found, advice.of_tracks)?;
+    }
+    Ok(())
+}
+
+fn surplus(out: &mut impl Write, found: &Surpluses) -> io::Result<()> {
+    let thing = found.of.trim_end_matches('s');
+    let of = counted(found.checked, thing);
+    let full = found.full;
+    writeln!(
+        out,
+        "  surplus     {of} checked by the rest in all {full} equations (proved)"
+    )?;
+    for surplus in (1..full).rev() {
+        let some = found.items.iter().filter(|item| item.surplus == surplus);
+        let count = some.count();
+        if count > 0 {
+            writeln!(
+                out,
+                "    {} checked in {surplus} of {full}",
+                counted(count, thing)
+            )?;
+        }
+    }
+    let none: Vec<_> = found
+        .items
+        .iter()
+        .filter(|item| item.surplus == 0)
+        .collect();
+    if none.is_empty() {
+        writeln!(out, "    none that nothing checks")?;
+    } else {
+        let bound = none.iter().any(|item| item.strength != "proof");
+        writeln!(
+            out,
+            "    {} that nothing checks: an error there cannot be seen by anyone{}",
+            counted(none.len(), thing),
+            if bound { " (error bound)" } else { "" }
+        )?;
+        for item in none.iter().take(SHOWN) {
+            writeln!(out, "      {}", item.images.join(" "))?;
+        }
+        rest(out, none.len(), "--json lists them")?;
+    }
+    match &found.groups {
+        None => writeln!(
+            out,
+            "    which of them check each other was not looked for: the core is too large"
+        ),
+        Some(groups) => self::groups(out, groups, found.of),
+    }
+}
+
+fn groups(out: &mut impl Write, found: &GroupsOf, of: &str) -> io::Result<()> {
+    let Some(largest) = found.larger.first() else {
+        return Ok(());
+    };
+    let bound = if found.strength == "proof" {
+        ""
+    } else {
+        " (error bound)"
+    };
+    let nodes = if of == "pairs" {
+        "image"
+    } else {
+        "camera and point"
+    };
+    let groups = counted(found.count, "group");
+    let of_images = match of {
+        "pairs" => counted(largest.images, nodes),
+        _ => format!("{} cameras and points", largest.images),
+    };
+    writeln!(
+        out,
+        "    {groups} of {of} that check each other and nothing else{bound}; the largest has {} of {of_images}",
+        largest.pairs
+    )
+}
+
+fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
+    let lost = match (found.of, found.lost) {
+        (of, 2) => format!("two {of}"),
+        ("cameras and points", _) => "one camera or point".to_owned(),
+        (of, _) => format!("one {}", of.trim_end_matches('s')),
+    };
+    let broken = found.broken.len();
+    let components = counted(found.stay + broken, "component");
+    if found.stay + broken == 0 {
+        return writeln!(
+            out,
+            "  redundant   nothing to lose: no component is more than a pair"
+        );
+    }
+    if broken == 0 {
+        return writeln!(
+            out,
+            "  redundant   {components}: whole whichever {lost} are lost (proved)"
+        );
+    }
+    writeln!(
+        out,
+        "  redundant   {} of {components} stay whole whichever {lost} are lost (proved)",
+        found.stay
+    )?;
+    for one in found.broken.iter().take(SHOWN) {
+        let set: Vec<String> = one.without.iter().map(|names| names.join(" ")).collect();
+        let bound = if one.strength == "proof" {
+            ""
+        } else {
+            " (error bound)"
+        };
+        writeln!(
+            out,
+            "    component {} falls apart without {}{bound}",
+            one.component,
+            set.join(" and ")
+        )?;
+    }
+    rest(out, broken, "--json lists them")
+}
+
+fn implied(out: &mut impl Write, found: &Implied, of_tracks: bool) -> io::Result<()> {
+    let pair = if of_tracks { "pair of cameras" } else { "pair" };
+    let pairs = match found.count {
+        1 => format!("1 {pair}"),
+        n if of_tracks => format!("{n} pairs of cameras"),
+        n => format!("{n} pairs"),
+    };
+    let strength = match (found.strength, found.complete) {
+        ("proof", "proof") => "proved, and no others",
+        ("proof", _) => "proved; no others, by an error bound",
+        _ => "error bound",
+    };
+    writeln!(
+        out,
+        "  implied     {pairs} determined though not in the graph ({strength})"
+    )?;
+    if found.beyond_components > 0 {
+        writeln!(
+            out,
+            "    {} of them of images that no component holds together",
+            found.beyond_components
+        )?;
+    }
+    for [a, b] in found.pairs.iter().take(SHOWN) {
+        writeln!(out, "      {a} {b}")?;
+    }
+    let more = usize::try_from(found.count).unwrap_or(usize::MAX);
+    rest(out, more, "--json lists them, --implied=N so many")
+}
