@@ -1153,7 +1153,7 @@ fn rigs_hold_parts_together() {
     let weak = [&["advise", "--weak", text(&path)], &OF_TWO[..]].concat();
     is_refusal(
         &verify(&weak),
-        &["would be left out with them", "--no-rigs"],
+        &["would be left out of account", "--no-rigs"],
     );
     // The certificate states the base lines, and both checkers ask for them.
     let file = |name: &str| made.folder.path().join(name);

@@ -1,14 +1,12 @@
 //! What was found, in a few lines for people.
 
 use crate::noticed;
+use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::named::{
     Advice, Enough, Explain, Export, Joint, Margin, Suggestion, SweepRow, Weak,
 };
-
-/// How many joints, and weak pairs, are shown.
-pub(crate) const SHOWN: usize = 8;
 
 /// Length of the longest bar of a plot.
 const BAR: usize = 40;
@@ -85,13 +83,6 @@ pub fn joints(out: &mut impl Write, advice: &Advice) -> io::Result<()> {
         )?;
     }
     rest(out, count, "--json lists them")
-}
-
-pub(crate) fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
-    match count.saturating_sub(SHOWN) {
-        0 => Ok(()),
-        more => writeln!(out, "    and {more} more ({advice})"),
-    }
 }
 
 /// How two components touch, and where.

@@ -27,6 +27,7 @@ pub mod page;
 mod part_names;
 pub mod read;
 pub mod sheet;
+mod shown;
 pub mod split;
 pub mod svg;
 pub mod table;

@@ -1,6 +1,6 @@
 //! What a graph can notice, in a few lines for people.
 
-use crate::advice::{SHOWN, rest};
+use crate::shown::{SHOWN, rest};
 use std::io::{self, Write};
 use viewcert::wording::counted;
 use viewcert_advice::Advice;

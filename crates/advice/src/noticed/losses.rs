@@ -8,13 +8,27 @@
 //! and what is left is decided. Bodies come from the rules as long as these make the graph small, and
 //! else from a decision.
 
-use super::surplus::Base;
 use crate::condensation::{Condensation, shortfall, terminals, without};
 use crate::parts::Parts;
 use crate::weak::{bodies_of_nodes, by_distance, check, final_nodes, is_in_one};
 use viewcert::contract::Contraction;
 use viewcert::decide::{Options, VerdictError, decide};
 use viewcert::{Graph, Strength};
+
+/// What is known of a graph of which pairs are left out.
+#[derive(Clone, Copy)]
+pub(super) struct Base {
+    /// By how much its rank falls short of that of a solvable graph.
+    pub(super) shortfall: usize,
+    /// How strong that is.
+    pub(super) strength: Strength,
+}
+
+/// A rigid graph.
+pub(super) const RIGID: Base = Base {
+    shortfall: 0,
+    strength: Strength::Proof,
+};
 
 type Pair = (u32, u32);
 

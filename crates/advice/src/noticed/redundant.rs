@@ -7,9 +7,8 @@
 //! (docs/theory.md, Theorem 15.5). What is left is lost one by one, and what is weak then is found as
 //! one is.
 
-use super::losses::losses;
+use super::losses::{RIGID, losses};
 use super::robust;
-use super::surplus::RIGID;
 use crate::condensation::{Condensation, terminals, with, without};
 use crate::parts::{Alone, Parts};
 use crate::weak::{falling_apart, images_of, left_out, pairs_of, used, without_nodes};

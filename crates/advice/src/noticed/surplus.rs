@@ -4,7 +4,7 @@
 //! ranks of the components add up to the rank of the graph, each component is looked at by itself;
 //! elsewhere each block of the graph that no node separates (docs/theory.md, Theorem 15.1).
 
-use super::losses::losses;
+use super::losses::{Base, RIGID, losses};
 use crate::parts::{Alone, Parts};
 use crate::weak::{left_out, used};
 use rayon::prelude::*;
@@ -25,21 +25,6 @@ pub struct Surplus {
     /// How strong that is.
     pub strength: Strength,
 }
-
-/// What is known of a graph of which pairs are left out.
-#[derive(Clone, Copy)]
-pub(super) struct Base {
-    /// By how much its rank falls short of that of a solvable graph.
-    pub(super) shortfall: usize,
-    /// How strong that is.
-    pub(super) strength: Strength,
-}
-
-/// A rigid graph.
-pub(super) const RIGID: Base = Base {
-    shortfall: 0,
-    strength: Strength::Proof,
-};
 
 /// The pairs whose surplus is not full, increasing; that the others are checked in full is proved.
 ///

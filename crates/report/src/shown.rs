@@ -1,0 +1,14 @@
+//! Lists that are cut.
+
+use std::io::{self, Write};
+
+/// How many entries of a list are shown.
+pub(crate) const SHOWN: usize = 8;
+
+/// Says how many more there are, and where.
+pub(crate) fn rest(out: &mut impl Write, count: usize, advice: &str) -> io::Result<()> {
+    match count.saturating_sub(SHOWN) {
+        0 => Ok(()),
+        more => writeln!(out, "    and {more} more ({advice})"),
+    }
+}
