@@ -58,7 +58,7 @@ fn rigs_hold_together_what_the_global_mapper_places_right() {
     let run = Command::new(python)
         .arg(script)
         .args(["--verify", env!("CARGO_BIN_EXE_verify")])
-        .args(["--seeds", "1-2", "--ways", "0,1,2,3,6"])
+        .args(["--seeds", "1-2", "--ways", "0,1,2,3,6,12,15"])
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .unwrap();
@@ -67,7 +67,7 @@ fn rigs_hold_together_what_the_global_mapper_places_right() {
     assert!(run.status.success(), "{said}{errors}");
     let row = said.lines().last().unwrap();
     assert!(
-        row.starts_with("| all | 10 | 6 | 6 | 0 | 0 | 0 | 0 | 6 |"),
+        row.starts_with("| all | 14 | 8 | 8 | 0 | 0 | 0 | 0 | 8 |"),
         "{said}"
     );
 }
@@ -313,7 +313,7 @@ fn named_subcommands_are_those_of_colmap() {
         .collect();
     named.extend(["mapper", "global_mapper"]);
     assert!(named.len() >= 6, "{named:?}");
-    let newer = ["geometric_verifier", "global_mapper"];
+    let newer = ["geometric_verifier", "global_mapper", "rig_configurator"];
     let is_new = has("global_mapper");
     for name in named {
         assert!(

@@ -25,11 +25,13 @@
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
 //! `solution_count`. What is asked is in `question`, with what it is decided in `options`, what is
-//! found in [`evidence`], what comes out in `verdict`.
+//! found in [`evidence`], what comes out in `verdict`; what unknown base lines that frames share add to
+//! it, in `base_lines`.
 
 pub mod evidence;
 
 mod added;
+mod base_lines;
 mod bodies_by_rank;
 mod claim;
 mod counting;
@@ -49,6 +51,7 @@ mod verdict;
 mod walk;
 mod whole_matrix;
 
+pub use base_lines::{RigFrames, SharedBaseLines};
 pub use claim::{Claim, Strength, UnknownStrength};
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
