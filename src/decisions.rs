@@ -13,7 +13,7 @@ use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
-use viewcert_report::assumptions::Scope;
+use viewcert_report::assumptions::{BaseLines, Scope};
 use viewcert_report::graph_picture::{self, Picture};
 use viewcert_report::many::Table;
 use viewcert_report::{Report, WrittenProof};
@@ -63,7 +63,8 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
-    /// determines the cameras; if that is asked for, whether it does in the plane.
+    /// determines the cameras, if need be with base lines that frames share; if that is asked for, whether
+    /// it does in the plane.
     fn decide(
         &mut self,
         options: &Options,
@@ -109,7 +110,11 @@ impl Work<'_> {
         }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),
-            _ => verdict.value != Value::NotFiniteSolvable,
+            _ => {
+                let base_lines = scope.base_lines();
+                verdict.value != Value::NotFiniteSolvable
+                    || base_lines.is_some_and(BaseLines::is_determined)
+            }
         })
     }
 

@@ -3,8 +3,9 @@
 //! parts were taken for known.
 
 use serde::Serialize;
+use std::collections::BTreeSet;
 use viewcert::contract::Merge;
-use viewcert::decide::{Value, Verdict, plane_rank_with_parts};
+use viewcert::decide::{Options, SharedBaseLines, Value, Verdict, plane_rank_with_parts};
 use viewcert::geometry::model::Model;
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::watch::{Stopped, Watch};
@@ -88,6 +89,118 @@ impl Planar {
     }
 }
 
+/// What is supposed where the base lines of rigs are one unknown for all frames.
+const BASE_LINES: &str = "base lines: a sensor is at one place in its rig in all frames, these places and the turns of \
+                          frames are in general position; certificates do not state frames yet, they are about \
+                          the verdict";
+
+/// What unknown base lines that are the same in all frames determine.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct BaseLines {
+    frames: usize,
+    unknown: usize,
+    verdict: &'static str,
+    rank: usize,
+    rank_at_most: usize,
+    rank_required: usize,
+    parts: usize,
+    /// Whether it is solvable too if all frames turn about one axis.
+    about_one_axis: bool,
+    /// How many groups of images are not turned against each other by pairs and known poses, if more
+    /// than one: where they are then rests on rotations that nothing gives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    groups_not_turned: Option<usize>,
+}
+
+impl BaseLines {
+    fn new(found: &SharedBaseLines, groups: usize) -> Self {
+        Self {
+            about_one_axis: found.about_one_axis,
+            groups_not_turned: Some(groups).filter(|&groups| groups > 1),
+            frames: found.frames,
+            unknown: found.base_lines,
+            verdict: if found.is_determined() && groups > 1 {
+                "open"
+            } else if found.is_determined() {
+                "solvable"
+            } else if found.is_refuted() {
+                "not-finite-solvable"
+            } else {
+                "open"
+            },
+            rank: found.rank,
+            rank_at_most: found.at_most,
+            rank_required: found.required,
+            parts: found.parts,
+        }
+    }
+
+    /// Whether all positions are unique, with a proof, rotations being known.
+    pub fn is_determined(&self) -> bool {
+        self.verdict == "solvable"
+    }
+
+    /// The answer in words.
+    pub fn words(&self) -> String {
+        let Self {
+            rank,
+            rank_at_most,
+            rank_required,
+            ..
+        } = self;
+        let unknown = counted(self.unknown, "unknown base line");
+        let frames = counted(self.frames, "frame");
+        let answer = match self.verdict {
+            "solvable" => {
+                "solvable: the positions of all cameras and points are unique (proved)".into()
+            }
+            "open" if rank == rank_required => format!(
+                "open: the positions would be unique if rotations were known, but no pair of images and no \
+                 known pose turns {} against each other",
+                counted(self.groups_not_turned.unwrap_or(0), "group")
+            ),
+            "open" => format!(
+                "open: not determined at drawn positions, and counting gives no proof (rank {rank_at_most} at most)"
+            ),
+            _ if rank == rank_at_most => format!(
+                "not solvable: {} move against each other (proved)",
+                counted(self.parts, "part")
+            ),
+            _ => format!(
+                "not solvable (proved): {} move against each other at drawn positions, rank \
+                 {rank_at_most} at most",
+                counted(self.parts, "part")
+            ),
+        };
+        let axis = if self.is_determined() && !self.about_one_axis {
+            "; if all frames turn about one axis, as a vehicle's do: not"
+        } else {
+            ""
+        };
+        format!("{unknown}, the same in {frames}: {answer}, rank {rank} of {rank_required}{axis}")
+    }
+}
+
+/// How many groups of images that see points are left when pairs that are used, and known poses in
+/// rigs, turn images against each other; 1 where pairs are not known, as in models, whose images have
+/// rotations.
+fn groups_turned(input: &NamedGraph) -> usize {
+    let (Some(matching), Some(cameras)) = (&input.matching, input.cameras) else {
+        return 1;
+    };
+    let mut sets = UnionFind::new(cameras as usize);
+    let pairs = matching.others.iter().filter(|pair| pair.used);
+    let pairs = pairs.map(|pair| pair.images);
+    let known = input.frames.iter().flat_map(|frames| &frames.groups);
+    let known = known.flat_map(|group| group[1..].iter().map(|&other| (group[0], other)));
+    for (a, b) in pairs.chain(known) {
+        sets.union(a as usize, b as usize);
+    }
+    let ends = input.graph.edges().iter().map(|&(camera, _)| camera);
+    let groups: BTreeSet<usize> = ends.map(|camera| sets.find(camera as usize)).collect();
+    groups.len()
+}
+
 /// Whether a verdict shows already that nothing is lost in a plane: one body, by the merge rules
 /// that hold there as well.
 fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
@@ -116,11 +229,13 @@ pub struct Asked {
 pub struct Scope {
     conditions: Vec<String>,
     planar: Option<Planar>,
+    base_lines: Option<BaseLines>,
 }
 
 impl Scope {
     /// Centres in one plane are looked at if that is asked for, and, in graphs that are not large,
-    /// if the general answer, which is good, may hide that it is not as good there.
+    /// if the general answer, which is good, may hide that it is not as good there. Base lines of rigs
+    /// that are not known are looked at where tracks do not determine all without them.
     ///
     /// # Errors
     /// If the work was stopped.
@@ -157,6 +272,22 @@ impl Scope {
             let condition = if is_given { VECTORS } else { DISPLACEMENTS };
             conditions.push(condition.to_owned());
         }
+        let base_lines = match &input.frames {
+            // That bodies by rules are rigid holds with frames as well; of a rank it is asked.
+            Some(frames)
+                if verdict.model == Model::Calibrated
+                    && !(is_good && verdict.pieces.is_empty()) =>
+            {
+                let (frames, seed) = (frames.rig_frames(), Options::default().seed);
+                SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)?
+            }
+            _ => None,
+        };
+        let base_lines = base_lines.map(|found| BaseLines::new(&found, groups_turned(input)));
+        let base_lines = base_lines.filter(|found| !(is_good && found.is_determined()));
+        if base_lines.is_some() {
+            conditions.push(BASE_LINES.to_owned());
+        }
         if hidden {
             let condition = "holds for centres in general position; if all lie in one plane: not";
             conditions.push(condition.to_owned());
@@ -164,12 +295,18 @@ impl Scope {
         Ok(Self {
             conditions,
             planar: planar.filter(|planar| asked.planar || !planar.is_determined()),
+            base_lines,
         })
     }
 
     /// The conditions, in words.
     pub fn conditions(&self) -> &[String] {
         &self.conditions
+    }
+
+    /// What base lines that are not known determine, if there are any and they are needed.
+    pub fn base_lines(&self) -> Option<&BaseLines> {
+        self.base_lines.as_ref()
     }
 
     /// The answer for centres in one plane, if it was asked for or is worse.

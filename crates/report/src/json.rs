@@ -6,7 +6,7 @@ use super::text::{self, several};
 use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
-use crate::assumptions::Planar;
+use crate::assumptions::{BaseLines, Planar};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -65,6 +65,8 @@ struct Line<'a> {
     conditions: &'a [String],
     #[serde(skip_serializing_if = "Option::is_none")]
     planar: Option<&'a Planar>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_lines: Option<&'a BaseLines>,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -249,6 +251,7 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         answer: AnswerLine::from(report),
         conditions: report.scope.conditions(),
         planar: report.scope.planar(),
+        base_lines: report.scope.base_lines(),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         advice: report.advice,

@@ -55,6 +55,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(planar) = report.scope.planar() {
         writeln!(out, "  in a plane  {}", planar.words())?;
     }
+    if let Some(base_lines) = report.scope.base_lines() {
+        writeln!(out, "  base lines  {}", base_lines.words())?;
+    }
     writeln!(
         out,
         "  rank        {} of {} ({})",

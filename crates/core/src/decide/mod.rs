@@ -24,12 +24,14 @@
 //! pieces are in `one_piece` and `walk`, bodies that ranks give before in `bodies_by_rank`, their ranks at some
 //! centres in `drawn`, classes in `motion_class`, bounds in `counting`, `overlap` and `added`, the
 //! paper's own matrix (`--method matrix`, `--rational`) in `whole_matrix`, the number of solutions in
-//! `solution_count`. What a decided graph can notice (section 15) is in `noticed`. What is asked is in `question`, with what it is decided in `options`, what is
-//! found in [`evidence`], what comes out in `verdict`.
+//! `solution_count`. What unknown base lines that frames share add to it is in `base_lines`; what a decided
+//! graph can notice (section 15) in `noticed`. What is asked is in `question`, with what it is decided in
+//! `options`, what is found in [`evidence`], what comes out in `verdict`.
 
 pub mod evidence;
 
 mod added;
+mod base_lines;
 mod bodies_by_rank;
 mod claim;
 mod counting;
@@ -50,6 +52,7 @@ mod verdict;
 mod walk;
 mod whole_matrix;
 
+pub use base_lines::{RigFrames, SharedBaseLines};
 pub use claim::{Claim, Strength, UnknownStrength};
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;

@@ -431,7 +431,8 @@ impl Tables {
 fn positions_not_used(name: &str, positions: usize) -> Option<String> {
     (positions > 1).then(|| {
         format!(
-            "the pose priors of {} are not used: --given {name} takes their positions for known",
+            "the pose priors of {} count only with --given {name}, which takes their positions for \
+             known",
             counted(positions, "image")
         )
     })

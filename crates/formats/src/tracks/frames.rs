@@ -3,10 +3,12 @@
 //! In: rigs with the poses of their sensors, and frames with their images. Out: groups of cameras
 //! between which the base lines are known (docs/theory.md, 13.24), and cameras that are one, as
 //! their sensors are at one place. A sensor whose pose in its rig is not known has a base line that
-//! is one unknown for all frames; its images count as cameras of their own, and that is said.
+//! is one unknown for all frames (13.26): its images have centres of their own in a verdict, and what
+//! the frames add is asked apart ([`Frames::rig_frames`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use viewcert::decide::RigFrames;
 use viewcert::wording::counted;
 
 /// Sensors at most this part of a rig's size apart are at one place.
@@ -44,11 +46,17 @@ pub struct Frames {
     /// Cameras that stand for several images of one frame, as these were taken at one place, with the
     /// names of the others.
     pub together: BTreeMap<u32, Vec<Box<str>>>,
-    /// How many images are of sensors whose place in their rig is not known, beside others of their frame.
+    /// How many images are of sensors whose place in their rig is not known, beside others of their
+    /// frame.
     pub unknown: usize,
     /// How many groups have base lines that are not independent (five sensors, or several on a line):
     /// for them the answer supposes what is proved for independent ones only.
     pub dependent: usize,
+    /// The frames of rigs with a sensor whose place is not known: cameras and the numbers of their
+    /// sensors.
+    linked: Vec<Vec<(u32, u32)>>,
+    /// For the numbers of sensors whether the place is known; sensors at one place have one number.
+    known: Vec<bool>,
     /// The camera of every image, where some are one.
     cameras: Vec<u32>,
 }
@@ -115,20 +123,52 @@ pub(crate) fn read(
         }
     }
     let mut read = Frames::default();
+    let numbers = read.number_sensors(rigs, &places);
     let mut seen = BTreeSet::new();
     for frame in frames {
-        read.take(frame, rigs, &places, names, &mut seen)?;
+        read.take(frame, rigs, (&places, &numbers), names, &mut seen)?;
     }
     read.groups.sort_unstable();
     Ok(read)
 }
 
 impl Frames {
+    /// Numbers for the sensors of rigs of which one's place is not known; those at one place have one.
+    fn number_sensors(
+        &mut self,
+        rigs: &BTreeMap<i64, Rig>,
+        places: &Places,
+    ) -> BTreeMap<(i64, i64), u32> {
+        let mut numbers = BTreeMap::new();
+        for (&id, rig) in rigs {
+            let of_rig = || rig.sensors.keys().map(|&sensor| (id, sensor));
+            if of_rig().all(|key| places[&key].is_some()) {
+                continue;
+            }
+            let known: Vec<[f64; 3]> = of_rig().filter_map(|key| places[&key]).collect();
+            let near = near(&known);
+            for key in of_rig() {
+                let same = places[&key].and_then(|place| {
+                    let mut before = of_rig().take_while(|&other| other != key);
+                    before.find(|other| {
+                        places[other].is_some_and(|other| distance(place, other) <= near)
+                    })
+                });
+                let number = same.map_or(self.known.len() as u32, |other| numbers[&other]);
+                if same.is_none() {
+                    self.known.push(places[&key].is_some());
+                }
+                numbers.insert(key, number);
+            }
+        }
+        numbers
+    }
+
     fn take(
         &mut self,
         frame: &Frame,
         rigs: &BTreeMap<i64, Rig>,
-        places: &BTreeMap<(i64, i64), Option<[f64; 3]>>,
+        (places, numbers): (&Places, &BTreeMap<(i64, i64), u32>),
         names: &[Box<str>],
         seen: &mut BTreeSet<u32>,
     ) -> Result<(), String> {
@@ -138,6 +178,8 @@ impl Frames {
         }
         let mut sensors = BTreeSet::new();
         let mut known: Vec<(u32, [f64; 3])> = Vec::new();
+        let mut unknown = Vec::new();
+        let mut number_of = BTreeMap::new();
         for &(image, sensor) in &frame.images {
             let name = &names[image as usize];
             if !seen.insert(image) {
@@ -153,11 +195,20 @@ impl Frames {
                     ));
                 }
                 Some(Some(place)) => known.push((image, *place)),
-                Some(None) => self.unknown += usize::from(frame.images.len() > 1),
+                Some(None) => unknown.push(image),
             }
+            number_of.extend(numbers.get(&(rig, sensor)).map(|&number| (image, number)));
+        }
+        if frame.images.len() > 1 {
+            self.unknown += unknown.len();
         }
         known.sort_unstable_by_key(|&(image, _)| image);
         let apart = self.unite(known, names);
+        if !number_of.is_empty() {
+            let images = apart.iter().map(|&(image, _)| image).chain(unknown);
+            let linked = images.map(|image| (image, number_of[&image]));
+            self.linked.push(linked.collect());
+        }
         if apart.len() > 1 {
             self.dependent += usize::from(!are_independent(&apart));
             self.groups
@@ -169,12 +220,7 @@ impl Frames {
     /// The images of a frame without those at the place of an earlier one, which it stands for.
     fn unite(&mut self, images: Vec<(u32, [f64; 3])>, names: &[Box<str>]) -> Vec<(u32, [f64; 3])> {
         let mut apart: Vec<(u32, [f64; 3])> = Vec::new();
-        let distance =
-            |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
-        let size = images
-            .iter()
-            .flat_map(|&(_, a)| images.iter().map(move |&(_, b)| distance(a, b)));
-        let near = ROUNDING * size.fold(0.0, f64::max);
+        let near = near(&Vec::from_iter(images.iter().map(|&(_, place)| place)));
         for (image, place) in images {
             match apart
                 .iter()
@@ -214,6 +260,9 @@ impl Frames {
                 .iter_mut()
                 .for_each(|image| *image = number[*image as usize]);
         }
+        for (image, _) in self.linked.iter_mut().flatten() {
+            *image = number[*image as usize];
+        }
         let together = std::mem::take(&mut self.together);
         let anew = together
             .into_iter()
@@ -221,6 +270,12 @@ impl Frames {
         self.together = anew.collect();
         self.cameras.clone_from(&number);
         Some(number)
+    }
+
+    /// The frames of rigs with base lines that are not known; none where all are.
+    pub fn rig_frames(&self) -> RigFrames {
+        RigFrames::new(self.linked.iter().cloned(), self.known.clone())
+            .expect("frames that have been checked")
     }
 
     /// Whether any images of one frame know their places to each other.
@@ -266,12 +321,28 @@ impl Frames {
         if self.unknown > 0 {
             notes.push(format!(
                 "rigs: {} of sensors whose place in the rig is not known: each has a centre of its own \
-                 here, so that 'solvable' is proved, and more may be determined than is said",
+                 in a verdict, so that 'solvable' is proved; what base lines that are the same in all \
+                 frames add is a line of `verify --tracks`",
                 counted(self.unknown, "image")
             ));
         }
         notes
     }
+}
+
+/// Where the sensors of rigs are, if that is known.
+type Places = BTreeMap<(i64, i64), Option<[f64; 3]>>;
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max)
+}
+
+/// How far places that are one may be apart.
+fn near(places: &[[f64; 3]]) -> f64 {
+    let pairs = places
+        .iter()
+        .flat_map(|&a| places.iter().map(move |&b| distance(a, b)));
+    ROUNDING * pairs.fold(0.0, f64::max)
 }
 
 /// Whether the base lines from the first of these places are linearly independent, rounding errors aside.
