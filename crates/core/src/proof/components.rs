@@ -160,7 +160,7 @@ impl Made<'_> {
                 ends,
                 frame,
                 motion,
-                blocks,
+                blocks: Box::new(blocks),
             }
         } else {
             Step::Cut(ends)

@@ -36,7 +36,7 @@ pub(super) enum Step {
         frame: Listed,
         motion: Vec<u32>,
         /// Components in none of them are blocks by themselves.
-        blocks: Blocks,
+        blocks: Box<Blocks>,
     },
 }
 
