@@ -51,7 +51,8 @@ coqchk -silent -o -Q ../theories Viewcert $modules >coqchk.log 2>&1 || { tail -n
 
 echo "-- building"
 cp ../program/*.ml .
-ocamlfind ocamlopt -w -a checker.mli checker.ml sha256.ml graph.ml proof.ml main.ml -o viewcert-proved
+sources=(natural.ml checker.mli checker.ml sha256.ml graph.ml proof.ml main.ml)
+ocamlfind ocamlopt -w -a "${sources[@]}" -o viewcert-proved
 cd ..
 
 echo "-- testing"

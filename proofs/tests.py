@@ -254,6 +254,28 @@ flows 1
 end
 """
 
+# Example 5.6: node 1 has five copies, 9 to 13; the hub stands first, so nodes 0 and 1 have changed places.
+GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
+GAMMA_PROOF = """viewcert proof 1
+graph 9 12
+claim 0 83
+block 9 1 0 2 3 4 5 6 7 8
+hub 5 12
+2 1 2
+2 1 3
+2 1 5
+2 9 4
+2 10 5
+2 11 6
+2 12 7
+2 13 8
+2 2 4
+2 2 6
+2 3 7
+2 3 8
+end
+"""
+
 
 def by_hand(program):
     def case(name, code, graph, proof, says=""):
@@ -328,6 +350,29 @@ def by_hand(program):
     alone = head.replace(by_it, "") + "components 2 0 1\ncut 2 1 2\nend\n"
     case("a 4-cycle with a chord", 0, text_of(chord), alone, "themselves: 2\n    1 3 0 2\n    3 4\n")
     case("uses what lies outside", 1, text_of(chord), head + "components 3 0 1 2\ncut 3 1 2 3\nend\n")
+    gamma = text_of(GAMMA)
+    case("hub", 0, gamma, GAMMA_PROOF, "is at most 83")
+    case("hub, less", 1, gamma, GAMMA_PROOF.replace("0 83", "0 82"))
+    case("a copy that is in no cell", 0, gamma, GAMMA_PROOF.replace("hub 5", "hub 6"), "is at most 83")
+    case("more copies than cells hold", 2, gamma, GAMMA_PROOF.replace("hub 5", "hub 25"), "a copy that is in no cell")
+    case("two pairs at one copy", 1, gamma, GAMMA_PROOF.replace("2 10 5", "2 9 5"))
+    case("the hub in the place of a copy", 0, gamma, GAMMA_PROOF.replace("2 10 5", "2 0 5"), "is at most 83")
+    case("a pair in no cell", 1, gamma, GAMMA_PROOF.replace("hub 5 12", "hub 5 11").replace("2 3 8\n", ""))
+    case("a cell with one node", 1, gamma, GAMMA_PROOF.replace("2 3 8", "2 3 8\n1 2").replace("hub 5 12", "hub 5 13"))
+    case("a cell of copies", 1, gamma, GAMMA_PROOF.replace("2 3 8", "2 3 8\n2 9 10").replace("hub 5 12", "hub 5 13"))
+    case("an empty cell", 1, gamma, GAMMA_PROOF.replace("2 3 8", "2 3 8\n0").replace("hub 5 12", "hub 5 13"))
+    case("no such node", 2, gamma, GAMMA_PROOF.replace("2 13 8", "2 14 8"), "no such node of the split graph")
+    case("another hub", 1, gamma, GAMMA_PROOF.replace("block 9 1 0", "block 9 0 1"))
+    case("a hub without cells", 1, gamma, GAMMA_PROOF[: GAMMA_PROOF.index("hub")] + "hub 0 0\nend\n")
+    case("a block without nodes", 1, gamma, GAMMA_PROOF.replace("block 9 1 0 2 3 4 5 6 7 8", "block 0").replace("hub 5 12", "hub 14 12"))
+    case("10^9 copies", 2, gamma, GAMMA_PROOF.replace("hub 5", "hub 1000000000"), "sizes out of range")
+    case("10^9 cells", 2, gamma, GAMMA_PROOF.replace("hub 5 12", "hub 5 1000000000"), "sizes out of range")
+    case("10^9 nodes in a cell", 2, gamma, GAMMA_PROOF.replace("2 3 8", "1000000000 3 8"), "sizes out of range")
+    # one cell of all nodes counts what a block does
+    one_cell = GAMMA_PROOF[: GAMMA_PROOF.index("hub")] + "hub 0 1\n9 0 1 2 3 4 5 6 7 8\nend\n"
+    more = gamma + "0 9\n"
+    case("one cell", 0, more, one_cell.replace("9 12\nclaim 0 83", "10 13\nclaim 0 91"), "is at most 91")
+    case("one cell, less", 1, more, one_cell.replace("9 12\nclaim 0 83", "10 13\nclaim 0 90"))
     kite = text_of(KITE)
     case("overlap", 0, kite, KITE_PROOF, "is at most 36")
     # the pair that is shared is not in this graph, whose rank is 35
@@ -370,7 +415,7 @@ def by_hand(program):
         "leading zero": "0 01\n", "sign": "0 -1\n", "plus": "0 +1\n", "hex": "0 0x1\n", "underscore": "0 1_0\n",
         "three": "0 1 2\n", "comma": "0,1\n", "blank line": "0 1\n\n0 2\n", "no line end": "0 1", "tab": "0\t1\n",
         "return": "0 1\r\n", "two blanks": "0  1\n", "large": "0 1073741825\n", "huge": "0 " + "9" * 40 + "\n",
-        "wraps": f"0 {2**64 + 1}\n", "comment": "# 0 1\n",
+        "wraps": f"0 {2**64 + 1}\n", "wraps in 32 bits": f"0 {2**32 + 1}\n", "10 times 2^30": f"0 1\n0 {10 * 2**30 + 2 - 2**33}\n", "comment": "# 0 1\n",
         "comment behind a pair": "0 1 # 2\n", "comment without end": t + "# 3", "blank before a comment": " # 3\n" + t,
         "nul": "0 1\0\n", "letters": "a b\n",
     }.items():  # fmt: skip
@@ -398,7 +443,7 @@ def by_hand(program):
 
 
 def catalog(program, prove, required, draw):
-    """All published graphs but those whose refutation needs a hub; returns their proofs."""
+    """All published graphs, and four larger ones; returns proofs."""
     folder = program.place / "catalog"
     folder.mkdir()
     ranks = []
@@ -409,9 +454,12 @@ def catalog(program, prove, required, draw):
             lines.append(document["graph"]["graph6"])
             claim = document["claim"]
             ranks.append((document["graph"]["nodes"], claim["rank"]["value"], claim["components"]["value"]))
+    # Examples 5.10 and 5.14: parts that overlap, with hubs, and implied pairs; all components are pairs
+    larger = {"M@`?hUOcB?K?H?E??": (14, 138, 20), "M?YTD@OS@_E?H?E??": (14, 138, 20), "M?]OdA_OaCC_G_G_?": (14, 138, 20), "O?IWqCO_K@K?W?GOCC@@?": (16, 160, 23)}
+    lines += larger
+    ranks += larger.values()
     done = subprocess.run([prove, folder], input="\n".join(lines) + "\n", capture_output=True, text=True, check=True)
-    refused = done.stdout.count("by a hub")
-    assert refused == len(done.stdout.splitlines()) == 10, done.stdout
+    assert not done.stdout, done.stdout
     start = time.time()
     code, out, err = program.list(folder / "list")
     seconds = time.time() - start
@@ -430,9 +478,11 @@ def catalog(program, prove, required, draw):
             tried += 1
         seen += 1
     assert tried > 10
-    assert seen == len(ranks) - refused == required, seen
+    assert seen == len(ranks) == required + len(larger), seen
+    hubs = [k for k in range(seen) if "\nhub " in (folder / f"{k}.proof").read_text()]
+    assert len(hubs) == 10 + len(larger), hubs
     print(f"catalog: {seen} graphs, rank, verdict and components, {seconds:.1f} s")
-    return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in range(400)]
+    return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in [*range(400), *hubs * 4]]
 
 
 def published(program, verify, data):
@@ -600,9 +650,9 @@ def main():
     if asked.checkers:
         large(program, asked.checkers[0], draw)
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
-    base += [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF), (text_of(TRIANGLE), FLOW_PROOF)]
+    base += [(text_of(GAMMA), GAMMA_PROOF)] * 5 + [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF), (text_of(TRIANGLE), FLOW_PROOF)]
     if asked.catalog:
-        files = catalog(program, asked.catalog, 6515, draw)
+        files = catalog(program, asked.catalog, 6525, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]
     if asked.data:
         published(program, asked.checkers[0], asked.data)

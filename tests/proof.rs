@@ -53,8 +53,7 @@ fn what_has_no_proof_is_refused_by_name() {
     std::fs::write(&graph, HUB).unwrap();
     let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
     for (more, why) in [
-        (&[][..], "by a hub"),
-        (&["--model", "calibrated"], "projective model"),
+        (&["--model", "calibrated"][..], "projective model"),
         (&[graph], "2 graphs"),
     ] {
         let run = verify(&[&[graph, "--proof", file], more].concat());
@@ -64,6 +63,21 @@ fn what_has_no_proof_is_refused_by_name() {
     }
     let run = verify(&[graph, "--proof", graph]);
     assert_eq!(run.status.code(), Some(2));
+}
+
+/// What takes a hub to refute has a proof with its copies and cells.
+#[test]
+fn a_hub_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, proof] = ["graph.txt", "proof"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, HUB).unwrap();
+    let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
+    let run = verify(&[graph, "--proof", file]);
+    assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
+    let written = std::fs::read_to_string(&proof).unwrap();
+    assert!(written.contains("\nclaim 83 83\n"), "{written}");
+    // for the whole, and for the step that tells the components apart
+    assert_eq!(written.matches("\nhub 5 12\n").count(), 2);
 }
 
 /// Without the program that is proved correct nothing is said of it; with it: proofs/tests.py.

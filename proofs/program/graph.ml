@@ -23,8 +23,9 @@ let read path =
     let rec go at value digits =
       match if at < String.length text then text.[at] else '\n' with
       | '0' .. '9' as c ->
-          let value = (10 * value) + Char.code c - Char.code '0' in
-          if value > largest then fail "a number above 2^30";
+          let digit = Char.code c - Char.code '0' in
+          if value > (largest - digit) / 10 then fail "a number above 2^30";
+          let value = (10 * value) + digit in
           if digits > 0 && value < 10 then fail "a leading zero";
           go (at + 1) value (digits + 1)
       | _ -> if digits = 0 then fail "a node number expected" else (value, at)

@@ -30,7 +30,7 @@ let check graph_path proof_path =
   let graph = Graph.read graph_path in
   let n = graph.nodes and m = Array.length graph.first in
   let first k = graph.first.(k) and second k = graph.second.(k) in
-  let order = Proof.by_key m (fun k -> (n * first k) + second k) in
+  let order = Proof.by_key m (fun k -> Natural.add (Natural.mul n (first k)) (second k)) in
   let by_pair k = order.(k) in
   if not (Checker.graph_ok n m first second by_pair) then
     raise (Graph.Unreadable (graph_path ^ ": not a simple graph with two nodes or more, smaller node of a pair first"));

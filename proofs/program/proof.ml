@@ -8,7 +8,7 @@ type bound = {
   blocks : Checker.block array;
   half : int;
   shared : Checker.body;
-  place : int array -> (int * (int -> int)) option;  (** a block that holds some nodes, and where *)
+  place : int array -> ((int * int) * (int -> int)) option;  (** a cell of a block that holds some nodes, and where *)
 }
 
 type components = {
@@ -36,7 +36,11 @@ end)
 
 let by_key count key =
   let order = Array.init count Fun.id in
-  Array.stable_sort (fun (a : int) b -> compare (key a : int) (key b)) order;
+  let by_natural a b =
+    let x : int = key a and y = key b in
+    if x = y then 0 else if Natural.leq x y then -1 else 1
+  in
+  Array.stable_sort by_natural order;
   order
 
 (* words separated by blanks and line feeds *)
@@ -83,7 +87,7 @@ type reader = {
   nodes : int;
 }
 
-let key reader k v = (k * reader.nodes) + v
+let key reader k v = Natural.add (Natural.mul k reader.nodes) v
 
 let body { word; passed; number; node; fail; nodes = n } reason =
   let size = number () in
@@ -155,31 +159,91 @@ let nothing =
   { Checker.body_size = 0; node = Fun.id; by_node = Fun.id; core_size = 0; core = []; centre = (fun _ _ -> 0);
     flows = []; joins = (fun _ -> []) }
 
+(* A block of so many nodes, the first of which is a hub: cells, and how the nodes of the split graph hang together *)
+let split { number; fail; _ } size =
+  let copies = number () in
+  let count = number () in
+  if copies > 1 lsl 24 || count > 1 lsl 24 then fail "sizes out of range";
+  let all = size + copies in
+  let position () =
+    let x = number () in
+    if x >= all then fail "no such node of the split graph";
+    x
+  in
+  let cell _ =
+    let members = number () in
+    if members > all then fail "sizes out of range";
+    Array.init members (fun _ -> position ())
+  in
+  let cells = Array.init count cell in
+  if copies > Array.fold_left (fun sum members -> sum + Array.length members) 0 cells then fail "a copy that is in no cell";
+  let meeting = Array.make all [] in
+  Array.iteri (fun d -> Array.iteri (fun i x -> meeting.(x) <- (d, i) :: meeting.(x))) cells;
+  let link = Array.make all None and depth = Array.make all (-1) and seen = Array.make count false in
+  let near = Queue.create () in
+  let reach x from = if depth.(x) < 0 then begin depth.(x) <- from; Queue.add x near end in
+  let spread x =
+    let through (d, j) =
+      if not seen.(d) then begin
+        seen.(d) <- true;
+        Array.iteri (fun i y -> if depth.(y) < 0 then begin link.(y) <- Some ((d, i), j); reach y (depth.(x) + 1) end) cells.(d)
+      end
+    in
+    List.iter through meeting.(x)
+  in
+  for x = 0 to all - 1 do
+    reach x 0;
+    while not (Queue.is_empty near) do spread (Queue.pop near) done
+  done;
+  ( cells,
+    {
+      Checker.copies;
+      cell_count = count;
+      cell_size = (fun d -> Array.length cells.(d));
+      cell_node = (fun d i -> cells.(d).(i));
+      link = (fun x -> link.(x));
+      depth = (fun x -> depth.(x));
+    } )
+
 (* blocks, other blocks and what they share, from the word [first] on; and the word that comes next *)
 let bound reader first =
-  let { word; number; node; fail; nodes = n } = reader in
+  let { word; passed; number; node; fail; nodes = n } = reader in
   let blocks = ref [] and count = ref 0 and half = ref 0 and shared = ref nothing in
-  let at = Table.create 1024 and of_node = Table.create 1024 in
+  (* cells are numbered through all blocks *)
+  let at = Table.create 1024 and of_node = Table.create 1024 and block_of = Table.create 1024 in
   let around v = Option.value (Table.find_opt of_node v) ~default:[] in
+  let cell d nodes =
+    let c = Table.length block_of in
+    Table.replace block_of c (!count, d);
+    Array.iteri (fun s v -> Table.replace at (key reader c v) s; Table.replace of_node v (c :: around v)) nodes
+  in
   let block () =
     let size = number () in
     if size > n then fail "sizes out of range";
     let nodes = Array.init size (fun _ -> node ()) in
-    let b = !count in
-    Array.iteri (fun s v -> Table.replace at (key reader b v) s; Table.replace of_node v (b :: around v)) nodes;
-    blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)) } :: !blocks;
+    let hub =
+      if not (passed "hub") then begin cell 0 nodes; None end
+      else
+        let cells, split = split reader size in
+        let home x = nodes.(if x < size then x else 0) in
+        if size > 0 then Array.iteri (fun d members -> cell d (Array.map home members)) cells;
+        Some split
+    in
+    blocks := { Checker.block_size = size; block_node = (fun s -> nodes.(s)); hub } :: !blocks;
     incr count
   in
-  let block_with suits nodes =
+  let cell_with suits nodes =
     let shorter list v = if List.compare_lengths (around v) list < 0 then around v else list in
-    let holds b v = Table.mem at (key reader b v) in
+    let holds c v = Table.mem at (key reader c v) in
     let candidates = Array.fold_left shorter (around nodes.(0)) nodes in
-    List.find_opt (fun b -> suits b && Array.for_all (holds b) nodes) candidates
+    List.find_opt (fun c -> suits (fst (Table.find block_of c)) && Array.for_all (holds c) nodes) candidates
   in
-  let position b v = Table.find at (key reader b v) in
+  let position c v = Table.find at (key reader c v) in
   let in_both i j why =
-    match (block_with (fun b -> b < !half) [| i; j |], block_with (fun b -> b >= !half) [| i; j |]) with
-    | Some b, Some b' when why = 0 -> Checker.Both (b, position b i, position b j, b', position b' i, position b' j)
+    match (cell_with (fun b -> b < !half) [| i; j |], cell_with (fun b -> b >= !half) [| i; j |]) with
+    | Some c, Some c' when why = 0 ->
+        let b, d = Table.find block_of c and b', d' = Table.find block_of c' in
+        Checker.Both (b, d, position c i, position c j, b', d', position c' i, position c' j)
     | _ -> fail (Printf.sprintf "%d and %d are not both in a block and in one of the others" i j)
   in
   let rec others = function
@@ -193,7 +257,8 @@ let bound reader first =
     | next -> next
   in
   let next = all first in
-  let place nodes = Option.map (fun b -> (b, fun s -> position b nodes.(s))) (block_with (fun _ -> true) nodes) in
+  let where nodes c = (Table.find block_of c, fun s -> position c nodes.(s)) in
+  let place nodes = Option.map (where nodes) (cell_with (fun _ -> true) nodes) in
   ({ blocks = Array.of_list (List.rev !blocks); half = !half; shared = !shared; place }, next)
 
 (* a step that tells the components lo .. hi-1 apart; [nodes] are those of a component *)

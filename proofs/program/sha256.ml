@@ -1,42 +1,15 @@
 (* SHA-256 (FIPS 180-4), for the name of the graph that is printed. Constants are computed: the first 32 bits of the
-   fractional parts of the square and cube roots of primes. *)
+   fractional parts of the square and cube roots of primes. Right for ints of 32 bits as well, as a browser has them. *)
 
 let mask = 0xffffffff
-
-(* the largest x with x^k <= n 2^(32 k), modulo 2^32, by its bits from the highest down; x is below 2^36 *)
-let root k n =
-  let rec power x k = if k = 0 then [ 1 ] else times (power x (k - 1)) x
-  (* a number by digits of 16 bits, the lowest first, times x *)
-  and times digits x =
-    let rec go carry = function
-      | [] -> if carry = 0 then [] else (carry land 0xffff) :: go (carry lsr 16) []
-      | d :: rest ->
-          let s = (d * x) + carry in
-          (s land 0xffff) :: go (s lsr 16) rest
-    in
-    go 0 digits
-  in
-  let rec shifted words digits = if words = 0 then digits else 0 :: shifted (words - 1) digits in
-  let rec trim = function 0 :: rest -> trim rest | digits -> digits in
-  let at_most a b =
-    let a = trim (List.rev a) and b = trim (List.rev b) in
-    match List.compare_lengths a b with 0 -> compare a b <= 0 | c -> c < 0
-  in
-  let bound = shifted (2 * k) [ n ] in
-  let rec bits x bit =
-    if bit < 0 then x land mask
-    else
-      let more = x lor (1 lsl bit) in
-      bits (if at_most (power more k) bound then more else x) (bit - 1)
-  in
-  bits 0 36
 
 let primes =
   let is_prime n = List.for_all (fun d -> d * d > n || n mod d <> 0) (List.init 20 (fun d -> d + 2)) in
   Array.of_list (List.filteri (fun k _ -> k < 64) (List.filter is_prime (List.init 320 (fun n -> n + 2))))
 
-let start = lazy (Array.map (root 2) (Array.sub primes 0 8))
-let rounds = lazy (Array.map (root 3) primes)
+let fraction x = int_of_float ((x -. floor x) *. 4294967296.)
+let start = Array.map (fun p -> fraction (sqrt (float_of_int p))) (Array.sub primes 0 8)
+let rounds = Array.map (fun p -> fraction (Float.cbrt (float_of_int p))) primes
 
 let hex text =
   let length = String.length text in
@@ -44,11 +17,15 @@ let hex text =
   let byte k =
     if k < length then Char.code text.[k]
     else if k = length then 0x80
-    else if k >= padded - 8 then (length * 8) lsr (8 * (padded - 1 - k)) land 0xff
-    else 0
+    else
+      (* the number of bits, in bytes from the highest down *)
+      match padded - 1 - k with
+      | 0 -> length lsl 3 land 0xff
+      | last when last <= 4 -> length lsr ((8 * last) - 3) land 0xff
+      | _ -> 0
   in
   let turn x k = ((x lsr k) lor (x lsl (32 - k))) land mask in
-  let h = Array.copy (Lazy.force start) and rounds = Lazy.force rounds and w = Array.make 64 0 in
+  let h = Array.copy start and w = Array.make 64 0 in
   for block = 0 to (padded / 64) - 1 do
     for t = 0 to 15 do
       let at = (64 * block) + (4 * t) in

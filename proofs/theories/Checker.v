@@ -1,6 +1,6 @@
 (* The program, and what its answer means. Arrays come in as functions, so that nothing is supposed about arrays. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Elimination Flows.
+From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Elimination Flows Hub.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Definition the_prime : nat := 2 ^ 16 - 15.
@@ -17,8 +17,8 @@ Fixpoint increasing (s : nat) (at_ : nat -> nat) (key : nat -> nat) (k : nat) : 
   else true.
 
 (* Why a pair of nodes may be used: it is a pair of the graph, by its number; or both nodes are in an earlier body,
-   at these positions; or both are in two blocks, at these positions. *)
-Inductive reason := Pair of nat | Inside of nat & nat & nat | Both of nat & nat & nat & nat & nat & nat.
+   at these positions; or both are in two blocks, in a cell of each, at these positions. *)
+Inductive reason := Pair of nat | Inside of nat & nat & nat | Both of nat & nat & nat & nat & nat & nat & nat & nat.
 
 (* A body: its nodes one after the other, a core of the first ones with its rows (two positions, rows used, reason)
    and centres, and flows, if it has its rank by these; each later node is joined to at most two nodes before it. *)
@@ -27,8 +27,8 @@ Record body := Body {
   core_size : nat; core : seq (nat * nat * nat * reason); centre : nat -> nat -> nat;
   flows : seq flow; joins : nat -> seq (nat * reason) }.
 
-(* A block: its nodes *)
-Record block := Block { block_size : nat; block_node : nat -> nat }.
+(* A block: its nodes, all of them its one cell; or the first one of them is a hub, and cells are those of a split graph. *)
+Record block := Block { block_size : nat; block_node : nat -> nat; hub : option split }.
 
 Section Program.
 Variables (n m : nat) (first second : nat -> nat).
@@ -114,7 +114,7 @@ Definition pair_ok (mate : nat -> bool) b x y (why : reason) : bool :=
         else false
       else false
     else false
-  | Both _ _ _ _ _ _ => false
+  | Both _ _ _ _ _ _ _ _ => false
   end.
 
 (* A body has an owner, a later body or itself, and uses only bodies that have the same one. *)
@@ -131,48 +131,53 @@ Definition lower_ok b r : bool :=
 End Lower.
 
 (* Upper bounds for the pairs in some sets of nodes, by two lists of blocks, of which the second one begins at [half]. A
-   set lies in a block, at these positions, or is a block of its own. What the blocks of the two lists share has the
-   rank at least that a body shows. *)
+   set lies in a cell of a block, at these positions, or is a block of its own. What the blocks of the two lists share
+   has the rank at least that a body shows. *)
 Section Upper.
 Variables (sets : nat) (set_size : nat -> nat) (member : nat -> nat -> nat).
-Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * (nat -> nat))).
+Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * nat * (nat -> nat))).
 
 Fixpoint block_ok (B : block) (k : nat) : bool :=
   if k is k'.+1 then if block_node B k' < n then block_ok B k' else false else true.
+Definition block_bound (B : block) : option nat :=
+  if block_ok B (block_size B) then
+    if hub B is Some H then split_bound (block_size B) H
+    else if 1 < block_size B then Some (11 * block_size B - 15) else None
+  else None.
 Fixpoint blocks_sum (b acc : nat) : option nat :=
   if b is b'.+1 then
-    let B := blocks b' in
-    if 1 < block_size B then
-      if block_ok B (block_size B) then blocks_sum b' (11 * block_size B - 15 + acc) else None
-    else None
+    if block_bound (blocks b') is Some u then blocks_sum b' (u + acc) else None
   else Some acc.
 
-Fixpoint in_block (B : block) (at_ : nat -> nat) (k s : nat) : bool :=
-  if s is s'.+1 then
-    if at_ s' < block_size B then
-      if eqn (block_node B (at_ s')) (member k s') then in_block B at_ k s' else false
-    else false
-  else true.
+Definition cells_of (B : block) : nat := if hub B is Some H then cell_count H else 1.
+Definition size_in (B : block) (d : nat) : nat := if hub B is Some H then cell_size H d else block_size B.
+Definition node_in (B : block) (d i : nat) : nat :=
+  if hub B is Some H then block_node B (origin (block_size B) (cell_node H d i)) else block_node B i.
+(* node i of cell d is x *)
+Definition held (B : block) (d i x : nat) : bool := if i < size_in B d then eqn (node_in B d i) x else false.
+
+Fixpoint in_cell (B : block) (d : nat) (at_ : nat -> nat) (k s : nat) : bool :=
+  if s is s'.+1 then if held B d (at_ s') (member k s') then in_cell B d at_ k s' else false else true.
 Fixpoint placed (b k acc : nat) : option nat :=
   if k is k'.+1 then
     match place k' with
     | None => if 1 < set_size k' then placed b k' (11 * set_size k' - 15 + acc) else None
-    | Some (c, at_) =>
-      if c < b then if in_block (blocks c) at_ k' (set_size k') then placed b k' acc else None else None
+    | Some (c, d, at_) =>
+      if c < b then
+        if d < cells_of (blocks c) then
+          if in_cell (blocks c) d at_ k' (set_size k') then placed b k' acc else None
+        else None
+      else None
     end
   else Some acc.
 
-Definition two_in (c s t x y : nat) : bool :=
-  if s < block_size (blocks c) then
-    if t < block_size (blocks c) then
-      if eqn (block_node (blocks c) s) x then eqn (block_node (blocks c) t) y else false
-    else false
-  else false.
+Definition two_in (c d i j x y : nat) : bool :=
+  if d < cells_of (blocks c) then if held (blocks c) d i x then held (blocks c) d j y else false else false.
 Definition both_ok b x y (why : reason) : bool :=
-  if why is Both c s t c' s' t' then
+  if why is Both c d i j c' d' i' j' then
     if c < half then
       if half <= c' then
-        if c' < b then if two_in c s t x y then two_in c' s' t' x y else false else false
+        if c' < b then if two_in c d i j x y then two_in c' d' i' j' x y else false else false
       else false
     else false
   else false.
@@ -436,74 +441,106 @@ case: insubP => // i lti ei; case: insubP => // j ltj ej [->]; exists k => //.
 by congr (_, _); apply: val_inj; rewrite valV.
 Qed.
 
+(* Pairs in some sets have this rank at most, at all cameras. *)
+Definition bounded (D : seq (seq 'I_n)) (u : nat) : Prop := forall (F : numFieldType) (P : cameras F n)
+  (E : seq ('I_n * 'I_n)), all (fun e : 'I_n * 'I_n => has (fun b => inside b e) D) E -> \rank (J E P) <= u.
+Lemma bounded_nil : bounded [::] 0.
+Proof. by move=> F P [|e E] //; rewrite J_nil. Qed.
+Lemma bounded_set b : 1 < size b -> bounded [:: b] (11 * size b - 15).
+Proof. by move=> s1 F P E cov; apply: rank_inside => //; apply: sub_all cov => e /=; rewrite orbF. Qed.
+Lemma bounded_cat D1 D2 u1 u2 : bounded D1 u1 -> bounded D2 u2 -> bounded (D1 ++ D2) (u1 + u2).
+Proof.
+move=> h1 h2 F P E /allP cov; pose E' D := [seq e : 'I_n * 'I_n <- E | has (fun b => inside b e) D].
+apply: leq_trans (_ : \rank (J (E' D1 ++ E' D2) P) <= _).
+  by apply: J_mono => e eE; have := cov e eE; rewrite has_cat mem_cat !mem_filter eE !andbT.
+by apply: leq_trans (J_cat _ _ _) (leq_add (h1 _ _ _ (filter_all _ _)) (h2 _ _ _ (filter_all _ _))).
+Qed.
+Lemma bounded_flatten (I : Type) (L : seq I) D u : (forall i, bounded (D i) (u i)) ->
+  bounded (flatten [seq D i | i <- L]) (\sum_(i <- L) u i).
+Proof.
+move=> h; elim: L => [|i L ih]; first by rewrite big_nil; apply: bounded_nil.
+by rewrite big_cons; apply: bounded_cat.
+Qed.
+
 Section Upper.
 Variables (sets : nat) (set_size : nat -> nat) (member : nat -> nat -> nat).
-Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * (nat -> nat))).
-Definition of_block c : seq 'I_n := mkseq (fun i => V (block_node (blocks c) i)) (block_size (blocks c)).
+Variables (blocks : nat -> block) (half : nat) (shared : body) (place : nat -> option (nat * nat * (nat -> nat))).
+Definition cell c d : seq 'I_n := mkseq (fun i => V (node_in (blocks c) d i)) (size_in (blocks c) d).
+Definition of_block c : seq (seq 'I_n) := [seq cell c d | d <- iota 0 (cells_of (blocks c))].
 Definition set_ k : seq 'I_n := mkseq (fun i => V (member k i)) (set_size k).
-Definition count (A : seq (seq 'I_n)) := \sum_(B <- A) (11 * size B - 15).
-Lemma count_cat A1 A2 : count (A1 ++ A2) = count A1 + count A2.
-Proof. by rewrite /count big_cat. Qed.
-Local Notation A b := [seq of_block c | c <- iota 0 b].
+Local Notation A L := (flatten [seq of_block c | c <- L]).
+
+Lemma of_blockP c u : block_bound n (blocks c) = Some u -> bounded (of_block c) u.
+Proof.
+rewrite /block_bound /of_block /cell /cells_of /size_in /node_in; case: ifP => // _; case e: (hub (blocks c)) => [H|].
+  move=> b F P E cov; apply: (split_boundP (node := fun i => V (block_node (blocks c) i))) b _.
+  by apply: sub_all cov => f; rewrite has_map.
+case: ifP => // s1 [<-]; have := @bounded_set (mkseq (fun i => V (block_node (blocks c) i)) (block_size (blocks c))).
+by rewrite size_mkseq => /(_ s1).
+Qed.
 
 Lemma iotaS b : iota 0 b.+1 = rcons (iota 0 b) b.
 Proof. by rewrite -[b.+1]addn1 iotaD cats1. Qed.
 
+Definition count c := odflt 0 (block_bound n (blocks c)).
 Lemma blocks_sumP b acc r : blocks_sum n blocks b acc = Some r ->
-  all (fun B => 1 < size B) (A b) /\ r = count (A b) + acc.
+  (forall c, c < b -> bounded (of_block c) (count c)) /\ r = \sum_(c <- iota 0 b) count c + acc.
 Proof.
-rewrite /count; elim: b acc => [|b ih] acc; first by move=> [<-]; rewrite big_nil.
-rewrite [blocks_sum _ _ _ _]/=; case: ifP => // s1; case: ifP => // _ /ih [a ->].
-by rewrite iotaS map_rcons -cats1 all_cat a big_cat big_seq1 /= size_mkseq s1 addnA.
+elim: b acc => [|b ih] acc; first by move=> [<-]; rewrite big_nil.
+rewrite [blocks_sum _ _ _ _]/=; case e: block_bound => [u|//] /ih [a ->].
+rewrite iotaS -cats1 big_cat big_seq1 /= /count e /= addnA; split=> // c.
+by rewrite ltnS leq_eqVlt => /predU1P [-> | /a //]; rewrite e; apply: of_blockP.
 Qed.
 
-Lemma in_blockP c at_ k : in_block member (blocks c) at_ k (set_size k) -> {subset set_ k <= of_block c}.
+Lemma in_cellP c d at_ k : in_cell member (blocks c) d at_ k (set_size k) -> {subset set_ k <= cell c d}.
 Proof.
 move=> h _ /mapP [i + ->]; rewrite mem_iota /=; elim: (set_size k) h => //= s ih.
-case: ifP => // lt; case: eqnP => // e /ih {}ih.
+rewrite /held; case: ifP => //; case: ifP => // lt /eqnP e /ih {}ih.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih //]; rewrite -e; apply: map_f; rewrite mem_iota.
 Qed.
 
-Lemma placedP b k acc r : placed set_size member blocks place b k acc = Some r -> exists L : seq (seq 'I_n),
-  [/\ r = count L + acc, all (fun B => 1 < size B) L
-    & forall i, i < k -> exists2 B, B \in A b ++ L & {subset set_ i <= B}].
+Lemma in_A c d L : c \in L -> d < cells_of (blocks c) -> cell c d \in A L.
+Proof. by move=> cL dc; apply/flattenP; exists (of_block c); rewrite map_f // mem_iota. Qed.
+
+Lemma placedP b k acc r : placed set_size member blocks place b k acc = Some r -> exists L : seq (seq 'I_n), exists2 u,
+  r = u + acc & bounded L u /\ forall i, i < k -> exists2 B, B \in A (iota 0 b) ++ L & {subset set_ i <= B}.
 Proof.
-elim: k acc => [|k ih] acc /=; first by move=> [<-]; exists [::]; rewrite /count big_nil.
-case: (place k) => [[c at_]|].
-  case: ifP => // cb; case: ifP => // /in_blockP sub.
-  case/ih=> L [-> two cov]; exists L; split=> // i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov //].
-  by exists (of_block c) => //; rewrite mem_cat; apply/orP; left; apply: map_f; rewrite mem_iota.
-case: ifP => // s1 /ih [L [-> two cov]]; exists (set_ k :: L); split=> //=.
-- by rewrite /count big_cons size_mkseq; lia.
-- by rewrite size_mkseq s1.
+elim: k acc => [|k ih] acc /=; first by move=> [<-]; exists [::], 0; rewrite ?add0n //; split=> //; apply: bounded_nil.
+case: (place k) => [[[c d] at_]|].
+  case: ifP => // cb; case: ifP => // dc; case: ifP => // /in_cellP sub.
+  case/ih=> L [u -> [bd cov]]; exists L, u => //; split=> // i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov //].
+  by exists (cell c d) => //; rewrite mem_cat in_A // mem_iota.
+case: ifP => // s1 /ih [L [u -> [bd cov]]]; exists (set_ k :: L), (11 * set_size k - 15 + u); first by lia.
+split.
+  have := bounded_cat (@bounded_set (set_ k) _) bd; rewrite size_mkseq; apply.
+  exact: s1.
 move=> i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov [B BL sub]].
   by exists (set_ k) => //; rewrite mem_cat mem_head orbT.
 by exists B => //; move: BL; rewrite !mem_cat inE => /orP [->|->]; rewrite ?orbT.
 Qed.
 
-(* the pairs of nodes that one of some sets holds; those that blocks of both lists hold *)
+(* the pairs of nodes that one of some sets holds; those that cells of both lists hold *)
 Definition within_some (D : seq (seq 'I_n)) : seq ('I_n * 'I_n) :=
   [seq e : 'I_n * 'I_n <- enum {: 'I_n * 'I_n} | has (fun B => inside B e) D].
-Definition both c : seq ('I_n * 'I_n) :=
-  [seq e <- within_some (A half) | has (fun B => inside B e) [seq of_block k | k <- iota half (c - half)]].
+Local Notation first_list := (A (iota 0 half)).
+Local Notation second_list c := (A (iota half (c - half))).
+Definition both c : seq ('I_n * 'I_n) := [seq e <- within_some first_list | has (fun B => inside B e) (second_list c)].
 Lemma within_someE D e : (e \in within_some D) = has (fun B => inside B e) D.
 Proof. by rewrite mem_filter mem_enum andbT. Qed.
-Lemma bothE c e : (e \in both c) = has (fun B => inside B e) (A half) && has (fun B => inside B e) [seq of_block k | k <- iota half (c - half)].
+Lemma bothE c e : (e \in both c) = has (fun B => inside B e) first_list && has (fun B => inside B e) (second_list c).
 Proof. by rewrite mem_filter within_someE andbC. Qed.
 
-Lemma two_inP c s t x y : two_in blocks c s t x y -> inside (of_block c) (V x, V y).
+Lemma two_inP c d i j x y L : two_in blocks c d i j x y -> c \in L -> has (fun B => inside B (V x, V y)) (A L).
 Proof.
-rewrite /two_in; case: ifP => // sc; case: ifP => // tc; case: eqnP => // <- /eqnP <-.
-by apply/andP; split; apply: map_f; rewrite mem_iota.
+rewrite /two_in /held; case: ifP => // dc; case: ifP => //; case: ifP => // ic /eqnP <-; case: ifP => // jc /eqnP <- cL.
+by apply/hasP; exists (cell c d); [exact: in_A | apply/andP; split; apply: map_f; rewrite mem_iota].
 Qed.
 
 Lemma both_okP c x y why : both_ok blocks half c x y why -> either (both c) (V x, V y).
 Proof.
-case: why => //= d s t d' s' t'; case: ifP => // dh; case: ifP => // hd; case: ifP => // dc.
-case: ifP => // /two_inP i1 /two_inP i2; rewrite /either bothE; apply/orP; left.
-apply/andP; split; apply/hasP.
-  by exists (of_block d) => //; apply: map_f; rewrite mem_iota.
-by exists (of_block d') => //; apply: map_f; rewrite mem_iota hd subnKC // (leq_trans hd) // ltnW.
+case: why => //= d k s t d' k' s' t'; case: ifP => // dh; case: ifP => // hd; case: ifP => // dc.
+case: ifP => // i1 i2; rewrite /either bothE; apply/orP; left.
+rewrite (two_inP i1) ?mem_iota //= (two_inP i2) // mem_iota hd subnKC // (leq_trans hd) //; exact: ltnW.
 Qed.
 
 Lemma either_both c (e : 'I_n * 'I_n) : either (both c) e -> e \in both c.
@@ -518,32 +555,35 @@ Theorem upper_ok_sound c r (E : seq ('I_n * 'I_n)) :
   (forall e, e \in E -> exists2 k, k < sets & inside (set_ k) e) ->
   forall (F : numFieldType) (P : cameras F n), \rank (J E P) <= r.
 Proof.
-rewrite /upper_ok; case e: blocks_sum => [acc|//]; have [s1 ->{acc e}] := blocks_sumP e => /=.
-case e: placed => [s|//]; have [L [-> two cov]] := placedP e => {e s} + EC F P; rewrite addn0.
-have cover f : f \in E -> has (fun B => inside B f) (A c ++ L).
+rewrite /upper_ok; case e: blocks_sum => [acc|//]; have [bc ->{acc e}] := blocks_sumP e => /=.
+case e: placed => [s|//]; have [L [u -> [bL cov]]] := placedP e => {e s} + EC F P; rewrite addn0.
+have cover f : f \in E -> has (fun B => inside B f) (A (iota 0 c) ++ L).
   by move/EC=> [] k /cov [B BA sub] /andP [xk yk]; apply/hasP; exists B; rewrite // /inside !sub.
+have bounds l : {subset l <= iota 0 c} -> bounded (A l) (\sum_(k <- l) count k).
+  elim: l => [|k l ih] lc; first by rewrite big_nil; apply: bounded_nil.
+  rewrite big_cons; apply: bounded_cat; last by apply: ih => x xl; apply: lc; rewrite inE xl orbT.
+  by apply: bc; have := lc k (mem_head _ _); rewrite mem_iota.
 case: ifP => [hc|_ le]; last first.
-  apply: leq_trans le; apply: leq_trans (theorem_5_1 (B := A c ++ L) P _ _) _; first by rewrite all_cat s1.
-    exact/allP.
-  by rewrite -/(count _) count_cat addnC.
+  apply: leq_trans le; rewrite addnC; apply: (bounded_cat (bounds _ _) bL) => //.
+  exact/allP.
 case e: body_rank => [l|//] le; have [T [_ eT [P0 aT]]] := body_rankP (@both_okP c) e.
-set A2 := [seq of_block k | k <- iota half (c - half)].
-have cA : A c = A half ++ A2 by rewrite /A2 -map_cat -iotaD subnKC // ltnW.
-have T1 : {subset T <= within_some (A half ++ L)}.
+have cA : iota 0 c = iota 0 half ++ iota half (c - half) by rewrite -iotaD subnKC // ltnW.
+have T1 : {subset T <= within_some (first_list ++ L)}.
   by move=> f /(allP eT)/either_both; rewrite bothE within_someE has_cat => /andP [->].
-have T2 : {subset T <= within_some A2}.
+have T2 : {subset T <= within_some (second_list c)}.
   by move=> f /(allP eT)/either_both; rewrite bothE within_someE => /andP [_ ->].
 have lT : l <= \rank (J T (map_mx (ratr : rat -> F) P0 : cameras F n)).
   by rewrite -(map_J (ratr_rmorphism F)) mxrank_map.
-have bound D : all (fun B => 1 < size B) D -> forall Q : cameras F n, \rank (J (within_some D) Q) <= count D.
-  by move=> sD Q; apply: theorem_5_1 => //; apply: filter_all.
-move: s1; rewrite cA all_cat => /andP [s1 s2].
-have h := corollary_5_11 T1 T2 lT (bound _ _) (bound _ s2) P.
-have /h {}h : all (fun B => 1 < size B) (A half ++ L) by rewrite all_cat s1.
-have sub : {subset E <= within_some (A half ++ L) ++ within_some A2}.
-  move=> f /cover; rewrite cA mem_cat !within_someE !has_cat.
+have within D v : bounded D v -> forall Q : cameras F n, \rank (J (within_some D) Q) <= v.
+  by move=> bD Q; apply: bD; apply: filter_all.
+have s1 : {subset iota 0 half <= iota 0 c} by move=> x; rewrite cA mem_cat => ->.
+have s2 : {subset iota half (c - half) <= iota 0 c} by move=> x; rewrite cA mem_cat orbC => ->.
+have h := corollary_5_11 T1 T2 lT (within _ _ (bounded_cat (bounds _ s1) bL)) (within _ _ (bounds _ s2)) P.
+have sub : {subset E <= within_some (first_list ++ L) ++ within_some (second_list c)}.
+  move=> f /cover; rewrite cA map_cat flatten_cat mem_cat !within_someE !has_cat.
   by case/orP=> [/orP [->|->]|->]; rewrite ?orbT.
-have := J_mono P sub; move: h le; rewrite cA !count_cat; move: (count L) (count A2) (count _) (\rank _) (\rank _); lia.
+have := J_mono P sub; move: h le; rewrite cA big_cat /=.
+move: (\sum_(k <- _) _) (\sum_(k <- iota half _) _) (\rank _) (\rank _) => x y z t; lia.
 Qed.
 End Upper.
 End Sound.

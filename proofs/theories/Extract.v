@@ -2,15 +2,15 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Checker Separation Sanity.
+From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Sanity.
 
-Extract Inlined Constant muln => "(( * ) : int -> int -> int)".
-Extract Inlined Constant addn => "((+) : int -> int -> int)".
-Extract Inlined Constant subn => "(fun (a : int) (b : int) -> if a < b then 0 else a - b)".
-Extract Inlined Constant leq => "((<=) : int -> int -> bool)".
-Extract Inlined Constant eqn => "((=) : int -> int -> bool)".
-Extract Inlined Constant modn => "(fun (a : int) (b : int) -> if b = 0 then a else a mod b)".
-Extract Inlined Constant divn => "(fun (a : int) (b : int) -> if b = 0 then 0 else a / b)".
+Extract Inlined Constant muln => "Natural.mul".
+Extract Inlined Constant addn => "Natural.add".
+Extract Inlined Constant subn => "Natural.sub".
+Extract Inlined Constant leq => "Natural.leq".
+Extract Inlined Constant eqn => "Natural.eq".
+Extract Inlined Constant modn => "Natural.modulo".
+Extract Inlined Constant divn => "Natural.div".
 Extraction "checker.ml" graph_ok verify components_ok cells solved the_prime entries10.
 
 Print Assumptions verify_sound.
@@ -27,6 +27,7 @@ Print Assumptions lemma_3_1.
 Print Assumptions corollary_3_3.
 Print Assumptions theorem_4_1.
 Print Assumptions theorem_5_1.
+Print Assumptions theorem_5_2.
 Print Assumptions theorem_5_9.
 Print Assumptions corollary_5_11.
 Print Assumptions separation.

@@ -189,7 +189,7 @@ Qed.
 Definition at_ (s : seq (nat * nat)) k := nth (0%N, 0%N) s k.
 Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body :=
   Body k id id 0 [::] (fun _ _ => 0%N) [::] joins.
-Definition no_block (_ : nat) : block := Block 0 id.
+Definition no_block (_ : nat) : block := Block 0 id None.
 Definition nothing : body := chain 0 (fun _ => [::]) 0.
 
 Theorem pair : full_rank 2 [:: (0, 1)]%N.

@@ -18,7 +18,7 @@ Record told_apart := ToldApart {
   position : nat -> nat -> nat; place_there : nat -> nat -> nat; (* of its nodes in the frame, and of it there *)
   meeting : nat -> nat; there : nat -> nat -> nat;        (* the components at a position *)
   witness : nat -> nat -> nat * nat * nat * nat;          (* core nodes in two components: in the core, in the component *)
-  blocks_ : nat -> block; block_count : nat; half_ : nat; shared_ : body; in_ : nat -> option (nat * (nat -> nat)) }.
+  blocks_ : nat -> block; block_count : nat; half_ : nat; shared_ : body; in_ : nat -> option (nat * nat * (nat -> nat)) }.
 
 (* ends of the intervals *)
 Inductive step := Cut of seq nat & shared_nodes | Apart of seq nat & told_apart.

@@ -3,12 +3,14 @@
 //! In: the pieces and motion classes of a verdict. Out: components in an order in which those that are
 //! told apart last stand together, so that each step cuts an interval of them.
 //!
-//! Bounds need no blocks here. A bound by counting that is the rank, hubs aside, has blocks that are
-//! rigid; so components count as much.
+//! Where no block has a hub, bounds need no blocks: those of a bound that is the rank are rigid, so
+//! components count as much.
 
 use super::bodies::{Record, Set, of_sets_told_apart};
 use super::text::{Components, Reason, Step};
+use super::upper::{self, Blocks};
 use super::{Unproved, required};
+use crate::contract::Body;
 use crate::contract::piece::Members;
 use crate::decide::Verdict;
 use crate::decide::evidence::{Class, ClassKind, Evidence, PieceVerdict};
@@ -19,6 +21,7 @@ pub(super) fn of(verdict: &Verdict, record: &mut Record) -> Result<Components, U
     let root = Tree::cut(&verdict.rigid, &verdict.pieces);
     let mut made = Made {
         record,
+        bodies: &verdict.contraction.bodies,
         components: Components::default(),
         sets: Vec::new(),
     };
@@ -28,34 +31,34 @@ pub(super) fn of(verdict: &Verdict, record: &mut Record) -> Result<Components, U
 }
 
 /// How components are told apart.
-enum Tree {
+enum Tree<'a> {
     One(Members),
     /// Pieces: each shares a node at most with those before.
-    Cut(Vec<Tree>),
-    /// Motion classes.
-    Apart(Vec<Tree>),
+    Cut(Vec<Tree<'a>>),
+    /// Motion classes of a piece.
+    Apart(&'a PieceVerdict, Vec<Tree<'a>>),
 }
 
-impl Tree {
-    fn cut(rigid: &Members, pieces: &[PieceVerdict]) -> Self {
+impl<'a> Tree<'a> {
+    fn cut(rigid: &Members, pieces: &'a [PieceVerdict]) -> Self {
         let rigid = rigid.singles().into_iter().map(Self::One);
         Self::Cut(rigid.chain(pieces.iter().map(Self::piece)).collect())
     }
 
-    fn piece(piece: &PieceVerdict) -> Self {
+    fn piece(piece: &'a PieceVerdict) -> Self {
         let classes = piece.evidence.iter().find_map(|evidence| match evidence {
             Evidence::Classes(classes) => Some(classes),
             _ => None,
         });
         match classes {
             Some(classes) if piece.components.len() > 1 => {
-                Self::Apart(classes.iter().map(Self::class).collect())
+                Self::Apart(piece, classes.iter().map(Self::class).collect())
             }
             _ => Self::One(piece.members.clone()),
         }
     }
 
-    fn class(class: &Class) -> Self {
+    fn class(class: &'a Class) -> Self {
         match &class.kind {
             ClassKind::Single | ClassKind::Rigid(_) => Self::One(class.members.clone()),
             ClassKind::Loose { rigid, pieces } => Self::cut(rigid, pieces),
@@ -64,16 +67,18 @@ impl Tree {
 }
 
 /// An interval of components, and the smaller ones that a step cuts it into.
-struct Span {
+struct Span<'a> {
     end: usize,
     begin: usize,
-    is_cut: bool,
-    parts: Vec<Span>,
+    /// The piece whose motion tells them apart; else they share a node at most.
+    piece: Option<&'a PieceVerdict>,
+    parts: Vec<Span<'a>>,
 }
 
 /// What is made so far.
 struct Made<'a> {
     record: &'a mut Record,
+    bodies: &'a [Body],
     components: Components,
     /// The nodes of every component, and the reason by which it is used in a step.
     sets: Vec<Set>,
@@ -81,22 +86,22 @@ struct Made<'a> {
 
 impl Made<'_> {
     /// Numbers the components of a tree in its order.
-    fn number(&mut self, tree: Tree) -> Result<Span, Unproved> {
+    fn number<'t>(&mut self, tree: Tree<'t>) -> Result<Span<'t>, Unproved> {
         let begin = self.sets.len();
-        let (is_cut, parts) = match tree {
+        let (piece, parts) = match tree {
             Tree::One(members) => {
                 let (nodes, body) = self.record.rigid(&members)?;
                 self.components.bodies.push(body - 1);
                 self.sets.push((nodes, (begin + 1) as Reason));
-                (false, Vec::new())
+                (None, Vec::new())
             }
-            Tree::Apart(parts) => (false, parts),
-            Tree::Cut(parts) => (true, self.in_order(parts)),
+            Tree::Apart(piece, parts) => (Some(piece), parts),
+            Tree::Cut(parts) => (None, self.in_order(parts)),
         };
         let parts = parts.into_iter().map(|part| self.number(part));
         Ok(Span {
             parts: parts.collect::<Result<_, _>>()?,
-            is_cut,
+            piece,
             begin,
             end: self.sets.len(),
         })
@@ -104,7 +109,7 @@ impl Made<'_> {
 
     /// Pieces, each next to an earlier one as long as there is such a piece: then it shares one
     /// node with all before it.
-    fn in_order(&self, parts: Vec<Tree>) -> Vec<Tree> {
+    fn in_order<'t>(&self, parts: Vec<Tree<'t>>) -> Vec<Tree<'t>> {
         let nodes: Vec<Vec<u32>> = parts.iter().map(|part| self.nodes(part)).collect();
         let mut of_node: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
         for (k, nodes) in nodes.iter().enumerate() {
@@ -112,7 +117,7 @@ impl Made<'_> {
                 .iter()
                 .for_each(|&v| of_node.entry(v).or_default().push(k));
         }
-        let mut parts: Vec<Option<Tree>> = parts.into_iter().map(Some).collect();
+        let mut parts: Vec<Option<Tree<'t>>> = parts.into_iter().map(Some).collect();
         let mut ordered = Vec::with_capacity(parts.len());
         let mut waiting = VecDeque::new();
         for first in 0..parts.len() {
@@ -131,7 +136,7 @@ impl Made<'_> {
     fn nodes(&self, tree: &Tree) -> Vec<u32> {
         match tree {
             Tree::One(members) => self.record.nodes(members),
-            Tree::Cut(parts) | Tree::Apart(parts) => {
+            Tree::Cut(parts) | Tree::Apart(_, parts) => {
                 parts.iter().flat_map(|part| self.nodes(part)).collect()
             }
         }
@@ -146,18 +151,19 @@ impl Made<'_> {
             return Ok(());
         }
         let ends: Vec<usize> = span.parts.iter().map(|part| part.end).collect();
-        let step = if span.is_cut {
-            Step::Cut(ends)
-        } else {
+        let step = if let Some(piece) = span.piece {
             let sets = &self.sets[span.begin..span.end];
             let interval = |k: usize| ends.partition_point(|&end| end <= k + span.begin);
-            let rank = sets.iter().map(|(nodes, _)| required(nodes)).sum();
+            let (rank, blocks) = bound(piece, self.bodies, sets)?;
             let (frame, motion) = of_sets_told_apart(sets, rank, interval)?;
             Step::Apart {
                 ends,
                 frame,
                 motion,
+                blocks: Box::new(blocks),
             }
+        } else {
+            Step::Cut(ends)
         };
         self.components.steps.push(step);
         span.parts
@@ -165,4 +171,16 @@ impl Made<'_> {
             .rev()
             .try_for_each(|part| self.steps(part))
     }
+}
+
+/// What components of a piece count, and the blocks that they are in.
+fn bound(piece: &PieceVerdict, bodies: &[Body], sets: &[Set]) -> Result<(usize, Blocks), Unproved> {
+    let alone = sets.iter().map(|(nodes, _)| required(nodes)).sum();
+    if piece.upper >= alone {
+        return Ok((alone, Blocks::default()));
+    }
+    let blocks = upper::of_piece(piece, bodies)?;
+    let held = sets.iter().all(|(nodes, _)| blocks.hold(nodes));
+    held.then_some((piece.upper, blocks))
+        .ok_or(Unproved::UpperBound)
 }

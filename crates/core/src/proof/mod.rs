@@ -10,15 +10,13 @@ mod core;
 mod eliminated;
 mod flows;
 mod text;
+mod upper;
 
 pub use text::Proof;
 
 use bodies::Record;
 
-use crate::contract::Body;
-use crate::contract::piece::{Assembly, Members};
-use crate::decide::evidence::{Bound, Evidence, PieceVerdict, Upper};
-use crate::decide::{Counting, Value, Verdict};
+use crate::decide::{Value, Verdict};
 use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::fmt;
@@ -36,7 +34,7 @@ pub enum Unproved {
     Known,
     /// A graph with one node.
     OneNode,
-    /// An upper bound by a hub.
+    /// An upper bound that no blocks show.
     UpperBound,
     /// The rank rests on draws, with an error bound.
     ErrorBound,
@@ -54,7 +52,7 @@ impl fmt::Display for Unproved {
             Self::Model => f.write_str("only verdicts of the projective model"),
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
-            Self::UpperBound => f.write_str("an upper bound by a hub"),
+            Self::UpperBound => f.write_str("an upper bound that no blocks show"),
             Self::ErrorBound => f.write_str("a rank that is known with an error bound only"),
             Self::Core(nodes) => write!(f, "a core of {nodes} nodes, of {LARGEST_CORE} at most"),
             Self::Record => f.write_str("a record of merges that uses a body twice"),
@@ -98,9 +96,9 @@ impl Verdict {
         let full = Model::Projective.required(graph.nodes());
         let refuted = self.value == Value::NotFiniteSolvable;
         let (upper, blocks) = if refuted {
-            upper_bound(self, &Assembly::new(graph, &self.contraction))?
+            upper::of(self)?
         } else {
-            (full, Vec::new())
+            (full, upper::Blocks::default())
         };
         if refuted && upper >= full {
             return Err(Unproved::ErrorBound);
@@ -140,63 +138,6 @@ impl Verdict {
 /// What a set of nodes has to have to be of full rank.
 fn required(nodes: &[u32]) -> usize {
     Model::Projective.required(nodes.len())
-}
-
-/// An upper bound by counting, and its blocks of three nodes or more.
-fn upper_bound(verdict: &Verdict, assembly: &Assembly) -> Result<(usize, Vec<Vec<u32>>), Unproved> {
-    let mut parts: Vec<Members> = verdict.rigid.singles();
-    for piece in &verdict.pieces {
-        parts.extend(piece_blocks(piece, assembly)?);
-    }
-    let nodes = |part: &Members| part.nodes(&verdict.contraction.bodies);
-    let blocks: Vec<Vec<u32>> = parts.iter().map(nodes).collect();
-    let upper = blocks.iter().map(|block| required(block)).sum();
-    Ok((
-        upper,
-        blocks.into_iter().filter(|block| block.len() > 2).collect(),
-    ))
-}
-
-/// The blocks by which the bound of a piece is counted.
-///
-/// Parts that overlap and added pairs never give less than a partition does where no block has a
-/// hub: the smallest sum over partitions is submodular in the pairs, and grows with them.
-fn piece_blocks(piece: &PieceVerdict, assembly: &Assembly) -> Result<Vec<Members>, Unproved> {
-    let required = assembly.required(Model::Projective, &piece.members);
-    if piece.upper >= required {
-        return Ok(vec![piece.members.clone()]);
-    }
-    let counted = piece.evidence.iter().filter_map(|evidence| match evidence {
-        Evidence::Upper(Upper {
-            by: Bound::Counting(counting),
-            added,
-        }) if added.is_empty() => Some(counting),
-        _ => None,
-    });
-    let without_hubs =
-        |counting: &&Counting| counting.blocks.iter().all(|block| block.hub.is_none());
-    let best = counted
-        .filter(without_hubs)
-        .min_by_key(|counting| counting.bound);
-    let best = best.filter(|counting| counting.bound == piece.upper);
-    let best = best.ok_or(Unproved::UpperBound)?;
-    Ok(best
-        .blocks
-        .iter()
-        .map(|block| block.members.clone())
-        .collect())
-}
-
-impl Members {
-    /// Its nodes, increasing.
-    fn nodes(&self, bodies: &[Body]) -> Vec<u32> {
-        let of_bodies = self.bodies.iter().flat_map(|&k| &bodies[k as usize].nodes);
-        let of_edges = self.edges.iter().flat_map(|&(i, j)| [i, j]);
-        let mut nodes: Vec<u32> = of_bodies.copied().chain(of_edges).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
-    }
 }
 
 #[cfg(test)]

@@ -23,9 +23,10 @@ fn a_triangle_is_three_nodes_joined() {
     assert_eq!(text.lines().count(), 8);
 }
 
-/// 11 * 9 - 15 = 84 is what twelve single edges count; the hub takes one off (theory, Example 5.6).
+/// 11 * 9 - 15 = 84 is what twelve single edges count; the hub takes one off (theory, Example 5.6). The
+/// copies of node 1, of which each has one pair, are 9 to 13; the block begins with it.
 #[test]
-fn what_has_no_proof_yet_is_refused_by_name() {
+fn a_hub_is_written_with_its_split_graph() {
     let gamma = [
         (0, 2),
         (0, 3),
@@ -41,10 +42,46 @@ fn what_has_no_proof_yet_is_refused_by_name() {
         (3, 8),
     ];
     let gamma = Graph::new(9, gamma).unwrap();
-    assert_eq!(
-        proof_of(&gamma, Question::default()).unwrap_err(),
-        Unproved::UpperBound
-    );
+    let proof = proof_of(&gamma, Question::default()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (83, 83));
+    assert_eq!(proof.components(), Some(12));
+    let text = proof.to_string();
+    let block = "\nblock 9 1 0 2 3 4 5 6 7 8\nhub 5 12\n";
+    // that of the rank, and of the step that tells components apart
+    assert_eq!(text.matches(block).count(), 2);
+    let cells = text.split(block).nth(1).unwrap().lines().take(12);
+    let cells: BTreeSet<&str> = cells.collect();
+    let pairs = [
+        "2 1 2", "2 1 3", "2 1 5", "2 2 4", "2 2 6", "2 3 7", "2 3 8",
+    ];
+    assert!(pairs.iter().all(|pair| cells.contains(pair)), "{text}");
+    assert!((9..14).all(|copy| {
+        let at_copy = |cell: &&&str| cell.split(' ').any(|x| x == copy.to_string());
+        cells.iter().filter(at_copy).count() == 1
+    }));
+}
+
+/// Parts that overlap, each of which has a hub, and implied pairs (theory, Examples 5.10 and 5.14).
+#[test]
+fn parts_that_overlap_are_written() {
+    for (graph6, rank) in [("M?YTD@OS@_E?H?E??", 138), ("O?IWqCO_K@K?W?GOCC@@?", 160)] {
+        let graph = graph6::decode(graph6.as_bytes()).unwrap();
+        let proof = proof_of(&graph, Question::default()).unwrap();
+        assert_eq!((proof.lower(), proof.upper()), (rank, rank));
+        assert_eq!(proof.components(), Some(graph.edges().len()));
+        let text = proof.to_string();
+        let words = ["block", "other", "hub", "shared"];
+        assert!(
+            words
+                .iter()
+                .all(|word| text.contains(&format!("\n{word} "))),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn what_has_no_proof_yet_is_refused_by_name() {
     let pair = Graph::new(2, [(0, 1)]).unwrap();
     assert_eq!(
         proof_of(&pair, Model::Affine.into()).unwrap_err(),

@@ -1,5 +1,6 @@
 //! A proof as data and as text.
 
+use super::upper::{Block, Blocks};
 use std::fmt;
 
 /// An explicit proof: bounds for the generic rank, and why they hold.
@@ -12,7 +13,7 @@ pub struct Proof {
     /// The last one has the rank `lower`; all before are rigid.
     pub(super) bodies: Vec<Listed>,
     /// Pairs in none of them are blocks by themselves.
-    pub(super) blocks: Vec<Vec<u32>>,
+    pub(super) blocks: Blocks,
     pub(super) components: Option<Components>,
 }
 
@@ -34,6 +35,8 @@ pub(super) enum Step {
         ends: Vec<usize>,
         frame: Listed,
         motion: Vec<u32>,
+        /// Components in none of them are blocks by themselves.
+        blocks: Box<Blocks>,
     },
 }
 
@@ -119,9 +122,7 @@ impl fmt::Display for Proof {
         for body in &self.bodies {
             write!(f, "body {body}")?;
         }
-        self.blocks
-            .iter()
-            .try_for_each(|block| numbers(f, "block", block))?;
+        write!(f, "{}", self.blocks)?;
         if let Some(Components { bodies, steps }) = &self.components {
             numbers(f, "components", bodies)?;
             steps.iter().try_for_each(|step| write!(f, "{step}"))?;
@@ -138,6 +139,7 @@ impl fmt::Display for Step {
                 ends,
                 frame,
                 motion,
+                blocks,
             } => {
                 numbers(f, "apart", ends)?;
                 write!(f, "{frame}")?;
@@ -145,9 +147,40 @@ impl fmt::Display for Step {
                     let node: Vec<String> = node.iter().map(u32::to_string).collect();
                     writeln!(f, "{}", node.join(" "))?;
                 }
-                Ok(())
+                write!(f, "{blocks}")
             }
         }
+    }
+}
+
+impl fmt::Display for Blocks {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter<'_>, word, blocks: &[Block]| {
+            blocks.iter().try_for_each(|block| {
+                numbers(f, word, &block.nodes)?;
+                write!(f, "{block}")
+            })
+        };
+        list(f, "block", &self.first)?;
+        list(f, "other", &self.second)?;
+        match &self.shared {
+            Some(body) => write!(f, "shared {body}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The hub of a block, if it has one, behind its nodes.
+impl fmt::Display for Block {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(split) = &self.split else {
+            return Ok(());
+        };
+        writeln!(f, "hub {} {}", split.copies, split.cells.len())?;
+        split.cells.iter().try_for_each(|cell| {
+            let cell: Vec<String> = cell.iter().map(u32::to_string).collect();
+            writeln!(f, "{} {}", cell.len(), cell.join(" "))
+        })
     }
 }
 
