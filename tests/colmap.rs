@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use common::schema::keeps_to;
 use common::{Run, verify, verify_with};
 use rusqlite::{Connection, params};
 use serde_json::{Value, json};
@@ -1186,6 +1187,67 @@ fn rigs_hold_parts_together() {
     let second =
         common::second_checker(&[text(&certificate), text(&graph), "--given", text(&given)]);
     assert_eq!(second.code, 0, "{}", second.err);
+}
+
+/// Joints and suggestions speak of frames, and so does what is foreseen of mappers.
+#[test]
+fn advice_speaks_of_frames() {
+    let overview = |made: &Made| {
+        let run = verify(&[&["overview", text(&made.path()), "--json"], &OF_TWO[1..]].concat());
+        keeps_to("overview", &run, &["joints", "suggestions"]).remove(0)
+    };
+    let whole = overview(&stereo(Some([0.5, 0.0, 0.0])));
+    assert_eq!(whole["determined"], true);
+    assert_eq!(whole["mappers"]["global"]["frames"], 2);
+    assert_eq!(whole["suggestions"], json!([]));
+    // One frame leads from the left images to the right ones.
+    let one = stereo(Some([0.5, 0.0, 0.0]));
+    let gone = "delete from frame_data where frame_id = 2; delete from frames where frame_id = 2";
+    one.connection.execute_batch(gone).unwrap();
+    let found = overview(&one);
+    let joint = &found["joints"][0];
+    assert_eq!(
+        (&joint["how"], &joint["images"], &joint["meaning"]),
+        (
+            &json!("1 frame"),
+            &json!(["l1", "r1"]),
+            &json!("the scale of each")
+        )
+    );
+    // Two parts have 8 - 3 degrees of freedom; the frame takes three, and one observation the other two.
+    let suggestions = found["suggestions"].as_array().unwrap();
+    assert!(!suggestions.is_empty());
+    for one in suggestions {
+        assert_eq!(
+            (&one["frames"], &one["images"]),
+            (&json!(1), &json!(4)),
+            "{one}"
+        );
+        assert_eq!(
+            one["enough"]["observations"].as_array().unwrap().len(),
+            1,
+            "{one}"
+        );
+        assert_ne!(one["pairs"], json!([["l1", "r1"]]));
+    }
+    let told = verify(&[&["advise", text(&one.path())], &OF_TWO[..]].concat()).out;
+    assert!(
+        told.contains("1 frame, r1 l1; free: the scale of each"),
+        "{told}"
+    );
+    assert!(
+        told.contains("joins components 1, 2 and 1 frame, 4 images"),
+        "{told}"
+    );
+    // Sensors at one place are one camera, and two images for a mapper.
+    let found = overview(&stereo(Some([0.0; 3])));
+    assert_eq!(
+        (&found["mappers"]["global"]["of"], &found["of"]),
+        (&json!(4), &json!(2))
+    );
+    let unknown = overview(&stereo(None));
+    assert_eq!(unknown["mappers"]["incremental"]["refused"], true);
+    assert_eq!(unknown["mappers"]["incremental"]["models"], json!([]));
 }
 
 /// Images of one place are one camera; a place that is not known is said; nonsense is refused.
