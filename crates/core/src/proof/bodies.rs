@@ -4,7 +4,7 @@
 use super::Unproved;
 use super::core::eliminate;
 use super::eliminated::Eliminated;
-use super::text::{Listed, Reason};
+use super::listed::{Listed, Reason};
 use crate::contract::{Contraction, Members, Merge, Part, Seed};
 use crate::graph::Graph;
 use std::collections::{BTreeMap, HashSet};

@@ -7,7 +7,8 @@
 //! components count as much.
 
 use super::bodies::{Record, Set, of_sets_told_apart};
-use super::text::{Components, Reason, Step};
+use super::listed::Reason;
+use super::text::{Components, Step};
 use super::upper::{self, Blocks};
 use super::{Unproved, required};
 use crate::contract::Body;

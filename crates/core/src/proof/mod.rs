@@ -9,6 +9,7 @@ mod components;
 mod core;
 mod eliminated;
 mod flows;
+mod listed;
 mod text;
 mod upper;
 

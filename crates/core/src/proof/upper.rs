@@ -6,7 +6,7 @@
 //! smallest sum over partitions is submodular in the pairs, and grows with them.
 
 use super::bodies::{Set, of_sets};
-use super::text::Listed;
+use super::listed::Listed;
 use super::{Unproved, required};
 use crate::contract::Body;
 use crate::contract::piece::Members;

@@ -1,0 +1,26 @@
+//! A body as a proof lists it: core, rows or flows, and joins, with why each pair may be used.
+
+/// Why a pair of nodes may be used: 0 if it is a pair of the graph, k + 1 if body k of the proof
+/// holds both.
+pub(super) type Reason = u32;
+
+/// A body, node after node.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Listed {
+    /// The nodes it begins with, and their centres modulo 65521.
+    pub(super) core: Vec<(u32, [u32; 3])>,
+    /// Pairs of core nodes, the rows of J_P that are used, and why.
+    pub(super) rows: Vec<(u32, u32, u32, Reason)>,
+    /// Flows, each with two weights for every row, if the core has its rank by these.
+    pub(super) flows: Vec<Vec<[u32; 2]>>,
+    /// The nodes behind the core, each with at most two before it.
+    pub(super) joins: Vec<(u32, Vec<(u32, Reason)>)>,
+}
+
+impl Listed {
+    /// Its nodes in order.
+    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        let core = self.core.iter().map(|&(v, _)| v);
+        core.chain(self.joins.iter().map(|&(v, _)| v))
+    }
+}
