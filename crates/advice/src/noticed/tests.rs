@@ -146,7 +146,12 @@ fn one_stress_of_a_flexible_graph() {
     // And a pair that hangs on it.
     let graph = Graph::new(10, pairs.into_iter().chain([(8, 9)])).unwrap();
     let verdict = verdict(&graph, Model::Projective);
-    let found = surplus(&graph, &verdict, &options(Model::Projective)).unwrap();
+    let options = options(Model::Projective);
+    // Only a hub shows that the rank of the group is 83.
+    let groups = viewcert::decide::groups(&graph, &verdict, &options);
+    let groups = groups.unwrap().unwrap();
+    assert_eq!((groups.count, groups.strength), (2, Strength::Proof));
+    let found = surplus(&graph, &verdict, &options).unwrap();
     let ones = found.iter().filter(|one| one.surplus == 1);
     assert_eq!(ones.count(), 12);
     assert_eq!(

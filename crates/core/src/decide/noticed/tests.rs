@@ -11,7 +11,7 @@ use crate::geometry::jacobian::{dense, jacobian};
 use crate::geometry::model::Model;
 use crate::geometry::plane_direction::direction_rows;
 use crate::geometry::plane_flow::rigidity_rows;
-use crate::graph::Graph;
+use crate::graph::{Graph, graph6};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::textbook;
@@ -224,4 +224,22 @@ fn groups_of_hinged_parts() {
     assert_eq!(count(3, 4, Model::Affine), 3);
     assert_eq!(count(3, 3, Model::Projective), 1);
     assert_eq!(count(3, 4, Model::Projective), 1);
+}
+
+/// The graph of Example 5.14: the diagonals of its 4-cycle 3-5-4-6 are implied, and nothing else.
+#[test]
+fn the_diagonals_of_a_cycle_are_implied() {
+    let graph = graph6::decode(b"O?IWqCO_K@K?W?GOCC@@?").unwrap();
+    let verdict = decide(&graph, &options(Model::Projective)).unwrap();
+    let found = closure(&graph, &verdict, &options(Model::Projective)).unwrap();
+    let implied: Pairs = found.implied(&graph).collect();
+    assert_eq!(implied, [(3, 4), (5, 6)]);
+    assert_eq!(found.sets, [vec![3, 4, 5, 6]]);
+    assert_eq!(found.complete, Strength::Proof);
+    // With the diagonals the 4-cycle is a body, and the searches for a bound see less.
+    assert!(found.implied.error_log2().is_none_or(|e| e <= -100));
+    // One stress, which vanishes at no pair: all check each other, each in one equation.
+    let found = groups(&graph, &verdict, &options(Model::Projective)).unwrap();
+    let found = found.unwrap();
+    assert_eq!((found.count, found.strength), (1, Strength::Proof));
 }
