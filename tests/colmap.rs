@@ -1242,8 +1242,12 @@ fn advice_speaks_of_frames() {
     // Sensors at one place are one camera, and two images for a mapper.
     let found = overview(&stereo(Some([0.0; 3])));
     assert_eq!(
-        (&found["mappers"]["global"]["of"], &found["of"]),
-        (&json!(4), &json!(2))
+        (
+            &found["mappers"]["global"]["of"],
+            &found["of"],
+            &found["parts"][0]["images"]
+        ),
+        (&json!(4), &json!(4), &json!(4))
     );
     let unknown = overview(&stereo(None));
     assert_eq!(unknown["mappers"]["incremental"]["refused"], true);

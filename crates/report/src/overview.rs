@@ -67,6 +67,9 @@ pub struct Wanted {
     images: Vec<u32>,
     /// How many there are together, with a pair or without.
     all: u32,
+    /// The same two numbers in images, of which several may be one camera.
+    count: usize,
+    of: usize,
 }
 
 /// A command, and what it tells.
@@ -82,9 +85,13 @@ impl Wanted {
     /// Those of a graph. O(nodes + edges).
     pub fn of(input: &NamedGraph) -> Self {
         if let Some(cameras) = input.cameras {
+            let images: Vec<u32> = (0..cameras).collect();
+            let count = part_names::images(input, &images);
             return Self {
-                images: (0..cameras).collect(),
+                images,
                 all: cameras,
+                count,
+                of: count,
             };
         }
         let mut paired = vec![false; input.graph.nodes()];
@@ -93,23 +100,21 @@ impl Wanted {
             paired[j as usize] = true;
         }
         let nodes = (0..).zip(paired);
+        let images = nodes.filter_map(|(v, paired)| paired.then_some(v));
+        let images: Vec<u32> = images.collect();
         Self {
-            images: nodes
-                .filter_map(|(v, paired)| paired.then_some(v))
-                .collect(),
+            count: images.len(),
+            of: input.graph.nodes(),
+            images,
             all: input.graph.nodes() as u32,
         }
     }
 
     /// "15 images", "15 of 16 images".
     fn words(&self) -> String {
-        match self.images.len() == self.all as usize {
-            true => counted(self.images.len(), "image"),
-            false => format!(
-                "{} of {}",
-                self.images.len(),
-                counted(self.all as usize, "image")
-            ),
+        match self.count == self.of {
+            true => counted(self.count, "image"),
+            false => format!("{} of {}", self.count, counted(self.of, "image")),
         }
     }
 }
@@ -121,8 +126,10 @@ pub struct Parts {
     pub whole: bool,
     /// With how many images a component is a part.
     least: usize,
-    /// The images of each, falling.
+    /// The images of each, falling; of images that are one camera this.
     images: Vec<Vec<u32>>,
+    /// How many images each has.
+    sizes: Vec<usize>,
     /// Pairs that are components by themselves.
     single_pairs: usize,
     /// How many of the wanted images are in no part.
@@ -155,14 +162,16 @@ impl Parts {
         images.sort_by_key(|part| std::cmp::Reverse(part.len()));
         let mut inside: Vec<u32> = images.iter().flatten().copied().collect();
         inside.sort_unstable();
-        let outside = wanted
-            .images
-            .iter()
-            .filter(|v| inside.binary_search(v).is_err());
+        let outside = wanted.images.iter().copied();
+        let outside: Vec<u32> = outside
+            .filter(|v| inside.binary_search(v).is_err())
+            .collect();
+        let count = |some: &[u32]| part_names::images(report.input, some);
         Self {
             whole,
             least,
-            outside: outside.count(),
+            outside: count(&outside),
+            sizes: images.iter().map(|part| count(part)).collect(),
             images,
             single_pairs: pairs,
         }
@@ -170,7 +179,7 @@ impl Parts {
 
     /// "2 parts (6, 6 images)", and what is in none of them.
     fn words(&self) -> String {
-        let sizes = self.images.iter().map(Vec::len);
+        let sizes = self.sizes.iter();
         let mut shown: Vec<String> = sizes.take(SHOWN).map(|size| size.to_string()).collect();
         if self.images.len() > SHOWN {
             shown.push(format!("{} more", self.images.len() - SHOWN));
@@ -424,10 +433,8 @@ impl Overview<'_> {
     /// The names of images.
     fn named(&self, images: &[u32]) -> Vec<String> {
         let input = self.decisive().map(|report| report.input);
-        let names = images.iter().zip(std::iter::repeat(input));
-        names
-            .filter_map(|(&image, input)| Some(input?.labels.label(image).into_owned()))
-            .collect()
+        let names = input.map(|input| part_names::names(input, images));
+        names.unwrap_or_default()
     }
 
     fn write_joints(&self, out: &mut impl Write) -> io::Result<()> {
@@ -467,7 +474,7 @@ impl Overview<'_> {
             let graph = &projective.input.graph;
             PairLine {
                 images: graph.nodes(),
-                images_with_pair: self.wanted.images.len(),
+                images_with_pair: self.wanted.count,
                 pairs: graph.edges().len(),
                 projective: AnswerLine::from(projective),
                 calibrated: AnswerLine::from(calibrated),
@@ -501,8 +508,8 @@ impl Overview<'_> {
             } else {
                 "pairs"
             },
-            images: self.wanted.images.len(),
-            of: self.wanted.all as usize,
+            images: self.wanted.count,
+            of: self.wanted.of,
             parts: match (self.parts(), self.decisive()) {
                 (Some(parts), Some(report)) => part_names::parts(report.input, &parts.images),
                 _ => Vec::new(),

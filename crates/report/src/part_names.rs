@@ -17,6 +17,27 @@ pub(crate) struct PartLine {
     last: String,
 }
 
+/// The names of all images of some cameras: images of a frame at one place are one camera.
+pub(crate) fn names(input: &NamedGraph, cameras: &[u32]) -> Vec<String> {
+    let together = input.frames.as_ref().map(|frames| &frames.together);
+    let all = cameras.iter().flat_map(|camera| {
+        let others = together.and_then(|together| together.get(camera));
+        let others = others.into_iter().flatten().map(ToString::to_string);
+        std::iter::once(input.labels.label(*camera).into_owned()).chain(others)
+    });
+    all.collect()
+}
+
+/// How many images some cameras are.
+pub(crate) fn images(input: &NamedGraph, cameras: &[u32]) -> usize {
+    let together = input.frames.as_ref().map(|frames| &frames.together);
+    let others = |camera| Some(together?.get(camera)?.len());
+    cameras
+        .iter()
+        .map(|camera| 1 + others(camera).unwrap_or(0))
+        .sum()
+}
+
 /// The parts, whose images are increasing.
 pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
     let name = |image: u32| input.labels.label(image).into_owned();
@@ -24,7 +45,7 @@ pub(crate) fn parts(input: &NamedGraph, parts: &[Vec<u32>]) -> Vec<PartLine> {
         .iter()
         .filter_map(|images| Some((images, *images.first()?, *images.last()?)));
     ends.map(|(images, first, last)| PartLine {
-        images: images.len(),
+        images: self::images(input, images),
         first: name(first),
         last: name(last),
     })
