@@ -56,7 +56,10 @@ pub(crate) fn read(name: &str, path: &Path, options: &ReadOptions) -> Result<Nam
             notes.extend(database.other_mapper());
             let mut graph = NamedGraph {
                 matching: Some(match &graph.frames {
-                    Some(frames) => of_cameras(database.between_cameras(&pairs, matching), frames),
+                    Some(frames) => {
+                        let known = database.between_cameras(&pairs, matching);
+                        of_cameras(known, |image| frames.camera_of(image))
+                    }
                     None => database.between_cameras(&pairs, matching),
                 }),
                 ..graph
@@ -438,19 +441,31 @@ fn positions_not_used(name: &str, positions: usize) -> Option<String> {
     })
 }
 
-/// What is known of pairs of images, for cameras that may stand for several: of two cameras the pair
-/// with most inliers.
-fn of_cameras(matching: Matching, frames: &Frames) -> Matching {
+/// What is known of images and their pairs, for cameras that may stand for several: of two cameras the
+/// pair with most inliers, of a camera the first position.
+pub(super) fn of_cameras(matching: Matching, camera_of: impl Fn(u32) -> u32) -> Matching {
     let mut others = matching.others;
     for pair in &mut others {
         let (a, b) = pair.images;
-        let (a, b) = (frames.camera_of(a), frames.camera_of(b));
+        let (a, b) = (camera_of(a), camera_of(b));
         pair.images = (a.min(b), a.max(b));
     }
     others.retain(|pair| pair.images.0 != pair.images.1);
     others.sort_unstable_by_key(|pair| (pair.images, std::cmp::Reverse(pair.inliers)));
     others.dedup_by_key(|pair| pair.images);
-    Matching { others, ..matching }
+    let images = (0..).zip(&matching.positions);
+    let of_images = images.map(|(image, &place)| (camera_of(image) as usize, place));
+    let of_images: Vec<_> = of_images.collect();
+    let count = of_images.iter().map(|&(camera, _)| camera + 1).max();
+    let mut positions = vec![None; count.unwrap_or(0)];
+    for (camera, place) in of_images {
+        positions[camera] = positions[camera].or(place);
+    }
+    Matching {
+        others,
+        positions,
+        ..matching
+    }
 }
 
 /// How many rigs have sensors besides their reference sensor.

@@ -1,4 +1,4 @@
-use super::database::bins;
+use super::database::{bins, of_cameras};
 use crate::{Matching, NamedGraph, OtherPair, ReadError, ReadOptions, read_graphs};
 use rusqlite::Connection;
 use viewcert::graph::Labels;
@@ -83,4 +83,25 @@ fn bins_hold_every_number_once() {
             (960, None, 2)
         ]
     );
+}
+
+/// Images 0 and 1 are one camera, image 2 is the other.
+#[test]
+fn cameras_have_the_pairs_and_positions_of_their_images() {
+    let pair = |images, inliers| OtherPair {
+        images,
+        inliers,
+        matches: None,
+        verified: true,
+        used: true,
+    };
+    let matching = Matching {
+        others: vec![pair((0, 1), 50), pair((0, 2), 7), pair((1, 2), 9)],
+        positions: vec![None, Some([1.0, 2.0, 3.0]), Some([4.0, 5.0, 6.0])],
+        ..Matching::default()
+    };
+    let found = of_cameras(matching, |image| [0, 0, 1][image as usize]);
+    assert_eq!(found.others, [pair((0, 1), 9)]);
+    let positions = [Some([1.0, 2.0, 3.0]), Some([4.0, 5.0, 6.0])];
+    assert_eq!(found.positions, positions);
 }
