@@ -126,3 +126,24 @@ fn contradictions_are_refused() {
     };
     assert!(bad(flat).contains("no length"));
 }
+
+/// Sensors at one place are one; cameras have the numbers of the graph, in which their images are one.
+#[test]
+fn frames_of_rigs_with_a_place_that_is_not_known() {
+    let rigs = rig(&[Some(REFERENCE), Some(REFERENCE), None]);
+    let frames = [
+        frame(1, &[(0, 1), (1, 2), (2, 3)]),
+        frame(2, &[(3, 2), (4, 3)]),
+        frame(3, &[(5, 3)]),
+    ];
+    let names = names(6);
+    let mut read = read(&rigs, &frames, &names).unwrap();
+    read.number_anew(&names).unwrap();
+    let linked = [vec![(0, 0), (1, 1)], vec![(2, 0), (3, 1)]];
+    let expected = RigFrames::new(linked, vec![true, false]).unwrap();
+    assert_eq!(read.rig_frames(), expected);
+    // Where all places are known nothing is unknown.
+    let rigs = rig(&[Some(REFERENCE), at(1.0, 0.0, 0.0)]);
+    let read = super::read(&rigs, &[frame(1, &[(0, 1), (1, 2)])], &names).unwrap();
+    assert!(read.rig_frames().is_empty());
+}
