@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compiles the proofs, extracts the checker, builds it and tests it: proofs/build/viewcert-proved.
+# Compiles the proofs, extracts the checker, builds it and tests it: proofs/build/viewcert-proved, and the same as a page,
+# proofs/build/viewcert-proved.html, where js_of_ocaml is.
 # Installs Debian's packages where they are missing; says SKIPPED, and ends with 0, where there are none (with 1 if
 # VIEWCERT_REQUIRE_DATA=1).
 set -euo pipefail
@@ -53,6 +54,29 @@ echo "-- building"
 cp ../program/*.ml .
 sources=(natural.ml checker.mli checker.ml sha256.ml graph.ml proof.ml main.ml)
 ocamlfind ocamlopt -w -a "${sources[@]}" -o viewcert-proved
+
+echo "-- building the page, of the same extraction"
+rm -f viewcert-proved.html
+command -v js_of_ocaml >/dev/null || { apt-get update -qq && apt-get install -y -qq --no-install-recommends js-of-ocaml >/dev/null; } || true
+if command -v js_of_ocaml >/dev/null; then
+    mkdir -p js
+    cp "${sources[@]}" js
+    cp ../browser/natural.ml js
+    (
+        cd js
+        ocamlfind ocamlc -w -a "${sources[@]}" -o proved.byte
+        # it warns that 0xffffffff is -1 in 32 bits, as sha256.ml has it
+        js_of_ocaml proved.byte -o proved.js 2>warnings || { cat warnings; exit 1; }
+    )
+    python3 - ../browser/page.html js/proved.js >viewcert-proved.html <<'END'
+import sys
+page, program = (open(path, encoding="utf-8").read() for path in sys.argv[1:])
+assert "</script" not in program and "<!--" not in program and page.count("PROGRAM") == 1
+print(page.replace("PROGRAM", program), end="")
+END
+else
+    absent "js_of_ocaml is not installed, so there is no page"
+fi
 cd ..
 
 echo "-- testing"
@@ -66,6 +90,13 @@ if [ -x "$verify" ] && [ -x "$checker" ]; then
     if [ -d "$data" ]; then more+=(--data "$data"); else absent "the published data are not at $data"; fi
 else
     absent "verify and viewcert-check are not built, so neither published graphs nor the other checkers are tested"
+fi
+if [ -e build/viewcert-proved.html ]; then
+    if command -v chromium >/dev/null; then
+        more+=(--page build/viewcert-proved.html)
+    else
+        absent "Chromium is not installed, so the page is not tested"
+    fi
 fi
 python3 tests.py build/viewcert-proved "${more[@]}" --mutants "${MUTANTS:-300}"
 

@@ -10,6 +10,7 @@ import argparse
 import csv
 import gzip
 import hashlib
+import html
 import itertools
 import json
 import os
@@ -80,6 +81,7 @@ class Program:
         self.path = path
         self.folder = tempfile.TemporaryDirectory()
         self.place = pathlib.Path(self.folder.name)
+        self.seen = []
 
     def list(self, path):
         run = subprocess.run([self.path, "--list", path], capture_output=True, text=True)
@@ -90,6 +92,7 @@ class Program:
         for file, text in zip(files, (graph, proof)):
             file.write_bytes(text if isinstance(text, bytes) else text.encode())
         run = subprocess.run([self.path, *files], capture_output=True, timeout=60)
+        self.seen.append((*(file.read_bytes() for file in files), run))
         return run.returncode, run.stdout.decode(errors="replace"), run.stderr.decode(errors="replace")
 
 
@@ -614,6 +617,39 @@ def mutants(program, base, count, draw, checkers):
     assert accepted[0] and accepted[1] and accepted[2]
 
 
+def browser(program, page, name):
+    """The page says of all files that were tried what the program said, word for word, in one run of the browser."""
+    seen = [(graph, proof, run) for graph, proof, run in program.seen if len(graph) < 10**6]
+    codes = [run.returncode for _, _, run in seen]
+    assert all(codes.count(code) > 20 for code in (0, 1, 2)), codes
+    # n first + second reaches 2^32 with 65,537 nodes, and does not with 65,535
+    limits = []
+    for nodes, verdict in ((65535, 0), (65537, 3)):
+        pairs = text_of((v, v + 1) for v in range(nodes - 1))
+        proof = f"viewcert proof 1\ngraph {nodes} {nodes - 1}\nclaim 0 {7 * (nodes - 1)}\nend\n"
+        assert program.run(pairs, proof)[0] == 0
+        limits.append((pairs, proof, verdict))
+    text = [[file.decode("latin-1") for file in files] for *files, _ in seen] + [files[:2] for files in limits]
+    tried = f"<script>document.body.textContent = JSON.stringify({json.dumps(text).replace('<', chr(92) + 'u003c')}.map((x) => check(...x)).map(({{ code, out, err }}) => [code, out, err]))</script>"
+    file = program.place / "tried.html"
+    file.write_text(page.read_text() + tried)
+    arguments = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--dump-dom", f"--user-data-dir={program.place}/profile"]
+    start = time.time()
+    done = subprocess.run([name, *arguments, file.as_uri()], capture_output=True, text=True, timeout=300)
+    dom = html.unescape(re.search(r"<body>(.*)</body>", done.stdout, re.S)[1])
+    answers = json.loads(dom)
+    assert len(answers) == len(text) > 150
+    for (_, _, verdict), (code, out, err) in zip(limits, answers[len(seen) :]):
+        assert code == verdict and ("VERIFIED" in out) == (code == 0) and ("too large for this machine" in err) == (code == 3), (code, out, err)
+    where = {str(program.place / file).encode(): file[:-4].encode() for file in ("graph.txt", "proof.txt")}
+    for (graph, proof, run), (code, *said) in zip(seen, answers):
+        expected = [run.stdout, run.stderr]
+        for path, word in where.items():
+            expected = [text.replace(path, word) for text in expected]
+        assert (code, said) == (run.returncode, [text.decode("latin-1") for text in expected]), (graph, proof, code, said, run)
+    print(f"browser: {len(seen)} answers as those of the program, {time.time() - start:.1f} s")
+
+
 def mutate(text, draw):
     words = re.split(r"(\s)", text)
     numbers = [k for k, word in enumerate(words) if word.isdigit()]
@@ -640,6 +676,8 @@ def main():
     parser.add_argument("--catalog", metavar="PROVE")
     parser.add_argument("--checkers", nargs=2, metavar=("VERIFY", "CHECK"))
     parser.add_argument("--data", metavar="FOLDER", type=pathlib.Path)
+    parser.add_argument("--page", metavar="FILE", type=pathlib.Path, help="the page that the browser is tried with")
+    parser.add_argument("--browser", default="chromium")
     parser.add_argument("--mutants", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     asked = parser.parse_args()
@@ -657,6 +695,8 @@ def main():
     if asked.data:
         published(program, asked.checkers[0], asked.data)
     mutants(program, base, asked.mutants, draw, asked.checkers)
+    if asked.page:
+        browser(program, asked.page, asked.browser)
 
 
 if __name__ == "__main__":
