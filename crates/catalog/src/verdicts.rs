@@ -293,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Contraction needs a sum of its rules' surpluses; where it has one, `decide` looks.
+    /// Contraction needs a sum of its rules' slacks; where it has one, `decide` looks.
     #[test]
     fn sizes_at_which_graphs_contract() {
         let sizes = (4..=16).filter(|&nodes| may_contract(nodes, least_edges(nodes)));

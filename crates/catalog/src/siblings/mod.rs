@@ -2,11 +2,11 @@
 //!
 //! For each of them either N and Lambda have full rank modulo a prime, and it is finite solvable
 //! (`flows`), or a partition bounds the rank below what is required, and it is not
-//! (`surplus`): both are proofs. The few that remain, which take a hub, say, are
+//! (`slack`): both are proofs. The few that remain, which take a hub, say, are
 //! for [`decide`](viewcert::decide::decide).
 
 mod flows;
-mod surplus;
+mod slack;
 
 use super::multigraph::Multigraph;
 use super::subdivide::Subdivision;
@@ -14,7 +14,7 @@ use flows::PlaneFlows;
 use rand::SeedableRng;
 use rand_chacha::ChaCha12Rng;
 use sha2::{Digest, Sha256};
-use surplus::Blocks;
+use slack::Blocks;
 
 /// What is proved about one subdivision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

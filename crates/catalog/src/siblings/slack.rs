@@ -1,10 +1,10 @@
 //! Refutations by counting, for all subdivisions of a kernel at once.
 //!
 //! A block of a partition that has n_B nodes and m_B edges lowers the bound of Theorem 5.1 (theory)
-//! by its *surplus* 7 m_B - (11 n_B - 15), if that is positive; a graph with 7 m - (11 n - 15) = e is
-//! refuted as soon as blocks without common edges have a surplus of more than e in all. A block
+//! by its *slack* 7 m_B - (11 n_B - 15), if that is positive; a graph with 7 m - (11 n - 15) = e is
+//! refuted as soon as blocks without common edges have a slack of more than e in all. A block
 //! worth looking at is induced by some nodes of the kernel, together with the inner nodes of the
-//! subdivided edges among them: an inner node adds 14 - 11 - 7 = -4 to the surplus of the kernel's
+//! subdivided edges among them: an inner node adds 14 - 11 - 7 = -4 to the slack of the kernel's
 //! edges.
 
 use super::super::multigraph::Multigraph;
@@ -15,15 +15,15 @@ use super::flows::MAX_EDGES;
 struct Block {
     /// The edges, as bits.
     edges: u32,
-    /// The surplus if none of them is subdivided.
-    surplus: i32,
+    /// The slack if none of them is subdivided.
+    slack: i32,
 }
 
 /// The blocks of a kernel.
 pub(super) struct Blocks {
     /// What the blocks must exceed.
     spare: i32,
-    /// Those with a positive surplus when nothing is subdivided that need not be. The ones that
+    /// Those with a positive slack when nothing is subdivided that need not be. The ones that
     /// refuted last come first.
     blocks: Vec<Block>,
 }
@@ -55,11 +55,11 @@ impl Blocks {
             let edges = all & !touched[(1 << nodes) - 1 - inside];
             let block = Block {
                 edges,
-                surplus: surplus(edges, inside.count_ones()),
+                slack: slack(edges, inside.count_ones()),
             };
             let dense = || {
                 let mut nodes = at.iter().enumerate().filter(|(v, _)| inside >> v & 1 == 1);
-                // Without a node of degree 1 or 0 the surplus is larger.
+                // Without a node of degree 1 or 0 the slack is larger.
                 nodes.all(|(_, at)| (at & edges).count_ones() >= 2)
             };
             if block.with(forced) > 0 && dense() {
@@ -90,37 +90,37 @@ impl Blocks {
             .iter()
             .map(|block| Block {
                 edges: block.edges,
-                surplus: block.with(subdivided),
+                slack: block.with(subdivided),
             })
-            .filter(|block| block.surplus > 0)
+            .filter(|block| block.slack > 0)
             .collect();
-        positive.sort_by_key(|block| -block.surplus);
+        positive.sort_by_key(|block| -block.slack);
         let left = positive.iter().fold(0, |all, block| all | block.edges);
         exceed(&positive, left, self.spare, &mut { STEPS })
     }
 }
 
 impl Block {
-    /// The surplus with these edges subdivided.
+    /// The slack with these edges subdivided.
     fn with(&self, subdivided: u32) -> i32 {
-        self.surplus - 4 * (self.edges & subdivided).count_ones() as i32
+        self.slack - 4 * (self.edges & subdivided).count_ones() as i32
     }
 }
 
-fn surplus(edges: u32, nodes: u32) -> i32 {
+fn slack(edges: u32, nodes: u32) -> i32 {
     7 * edges.count_ones() as i32 - 11 * nodes as i32 + 15
 }
 
 /// After so many blocks the search for several is given up.
 const STEPS: u32 = 1000;
 
-/// Whether some of the blocks, given by falling surplus, without common edges and within those that
+/// Whether some of the blocks, given by falling slack, without common edges and within those that
 /// are `left`, have more than `spare` in all. `steps` is how many more blocks may be looked at.
 fn exceed(blocks: &[Block], left: u32, spare: i32, steps: &mut u32) -> bool {
     // A block has three edges of the kernel at least, unless it is two or more parallel ones.
     let most = left.count_ones() as i32 / 2;
     for (k, block) in blocks.iter().enumerate() {
-        if *steps == 0 || most * block.surplus <= spare {
+        if *steps == 0 || most * block.slack <= spare {
             return false;
         }
         *steps -= 1;
@@ -128,7 +128,7 @@ fn exceed(blocks: &[Block], left: u32, spare: i32, steps: &mut u32) -> bool {
             continue;
         }
         let rest = left & !block.edges;
-        if block.surplus > spare || exceed(&blocks[k + 1..], rest, spare - block.surplus, steps) {
+        if block.slack > spare || exceed(&blocks[k + 1..], rest, spare - block.slack, steps) {
             return true;
         }
     }
@@ -149,7 +149,7 @@ mod tests {
             let disjoint = chosen.clone().try_fold(0, |all: u32, block| {
                 (all & block.edges == 0).then_some(all | block.edges)
             });
-            let sum: i32 = chosen.map(|block| block.surplus).sum();
+            let sum: i32 = chosen.map(|block| block.slack).sum();
             disjoint.is_some() && sum > spare
         })
     }
@@ -168,10 +168,10 @@ mod tests {
             let mut blocks: Vec<Block> = (0..next(9))
                 .map(|_| Block {
                     edges: (0..2 + next(4)).fold(0, |set, k| set | 0b11 << (2 * k) << next(8)),
-                    surplus: 1 + next(6) as i32,
+                    slack: 1 + next(6) as i32,
                 })
                 .collect();
-            blocks.sort_by_key(|block| -block.surplus);
+            blocks.sort_by_key(|block| -block.slack);
             let spare = next(14) as i32;
             let left = blocks.iter().fold(0, |all, block| all | block.edges);
             let expected = by_brute_force(&blocks, spare);
@@ -187,7 +187,7 @@ mod tests {
         let blocks: Vec<Block> = (0..1 << 12)
             .map(|k: u32| Block {
                 edges: k | 0b11 << 12,
-                surplus: 1,
+                slack: 1,
             })
             .collect();
         let mut steps = STEPS;
