@@ -527,7 +527,13 @@ def large(program, verify, draw):
         pairs |= {tuple(sorted(pair)) for pair in zip(nodes, nodes[1:] + nodes[:1])}
     torus = {tuple(sorted((24 * x + y, 24 * (x + a) % 576 + (y + b) % 24))) for x in range(24) for y in range(24) for a, b in ((0, 1), (1, 0))}
     cycle = {tuple(sorted((v, (v + 1) % 150))) for v in range(150)}
-    for name, edges, rank, word in (("random", pairs, 3285, "flows"), ("torus", torus, 6321, "body"), ("cycle", cycle, 1050, "flows 1\n0 0 0 0")):
+    # triangles in a row, closed to a ring by four pairs: components by a motion, one of them with most of the nodes
+    length = 200_000
+    strip = {(v, v + k) for v in range(length) for k in (1, 2) if v + k < length}
+    strip |= {(0, length), (length, length + 1), (length + 1, length + 2), (length - 1, length + 2)}
+    cases = [("random", pairs, 3285, "flows"), ("torus", torus, 6321, "body"), ("cycle", cycle, 1050, "flows 1\n0 0 0 0")]
+    cases.append(("strip", strip, 11 * length - 15 + 4 * 7, "components 5 "))
+    for name, edges, rank, word in cases:
         graph, proof = (folder / f"{name}.{end}" for end in ("txt", "proof"))
         graph.write_text(text_of(sorted(edges)))
         done = subprocess.run([verify, graph, "--proof", proof], capture_output=True, text=True)
@@ -535,7 +541,7 @@ def large(program, verify, draw):
         code, out, err = program.run(graph.read_text(), proof.read_text())
         assert code == 0 and f"the generic rank of J is {rank}" in out, (name, out[:400], err)
     both(program, verify, folder)
-    print("large cores: 300 nodes by flows, a torus of 576 by bodies of full rank, a cycle of 150")
+    print("large cores: 300 nodes by flows, a torus of 576 by bodies of full rank, a cycle of 150; 200,000 nodes in a row and back")
 
 
 def both(program, verify, folder):

@@ -317,8 +317,12 @@ let apart reader lo hi ends nodes =
   ignore (List.fold_left mark lo ends);
   (* positions of a component's core nodes, in the core and in it *)
   let core_of k =
-    List.filter (fun (q, _) -> q < frame.core_size)
-      (List.mapi (fun s v -> (Table.find position v, s)) (Array.to_list (nodes k)))
+    let nodes = nodes k and core = ref [] in
+    for s = Array.length nodes - 1 downto 0 do
+      let q = Table.find position nodes.(s) in
+      if q < frame.core_size then core := (q, s) :: !core
+    done;
+    !core
   in
   let tells (i, _) (j, _) =
     not (Checker.solved Checker.the_prime frame.centre (fun c -> motion.(c)) i j Checker.entries10)

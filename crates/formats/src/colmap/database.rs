@@ -12,7 +12,7 @@ use super::tables::{NoPair, columns, ends, images, verified_table};
 use super::tracks;
 use super::{Bin, ConfigCount, DEFAULT_MIN_INLIERS, DatabaseError, DatabaseFacts, Pipeline};
 use crate::error::{Fault, Place};
-use crate::{Frames, Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
+use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadOptions};
 use viewcert::graph::{Graph, Labels, UnionFind};
 use viewcert::wording::counted;
 
