@@ -189,23 +189,12 @@ fn printed_commands_reconstruct_what_is_exported() {
     };
     let folder = tempfile::tempdir().unwrap();
     clusters(&python, folder.path());
-    std::fs::create_dir(folder.path().join("images")).unwrap();
-    let export = ["export", "--tracks", "--json", "x.db", "it's out"];
-    let (code, out, err) = verify_in(folder.path(), &export);
-    assert_eq!(code, Some(1), "{err}");
-    let line: serde_json::Value = serde_json::from_str(&out).unwrap();
-    let parts = line["export"]["commands"].as_array().unwrap();
-    assert_eq!(parts.len(), 2);
+    let parts = exported(folder.path(), "x.db", "it's out");
     for (k, commands) in (1..).zip(parts) {
-        let commands: Vec<&str> = commands
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|command| command.as_str().unwrap())
-            .filter(|command| command.contains("pycolmap"))
-            .collect();
-        assert_eq!(commands.len(), 2, "one for each mapper");
-        for command in commands {
+        let commands = commands.iter();
+        let own: Vec<&String> = commands.filter(|text| text.contains("pycolmap")).collect();
+        assert_eq!(own.len(), 2, "one for each mapper");
+        for command in own {
             assert!(command.contains(" python3 -c "), "{command}");
             let command = command.replace(" python3 -c ", " \"$PYTHON\" -c ");
             let run = Command::new("sh")
@@ -223,6 +212,19 @@ fn printed_commands_reconstruct_what_is_exported() {
             std::fs::remove_dir_all(folder.path().join("sparse")).unwrap();
         }
     }
+}
+
+/// Exports the two parts of a database into a folder beside it; the commands for each.
+fn exported(folder: &Path, database: &str, to: &str) -> Vec<Vec<String>> {
+    std::fs::create_dir(folder.join("images")).unwrap();
+    let export = ["export", "--tracks", "--json", database, to];
+    let (code, out, err) = verify_in(folder, &export);
+    assert_eq!(code, Some(1), "{err}");
+    let line: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let parts: Vec<Vec<String>> =
+        serde_json::from_value(line["export"]["commands"].clone()).unwrap();
+    assert_eq!(parts.len(), 2);
+    parts
 }
 
 /// The images that a model has placed, a line each, sorted.
@@ -286,17 +288,10 @@ fn commands_for_version_3_8_run() {
         assert!(database.execute(&copy, []).unwrap() > 0, "{table}");
     }
     drop(database);
-    std::fs::create_dir(folder.path().join("images")).unwrap();
-    let export = ["export", "--tracks", "--json", "old.db", "out"];
-    let (code, out, err) = verify_in(folder.path(), &export);
-    assert_eq!(code, Some(1), "{err}");
-    let line: serde_json::Value = serde_json::from_str(&out).unwrap();
-    let parts = line["export"]["commands"].as_array().unwrap();
-    assert_eq!(parts.len(), 2);
+    let parts = exported(folder.path(), "old.db", "out");
     for (k, commands) in (1..).zip(parts) {
-        let commands = commands.as_array().unwrap().iter();
-        let commands = commands.map(|command| command.as_str().unwrap());
-        let own: Vec<&str> = commands
+        let commands = commands.iter();
+        let own: Vec<&String> = commands
             .filter(|text| text.contains("colmap mapper"))
             .collect();
         assert_eq!(own.len(), 1, "{own:?}");

@@ -299,13 +299,15 @@ impl Evidence {
 }
 
 any_members! {
-    prime: Option<Big<u64>>, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,
-    numerator: u64, denominator: u64, determinant: Option<Big<String>>,
-    kernel: Vec<Vec<Big<String>>>,
-    flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
-    blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
-    vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
-    first: Vec<Block>, second: Vec<Block>, shared: Split, added: Vec<Pair>,
+    Evidence {
+        prime: Option<Big<u64>>, seed: Big<u64>, draw: u64, rows: Vec<usize>, cols: Vec<usize>,
+        numerator: u64, denominator: u64, determinant: Option<Big<String>>,
+        kernel: Vec<Vec<Big<String>>>,
+        flows: usize, lambda_rows: Vec<usize>, lambda_cols: Vec<usize>,
+        blocks: Vec<Block>, bound: i64, count: u64, rank: i64, classes: Vec<Class>,
+        vector: Vec<Big<u64>>, start: Pair, steps: Vec<Vec<usize>>,
+        first: Vec<Block>, second: Vec<Block>, shared: Split, added: Vec<Pair>,
+    }
 }
 
 /// Takes a member that the kind has.
@@ -316,7 +318,7 @@ macro_rules! own {
 }
 
 impl AnyMembers {
-    fn into_evidence<E: Error>(mut self) -> Result<Evidence, E> {
+    fn into_value<E: Error>(mut self) -> Result<Evidence, E> {
         let kind: String = present(self.kind.take(), "kind")?;
         let evidence = match kind.as_str() {
             "minor" => Evidence::Minor(self.minor()?),
@@ -401,25 +403,5 @@ impl AnyMembers {
             lambda_rows: own!(self, lambda_rows),
             lambda_cols: own!(self, lambda_cols),
         })
-    }
-}
-
-impl Value for Evidence {
-    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct OfAnyKind;
-
-        impl<'de> Visitor<'de> for OfAnyKind {
-            type Value = Evidence;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Evidence, A::Error> {
-                AnyMembers::read(object)?.into_evidence()
-            }
-        }
-
-        from.deserialize_map(OfAnyKind)
     }
 }

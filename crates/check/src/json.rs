@@ -287,10 +287,10 @@ macro_rules! objects {
 }
 pub(crate) use objects;
 
-/// Declares the members that objects of any `kind` may have. A name has one type in all kinds, so that
-/// `kind` need not be the first member.
+/// Declares the members that objects of any `kind` may have, of which `into_value` makes a value. A name
+/// has one type in all kinds, so that `kind` need not be the first member.
 macro_rules! any_members {
-    ($($member:ident: $type:ty),* $(,)?) => {
+    ($name:ident { $($member:ident: $type:ty),* $(,)? }) => {
         #[derive(Default)]
         struct AnyMembers {
             kind: Option<String>,
@@ -318,6 +318,29 @@ macro_rules! any_members {
                     return Err($crate::json::unknown(stringify!($member)));
                 })*
                 Ok(())
+            }
+        }
+
+        impl $crate::json::Value for $name {
+            fn read<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+                struct OfAnyKind;
+
+                impl<'de> serde::de::Visitor<'de> for OfAnyKind {
+                    type Value = $name;
+
+                    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        f.write_str("an object")
+                    }
+
+                    fn visit_map<A: serde::de::MapAccess<'de>>(
+                        self,
+                        object: A,
+                    ) -> Result<$name, A::Error> {
+                        AnyMembers::read(object)?.into_value()
+                    }
+                }
+
+                from.deserialize_map(OfAnyKind)
             }
         }
     };

@@ -1,8 +1,7 @@
 //! The text of section 12 as typed values.
 
 use crate::json::{Big, Optional, Value, any_members, objects, present};
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
-use std::fmt;
+use serde::de::{Deserializer, Error};
 
 objects! {
     Solutions {
@@ -68,12 +67,14 @@ impl Step {
 }
 
 any_members! {
-    freed: Vec<usize>, settled: Vec<usize>, unknowns: Vec<usize>, bounds: Vec<usize>,
-    absent: Vec<Vec<usize>>, minors: Vec<Minor>,
+    Step {
+        freed: Vec<usize>, settled: Vec<usize>, unknowns: Vec<usize>, bounds: Vec<usize>,
+        absent: Vec<Vec<usize>>, minors: Vec<Minor>,
+    }
 }
 
 impl AnyMembers {
-    fn into_step<E: Error>(mut self) -> Result<Step, E> {
+    fn into_value<E: Error>(mut self) -> Result<Step, E> {
         let kind: String = present(self.kind.take(), "kind")?;
         let step = match kind.as_str() {
             "linear" => Step::Linear(Linear {
@@ -90,25 +91,5 @@ impl AnyMembers {
         };
         self.nothing_left()?;
         Ok(step)
-    }
-}
-
-impl Value for Step {
-    fn read<'de, D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        struct OfAnyKind;
-
-        impl<'de> Visitor<'de> for OfAnyKind {
-            type Value = Step;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, object: A) -> Result<Step, A::Error> {
-                AnyMembers::read(object)?.into_step()
-            }
-        }
-
-        from.deserialize_map(OfAnyKind)
     }
 }
