@@ -58,7 +58,7 @@ fn surplus_by_hand() {
         "  surplus     15 pairs checked by the rest in all 7 equations (proved)\n",
         "    5 pairs checked in 3 of 7\n",
         "    1 pair that nothing checks: an error there cannot be seen by anyone\n      a one\n",
-        "    2 groups of pairs that check each other and nothing else; the largest has 17 of 7 images\n",
+        "    2 groups of pairs that check each other and nothing else; the largest has 17 pairs of 7 images\n",
     ] {
         assert!(said.contains(line), "{line}{said}");
     }

@@ -80,28 +80,25 @@ fn groups(out: &mut impl Write, found: &GroupsOf, of: &str) -> io::Result<()> {
     } else {
         " (error bound)"
     };
-    let nodes = if of == "pairs" {
-        "image"
-    } else {
-        "camera and point"
-    };
     let groups = counted(found.count, "group");
-    let of_images = match of {
-        "pairs" => counted(largest.images, nodes),
-        _ => format!("{} cameras and points", largest.images),
+    let largest = match of {
+        "pairs" => format!("{} pairs of {} images", largest.pairs, largest.images),
+        _ => format!(
+            "{} observations of {} cameras and points",
+            largest.pairs, largest.images
+        ),
     };
     writeln!(
         out,
-        "    {groups} of {of} that check each other and nothing else{bound}; the largest has {} of {of_images}",
-        largest.pairs
+        "    {groups} of {of} that check each other and nothing else{bound}; the largest has {largest}",
     )
 }
 
 fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
     let lost = match (found.of, found.lost) {
-        (of, 2) => format!("two {of}"),
-        ("cameras and points", _) => "one camera or point".to_owned(),
-        (of, _) => format!("one {}", of.trim_end_matches('s')),
+        (of, 2) => format!("two {of} are"),
+        ("cameras and points", _) => "camera or point is".to_owned(),
+        (of, _) => format!("{} is", of.trim_end_matches('s')),
     };
     let broken = found.broken.len();
     let components = counted(found.stay + broken, "component");
@@ -114,12 +111,12 @@ fn redundant(out: &mut impl Write, found: &Redundant) -> io::Result<()> {
     if broken == 0 {
         return writeln!(
             out,
-            "  redundant   {components}: whole whichever {lost} are lost (proved)"
+            "  redundant   {components}: whole whichever {lost} lost (proved)"
         );
     }
     writeln!(
         out,
-        "  redundant   {} of {components} stay whole whichever {lost} are lost (proved)",
+        "  redundant   {} of {components} stay whole whichever {lost} lost (proved)",
         found.stay
     )?;
     for one in found.broken.iter().take(SHOWN) {

@@ -703,7 +703,7 @@
     const said = [`${counted(checked, edgeWord)} of ${grouped(report.graph.edges)} are checked by the rest in all ${full} equations.`,
       blind > 0 ? `${counted(blind, edgeWord)} are checked in none: an error there cannot be seen by anyone.` : "",
       groups && groups.count > 0
-        ? `${counted(groups.count, "group")} of ${of} check each other and nothing else; the largest has ${grouped(groups.larger[0].pairs)}.`
+        ? `${counted(groups.count, "group")} of ${of} check each other and nothing else; the largest has ${grouped(groups.larger[0].pairs)} of them.`
         : ""].filter(Boolean).join(" ");
     const pairOf = (item) => item.images.join(" – ");
     const strengthOf = (item) => told("strength", item.strength);
