@@ -59,6 +59,10 @@ class Suggestion:
         ``'not-verified'``, ``'not-tried'``, ``'few'``, ``'in-vain'`` or ``'used'``.
     why : tuple of str
         Why each pair is worth trying, in words: a guess.
+    frames : int
+        How many frames of rigs that no point holds to anything become part of it as well.
+    also : tuple of str
+        Further images at the places of the two, to be matched as well: of frames that are one camera.
     """
 
     pairs: Tuple[_Pair, ...]
@@ -70,6 +74,8 @@ class Suggestion:
     matches: Optional[Tuple[int, ...]]
     tried: Optional[Tuple[str, ...]]
     why: Tuple[str, ...]
+    frames: int = 0
+    also: Tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -385,6 +391,8 @@ def _suggestions(found: List[Dict[str, Any]], by_text: Dict[str, Node]) -> List[
             matches=_known(one["matches"]),
             tried=None if one["tried"] is None else tuple(one["tried"]),
             why=tuple(one["why"]),
+            frames=one.get("frames", 0),
+            also=tuple(one.get("also", ())),
         )
         for one in found
     ]
