@@ -54,6 +54,8 @@ mod whole_matrix;
 
 pub use base_lines::{RigFrames, SharedBaseLines};
 pub use claim::{Claim, Strength, UnknownStrength};
+#[cfg(test)]
+pub(crate) use counting::GAMMA;
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
 pub use evidence::{Block, Bound, Counting, Hub, Overlap, Shared, SharedPiece, Upper};

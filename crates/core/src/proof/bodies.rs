@@ -123,7 +123,7 @@ impl Frame {
         let node = |v: u32| self.core[v as usize];
         let rows = self.graph.edges().iter().zip(&self.reasons);
         Listed {
-            core: found.order.iter().map(|&(v, at)| (node(v), at)).collect(),
+            core: found.core(node),
             rows: rows
                 .zip(&found.masks)
                 .filter(|&(_, &mask)| mask != 0 || !found.flows.is_empty())
@@ -428,11 +428,7 @@ impl Record {
             (i, j, mask, whys[at.expect("one of the six")])
         };
         let why = self.push(Listed {
-            core: found
-                .order
-                .iter()
-                .map(|&(v, c)| (five[v as usize], c))
-                .collect(),
+            core: found.core(|v| five[v as usize]),
             rows: local.edges().iter().zip(&found.masks).map(row).collect(),
             ..Listed::default()
         });

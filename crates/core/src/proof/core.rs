@@ -27,22 +27,14 @@ pub(super) fn eliminate(
     }
     (0..TRIES).find_map(|seed| {
         let mut state = seed;
-        let centres: Vec<[u64; 3]> = order
-            .iter()
-            .map(|_| [(); 3].map(|()| next(&mut state)))
-            .collect();
+        let centres = place.iter().map(|_| [(); 3].map(|()| next(&mut state)));
+        let centres: Vec<[u64; 3]> = centres.collect();
         if graph.nodes() > SMALL_CORE {
-            let found = flows::eliminate(graph, &order, centres, rank, &mut state)?;
+            let found = flows::eliminate(graph, &place, centres, rank, &mut state)?;
             return accepts(&found).then_some(found);
         }
         let (masks, pivots) = independent(graph, &place, &centres, rank)?;
-        let small = |c: &[u64; 3]| c.map(|x| x as u32);
         let found = Eliminated {
-            order: order
-                .iter()
-                .copied()
-                .zip(centres.iter().map(small))
-                .collect(),
             masks,
             flows: Vec::new(),
             place: place.clone(),

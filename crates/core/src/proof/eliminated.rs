@@ -22,18 +22,27 @@ pub(super) type Row = Vec<(u32, u64)>;
 
 /// A core with the rank that was asked for, or a larger one.
 pub(super) struct Eliminated {
-    /// Its nodes in the order of elimination, with their centres.
-    pub(super) order: Vec<(u32, [u32; 3])>,
     /// For every edge of the graph the rows that are used.
     pub(super) masks: Vec<u32>,
     /// Flows, each with two weights for every edge; none if the rows are those of J_P.
     pub(super) flows: Vec<Vec<[u32; 2]>>,
+    /// The place of each node in the order of elimination.
     pub(super) place: Vec<usize>,
+    /// The centres, in this order.
     pub(super) centres: Vec<[u64; 3]>,
     pub(super) motion: Vec<u64>,
 }
 
 impl Eliminated {
+    /// Its nodes in the order of elimination, by other names, with their centres.
+    pub(super) fn core(&self, name: impl Fn(u32) -> u32) -> Vec<(u32, [u32; 3])> {
+        let mut core = vec![(0, [0; 3]); self.place.len()];
+        for (v, &k) in (0..).zip(&self.place) {
+            core[k] = (name(v), self.centres[k].map(|x| x as u32));
+        }
+        core
+    }
+
     /// A motion that all edges of the graph allow: entry `12 k + 4 h + b` is that in row h and column b of
     /// dP for the k-th node in the order.
     pub(super) fn motion(&self) -> Vec<u32> {

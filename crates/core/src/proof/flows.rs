@@ -17,35 +17,32 @@ const ROW_1: u32 = 1;
 const ROW_2: u32 = 2;
 const COLUMN: u32 = 4;
 
-/// Rows, columns, flows and a motion at centres of the nodes, in the order of `order`, if the rank is
-/// `rank` at least. `None` if it is not, or first coordinates are equal on an edge.
+/// Rows, columns, flows and a motion at centres (of each node that at its `place`), if the rank is `rank`
+/// at least. `None` if it is not, or first coordinates are equal on an edge.
 ///
 /// An elimination of N, O(n^3) at worst.
 pub(super) fn eliminate(
     graph: &Graph,
-    order: &[u32],
+    place: &[usize],
     centres: Vec<[u64; 3]>,
     rank: usize,
     state: &mut u64,
 ) -> Option<Eliminated> {
-    unwatched(|task| of_centres(graph, order, centres, rank, state, task))
+    unwatched(|task| of_centres(graph, place, centres, rank, state, task))
 }
 
 fn of_centres(
     graph: &Graph,
-    order: &[u32],
+    place: &[usize],
     centres: Vec<[u64; 3]>,
     rank: usize,
     state: &mut u64,
     task: &Task,
 ) -> Result<Option<Eliminated>, Stopped> {
     let field = PrimeField::new(PRIME).expect("a prime");
-    let mut of_node = vec![[0; 3]; graph.nodes()];
-    let mut place = vec![0; graph.nodes()];
-    for (k, (&v, centre)) in order.iter().zip(&centres).enumerate() {
-        of_node[v as usize] = centre.map(|x| field.from_u64(x));
-        place[v as usize] = k;
-    }
+    let of_node = place.iter().map(|&k| centres[k]);
+    let of_node = of_node.map(|centre| centre.map(|x| field.from_u64(x)));
+    let of_node: Vec<[u64; 3]> = of_node.collect();
     let differ = |&(i, j): &(u32, u32)| of_node[i as usize][0] != of_node[j as usize][0];
     if !graph.edges().iter().all(differ) {
         return Ok(None);
@@ -83,20 +80,14 @@ fn of_centres(
             by_place[12 * place[at / 3] + 4 * (at % 3) + b] = field.to_u64(x);
         }
     }
-    let small = |c: &[u64; 3]| c.map(|x| x as u32);
     Ok(Some(Eliminated {
-        order: order
-            .iter()
-            .copied()
-            .zip(centres.iter().map(small))
-            .collect(),
         masks,
         // Without any, the rows would be taken for those of J_P.
         flows: match found.flows {
             0 => vec![vec![[0; 2]; graph.edges().len()]],
             count => (0..count).map(of_flow).collect(),
         },
-        place,
+        place: place.to_vec(),
         centres,
         motion: by_place,
     }))

@@ -1,5 +1,5 @@
 use super::Unproved;
-use crate::decide::{Projective, Question, decide};
+use crate::decide::{GAMMA, Projective, Question, decide};
 use crate::graph::{KnownParts, graph6};
 use crate::{Graph, Model, Options};
 use std::collections::BTreeSet;
@@ -27,21 +27,7 @@ fn a_triangle_is_three_nodes_joined() {
 /// copies of node 1, of which each has one pair, are 9 to 13; the block begins with it.
 #[test]
 fn a_hub_is_written_with_its_split_graph() {
-    let gamma = [
-        (0, 2),
-        (0, 3),
-        (0, 5),
-        (1, 4),
-        (1, 5),
-        (1, 6),
-        (1, 7),
-        (1, 8),
-        (2, 4),
-        (2, 6),
-        (3, 7),
-        (3, 8),
-    ];
-    let gamma = Graph::new(9, gamma).unwrap();
+    let gamma = Graph::new(9, GAMMA).unwrap();
     let proof = proof_of(&gamma, Question::default()).unwrap();
     assert_eq!((proof.lower(), proof.upper()), (83, 83));
     assert_eq!(proof.components(), Some(12));

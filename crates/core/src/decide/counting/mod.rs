@@ -19,6 +19,8 @@
 mod hub;
 mod search;
 
+#[cfg(test)]
+pub(crate) use hub::GAMMA;
 pub(crate) use search::Search;
 
 use crate::contract::piece::{Assembly, Members};
