@@ -284,8 +284,9 @@ let apart reader lo hi ends nodes =
   for k = lo to hi - 1 do Array.iteri (fun s v -> Table.replace at (key reader k v) s) (nodes k) done;
   let reason i j why =
     let k = why - 1 in
-    match (Table.find_opt at (key reader k i), Table.find_opt at (key reader k j)) with
-    | Some s, Some t when why > 0 -> Checker.Inside (k, s, t)
+    let found v = if k < lo || k >= hi then None else Table.find_opt at (key reader k v) in
+    match (found i, found j) with
+    | Some s, Some t -> Checker.Inside (k, s, t)
     | _ -> fail (Printf.sprintf "%d and %d are not both in the component" i j)
   in
   let frame = body reader reason in
@@ -380,7 +381,7 @@ let steps reader count nodes =
 let owners bodies numbers =
   let owner = Array.make (Array.length bodies) (-1) in
   Array.iter (fun b -> owner.(b) <- b) numbers;
-  for b = Array.length bodies - 2 downto 0 do
+  for b = Array.length bodies - 1 downto 0 do
     if owner.(b) < 0 then owner.(b) <- b;
     let use = function Checker.Inside (c, _, _) -> if owner.(c) < 0 then owner.(c) <- owner.(b) | _ -> () in
     List.iter (fun (_, why) -> use why) bodies.(b).Checker.core;
@@ -447,8 +448,9 @@ let read path (graph : Graph.t) =
       | None -> fail (Printf.sprintf "%d %d is no pair" i j)
     else
       let c = why - 1 in
-      match (Table.find_opt body_at (key reader c i), Table.find_opt body_at (key reader c j)) with
-      | Some s, Some t when c < count -> Checker.Inside (c, s, t)
+      let found v = if c < count then Table.find_opt body_at (key reader c v) else None in
+      match (found i, found j) with
+      | Some s, Some t -> Checker.Inside (c, s, t)
       | _ -> fail (Printf.sprintf "%d and %d are not both in body %d" i j c)
   in
   let bodies = ref [] and count = ref 0 in
