@@ -381,7 +381,7 @@ let steps reader count nodes =
 let owners bodies numbers =
   let owner = Array.make (Array.length bodies) (-1) in
   Array.iter (fun b -> owner.(b) <- b) numbers;
-  for b = Array.length bodies - 1 downto 0 do
+  for b = Array.length bodies - 2 downto 0 do
     if owner.(b) < 0 then owner.(b) <- b;
     let use = function Checker.Inside (c, _, _) -> if owner.(c) < 0 then owner.(c) <- owner.(b) | _ -> () in
     List.iter (fun (_, why) -> use why) bodies.(b).Checker.core;
@@ -415,7 +415,7 @@ let components reader (graph : Graph.t) bodies body_at =
     | None -> reader.fail (Printf.sprintf "%d %d is in no component" i j)
   in
   let owner = owners bodies numbers in
-  let in_owner b s = Table.find body_at (key reader owner.(b) (bodies.(b).Checker.node s)) in
+  let in_owner b s = if owner.(b) < 0 then raise Not_found else Table.find body_at (key reader owner.(b) (bodies.(b).Checker.node s)) in
   (owner, { numbers; in_owner; pair_at; steps = steps reader count (fun k -> nodes.(k)) })
 
 let read path (graph : Graph.t) =
