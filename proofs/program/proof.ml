@@ -61,9 +61,9 @@ let words path =
   let number () =
     let w = word () in
     if String.length w > 10 || not (String.for_all (fun c -> c >= '0' && c <= '9') w) then fail ("not a number: " ^ String.escaped (String.sub w 0 (min 20 (String.length w))));
-    let value = int_of_string ("0u" ^ w) in
-    if value > Graph.largest then fail "a number above 2^30";
-    value
+    (* as text: in a browser ten digits may be more than an int holds *)
+    if String.length w = 10 && w > string_of_int Graph.largest then fail "a number above 2^30";
+    int_of_string w
   in
   (* whether this word comes next, which is passed by then *)
   let passed w =
