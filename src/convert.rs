@@ -59,7 +59,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
         "{}: graph6 holds nothing that is given; leave out --to graph6",
         given::OPTION
     );
-    given::ensure_one_standard_input(file, std::slice::from_ref(path))?;
+    given::ensure_one_standard_input(given::OPTION, file, std::slice::from_ref(path))?;
     let output = arguments.output.as_deref();
     let inputs = [Some(&**path), file];
     outputs::ensure_apart(&[("--output", output)], inputs.into_iter().flatten())?;

@@ -3,7 +3,7 @@
 use super::certificates::Target;
 use super::plan::{Form, Plan, Products};
 use super::witness;
-use super::{given, input};
+use super::{given, input, intrinsics};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::path::Path;
@@ -11,10 +11,12 @@ use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
+use viewcert::intrinsics::{Class, Metric};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
 use viewcert_report::graph_picture::{self, Picture};
+use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
@@ -40,7 +42,8 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
         plan.request.check_input(input)?;
         let (input, known) = given::read(plan.given.as_deref(), input)?;
         let options = plan.options(known)?.watch(session.shown_watch());
-        let is_determined = work.decide(&options, &input, start, out)?;
+        let (input, classes) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
+        let is_determined = work.decide(&options, &input, classes.as_deref(), start, out)?;
         Ok(if is_determined { GOOD } else { NOT })
     };
     let code = input::for_each(session, &plan.read, &plan.graphs, &too_many, &mut out, each)?;
@@ -69,6 +72,7 @@ impl Work<'_> {
         &mut self,
         options: &Options,
         input: &NamedGraph,
+        classes: Option<&[Class]>,
         start: Instant,
         out: &mut impl Write,
     ) -> Result<bool> {
@@ -79,7 +83,15 @@ impl Work<'_> {
         let verdict = decided.with_context(name)?;
         let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
         session.hide();
-        let scope = scope.with_context(name)?;
+        let mut scope = scope.with_context(name)?;
+        if let Some(classes) = classes {
+            let watch = session.shown_watch();
+            let found = Metric::new(&input.graph, &verdict, classes, plan.seed, &watch);
+            session.hide();
+            let found = found.with_context(name)?;
+            let listed = plan.list_components;
+            scope = scope.with_intrinsics(IntrinsicsLine::new(input, classes, &found, listed));
+        }
         let written = self.write(input, &verdict)?;
         let time = start.elapsed();
         let advice = self.advise(input, &verdict);
@@ -107,6 +119,9 @@ impl Work<'_> {
         if let Some(why) = written.no_witness {
             let name = &input.name;
             writeln!(std::io::stderr(), "verify: {name}: no witness: {why}")?;
+        }
+        if let Some(intrinsics) = scope.intrinsics() {
+            return Ok(intrinsics.is_metric());
         }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),

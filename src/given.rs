@@ -52,12 +52,16 @@ impl GivenArguments {
 ///
 /// # Errors
 /// If both a graph and what is given are `-`.
-pub(super) fn ensure_one_standard_input(given: Option<&Path>, graphs: &[PathBuf]) -> Result<()> {
+pub(super) fn ensure_one_standard_input(
+    name: &str,
+    given: Option<&Path>,
+    graphs: &[PathBuf],
+) -> Result<()> {
     let is_input = |path: &Path| path == Path::new("-");
     let graph = graphs.iter().any(|path| is_input(path));
     ensure!(
         !(graph && given.is_some_and(is_input)),
-        "{OPTION} -: standard input is the graph already; put what is given into a file"
+        "{name} -: standard input is the graph already; put what is given into a file"
     );
     Ok(())
 }

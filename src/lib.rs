@@ -21,6 +21,7 @@ mod foreseen;
 mod given;
 mod help;
 mod input;
+mod intrinsics;
 mod limits;
 mod lists;
 mod merge;

@@ -42,7 +42,7 @@ const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<ExitCode> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let given = arguments.given.path();
-    given::ensure_one_standard_input(given, &arguments.graphs)?;
+    given::ensure_one_standard_input(given::OPTION, given, &arguments.graphs)?;
     let too_many = |what: &str| Some(given::too_many(given::OPTION, given?, what));
     if let Some(reason) = too_many(&format!("{} graphs", arguments.graphs.len())) {
         ensure!(arguments.graphs.len() <= 1, reason);

@@ -26,6 +26,8 @@ pub(super) struct Plan {
     pub(super) read: ReadOptions,
     /// The file with what is given besides.
     pub(super) given: Option<PathBuf>,
+    /// Where classes of cameras are from, if that is asked.
+    pub(super) intrinsics: Option<IntrinsicsFrom>,
     /// The question, without what is given.
     pub(super) draft: Draft,
     /// The prime.
@@ -42,6 +44,16 @@ pub(super) struct Plan {
     pub(super) form: Form,
     /// Whether it lists the members of every component.
     pub(super) list_components: bool,
+}
+
+/// Where classes of cameras are from.
+pub(super) enum IntrinsicsFrom {
+    /// A file.
+    File(PathBuf),
+    /// The graph's own database, by prior focal lengths.
+    Input,
+    /// The same, with all focal lengths unknown.
+    Free,
 }
 
 /// Files that are written for a graph, each whole or not at all.
@@ -76,6 +88,9 @@ pub(super) const CERTIFICATE: &str = "--certificate";
 /// The same of the explicit proof.
 pub(super) const PROOF: &str = "--proof";
 
+/// The name of the classes of cameras in messages.
+pub(super) const INTRINSICS: &str = "--intrinsics";
+
 impl Products {
     /// All files behind what they are called in messages.
     pub(super) fn files(&self) -> [(&'static str, Option<&Path>); 5] {
@@ -96,6 +111,7 @@ impl Plan {
             graphs: graphs.to_vec(),
             read,
             given: None,
+            intrinsics: None,
             draft: Draft::new(model),
             prime: Prime::Auto,
             seed,
@@ -113,6 +129,7 @@ impl Plan {
     /// By name, what does not go together, and what to leave out.
     pub(super) fn checked(self) -> Result<Self> {
         self.check_question()?;
+        self.check_intrinsics()?;
         self.check_products()?;
         self.check_files()?;
         if let Some(reason) = self.too_many(&format!("{} graphs", self.graphs.len())) {
@@ -145,6 +162,53 @@ impl Plan {
         Ok(())
     }
 
+    /// Classes of cameras are about the pairs of the projective model alone.
+    fn check_intrinsics(&self) -> Result<()> {
+        if self.intrinsics.is_none() {
+            return Ok(());
+        }
+        ensure!(
+            self.draft.model == Model::Projective,
+            "{INTRINSICS}: says what is known of each camera, and --model says it of all; leave out one of \
+             the two"
+        );
+        ensure!(
+            self.given.is_none(),
+            "{INTRINSICS}: nothing is proved yet about classes of cameras beside what is given; leave out \
+             {}",
+            given::OPTION
+        );
+        ensure!(
+            !self.asked.planar,
+            "{INTRINSICS}: nothing is proved about classes of cameras in a plane; leave out one of the two"
+        );
+        ensure!(
+            !self.draft.whole_graph,
+            "{INTRINSICS}: is decided between bodies; leave out --method matrix"
+        );
+        ensure!(
+            self.products.certificate.is_none(),
+            "{INTRINSICS}: certificates do not state classes of cameras yet; leave out {CERTIFICATE}"
+        );
+        ensure!(
+            self.products.proof.is_none(),
+            "{INTRINSICS}: explicit proofs do not state classes of cameras; leave out {PROOF}"
+        );
+        ensure!(
+            !matches!(self.form, Form::Table(_)),
+            "{INTRINSICS}: a table has no columns for it; leave out one of the two"
+        );
+        Ok(())
+    }
+
+    /// The file with classes of cameras.
+    fn intrinsics_file(&self) -> Option<&Path> {
+        match &self.intrinsics {
+            Some(IntrinsicsFrom::File(path)) => Some(path),
+            _ => None,
+        }
+    }
+
     /// What is written has to be there to be written.
     fn check_products(&self) -> Result<()> {
         let is_projective = self.draft.model == Model::Projective;
@@ -165,14 +229,15 @@ impl Plan {
     /// No output is an input or another output, and standard input is one thing.
     fn check_files(&self) -> Result<()> {
         let inputs = self.graphs.iter().chain(&self.given);
-        let inputs = inputs.map(PathBuf::as_path);
+        let inputs = inputs.map(PathBuf::as_path).chain(self.intrinsics_file());
         let files = self.products.files();
         // A folder of certificates is no file that could be the same.
         let is_folder = files[0].1.is_some_and(Path::is_dir);
         let from = usize::from(is_folder);
         outputs::ensure_apart(&files[from..], inputs)?;
         self.request.check(&self.graphs, &files)?;
-        given::ensure_one_standard_input(self.given.as_deref(), &self.graphs)
+        given::ensure_one_standard_input(given::OPTION, self.given.as_deref(), &self.graphs)?;
+        given::ensure_one_standard_input(INTRINSICS, self.intrinsics_file(), &self.graphs)
     }
 
     /// Why there cannot be several graphs, if there cannot.
@@ -180,6 +245,7 @@ impl Plan {
         let files = self.products.files().into_iter();
         let mut files = files.filter_map(|(name, path)| Some((name, path?)));
         let given = self.given.as_deref().map(|path| (given::OPTION, path));
+        let given = given.or(self.intrinsics_file().map(|path| (INTRINSICS, path)));
         let single = |&(name, path): &(&str, &Path)| name != CERTIFICATE || !path.is_dir();
         match files.find(single).or(given) {
             Some((CERTIFICATE, path)) => Some(Target::too_many(path, what)),

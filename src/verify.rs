@@ -2,11 +2,11 @@
 
 use super::bounds::Bounds;
 use super::given::GivenArguments;
-use super::plan::{Form, Plan};
+use super::plan::{Form, IntrinsicsFrom, Plan};
 use super::question::{GRAPHS, QuestionArguments};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use viewcert::decide::{Arithmetic, CountSolutions, Prime};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_report::many::Format;
@@ -40,6 +40,11 @@ pub(super) struct VerifyArguments {
     /// exit code is that of this case.
     #[arg(long, conflicts_with = "tracks")]
     planar: bool,
+    /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
+    /// `focal+point D`, `unknown E`, `default focal`. Does the graph determine cameras and intrinsics?
+    /// Without FILE: by the prior focal lengths of the graph's own COLMAP database; `free`: by none.
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    intrinsics: Option<Option<PathBuf>>,
     /// Count the solutions of graphs that are finite solvable.
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "quick", default_missing_value = "quick")]
@@ -118,6 +123,11 @@ impl VerifyArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.given = self.given.path().map(Into::into);
+        plan.intrinsics = self.intrinsics.as_ref().map(|file| match file {
+            None => IntrinsicsFrom::Input,
+            Some(word) if word == Path::new("free") => IntrinsicsFrom::Free,
+            Some(file) => IntrinsicsFrom::File(file.clone()),
+        });
         plan.draft.whole_graph = matches!(self.method, MethodName::Matrix);
         plan.draft.counting = !matches!(self.method, MethodName::Ranks);
         if let Some(Bounds {

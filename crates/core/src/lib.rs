@@ -42,6 +42,7 @@ pub mod contract;
 pub mod decide;
 pub mod geometry;
 pub mod graph;
+pub mod intrinsics;
 pub mod linalg;
 mod named;
 pub mod proof;

@@ -149,6 +149,24 @@ pub enum Problem {
     /// A label that the graph does not have.
     #[error("`{}` is no camera of the graph", shown(.0))]
     UnknownCamera(String),
+    /// A file of classes that says nothing.
+    #[error("the file says nothing about intrinsics")]
+    NoClasses,
+    /// A word that is no class.
+    #[error("`{0}` is no class of cameras")]
+    NoClass(String),
+    /// More than one default class, or none behind the word.
+    #[error("there is one default, and one class")]
+    OneDefault,
+    /// A camera in two classes: what it is called, and the line before.
+    #[error("`{0}` is of another class in line {1}")]
+    TwoClasses(String, u64),
+    /// Intrinsics are asked of what is no COLMAP database.
+    #[error("this is no COLMAP database, which would say what is known of intrinsics")]
+    NoDatabase,
+    /// A camera of the graph that a database does not have.
+    #[error("the database has no image `{0}`")]
+    UnknownImage(String),
     /// A file of known displacements without one.
     #[error("the file holds no displacement")]
     NoDisplacements,
@@ -509,6 +527,13 @@ impl Problem {
             }
             Self::NoPositions(_) => {
                 "import positions into the database, or write the cameras whose position is known into a file, `position` before each"
+            }
+            Self::NoClasses | Self::NoClass(_) | Self::OneDefault => {
+                "write on each line `known`, `focal`, `focal+point` or `unknown`, for what is not known of their intrinsics, and cameras; and on one line `default` and a class for the others"
+            }
+            Self::TwoClasses(..) => "name each camera once",
+            Self::NoDatabase | Self::UnknownImage(_) => {
+                "give a file with the classes of cameras: --intrinsics FILE"
             }
             Self::NoDisplacements => {
                 "write pairs of cameras, one a line, or cameras with known positions, two at least"

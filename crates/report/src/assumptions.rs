@@ -2,6 +2,7 @@
 //! (docs/theory.md, Corollary 13.4 and Theorem 13.23), what unknown focal lengths ask for, and which
 //! parts were taken for known.
 
+use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
 use std::collections::BTreeSet;
 use viewcert::contract::Merge;
@@ -93,6 +94,10 @@ impl Planar {
 const BASE_LINES: &str = "base lines: a sensor is at one place in its rig in all frames, these places and the turns of \
                           frames are in general position; certificates do not state frames yet, they are about \
                           the verdict";
+
+/// What is supposed where cameras have classes.
+const INTRINSICS: &str = "intrinsics: what is known of them is known exactly, each image has its own, and optical axes \
+                          are in general position (cameras that all look at one point are not)";
 
 /// What unknown base lines that are the same in all frames determine.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -230,6 +235,7 @@ pub struct Scope {
     conditions: Vec<String>,
     planar: Option<Planar>,
     base_lines: Option<BaseLines>,
+    intrinsics: Option<IntrinsicsLine>,
 }
 
 impl Scope {
@@ -296,7 +302,20 @@ impl Scope {
             conditions,
             planar: planar.filter(|planar| asked.planar || !planar.is_determined()),
             base_lines,
+            intrinsics: None,
         })
+    }
+
+    /// With what classes of cameras determine.
+    pub fn with_intrinsics(mut self, found: IntrinsicsLine) -> Self {
+        self.conditions.push(INTRINSICS.to_owned());
+        self.intrinsics = Some(found);
+        self
+    }
+
+    /// What classes of cameras determine, if that was asked for.
+    pub fn intrinsics(&self) -> Option<&IntrinsicsLine> {
+        self.intrinsics.as_ref()
     }
 
     /// The conditions, in words.

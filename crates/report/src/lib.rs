@@ -13,6 +13,7 @@ pub mod curves;
 pub mod database;
 pub mod force_layout;
 pub mod graph_picture;
+pub mod intrinsics;
 pub mod json;
 pub mod lists;
 pub mod many;

@@ -58,6 +58,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     if let Some(base_lines) = report.scope.base_lines() {
         writeln!(out, "  base lines  {}", base_lines.words())?;
     }
+    if let Some(intrinsics) = report.scope.intrinsics() {
+        intrinsics.write(out)?;
+    }
     writeln!(
         out,
         "  rank        {} of {} ({})",

@@ -588,6 +588,26 @@ impl Factorisation {
         kernel
     }
 
+    /// A vector of the kernel: `random` says what it is at the free columns. `rows` are those of the
+    /// matrix.
+    ///
+    /// # Panics
+    /// If they are of another one.
+    pub fn kernel_vector(&self, rows: &[SparseRow], mut random: impl FnMut() -> u64) -> Vec<u64> {
+        let f = &self.field;
+        let mut x = vec![0; self.cols];
+        for &column in &self.free_cols {
+            x[column] = random();
+        }
+        let side = |row: &SparseRow| {
+            let terms = row.iter().map(|&(column, value)| f.times(value, x[column]));
+            f.negate(terms.fold(0, |sum, term| f.plus(sum, term)))
+        };
+        let sides: Vec<u64> = rows.iter().map(side).collect();
+        let pivots = self.solve(&sides).expect("a combination of columns");
+        x.iter().zip(&pivots).map(|(a, b)| f.plus(*a, *b)).collect()
+    }
+
     /// A solution x of A x = b, zero at the free columns; `None` if there is none.
     ///
     /// # Panics

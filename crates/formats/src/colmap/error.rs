@@ -67,6 +67,14 @@ pub enum DatabaseError {
         /// What is wrong.
         why: String,
     },
+    /// An image of no camera.
+    #[error("the image {image} is taken by camera {camera}, which is not there")]
+    NoCamera {
+        /// The name of the image.
+        image: String,
+        /// The number of the camera.
+        camera: i64,
+    },
     /// Rigs and frames that contradict themselves.
     #[error("the rigs of the database contradict themselves: {0}")]
     Rigs(String),
@@ -117,6 +125,9 @@ impl DatabaseError {
             }
             Self::NotVerified(..) => {
                 "run the geometric verification: `colmap geometric_verifier --database_path FILE`, or in Python `pycolmap.geometric_verification(FILE)`; COLMAP 3.8 has neither, there match again, for example with `colmap exhaustive_matcher`"
+            }
+            Self::NoCamera { .. } => {
+                "write the classes of cameras into a file, and give it to --intrinsics"
             }
             Self::Rigs(_) => {
                 "configure them again (`colmap rig_configurator`), or leave them out of account: --no-rigs"

@@ -12,6 +12,8 @@ mod doubles;
 mod error;
 mod facts;
 #[cfg(feature = "databases")]
+mod focal;
+#[cfg(feature = "databases")]
 mod keypoints;
 #[cfg(feature = "databases")]
 mod open;
@@ -35,6 +37,8 @@ pub use views::Views;
 
 #[cfg(feature = "databases")]
 pub(crate) use database::read;
+#[cfg(feature = "databases")]
+pub(crate) use focal::focal_lengths;
 #[cfg(feature = "databases")]
 pub(crate) use positions::pose_priors;
 
@@ -63,6 +67,21 @@ pub(crate) fn read(
 #[cfg(not(feature = "databases"))]
 pub(crate) fn pose_priors(_: &Path) -> Result<crate::given::PosePriors, DatabaseError> {
     Err(DatabaseError::NotBuilt)
+}
+
+/// Says that this build reads none.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "databases"))]
+pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, DatabaseError> {
+    Err(DatabaseError::NotBuilt)
+}
+
+/// What a database knows of focal lengths.
+pub(crate) struct FocalLengths {
+    /// By the name of an image, whether its camera has a prior one.
+    pub(crate) known: std::collections::BTreeMap<Box<str>, bool>,
 }
 
 /// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none.

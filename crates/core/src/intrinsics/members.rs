@@ -1,0 +1,149 @@
+//! Rigid bodies that become metric and grow (docs/theory.md, Theorems 17.3 and 17.5).
+//!
+//! In: a projective verdict and classes. Out: the members, bodies and loose edges, whether they are
+//! metric, and the clusters of metric ones that hang together, which turn alike.
+
+use super::Class;
+use crate::contract::Contraction;
+use crate::decide::Verdict;
+use crate::geometry::model::Model;
+use crate::graph::{Graph, KnownParts, UnionFind};
+
+/// The conditions that make a rigid body metric.
+const ENOUGH: usize = 8;
+
+/// A body or a loose edge.
+pub(super) struct Member {
+    /// Its nodes, increasing.
+    pub(super) nodes: Vec<u32>,
+    /// The cluster of a metric one.
+    pub(super) cluster: Option<usize>,
+}
+
+/// The members of a graph.
+pub(super) struct Members {
+    pub(super) all: Vec<Member>,
+    pub(super) clusters: usize,
+    /// For each node the members that hold it, metric ones first.
+    pub(super) of_node: Vec<Vec<usize>>,
+}
+
+impl Members {
+    pub(super) fn new(graph: &Graph, verdict: &Verdict, classes: &[Class]) -> Self {
+        let rigid = verdict.components.iter().map(|found| found.nodes());
+        let mut bodies: Vec<Vec<u32>> = rigid.filter(|nodes| nodes.len() > 2).collect();
+        loop {
+            let members = contracted(graph, bodies, Model::Projective);
+            let metric = metric(&members, classes);
+            let (of_metric, others): (Vec<_>, Vec<_>) =
+                members.into_iter().zip(metric).partition(|&(_, is)| is);
+            let (of_metric, others) = (nodes(of_metric), nodes(others));
+            let before = of_metric.len();
+            let joined = joined(graph.nodes() as u32, of_metric);
+            if joined.len() == before {
+                return Self::of(graph.nodes(), joined, others);
+            }
+            bodies = joined.into_iter().chain(others).collect();
+            bodies.retain(|nodes| nodes.len() > 2);
+        }
+    }
+
+    fn of(count: usize, metric: Vec<Vec<u32>>, others: Vec<Vec<u32>>) -> Self {
+        let mut of_node = vec![Vec::new(); count];
+        for (k, nodes) in metric.iter().chain(&others).enumerate() {
+            for &v in nodes {
+                of_node[v as usize].push(k);
+            }
+        }
+        let mut linked = UnionFind::new(metric.len());
+        for held in &of_node {
+            let held: Vec<usize> = held.iter().copied().filter(|&k| k < metric.len()).collect();
+            for two in held.windows(2) {
+                linked.union(two[0], two[1]);
+            }
+        }
+        let mut number = vec![None; metric.len()];
+        let mut clusters = 0;
+        let mut cluster = |k: usize| {
+            *number[linked.find(k)].get_or_insert_with(|| {
+                clusters += 1;
+                clusters - 1
+            })
+        };
+        let of_metric = metric.into_iter().enumerate().map(|(k, nodes)| Member {
+            nodes,
+            cluster: Some(cluster(k)),
+        });
+        let mut all: Vec<Member> = of_metric.collect();
+        all.extend(others.into_iter().map(|nodes| Member {
+            nodes,
+            cluster: None,
+        }));
+        Self {
+            all,
+            clusters,
+            of_node,
+        }
+    }
+}
+
+fn nodes(of: Vec<(Vec<u32>, bool)>) -> Vec<Vec<u32>> {
+    of.into_iter().map(|(nodes, _)| nodes).collect()
+}
+
+/// What the rules of a model leave of a graph with bodies from the start.
+fn contracted(graph: &Graph, bodies: Vec<Vec<u32>>, model: Model) -> Vec<Vec<u32>> {
+    let parts = KnownParts::new(graph.nodes() as u32, bodies).expect("nodes of the graph");
+    let found = Contraction::with_parts(graph, &parts, model);
+    let finals = found.finals.iter();
+    let bodies = finals.map(|&body| found.bodies[body as usize].nodes.clone());
+    let loose = found.loose.iter().map(|&(i, j)| vec![i, j]);
+    bodies.chain(loose).collect()
+}
+
+/// Metric bodies that the calibrated rules join, which work within clusters, and those that are left.
+fn joined(count: u32, metric: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
+    let (pairs, bodies): (Vec<_>, Vec<_>) = metric.into_iter().partition(|body| body.len() == 2);
+    let pairs = pairs.iter().map(|pair| (pair[0], pair[1]));
+    let graph = Graph::new(count, pairs).expect("pairs of the graph");
+    contracted(&graph, bodies, Model::Calibrated)
+}
+
+/// Which members are metric, where nodes of metric ones are as good as known cameras (Theorem 17.3).
+fn metric(members: &[Vec<u32>], classes: &[Class]) -> Vec<bool> {
+    let mut of_node = vec![Vec::new(); classes.len()];
+    for (k, nodes) in members.iter().enumerate() {
+        for &v in nodes {
+            of_node[v as usize].push(k);
+        }
+    }
+    let mut conditions: Vec<usize> = classes.iter().map(|class| class.conditions()).collect();
+    let sum = |nodes: &[u32], conditions: &[usize]| -> usize {
+        nodes.iter().map(|&v| conditions[v as usize]).sum()
+    };
+    let mut sums: Vec<usize> = members
+        .iter()
+        .map(|nodes| sum(nodes, &conditions))
+        .collect();
+    let mut next: Vec<usize> = (0..members.len()).filter(|&k| sums[k] >= ENOUGH).collect();
+    let mut is_metric = vec![false; members.len()];
+    while let Some(k) = next.pop() {
+        if std::mem::replace(&mut is_metric[k], true) {
+            continue;
+        }
+        for &v in &members[k] {
+            let more = Class::Known.conditions() - conditions[v as usize];
+            if more == 0 {
+                continue;
+            }
+            conditions[v as usize] += more;
+            for &other in &of_node[v as usize] {
+                sums[other] += more;
+                if sums[other] >= ENOUGH {
+                    next.push(other);
+                }
+            }
+        }
+    }
+    is_metric
+}

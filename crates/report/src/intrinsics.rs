@@ -1,0 +1,167 @@
+//! What a graph determines whose cameras have classes of their own, in words and JSON (docs/theory.md,
+//! section 17).
+//!
+//! In: classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
+
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert::intrinsics::{Class, Metric, MetricComponent};
+use viewcert::wording::counted;
+use viewcert_formats::NamedGraph;
+
+/// The member `intrinsics`.
+#[derive(Clone, Debug, Serialize)]
+pub struct IntrinsicsLine {
+    /// How many cameras are of each class.
+    classes: Vec<ClassLine>,
+    verdict: &'static str,
+    /// Whether bounds meet: then all that is said is proved.
+    proved: bool,
+    rank: usize,
+    rank_at_most: usize,
+    rank_required: usize,
+    /// If it is not proved: the rank is larger with a probability of at most 2 to the minus this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_bits: Option<u32>,
+    /// The sum of the conditions of all cameras; a metric graph needs 8.
+    conditions: usize,
+    components: Vec<MetricLine>,
+    /// Pairs that are in none of them.
+    other_pairs: usize,
+    /// How many cameras have intrinsics that are known or determined.
+    determined: usize,
+    /// The cameras whose intrinsics are not.
+    not_determined: Vec<String>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct ClassLine {
+    class: &'static str,
+    cameras: usize,
+}
+
+/// Pairs that are metric against each other.
+#[derive(Clone, Debug, Serialize)]
+struct MetricLine {
+    nodes: usize,
+    edges: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    labels: Option<Vec<String>>,
+}
+
+impl IntrinsicsLine {
+    /// What was found for the classes of a graph; with the members of each component if they are
+    /// listed. O(n).
+    pub fn new(input: &NamedGraph, classes: &[Class], found: &Metric, listed: bool) -> Self {
+        let label = |node: u32| input.labels.label(node).into_owned();
+        let line = |component: &MetricComponent| MetricLine {
+            nodes: component.nodes.len(),
+            edges: component.pairs,
+            labels: listed.then(|| component.nodes.iter().map(|&v| label(v)).collect()),
+        };
+        let of_class = Class::ALL.map(|(class, word)| ClassLine {
+            class: word,
+            cameras: classes.iter().filter(|&&of| of == class).count(),
+        });
+        let not_determined: Vec<String> = (0..)
+            .zip(&found.determined)
+            .filter(|&(_, &determined)| !determined)
+            .map(|(node, _)| label(node))
+            .collect();
+        Self {
+            classes: of_class.into(),
+            verdict: if found.is_metric() {
+                "metric"
+            } else if found.at_most < found.required {
+                "not-metric"
+            } else {
+                "open"
+            },
+            proved: found.is_proved(),
+            rank: found.rank,
+            rank_at_most: found.at_most,
+            rank_required: found.required,
+            error_bits: found.error_bits(),
+            conditions: found.conditions,
+            components: found.components.iter().map(line).collect(),
+            other_pairs: found.other_pairs,
+            determined: found.determined.len() - not_determined.len(),
+            not_determined,
+        }
+    }
+
+    /// Whether all cameras are determined, with their intrinsics; it is proved.
+    pub fn is_metric(&self) -> bool {
+        self.verdict == "metric"
+    }
+
+    /// Writes the lines of a report.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let classes = self.classes.iter().filter(|line| line.cameras > 0);
+        let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
+        let classes: Vec<String> = classes.collect();
+        let strength = match (self.proved, self.error_bits) {
+            (false, Some(bits)) => format!(
+                "rank {} at most; it is larger than {} with a probability of at most 2^-{bits}",
+                self.rank_at_most, self.rank
+            ),
+            _ => "proved".into(),
+        };
+        let answer = match self.verdict {
+            "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
+            "not-metric" if self.conditions < 8 => format!(
+                "not metric: known intrinsics put {} on the 8 numbers between a projective and a metric scene (proved)",
+                counted(self.conditions, "condition")
+            ),
+            "not-metric" => "not metric: infinitely many sets of cameras (proved)".into(),
+            _ => "not metric at drawn cameras, and counting gives no proof".to_owned(),
+        };
+        writeln!(out, "  intrinsics  {}: {answer}", classes.join(", "))?;
+        writeln!(
+            out,
+            "  metric rank {} of {} ({strength})",
+            self.rank, self.rank_required
+        )?;
+        let all = self.determined + self.not_determined.len();
+        write!(
+            out,
+            "  determined  the intrinsics of {} of {all}",
+            self.determined
+        )?;
+        match &self.not_determined[..] {
+            [] => {}
+            [only] => write!(out, "; not of {only}")?,
+            [first, .., last] => write!(out, "; not of {first} .. {last}")?,
+        }
+        writeln!(out)?;
+        let sizes = self.components.iter().take(LISTED);
+        let sizes: Vec<String> = sizes.map(|line| line.nodes.to_string()).collect();
+        let more = if self.components.len() > LISTED {
+            ", .."
+        } else {
+            ""
+        };
+        let sizes = match sizes.is_empty() {
+            true => String::new(),
+            false => format!(" of {}{more} cameras", sizes.join(", ")),
+        };
+        writeln!(
+            out,
+            "  metric part {}{sizes}; {} in none",
+            counted(self.components.len(), "component"),
+            counted(self.other_pairs, "pair")
+        )?;
+        for (k, line) in (1..).zip(&self.components) {
+            if let Some(labels) = &line.labels {
+                writeln!(out, "  metric component {k}: {}", labels.join(" "))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// So many sizes of components are printed.
+const LISTED: usize = 8;

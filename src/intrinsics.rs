@@ -1,0 +1,34 @@
+//! `--intrinsics`: what is not known of the intrinsics of each camera (docs/theory.md, section 17).
+//!
+//! In: a graph as it was read. Out: the graph with what was noted in reading the classes, and these.
+
+use super::plan::{INTRINSICS, IntrinsicsFrom};
+use anyhow::{Context, Result};
+use std::borrow::Cow;
+use std::path::Path;
+use viewcert::intrinsics::Class;
+use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
+
+/// The graph with the notes on its classes, and the class of each node if that is asked.
+///
+/// # Errors
+/// Those of the file.
+pub(super) fn read<'a>(
+    from: Option<&IntrinsicsFrom>,
+    input: Cow<'a, NamedGraph>,
+) -> Result<(Cow<'a, NamedGraph>, Option<Vec<Class>>)> {
+    let found = match from {
+        None => return Ok((input, None)),
+        Some(IntrinsicsFrom::File(path)) => read_intrinsics(path, &input),
+        Some(IntrinsicsFrom::Input) => {
+            intrinsics::of_database(Path::new(&input.name), &input, true)
+        }
+        Some(IntrinsicsFrom::Free) => {
+            intrinsics::of_database(Path::new(&input.name), &input, false)
+        }
+    };
+    let found = found.context(INTRINSICS)?;
+    let mut input = input.into_owned();
+    input.notes.extend(found.notes);
+    Ok((Cow::Owned(input), Some(found.classes)))
+}

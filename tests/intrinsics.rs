@@ -1,0 +1,145 @@
+//! Classes of cameras through the real binary.
+
+mod common;
+
+use common::{Run, verify, verify_with};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// `verify` on a graph with classes, in a folder of their own.
+fn with(graph: &str, classes: &str, more: &[&str]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (graph, classes) = (path("graph.txt", graph), path("classes.txt", classes));
+    verify(&[&[&graph, "--intrinsics", &classes][..], more].concat())
+}
+
+fn intrinsics(run: &Run) -> Value {
+    let line: Value = serde_json::from_str(run.out.trim()).unwrap();
+    let schema = include_str!("../docs/report.schema.json");
+    let schema = jsonschema::validator_for(&serde_json::from_str(schema).unwrap()).unwrap();
+    let found: Vec<String> = schema.iter_errors(&line).map(|e| e.to_string()).collect();
+    assert!(found.is_empty(), "{found:?}: {line}");
+    line["intrinsics"].clone()
+}
+
+const TRIANGLE: &str = "a b\na c\nb c\n";
+
+#[test]
+fn two_known_cameras_make_a_triangle_metric() {
+    let run = with(TRIANGLE, "known a b\n", &["--components"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    for line in [
+        "2 known, 1 unknown: metric: all cameras and intrinsics",
+        "metric rank 16 of 16 (proved)",
+        "determined  the intrinsics of 3 of 3",
+        "metric component 1: a b c",
+        "1 camera of no class: taken for unknown",
+    ] {
+        assert!(run.out.contains(line), "{line}: {}", run.out);
+    }
+    // One known camera leaves 3 of the 8 numbers between a projective and a metric scene.
+    let run = with(TRIANGLE, "known a\n", &["--json"]);
+    assert_eq!(run.code, 1);
+    let found = intrinsics(&run);
+    assert_eq!(
+        (&found["rank"], &found["rank_required"]),
+        (&18.into(), &21.into())
+    );
+    assert_eq!(found["verdict"], "not-metric");
+    assert_eq!(found["not_determined"], serde_json::json!(["b", "c"]));
+}
+
+#[test]
+fn a_metric_answer_is_the_exit_code() {
+    // Finite solvable, and not metric; not finite solvable, and metric.
+    let run = with(TRIANGLE, "default focal+point\n", &[]);
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("verdict     solvable"), "{}", run.out);
+    let cycle = "a b\nb c\nc d\nd a\n";
+    let run = with(cycle, "default known\n", &[]);
+    assert_eq!(run.code, 0, "{}", run.out);
+    assert!(
+        run.out.contains("verdict     not finite solvable"),
+        "{}",
+        run.out
+    );
+    // The same as the calibrated model, also where cameras hang on one pair.
+    let run = with("a b\nb c\nc d\nd a\nd e\n", "default known\n", &["--json"]);
+    assert_eq!(run.code, 1);
+    let found = intrinsics(&run);
+    assert_eq!(found["determined"], 5);
+    assert_eq!(found["components"][0]["nodes"], 4);
+    assert_eq!(found["components"][1]["edges"], 1);
+}
+
+#[test]
+fn what_does_not_go_with_classes_is_refused() {
+    for (more, why) in [
+        (&["--model", "calibrated"][..], "--model says it of all"),
+        (&["--model", "affine"], "--model says it of all"),
+        (&["--given", "parts.txt"], "leave out --given"),
+        (&["--planar"], "in a plane"),
+        (&["--method", "matrix"], "leave out --method matrix"),
+        (
+            &["--certificate", "c.json"],
+            "certificates do not state classes",
+        ),
+        (
+            &["--proof", "p.txt"],
+            "explicit proofs do not state classes",
+        ),
+        (&["--table"], "a table has no columns"),
+    ] {
+        let run = with(TRIANGLE, "default known\n", more);
+        assert_eq!(run.code, 2, "{more:?}");
+        assert!(run.err.contains(why), "{more:?}: {}", run.err);
+    }
+    let run = with(TRIANGLE, "known a\nfocal x\n", &[]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("classes.txt:2: "), "{}", run.err);
+    let run = verify_with(TRIANGLE.as_bytes(), &["-", "--intrinsics", "-"]);
+    assert_eq!(run.code, 2);
+    assert!(
+        run.err.contains("standard input is the graph already"),
+        "{}",
+        run.err
+    );
+}
+
+#[test]
+fn databases_know_their_focal_lengths() {
+    let Some(data) = common::data() else {
+        return;
+    };
+    let database = data.join("colmap/photos_lund.db");
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("lund.db");
+    fs::copy(&database, &copy).unwrap();
+    let name = |path: &Path| path.to_str().unwrap().to_owned();
+    let with =
+        |more: &[&str]| verify(&[&[name(&copy).as_str(), "--json", "--intrinsics"], more].concat());
+    let known = intrinsics(&with(&[]));
+    assert_eq!(known["classes"][0]["cameras"], 29);
+    let free = intrinsics(&with(&["free"]));
+    assert_eq!(free["classes"][1]["cameras"], 29);
+    assert_eq!(
+        (&known["verdict"], &free["verdict"]),
+        (&"metric".into(), &"metric".into())
+    );
+    assert_eq!(free["rank_required"], 29 * 7 - 7);
+    // A graph of other names, and an input that is no database.
+    let text = folder.path().join("pairs.txt");
+    fs::write(&text, "a b\nb c\n").unwrap();
+    let run = verify(&[&name(&text), "--intrinsics", &name(&copy)]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("has no image `a`"), "{}", run.err);
+    let run = verify(&[&name(&text), "--intrinsics"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("no COLMAP database"), "{}", run.err);
+}
