@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use viewcert::decide::Verdict;
+use viewcert::decide::{SharedBaseLines, Verdict};
 use viewcert_catalog::manifest;
 use viewcert_formats::NamedGraph;
 use viewcert_session::Outputs;
@@ -47,6 +47,7 @@ impl Target {
         outputs: &Outputs,
         input: &NamedGraph,
         verdict: &Verdict,
+        base_lines: Option<&SharedBaseLines>,
     ) -> Result<PathBuf> {
         let path = if self.folder {
             self.place(&input.name)?
@@ -57,6 +58,10 @@ impl Target {
         };
         outputs.write(&path, |out| {
             let certificate = verdict.certificate(&input.graph).named(&input.name);
+            let certificate = match base_lines {
+                Some(found) => certificate.with_base_lines(found),
+                None => certificate,
+            };
             certificate.embed_graph(self.embed).write_to(out)
         })?;
         Ok(path)

@@ -84,7 +84,14 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
             if file.is_none() && arguments.to == To::Pairs {
                 pairs(&first)
             } else {
-                let lines = lines_of(&known);
+                let mut lines = lines_of(&known);
+                lines.extend(
+                    first
+                        .frames
+                        .as_ref()
+                        .and_then(|frames| frames.sha256())
+                        .map(|hash| format!("frames {}\n", hex(&hash))),
+                );
                 let from = file.map_or(name.to_string(), |file| {
                     format!("{} {}", given::OPTION, file.display())
                 });

@@ -92,7 +92,7 @@ impl Work<'_> {
             let listed = plan.list_components;
             scope = scope.with_intrinsics(IntrinsicsLine::new(input, classes, &found, listed));
         }
-        let written = self.write(input, &verdict)?;
+        let written = self.write(input, &verdict, &scope)?;
         let time = start.elapsed();
         let advice = self.advise(input, &verdict);
         session.hide();
@@ -134,11 +134,11 @@ impl Work<'_> {
     }
 
     /// Writes the certificate, the proof and the witness.
-    fn write(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<Written> {
+    fn write(&mut self, input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Result<Written> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
-            let path = target.write(outputs, input, verdict)?;
+            let path = target.write(outputs, input, verdict, scope.shared_base_lines())?;
             written
                 .lines
                 .push(format!("certificate {}", path.display()));

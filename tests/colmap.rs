@@ -1377,6 +1377,57 @@ fn frames_share_base_lines_that_are_not_known() {
     assert!(run.code == 1 && run.out.contains(said), "{}", run.out);
 }
 
+/// The certificate states the frames and what they add, and both checkers ask for them.
+#[test]
+fn certificates_state_unknown_base_lines() {
+    for (frames, code, says) in [
+        (
+            3,
+            0,
+            "base lines: solvable, rank 128 to 128 of 128 required",
+        ),
+        (
+            2,
+            1,
+            "base lines: not-finite-solvable, rank 124 to 124 of 125 required",
+        ),
+    ] {
+        let made = uncalibrated(frames, frames == 3);
+        let path = made.path();
+        let file = |name: &str| made.folder.path().join(name);
+        let [certificate, graph, given] = ["c.json", "g.txt", "given.txt"].map(file);
+        // In three frames a point has three views.
+        let tracks = if frames == 3 { &OF_TWO[..1] } else { &OF_TWO };
+        let run = |options: &[&str]| verify(&[options, tracks].concat());
+        let (database, certificate) = (text(&path), text(&certificate));
+        let written = run(&[database, "--certificate", certificate]);
+        assert_eq!(written.code, code, "{}", written.err);
+        assert_eq!(run(&["convert", database, "-o", text(&graph)]).code, 0);
+        let to_given = ["convert", database, "--to", "given", "-o", text(&given)];
+        assert_eq!(run(&to_given).code, 0);
+        let line = fs::read_to_string(&given).unwrap();
+        assert!(
+            line.starts_with("frames ") && line.lines().count() == 1,
+            "{line}"
+        );
+        let check = run(&["check", certificate, database]);
+        assert!(check.code == 0 && check.out.contains(says), "{}", check.out);
+        // Who says that there are no rigs supposes no frames.
+        assert_eq!(run(&["check", certificate, database, "--no-rigs"]).code, 1);
+        let alone = [certificate, text(&graph)];
+        let named = [&alone[..], &["--given", text(&given)]].concat();
+        for checker in [common::first_checker, common::second_checker] {
+            let checked = checker(&named);
+            assert!(
+                checked.code == 0 && checked.out.contains(says),
+                "{}",
+                checked.err
+            );
+            assert_eq!(checker(&alone).code, 1);
+        }
+    }
+}
+
 /// What incremental mapping gets right to 2e-3 was called two parts of ten images each.
 #[test]
 fn a_rig_joins_what_it_joins_for_mappers() {

@@ -86,7 +86,7 @@ fn decide_again(
     let ruling = claims::rule(&claim, nodes, edges, &exact);
     let certificate = match (&ruling, target) {
         (Ruling::Refuted(_), Some(target)) => {
-            Some(target.write(session.outputs(), &input, &exact)?)
+            Some(target.write(session.outputs(), &input, &exact, None)?)
         }
         _ => None,
     };

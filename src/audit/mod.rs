@@ -180,7 +180,7 @@ fn one(
     let exact = decide::decide(&input.graph, &arguments.exact(session)).with_context(name)?;
     let exact_time = start.elapsed();
     let certificate = target
-        .map(|target| target.write(session.outputs(), input, &exact))
+        .map(|target| target.write(session.outputs(), input, &exact, None))
         .transpose()?;
 
     let (outcome, components, float_time) = in_doubles(&input.graph, &options)

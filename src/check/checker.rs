@@ -66,6 +66,10 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
 
 /// The checker's graph with what is given of it, in node numbers.
 fn with_given(graph: Graph, given: Option<&Path>, input: &NamedGraph) -> Result<Graph> {
+    let graph = match input.frames.as_ref().and_then(|frames| frames.sha256()) {
+        Some(hash) => graph.with_frames(hex(&hash)),
+        None => graph,
+    };
     Ok(match viewcert_formats::given(given, input)?.known {
         Known::Parts(parts) => {
             let graph = graph.with_parts(parts.iter().map(<[u32]>::to_vec));

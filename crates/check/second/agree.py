@@ -19,6 +19,7 @@ import tempfile
 import time
 
 import check
+import frames_by_force
 import graphs
 import make
 import notation
@@ -278,7 +279,11 @@ def contradiction(document):
     key = (n, tuple(edges), model, tuple(vectors), tuple(given.items()))
     if key not in TRUTHS:
         TRUTHS[key] = Truth(n, edges, model, vectors, given)
-    return TRUTHS[key].contradicts(document["claim"])
+    wrong = TRUTHS[key].contradicts(document["claim"])
+    if wrong is None and "base_lines" in document:
+        claim, rng = document["claim"]["base_lines"], random.Random(n)
+        wrong = frames_by_force.contradiction(claim, n, edges, groups, document["base_lines"], rank_of, rng)
+    return wrong
 
 
 # Mutants -------------------------------------------------------------------------------------------------------------
@@ -699,6 +704,11 @@ def change_vectors(document, rng):
         del document["vectors"]
 
 
+def change_frames(document, rng):
+    """Other frames, known sensors, bounds and blocks."""
+    frames_by_force.change(document["base_lines"], document["graph"]["nodes"], rng)
+
+
 def remake(document, rng):
     """All evidence is made anew, honestly, for other bodies, pieces and primes, which may be bad ones."""
     graph = graphs.read_graph6(document["graph"]["graph6"])
@@ -735,6 +745,7 @@ MUTATIONS = (
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
     *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
     *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
+    *(change_frames, change_frames, change_frames),
     *(into_factors, change_factor, change_factor),
 )
 
@@ -747,7 +758,7 @@ def repair(document, rng):
     """Makes what a checker computes agree with what is stated: order, counting, hubs, then the claim."""
     try:
         put_in_order(document)
-    except (LookupError, TypeError, AttributeError):
+    except (LookupError, TypeError, AttributeError, ValueError):
         return  # what would be put in order is not there any more
     for _ in range(12):
         try:
@@ -765,6 +776,8 @@ def put_in_order(document):
     for container, key in places(document):
         if key in INCREASING and type(container[key]) is list:
             sort_if_possible(container[key])
+    if "base_lines" in document:
+        frames_by_force.put_in_order(document["base_lines"])
     if "solutions" in document:
         claim = {"at_least": 1, "at_most": None, **stated(None)}
         document["claim"].setdefault("solutions", claim).pop("value", None)
@@ -775,7 +788,9 @@ def put_in_order(document):
 def repair_count(document, reason):
     """Puts right the number that the reason names; False if it names none."""
     words = reason.replace(",", "").split()
-    if ": the bound is " in reason:
+    if "section 13: upper: the bound is " in reason:
+        wrong, right, name = None, int(words[-1]), "bound"
+    elif ": the bound is " in reason:
         wrong, right, name = int(words[-1]), int(words[-3]), "bound"
     elif ": there are " in reason and reason.endswith("components"):
         wrong, right, name = None, int(words[-2]), "components"
@@ -783,7 +798,8 @@ def repair_count(document, reason):
         wrong, right, name = None, int(words[-1]), "less"
     else:
         return False
-    spots = [(c, k) for c, k in places(document["pieces"]) if k == name and type(c[k]) is int]
+    within = document["pieces"] if "section 13" not in reason else document["base_lines"]
+    spots = [(c, k) for c, k in places(within) if k == name and type(c[k]) is int]
     spots = [(c, k) for c, k in spots if c[k] != right and (wrong is None or c[k] == wrong)]
     for container, key in spots[:1]:
         container[key] = right

@@ -4,7 +4,8 @@
 It shares no code, language, arithmetic, parser or dependency with the first one, `viewcert-check`. It is meant to be
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
-elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12).
+elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
+base lines (13).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -12,24 +13,25 @@ import argparse
 import gzip
 import sys
 
-from claim import Claims
+from base_lines import BaseLines
 from notation import Reject, TooLarge, Unreadable
 from solutions import WORK_LIMIT
 
 CORE_LIMIT = 200  # core nodes; plain Python needs minutes beyond
 
 
-class Check(Claims):
+class Check(BaseLines):
     """The check of one certificate. `evidence_claim` is what its evidence proves, to be compared with its claim."""
 
     def __init__(self, data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=WORK_LIMIT):
         self.core_limit, self.work_limit = core_limit, work_limit
-        bodies, rigid, pieces, solutions = self.read_document(data, graph_data, given_data)
+        bodies, rigid, pieces, solutions, base_lines = self.read_document(data, graph_data, given_data)
         self.check_bodies(bodies)
         everything = self.cover()
         found, rigid_count = self.check_pieces(rigid, pieces, everything, "section 6: ")
         numbers = [self.count_solutions(value, pieces, found) for value in solutions]
         self.evidence_claim = self.claim_of(found, rigid_count, *numbers)
+        self.evidence_claim.update({"base_lines": self.check_base_lines(value) for value in base_lines})
 
     def statements(self):
         """What was verified, for people."""
@@ -52,6 +54,7 @@ class Check(Claims):
             f"rank: {rank['value']} of {rank['required']} required ({strength(rank)})",
             f"components: {components['value']} maximal ({strength(components)})",
             *number,
+            *[self.supposed_frames() for name in self.claim if name == "base_lines"],
         ]
 
 

@@ -13,6 +13,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
+import base_lines  # noqa: E402
 import bodies  # noqa: E402
 import check  # noqa: E402
 import claim  # noqa: E402
@@ -27,6 +28,7 @@ import notation  # noqa: E402
 import pieces  # noqa: E402
 import solutions  # noqa: E402
 import upper  # noqa: E402
+import test_base_lines  # noqa: E402
 import test_check  # noqa: E402
 import test_displacements  # noqa: E402
 import test_parts  # noqa: E402
@@ -34,9 +36,9 @@ import test_pebbles  # noqa: E402
 import test_solutions  # noqa: E402
 
 CHECKER = (
-    bodies, check, claim, cores, document, draws, elimination, graphs, lower, matrices, notation, pieces, solutions, upper
+    base_lines, bodies, check, claim, cores, document, draws, elimination, graphs, lower, matrices, notation, pieces, solutions, upper
 )
-TESTS = (test_check, test_displacements, test_parts, test_pebbles, test_solutions)
+TESTS = (test_base_lines, test_check, test_displacements, test_parts, test_pebbles, test_solutions)
 REFUSALS = (notation.Reject, notation.Unreadable, notation.TooLarge)
 
 

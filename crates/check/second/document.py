@@ -21,23 +21,24 @@ class Document:
             version = document.get("version")
             need(not same(version, 1), "section 3: version 1, whose draws were not bound to the core; only 2 is read")
             need(same(version, 2), "section 3: the version is not 2")
-        names_of_more = ("displacements", "vectors", "parts", "solutions")
+        names_of_more = ("displacements", "vectors", "parts", "solutions", "base_lines")
         more = [name for name in names_of_more if type(document) is dict and name in document]
         form, _, program, graph, self.model, self.claim, bodies, rigid, pieces, *values = members(
             document, " ".join([names, *more]), "section 3: the document"
         )
         stated = dict(zip(more, values))
         need("displacements" not in stated or "parts" not in stated, "section 3: displacements and parts at once")
-        optional = [name for name in more if name == "solutions"]
-        solutions = [stated[name] for name in optional]
+        optional = [name for name in more if name in ("solutions", "base_lines")]
+        solutions, base_lines = ([stated[name] for name in optional if name == own] for own in names_of_more[3:])
         need(form == "viewcert certificate", "section 3: the format is another")
         a_string(program, "section 3: program")
         need(self.model in ("projective", "calibrated", "affine"), "section 3: no such model")
         self.projective = self.model == "projective"
         self.read_graph(graph, graph_data)
         self.parts = self.read_known_parts(stated["parts"]) if "parts" in stated else []
-        expects = graph_data is not None or given_data is not None
-        given_parts, given_hash = ([], None) if given_data is None else read_given(given_data, self.graph)
+        expects = self.expects = graph_data is not None or given_data is not None
+        nothing = [], None, None
+        given_parts, given_hash, self.given_frames = nothing if given_data is None else read_given(given_data, self.graph)
         need(not expects or self.parts == given_parts, "section 3: the known parts that are given are others")
         self.check_claim_form(optional)
         # Section 5: what is known is there from the start.
@@ -51,7 +52,7 @@ class Document:
             self.check_vectors(stated["vectors"])
         same_hash = not expects or self.displacements_hash() == given_hash
         need(same_hash, "section 3: the known displacements that are given are others")
-        return bodies, rigid, pieces, solutions
+        return bodies, rigid, pieces, solutions, base_lines
 
     def read_graph(self, value, graph_data):
         """Section 3: the graph."""
@@ -149,6 +150,7 @@ class Document:
         parts = ["verdict", "rank", "components", *optional]
         claim = members(self.claim, " ".join(parts), "section 3: claim")
         own = {"rank": "value required", "solutions": "at_least at_most"}
+        own["base_lines"] = "value at_least at_most required about_one_axis"
         for name, part in zip(parts, claim):
             where = f"section 3: {name}"
             *values, strength, error = members(part, own.get(name, "value") + " strength error_log2", where)
@@ -159,7 +161,7 @@ class Document:
                 a_number(values[0], f"{where}: at_least")
                 if values[1] is not None:
                     a_number(values[1], f"{where}: at_most")
-            else:
+            elif name != "base_lines":  # all of which section 13 gives
                 for value, member in zip(values, ("value", "required")):
                     an_int(value, f"{where}: {member}")
             need(strength in ("proof", "error-bound"), f"{where}: no such strength")

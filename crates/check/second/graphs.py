@@ -103,14 +103,20 @@ def read_pairs(data):
 
 
 def read_given(data, graph):
-    """Section 2, files of what is given: known parts in their canonical form, and the hash of displacements or None."""
+    """Section 2, files of what is given: known parts in their canonical form, and the hashes of displacements and of frames
+    or None."""
     parts, lines = set(), [(k, line) for k, line in lines_of(data) if not line.startswith(b"#")]
+    last = re.fullmatch(b"frames[ \t]([0-9a-fA-F]{64})", lines[-1][1]) if lines else None
+    frames = last and last[1].decode().lower()
+    if last and not lines[:-1]:
+        return [], None, frames
+    lines = lines[:-1] if last else lines
     for k, line in lines:
         word, numbers = re.fullmatch(b"([a-z]*)[ \t]?(.*)", line, re.DOTALL).groups()
         if word == b"displacements" and len(lines) == 1 and re.fullmatch(b"displacements[ \t][0-9a-fA-F]{64}", line):
-            return [], numbers.decode().lower()
+            return [], numbers.decode().lower(), frames
         if not re.match(b"part[ \t]", line):
-            raise Unreadable(f"line {k}: neither a part nor, alone, the hash of displacements")
+            raise Unreadable(f"line {k}: neither a part nor, alone, the hash of displacements, nor, last, that of frames")
         part = tuple(sorted(numbers_of(numbers, f"line {k}")))
         if len(part) < 2 or not distinct(part):
             raise Unreadable(f"line {k}: not two different nodes or more")
@@ -121,4 +127,4 @@ def read_given(data, graph):
         parts.add(part)
     if not parts:
         raise Unreadable("nothing is given in it")
-    return [list(part) for part in sorted(parts)], None
+    return [list(part) for part in sorted(parts)], None, frames

@@ -1,5 +1,6 @@
 //! The claim, recomputed from what the evidence gives (section 8 of the specification).
 
+use crate::base_lines::BaseLines;
 use crate::displacements::Displacements;
 use crate::document::{
     Claims, ComponentsClaim, GraphName, Model, RankClaim, SolutionsClaim, VerdictClaim,
@@ -76,6 +77,8 @@ pub struct Verified {
     pub components: (usize, Strength),
     /// The number of solutions, as a proof, if more was shown than the verdict says.
     pub solutions: Option<Count>,
+    /// What frames add where base lines are unknown, if that was shown.
+    pub base_lines: Option<BaseLines>,
     /// For people: what else was verified.
     pub notes: Vec<String>,
 }
@@ -123,6 +126,7 @@ pub(crate) fn verify(
         required,
         components,
         solutions,
+        base_lines: None,
         notes: notes.collect(),
     })
 }
@@ -299,6 +303,7 @@ impl Display for Verified {
             required,
             components,
             solutions,
+            base_lines,
             notes,
         } = self;
         let (given, cameras) = match model {
@@ -331,6 +336,9 @@ impl Display for Verified {
         write!(f, "components: {} maximal ({})", components.0, components.1)?;
         if let Some(count) = solutions {
             write!(f, "\nsolutions: {count} ({})", Strength::Proof)?;
+        }
+        if let Some(found) = base_lines {
+            write!(f, "\nbase lines: {found}")?;
         }
         notes
             .iter()

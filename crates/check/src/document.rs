@@ -1,10 +1,12 @@
 //! The JSON text as typed values, by the grammar of sections 1, 3 and 5 to 7 of the specification.
 
+pub(crate) mod base_lines;
 mod number;
 pub(crate) mod solutions;
 
 use crate::json::{Big, Optional, Strict, Value, any_members, objects, present};
 use crate::rejection::{Checked, Failure};
+use base_lines::{BaseLines, BaseLinesClaim};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use solutions::Solutions;
@@ -28,12 +30,12 @@ objects! {
         displacements: Optional<Vec<Vec<u32>>>, vectors: Optional<Vec<Vec<[Big<i128>; 3]>>>,
         claim: Claims, bodies: Vec<Body>,
         rigid: Members, pieces: Vec<Piece>, solutions: Optional<Solutions>,
-        parts: Optional<Vec<Vec<u32>>>,
+        parts: Optional<Vec<Vec<u32>>>, base_lines: Optional<BaseLines>,
     }
     GraphName { name: String, nodes: usize, edges: usize, sha256: String, graph6: Option<String> }
     Claims {
         verdict: VerdictClaim, rank: RankClaim, components: ComponentsClaim,
-        solutions: Optional<SolutionsClaim>,
+        solutions: Optional<SolutionsClaim>, base_lines: Optional<BaseLinesClaim>,
     }
     VerdictClaim { value: String, strength: String, error_log2: Option<i64> }
     RankClaim { value: i64, required: i64, strength: String, error_log2: Option<i64> }

@@ -20,6 +20,8 @@ pub struct Graph {
     pub(crate) parts: Vec<Vec<u32>>,
     /// The hash of the displacements that are known, if there are any.
     pub(crate) displacements: Option<String>,
+    /// The hash of the frames of unknown base lines, if there are any.
+    pub(crate) frames: Option<String>,
 }
 
 impl Graph {
@@ -53,6 +55,7 @@ impl Graph {
             start,
             parts: Vec::new(),
             displacements: None,
+            frames: None,
         })
     }
 

@@ -27,6 +27,7 @@
 //! | error bounds: draws nobody chooses | 9 | 7.2, 7.4 | `draws` |
 //! | classes, rigid or split again | 7 | 6.3, 6.5 | `evidence` |
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
+//! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | the number of solutions | 12 | 10.2 to 10.17 | `solutions`, a file for each kind |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
 //!
@@ -36,6 +37,7 @@
 
 mod added;
 mod algebra;
+mod base_lines;
 mod bodies;
 mod cameras;
 mod claim;
@@ -68,6 +70,7 @@ mod solutions;
 mod structure;
 mod vectors;
 
+pub use base_lines::BaseLines;
 pub use claim::{Strength, Verdict, Verified};
 pub use displacements::Displacements;
 pub use document::Model;
@@ -202,8 +205,10 @@ impl Certificate {
         let found = (&pieces[..], count);
         let verified = claim::verify(&document.claim, name, (model, known), found, joined);
         let verified = verified.within(|| "claim".into())?;
+        let base_lines = base_lines::check(document, structure, given);
         Ok(Verified {
             parts: parts.len(),
+            base_lines: base_lines.within(|| "base_lines".into())?,
             ..verified
         })
     }

@@ -38,8 +38,8 @@ these no known parts and displacements may be supposed but what is given:
   --nodes N            the number of nodes
   --edges M            the number of edges
   --sha256 HEX         the hash of the graph
-  --given FILE         known parts, or the hash of known displacements, as `verify convert --given`
-                       writes them
+  --given FILE         known parts, or the hashes of known displacements and of frames, as
+                       `verify convert --to given` writes them
 
   --proofs-only        proofs, no error bounds
 
@@ -361,6 +361,10 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
     );
     if let Some(known) = &verified.displacements {
         let what = format!("displacements are supposed to be known: {known}");
+        see(expects && !given, what);
+    }
+    if let Some(found) = &verified.base_lines {
+        let what = format!("frames are supposed to be known: SHA-256 {}", found.sha256);
         see(expects && !given, what);
     }
     for (name, strength) in [

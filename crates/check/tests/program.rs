@@ -340,6 +340,19 @@ fn hypotheses_are_none_unless_they_are_named() {
         assert_eq!((given.code, given.out.as_str()), (1, "REJECTED\n"));
         assert_eq!(run(&[certificate, &graph, "--given", &own]).code, 0);
     }
+    let turning = path("../base_lines/turning");
+    let hash = "efb3ef2096bfb158e2fc3d336efe10983dede9f44f455c0cc9156256e99d4d39";
+    let frames = file("frames.txt", format!("frames {hash}\n").as_bytes());
+    let asked = ["--model", "calibrated", &*turning];
+    assert_eq!(run(&[&*turning]).code, 0);
+    let alone = run(&asked);
+    let reason = format!("frames are supposed to be known: SHA-256 {hash}");
+    assert!(
+        alone.code == 1 && alone.err.contains(&reason),
+        "{}",
+        alone.err
+    );
+    assert_eq!(run(&[&asked[..], &["--given", &frames]].concat()).code, 0);
     let zeros = file(
         "zeros.txt",
         format!("displacements {}\n", "0".repeat(64)).as_bytes(),

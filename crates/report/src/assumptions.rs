@@ -92,8 +92,7 @@ impl Planar {
 
 /// What is supposed where the base lines of rigs are one unknown for all frames.
 const BASE_LINES: &str = "base lines: a sensor is at one place in its rig in all frames, these places and the turns of \
-                          frames are in general position; certificates do not state frames yet, they are about \
-                          the verdict";
+                          frames are in general position, rotations known";
 
 /// What is supposed where cameras have classes.
 const INTRINSICS: &str = "intrinsics: what is known of them is known exactly, each image has its own, and optical axes \
@@ -126,12 +125,8 @@ impl BaseLines {
             unknown: found.base_lines,
             verdict: if found.is_determined() && groups > 1 {
                 "open"
-            } else if found.is_determined() {
-                "solvable"
-            } else if found.is_refuted() {
-                "not-finite-solvable"
             } else {
-                "open"
+                found.value()
             },
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -206,6 +201,28 @@ fn groups_turned(input: &NamedGraph) -> usize {
     groups.len()
 }
 
+/// What base lines of rigs that are not known determine, with its evidence, where a verdict on tracks
+/// does not say it all.
+///
+/// # Errors
+/// If the work was stopped.
+pub fn base_lines(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    watch: &Watch,
+) -> Result<Option<(BaseLines, SharedBaseLines)>, Stopped> {
+    let is_good = verdict.value != Value::NotFiniteSolvable;
+    // That bodies by rules are rigid holds with frames as well; of a rank it is asked.
+    let is_asked = verdict.model == Model::Calibrated && !(is_good && verdict.pieces.is_empty());
+    let Some(frames) = input.frames.as_ref().filter(|_| is_asked) else {
+        return Ok(None);
+    };
+    let (frames, seed) = (frames.rig_frames(), Options::default().seed);
+    let found = SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)?;
+    let found = found.map(|found| (BaseLines::new(&found, groups_turned(input)), found));
+    Ok(found.filter(|(found, _)| !(is_good && found.is_determined())))
+}
+
 /// Whether a verdict shows already that nothing is lost in a plane: one body, by the merge rules
 /// that hold there as well.
 fn is_rigid_by_triangles(verdict: &Verdict) -> bool {
@@ -234,7 +251,7 @@ pub struct Asked {
 pub struct Scope {
     conditions: Vec<String>,
     planar: Option<Planar>,
-    base_lines: Option<BaseLines>,
+    base_lines: Option<(BaseLines, SharedBaseLines)>,
     intrinsics: Option<IntrinsicsLine>,
 }
 
@@ -278,19 +295,7 @@ impl Scope {
             let condition = if is_given { VECTORS } else { DISPLACEMENTS };
             conditions.push(condition.to_owned());
         }
-        let base_lines = match &input.frames {
-            // That bodies by rules are rigid holds with frames as well; of a rank it is asked.
-            Some(frames)
-                if verdict.model == Model::Calibrated
-                    && !(is_good && verdict.pieces.is_empty()) =>
-            {
-                let (frames, seed) = (frames.rig_frames(), Options::default().seed);
-                SharedBaseLines::new(&input.graph, verdict, &frames, seed, watch)?
-            }
-            _ => None,
-        };
-        let base_lines = base_lines.map(|found| BaseLines::new(&found, groups_turned(input)));
-        let base_lines = base_lines.filter(|found| !(is_good && found.is_determined()));
+        let base_lines = base_lines(input, verdict, watch)?;
         if base_lines.is_some() {
             conditions.push(BASE_LINES.to_owned());
         }
@@ -325,7 +330,12 @@ impl Scope {
 
     /// What base lines that are not known determine, if there are any and they are needed.
     pub fn base_lines(&self) -> Option<&BaseLines> {
-        self.base_lines.as_ref()
+        self.base_lines.as_ref().map(|(found, _)| found)
+    }
+
+    /// The same with its evidence, for a certificate.
+    pub fn shared_base_lines(&self) -> Option<&SharedBaseLines> {
+        self.base_lines.as_ref().map(|(_, found)| found)
     }
 
     /// The answer for centres in one plane, if it was asked for or is worse.

@@ -32,24 +32,41 @@ impl Graph {
         Ok(self)
     }
 
+    /// The same graph with frames, which their hash names (section 13 of the specification; lower-case
+    /// hexadecimal digits), in the place of those it has.
+    pub fn with_frames(mut self, sha256: impl Into<String>) -> Graph {
+        self.frames = Some(sha256.into());
+        self
+    }
+
     /// The same graph with what a file gives.
     ///
     /// # Errors
     /// What is wrong with the file, with the line.
     pub fn with_given(self, file: &[u8]) -> Result<Graph, Unreadable> {
-        let mut lines = lines_of_numbers(file).peekable();
-        match lines.peek() {
-            Some((number, line)) if line.starts_with(DISPLACEMENTS) => {
-                let hash = hash(&line[DISPLACEMENTS.len()..]);
-                let hash = hash.ok_or_else(|| format!("line {number}: {HASH}"))?;
+        let mut lines: Vec<(usize, &[u8])> = lines_of_numbers(file).collect();
+        let hash_of = |(number, line): (usize, &[u8]), word: &[u8]| {
+            let hash = hash(&line[word.len()..]);
+            hash.ok_or_else(|| Unreadable::from(format!("line {number}: {HASH}")))
+        };
+        let last = lines.pop_if(|(_, line)| line.starts_with(FRAMES));
+        let frames = last.map(|line| hash_of(line, FRAMES)).transpose()?;
+        let graph = match lines[..] {
+            [] if frames.is_some() => self,
+            [line, ..] if line.1.starts_with(DISPLACEMENTS) => {
+                let hash = hash_of(line, DISPLACEMENTS)?;
                 ensure!(
-                    lines.count() == 1,
+                    lines.len() == 1,
                     "something stands beside the displacements"
                 );
-                Ok(self.with_displacements(hash))
+                self.with_displacements(hash)
             }
-            _ => self.with_parts_of(lines),
-        }
+            _ => self.with_parts_of(lines.into_iter())?,
+        };
+        Ok(match frames {
+            Some(hash) => graph.with_frames(hash),
+            None => graph,
+        })
     }
 
     fn with_parts_of<'a>(
@@ -95,11 +112,14 @@ fn hash(rest: &[u8]) -> Option<String> {
 
 const DISPLACEMENTS: &[u8] = b"displacements";
 
-const HASH: &str = "behind `displacements` stands a hash, 64 hexadecimal digits";
+const FRAMES: &[u8] = b"frames";
+
+const HASH: &str =
+    "behind `displacements` stands a hash, 64 hexadecimal digits (as behind `frames`)";
 
 const PARTS: &str = "a line is `part` and two node numbers or more, with a single blank or tab before \
-                     each, or else `displacements` and a hash (`verify convert --given` writes such a \
-                     file)";
+                     each, or else `displacements` or, last, `frames` and a hash (see `verify convert \
+                     --to given`)";
 
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! The members of the certificate, borrowed from a verdict.
 
+use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, objects};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
 use crate::contract::piece::Members;
@@ -8,7 +9,8 @@ use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
 use crate::decide::{
-    Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedPiece, Value, Verdict,
+    Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedBaseLines, SharedPiece, Value,
+    Verdict,
 };
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::Graph;
@@ -30,7 +32,7 @@ objects! {
         bodies: Vec<BodyView<'a>>,
         rigid: MembersView<'a>,
         pieces: Vec<PieceView<'a>>,
-        ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>
+        ; optional displacements: &'a [Vec<u32>], vectors: Vec<Vec<[Big<i128>; 3]>>, solutions: SolutionsView<'a>, parts: Vec<&'a [u32]>, base_lines: BaseLinesView<'a>
     }
 
     GraphView<'a> {
@@ -45,7 +47,7 @@ objects! {
         verdict: Valued<&'static str>,
         rank: Rank,
         components: Valued<usize>,
-        ; optional solutions: ClaimedSolutions
+        ; optional solutions: ClaimedSolutions, base_lines: ClaimedBaseLines
     }
 
     Valued<T> {
@@ -96,6 +98,7 @@ impl<'a> Document<'a> {
         graph6: Option<String>,
         verdict: &'a Verdict,
         solutions: Option<&'a Solutions>,
+        base_lines: Option<&'a SharedBaseLines>,
     ) -> Result<Self, ForeignSolutions> {
         let (mut value, rank) = (verdict.value_claim(), verdict.rank_claim());
         value.value = verdict.value_by_rank();
@@ -130,6 +133,7 @@ impl<'a> Document<'a> {
                 },
                 components: Valued::new(components, <[_]>::len),
                 solutions: claimed,
+                base_lines: base_lines.map(ClaimedBaseLines::from),
             },
             bodies: verdict
                 .contraction
@@ -145,6 +149,7 @@ impl<'a> Document<'a> {
                 groups.iter().map(vectors).collect()
             }),
             solutions: evidence,
+            base_lines: base_lines.map(BaseLinesView::from),
             parts: (!verdict.known_parts.is_empty()).then(|| verdict.known_parts.iter().collect()),
         })
     }

@@ -1,9 +1,10 @@
 //! The certificate as written: docs/certificate.md, version 2.
 //!
 //! In: a graph and its verdict. Out: the JSON text that both checkers read, as a [`Certificate`]
-//! that is written or displayed; with `solutions`, what is known of their number. Nothing is
-//! computed here.
+//! that is written or displayed; with `solutions`, what is known of their number, with `base_lines`, what
+//! frames add. Nothing is computed here.
 
+mod base_lines;
 mod document;
 mod lines;
 mod objects;
@@ -12,7 +13,7 @@ mod solutions;
 pub use document::hex;
 pub use solutions::ForeignSolutions;
 
-use crate::decide::Verdict;
+use crate::decide::{SharedBaseLines, Verdict};
 use crate::graph::{Graph, graph6};
 use crate::solutions::Solutions;
 use std::fmt;
@@ -31,6 +32,7 @@ pub struct Certificate<'a> {
     embed: bool,
     compact: bool,
     solutions: Option<&'a Solutions>,
+    base_lines: Option<&'a SharedBaseLines>,
 }
 
 impl Verdict {
@@ -56,6 +58,7 @@ impl Verdict {
             name: "",
             embed: false,
             compact: false,
+            base_lines: None,
             solutions: own.filter(|solutions| solutions::view(self, solutions).is_ok()),
         }
     }
@@ -112,6 +115,36 @@ impl<'a> Certificate<'a> {
         Ok(self)
     }
 
+    /// Says what frames add where base lines are unknown (section 13 of the specification).
+    ///
+    /// # Panics
+    /// If that was found for another graph.
+    ///
+    /// ```
+    /// use viewcert::decide::{RigFrames, SharedBaseLines};
+    /// use viewcert::watch::Watch;
+    /// use viewcert::{Calibrated, Graph, Options, decide};
+    ///
+    /// // Two frames of a rig whose second sensor is at an unknown place.
+    /// let graph = Graph::new(4, [(0, 2), (1, 3)])?;
+    /// let options = Options::default().question(Calibrated::default());
+    /// let verdict = decide(&graph, &options)?;
+    /// let frames = [vec![(0, 0), (1, 1)], vec![(2, 0), (3, 1)]];
+    /// let frames = RigFrames::new(frames, vec![true, false])?;
+    /// let found = SharedBaseLines::new(&graph, &verdict, &frames, 1, &Watch::default())?.unwrap();
+    /// assert_eq!((found.rank, found.required), (4, 5));
+    /// let certificate = verdict.certificate(&graph).with_base_lines(&found).compact();
+    /// let claimed = "\"base_lines\":{\"value\":\"not-finite-solvable\",\"at_least\":4,\"at_most\":4";
+    /// assert!(certificate.to_string().contains(claimed));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_base_lines(mut self, found: &'a SharedBaseLines) -> Self {
+        assert_eq!(self.verdict.sha256, found.graph_sha256, "another graph");
+        self.base_lines = Some(found);
+        self
+    }
+
     /// Writes the text, which ends with a line feed.
     ///
     /// # Errors
@@ -125,6 +158,7 @@ impl<'a> Certificate<'a> {
             embedded,
             self.verdict,
             self.solutions,
+            self.base_lines,
         )
         .map_err(io::Error::other)?;
         if self.compact {

@@ -3,33 +3,41 @@
 //! In: a verdict on a graph whose cameras have centres of their own, and which cameras are images of
 //! one frame. Out: the rank of the same graph where a sensor is at one unknown place in its rig,
 //! turned with every frame, between a lower bound at drawn centres and an upper one by counting.
-//! What is solvable without frames is solvable with them, so this is asked for the rest.
+//! What is solvable without frames is solvable with them, so this is asked for the rest. The evidence is
+//! that of docs/certificate.md, section 13.
 
 mod drawn;
 mod members;
 
-use crate::decide::verdict::Verdict;
+use crate::contract::piece::Members as Block;
+use crate::decide::evidence::ModularDraw;
+use crate::decide::verdict::{Value, Verdict};
 use crate::geometry::draw::DrawKey;
 use crate::graph::Graph;
+use crate::linalg::textbook::Pivots;
 use crate::watch::{Stopped, Watch};
 use drawn::Drawn;
 use members::{Layout, Members};
+use sha2::{Digest, Sha256};
+use std::collections::HashMap;
 
 /// How many draws of centres are tried while the bounds do not meet.
 const DRAWS: u64 = 3;
 
-/// Images of frames, by their nodes, and the sensor of each.
+/// Images of frames, by their nodes, and the sensor of each; in the one order and numbering in which
+/// certificates have them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RigFrames {
-    /// The images of every frame that has two or more: nodes, none of them twice, and sensors.
+    /// The images of every frame that has two or more: increasing nodes, none of them twice, and
+    /// sensors; by first nodes.
     frames: Vec<Vec<(u32, u32)>>,
-    /// For every sensor whether its place in its rig is known.
+    /// For every sensor, in the order in which they occur first, whether its place in its rig is known.
     known: Vec<bool>,
 }
 
 impl RigFrames {
-    /// Frames of the sensors `0 .. known.len()`, each with its images: nodes and their sensors. A
-    /// frame with a single image says nothing and is left out. O(images log images).
+    /// Frames of the sensors `0 .. known.len()`, each with its images: nodes and their sensors, which
+    /// are numbered anew. A frame with a single image says nothing and is left out. O(images log images).
     ///
     /// # Errors
     /// A node that is in two frames, a sensor twice in one, or a sensor that is not there.
@@ -38,7 +46,7 @@ impl RigFrames {
         known: Vec<bool>,
     ) -> Result<Self, &'static str> {
         let frames = frames.into_iter().filter(|images| images.len() > 1);
-        let frames: Vec<Vec<(u32, u32)>> = frames.collect();
+        let mut frames: Vec<Vec<(u32, u32)>> = frames.collect();
         let mut nodes: Vec<u32> = frames.iter().flatten().map(|&(node, _)| node).collect();
         nodes.sort_unstable();
         if nodes.windows(2).any(|two| two[0] == two[1]) {
@@ -54,7 +62,54 @@ impl RigFrames {
                 return Err("a sensor is not there");
             }
         }
-        Ok(Self { frames, known })
+        frames.iter_mut().for_each(|images| images.sort_unstable());
+        frames.sort_unstable();
+        let mut number: HashMap<u32, u32> = HashMap::new();
+        let mut known_anew = Vec::new();
+        for (_, sensor) in frames.iter_mut().flatten() {
+            let next = number.len() as u32;
+            *sensor = *number.entry(*sensor).or_insert_with(|| {
+                known_anew.push(known[*sensor as usize]);
+                next
+            });
+        }
+        Ok(Self {
+            frames,
+            known: known_anew,
+        })
+    }
+
+    /// The frames, by their first nodes: their images, increasing nodes with their sensors.
+    pub fn frames(&self) -> &[Vec<(u32, u32)>] {
+        &self.frames
+    }
+
+    /// The sensors whose places are known, increasing.
+    pub fn known(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..)
+            .zip(&self.known)
+            .filter_map(|(sensor, &known)| known.then_some(sensor))
+    }
+
+    /// Whether the place of some sensor is unknown beside another one of linked sensors.
+    pub fn has_unknown(&self) -> bool {
+        Layout::new(self).unknown > 0
+    }
+
+    /// The hash by which certificates name the frames (docs/certificate.md, section 13). O(images).
+    pub fn sha256(&self) -> [u8; 32] {
+        let mut hash = Sha256::new_with_prefix(b"viewcert frames 1\n");
+        hash.update((self.frames.len() as u64).to_le_bytes());
+        for images in &self.frames {
+            hash.update((images.len() as u64).to_le_bytes());
+            for (node, sensor) in images {
+                hash.update(node.to_le_bytes());
+                hash.update(sensor.to_le_bytes());
+            }
+        }
+        hash.update((self.known().count() as u64).to_le_bytes());
+        self.known().for_each(|k| hash.update(k.to_le_bytes()));
+        hash.finalize().into()
     }
 
     /// How many frames have two images or more.
@@ -69,7 +124,7 @@ impl RigFrames {
 }
 
 /// What a graph determines if base lines that are not known are the same in all frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SharedBaseLines {
     /// Frames with two images or more.
     pub frames: usize,
@@ -87,6 +142,21 @@ pub struct SharedBaseLines {
     /// If all is determined, whether it is so too where all frames turn about one axis, like a
     /// vehicle: proved if it is, and otherwise what drawn positions show.
     pub about_one_axis: bool,
+    /// The hash of the graph.
+    pub(crate) graph_sha256: [u8; 32],
+    pub(crate) evidence: BaseLinesEvidence,
+}
+
+/// What a certificate shows of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct BaseLinesEvidence {
+    pub(crate) frames: RigFrames,
+    /// Pivots at drawn centres, and, where all is determined, at centres with one axis.
+    pub(crate) lower: (ModularDraw, Pivots),
+    pub(crate) one_axis: Option<(ModularDraw, Pivots)>,
+    /// Sensors whose places are held, and the blocks with the bound they give, if it is below what
+    /// is required.
+    pub(crate) upper: Option<(Vec<u32>, Vec<Block>)>,
 }
 
 impl SharedBaseLines {
@@ -99,6 +169,17 @@ impl SharedBaseLines {
     /// Whether it is proved that they are not.
     pub fn is_refuted(&self) -> bool {
         self.at_most < self.required
+    }
+
+    /// The answer, as certificates have it.
+    pub fn value(&self) -> &'static str {
+        if self.is_determined() {
+            Value::Solvable.name()
+        } else if self.is_refuted() {
+            Value::NotFiniteSolvable.name()
+        } else {
+            "open"
+        }
     }
 
     /// Asks what frames add to a verdict of the calibrated model on a graph. `None` if no base line is
@@ -123,27 +204,35 @@ impl SharedBaseLines {
             return Ok(None);
         }
         let members = Members::new(graph, &verdict.contraction, &layout);
+        let frames_sha256 = frames.sha256();
+        let key = |draw| DrawKey {
+            graph_sha256: verdict.sha256,
+            core_sha256: Some(frames_sha256),
+            seed,
+            draw,
+        };
         let mut found: Option<Self> = None;
         for draw in 0..DRAWS {
-            let key = DrawKey {
-                graph_sha256: verdict.sha256,
-                core_sha256: None,
-                seed,
-                draw,
-            };
-            let Some(drawn) = Drawn::new(&members, &layout, &key, false) else {
+            let Some(drawn) = Drawn::new(&members, &layout, &key(draw), false) else {
                 continue;
             };
             let required = members.required(&layout);
             let free = drawn.motion(&vec![false; layout.unknown], watch)?;
             let rank = required + members.trivial() - free.dimension - members.outside;
-            let mut at_most = found.map_or(required, |before| before.at_most);
+            let before = found.as_mut();
+            let (mut at_most, mut upper) = before.map_or((required, None), |before| {
+                (before.at_most, before.evidence.upper.take())
+            });
             for held in layout.sets() {
                 if rank >= at_most {
                     break;
                 }
                 let motion = drawn.motion(&held, watch)?;
-                at_most = at_most.min(members.bound(&layout, &held, &motion.classes));
+                let bound = members.bound(&layout, &held, &motion.classes);
+                if bound < at_most {
+                    at_most = bound;
+                    upper = Some((layout.sensors(&held), members.blocks(&motion.classes)));
+                }
             }
             let now = Self {
                 frames: frames.len(),
@@ -153,31 +242,33 @@ impl SharedBaseLines {
                 required,
                 about_one_axis: false,
                 parts: free.classes.iter().max().map_or(0, |last| last + 1) + members.alone,
+                graph_sha256: verdict.sha256,
+                evidence: BaseLinesEvidence {
+                    frames: frames.clone(),
+                    lower: (drawn.name(), free.pivots),
+                    one_axis: None,
+                    upper: None,
+                },
             };
             // A larger rank is nearer to the generic one, and its motions are those that there are.
-            let best = match found {
-                Some(before) if before.rank >= now.rank => Self {
-                    at_most: now.at_most,
-                    ..before
-                },
-                _ => now,
-            };
+            let mut best = found
+                .take()
+                .filter(|before| before.rank >= now.rank)
+                .unwrap_or(now);
+            (best.at_most, best.evidence.upper) = (at_most, upper);
+            let meet = best.rank == best.at_most;
             found = Some(best);
-            if best.rank == best.at_most {
+            if meet {
                 break;
             }
         }
-        if let Some(found) = found.as_mut().filter(|found| found.is_determined()) {
-            let key = DrawKey {
-                graph_sha256: verdict.sha256,
-                core_sha256: None,
-                seed,
-                draw: 2 * DRAWS,
-            };
-            if let Some(drawn) = Drawn::new(&members, &layout, &key, true) {
-                let free = drawn.motion(&vec![false; layout.unknown], watch)?;
-                found.about_one_axis = free.dimension + members.outside == members.trivial();
-            }
+        if let Some(found) = found.as_mut().filter(|found| found.is_determined())
+            && let Some(drawn) = Drawn::new(&members, &layout, &key(2 * DRAWS), true)
+        {
+            let free = drawn.motion(&vec![false; layout.unknown], watch)?;
+            found.about_one_axis = free.dimension + members.outside == members.trivial();
+            let shown = found.about_one_axis.then(|| (drawn.name(), free.pivots));
+            found.evidence.one_axis = shown;
         }
         Ok(found)
     }

@@ -52,6 +52,7 @@ mod verdict;
 mod walk;
 mod whole_matrix;
 
+pub(crate) use base_lines::BaseLinesEvidence;
 pub use base_lines::{RigFrames, SharedBaseLines};
 pub use claim::{Claim, Strength, UnknownStrength};
 #[cfg(test)]

@@ -120,6 +120,11 @@ impl DrawKey {
         self.stream(field, b"viewcert pick 1\n")
     }
 
+    /// The coordinates of centres, one after another, for whoever draws more than these.
+    pub(crate) fn coordinates(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
+        self.stream(field, b"viewcert draw 2\n")
+    }
+
     /// The weights of plane flows at the rows of N that are not pivots: uniform residues.
     pub fn flow_weights(&self, field: &PrimeField) -> impl FnMut() -> u64 + use<> {
         self.stream(field, b"viewcert flow 2\n")

@@ -278,6 +278,12 @@ impl Frames {
             .expect("frames that have been checked")
     }
 
+    /// The hash of these frames, as certificates name them; nothing where no base line is unknown.
+    pub fn sha256(&self) -> Option<[u8; 32]> {
+        let frames = self.rig_frames();
+        frames.has_unknown().then(|| frames.sha256())
+    }
+
     /// Whether any images of one frame know their places to each other.
     pub fn say_something(&self) -> bool {
         !self.groups.is_empty() || !self.together.is_empty()

@@ -64,6 +64,36 @@ fn files_of_displacements() {
     }
 }
 
+#[test]
+fn files_with_frames() {
+    let (hash, other) = ("0123456789ABCDEF".repeat(4), "f".repeat(64));
+    let graph = given(&format!("# rigs\nframes\t{hash}")).unwrap();
+    assert_eq!(graph.frames, Some(hash.to_lowercase()));
+    assert_eq!((graph.displacements, graph.parts.len()), (None, 0));
+    let graph = given(&format!("displacements {other}\nframes {hash}\n")).unwrap();
+    assert_eq!(graph.frames, Some(hash.to_lowercase()));
+    assert_eq!(graph.displacements, Some(other.clone()));
+    let graph = given(&format!("part 2 0\nframes {hash}\n")).unwrap();
+    assert_eq!(graph.frames, Some(hash.to_lowercase()));
+    assert_eq!(graph.parts, [vec![0, 2]]);
+    for (file, reason) in [
+        ("frames\n".to_owned(), "line 1: behind `displacements`"),
+        (format!("frames {}", &hash[1..]), "line 1: behind"),
+        (
+            format!("frames {hash}\npart 0 1"),
+            "line 1: a line is `part`",
+        ),
+        (format!("frames {hash}\nframes {hash}"), "line 1: a line is"),
+        (
+            format!("displacements {hash}\ndisplacements {hash}\nframes {hash}"),
+            "something stands beside",
+        ),
+    ] {
+        let found = given(&file).unwrap_err();
+        assert!(found.contains(reason), "{file}: {found}");
+    }
+}
+
 /// What is not read from a file need not be in order.
 #[test]
 fn parts_in_canonical_form() {

@@ -7,10 +7,12 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::DRAWS;
 use super::members::{Layout, Member, Members};
+use crate::decide::evidence::ModularDraw;
 use crate::geometry::draw::DrawKey;
 use crate::geometry::plane_flow::directions;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::sparse_lu::Factorisation;
+use crate::linalg::textbook::Pivots;
 use crate::watch::{Step, Stopped, Watch};
 
 /// Centres that frames and sensors have in common, modulo a prime.
@@ -21,7 +23,7 @@ pub(super) struct Drawn<'a> {
     key: DrawKey,
     /// For every frame the rows of its rotation R_f.
     rotations: Vec<[[u64; 3]; 3]>,
-    /// The shared nodes: where they are, and for images R_f^T b_k, from the origin of their frame.
+    /// The shared nodes: where they are, and for images how far from the sensor of their frame that is fixed.
     centres: Vec<[u64; 3]>,
     arms: Vec<[u64; 3]>,
 }
@@ -32,11 +34,13 @@ pub(super) struct Motion {
     pub(super) dimension: usize,
     /// For every member the number of its class, from 0 on: those that move alike in one motion.
     pub(super) classes: Vec<usize>,
+    /// Those of the matrix.
+    pub(super) pivots: Pivots,
 }
 
 impl<'a> Drawn<'a> {
     /// `None` if a rotation is none, or two centres of an edge coincide. All rotations are about one
-    /// axis if that is asked for.
+    /// axis if that is asked for. The order of what is drawn is that of docs/certificate.md, section 13.
     pub(super) fn new(
         members: &'a Members,
         layout: &'a Layout,
@@ -44,34 +48,37 @@ impl<'a> Drawn<'a> {
         about_one_axis: bool,
     ) -> Option<Self> {
         let field = PrimeField::mersenne61();
-        let mut random = key.residues(&field);
-        let mut vector = || -> [u64; 3] { [random(), random(), random()] };
+        let mut random = key.coordinates(&field);
         let mut rotations = Vec::new();
         let mut origins = Vec::new();
-        let axis = vector();
+        let axis = about_one_axis.then(|| vector(&mut random));
         for _ in 0..layout.frames.len() {
-            let turn = vector();
-            let by = if about_one_axis {
-                axis.map(|part| field.times(turn[0], part))
-            } else {
-                turn
+            let turn = match axis {
+                Some(axis) => {
+                    let turn = random();
+                    axis.map(|part| field.times(turn, part))
+                }
+                None => vector(&mut random),
             };
-            rotations.push(rotation(&field, by)?);
-            origins.push(vector());
+            rotations.push(rotation(&field, turn)?);
+            origins.push(vector(&mut random));
         }
-        let places: Vec<[u64; 3]> = layout.number.iter().map(|_| vector()).collect();
+        let mut places: Vec<[u64; 3]> = Vec::new();
+        for sensor in 0..layout.number.len() {
+            let place = vector(&mut random);
+            let is_origin = layout.is_origin(sensor);
+            places.push(if is_origin { [0; 3] } else { place });
+        }
         let (mut centres, mut arms) = (Vec::new(), Vec::new());
         for v in &members.shared {
             let (centre, arm) = match layout.at.get(v) {
-                None => (vector(), [0; 3]),
+                None => (vector(&mut random), [0; 3]),
                 Some(&(f, sensor)) => {
-                    let is_origin = layout.number[sensor as usize].is_none() && !layout.scaled;
-                    let arm = if is_origin {
-                        [0; 3]
-                    } else {
-                        back(&field, &rotations[f], &places[sensor as usize])
-                    };
-                    (sum(&field, &origins[f], &arm), arm)
+                    let (sensor, turn) = (sensor as usize, &rotations[f]);
+                    let place = back(&field, turn, &places[sensor]);
+                    let from = back(&field, turn, &places[layout.fixed[sensor]]);
+                    let arm = std::array::from_fn(|k| field.minus(place[k], from[k]));
+                    (sum(&field, &origins[f], &place), arm)
                 }
             };
             centres.push(centre);
@@ -90,6 +97,15 @@ impl<'a> Drawn<'a> {
         chains
             .all(|(u, w)| drawn.centres[u] != drawn.centres[w])
             .then_some(drawn)
+    }
+
+    /// What a certificate calls the draw.
+    pub(super) fn name(&self) -> ModularDraw {
+        ModularDraw {
+            prime: self.field.modulus(),
+            seed: self.key.seed,
+            draw: self.key.draw,
+        }
     }
 
     /// The columns of the frames begin here; those of shared nodes in no frame come before, and those
@@ -164,7 +180,6 @@ impl<'a> Drawn<'a> {
                 rows.push(row(u, w, &unit));
             }
         }
-        rows.retain(|row| !row.is_empty());
         let task = watch.task(Step::Flows, columns.div_ceil(3));
         let done = Factorisation::new(f, rows.clone(), columns, &task)?;
         let mut random = DrawKey {
@@ -191,6 +206,7 @@ impl<'a> Drawn<'a> {
             })
         };
         Ok(Motion {
+            pivots: done.pivots(),
             dimension: done.free_cols().len(),
             classes: self.classes(&moved),
         })
@@ -232,6 +248,10 @@ impl<'a> Drawn<'a> {
         });
         members.collect()
     }
+}
+
+fn vector(random: &mut impl FnMut() -> u64) -> [u64; 3] {
+    [random(), random(), random()]
 }
 
 /// The rows of the rotation of the quaternion (1, x, y, z); `None` if that has no length.

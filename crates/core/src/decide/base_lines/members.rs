@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::RigFrames;
 use crate::contract::Contraction;
+use crate::contract::piece::Members as Block;
 use crate::graph::{Graph, UnionFind};
 
 /// Up to so many unknown base lines all sets of them are tried for an upper bound.
@@ -22,6 +23,8 @@ pub(super) struct Layout<'a> {
     /// The number of every unknown place; none of a known one, or of the sensor that places are from.
     pub(super) number: Vec<Option<usize>>,
     pub(super) unknown: usize,
+    /// For every sensor a linked one whose place is known, or else the one that places are from.
+    pub(super) fixed: Vec<usize>,
     /// Whether two known places are linked by frames, so that they fix the scale.
     pub(super) scaled: bool,
 }
@@ -29,38 +32,58 @@ pub(super) struct Layout<'a> {
 impl<'a> Layout<'a> {
     pub(super) fn new(frames: &'a RigFrames) -> Self {
         let mut linked = UnionFind::new(frames.known.len());
-        let mut used = vec![false; frames.known.len()];
         let mut at = HashMap::new();
         for (f, images) in frames.frames.iter().enumerate() {
             for &(node, sensor) in images {
                 at.insert(node, (f, sensor));
-                used[sensor as usize] = true;
                 linked.union(images[0].1 as usize, sensor as usize);
             }
         }
-        let mut origins: BTreeMap<usize, usize> = BTreeMap::new();
-        for sensor in (0..used.len()).filter(|&k| used[k] && frames.known[k]) {
-            *origins.entry(linked.find(sensor)).or_default() += 1;
-        }
-        let scaled = origins.values().any(|&count| count > 1);
-        let mut unknown = 0;
-        let mut number = vec![None; used.len()];
-        for sensor in (0..used.len()).filter(|&k| used[k] && !frames.known[k]) {
-            let rig = linked.find(sensor);
-            if let Entry::Vacant(first) = origins.entry(rig) {
-                first.insert(0);
-                continue;
+        let sensors = 0..frames.known.len();
+        let mut fixed_of: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut scaled = false;
+        for sensor in frames.known().map(|sensor| sensor as usize) {
+            match fixed_of.entry(linked.find(sensor)) {
+                Entry::Vacant(first) => {
+                    first.insert(sensor);
+                }
+                Entry::Occupied(_) => scaled = true,
             }
-            number[sensor] = Some(unknown);
-            unknown += 1;
         }
+        let fixed = sensors.clone().map(|sensor| {
+            let rig = linked.find(sensor);
+            *fixed_of.entry(rig).or_insert(sensor)
+        });
+        let fixed: Vec<usize> = fixed.collect();
+        let mut unknown = 0;
+        let number = sensors.map(|sensor| {
+            let is_unknown = !frames.known[sensor] && fixed[sensor] != sensor;
+            unknown += usize::from(is_unknown);
+            is_unknown.then(|| unknown - 1)
+        });
+        let number = number.collect();
         Self {
             frames,
             at,
             number,
             unknown,
+            fixed,
             scaled,
         }
+    }
+
+    /// Whether the places of linked sensors, none of them known, are from this one.
+    pub(super) fn is_origin(&self, sensor: usize) -> bool {
+        self.fixed[sensor] == sensor && !self.frames.known[sensor]
+    }
+
+    /// The sensors whose unknown places are held.
+    pub(super) fn sensors(&self, held: &[bool]) -> Vec<u32> {
+        let is_held = |number: &Option<usize>| number.is_some_and(|number| held[number]);
+        let sensors = (0..).zip(&self.number);
+        sensors
+            .filter_map(|(k, number)| is_held(number).then_some(k))
+            .collect()
     }
 
     /// Sets of unknown places to hold for an upper bound: none, all, and, of few, all others.
@@ -79,6 +102,8 @@ impl<'a> Layout<'a> {
 
 /// A body or a loose edge.
 pub(super) struct Member {
+    /// Its number, if it is a body.
+    body: Option<u32>,
     /// All its nodes.
     nodes: Vec<u32>,
     /// Those that another member has too, or a frame; by their places in the list of all such nodes.
@@ -115,13 +140,14 @@ pub(super) struct Members {
 impl Members {
     pub(super) fn new(graph: &Graph, contraction: &Contraction, layout: &Layout) -> Self {
         let bodies = contraction.finals.iter().map(|&body| {
-            let body = &contraction.bodies[body as usize];
-            (body.nodes.clone(), body.scaled)
+            let found = &contraction.bodies[body as usize];
+            (Some(body), found.nodes.clone(), found.scaled)
         });
-        let loose = contraction.loose.iter().map(|&(i, j)| (vec![i, j], false));
-        let members: Vec<(Vec<u32>, bool)> = bodies.chain(loose).collect();
+        let loose = contraction.loose.iter();
+        let loose = loose.map(|&(i, j)| (None, vec![i, j], false));
+        let members: Vec<(Option<u32>, Vec<u32>, bool)> = bodies.chain(loose).collect();
         let mut count = vec![0u8; graph.nodes()];
-        for &v in members.iter().flat_map(|(nodes, _)| nodes) {
+        for &v in members.iter().flat_map(|(_, nodes, _)| nodes) {
             count[v as usize] = count[v as usize].saturating_add(1);
         }
         let in_frame = |v: u32| layout.at.contains_key(&v);
@@ -133,7 +159,7 @@ impl Members {
         let alone = alone.count();
         let mut scaled = layout.scaled;
         let mut outside = 3 * alone;
-        let all = members.into_iter().map(|(nodes, is_scaled)| {
+        let all = members.into_iter().map(|(body, nodes, is_scaled)| {
             let of_shared = nodes.iter().filter_map(|v| shared.binary_search(v).ok());
             let of_shared: Vec<usize> = of_shared.collect();
             scaled |= is_scaled;
@@ -143,6 +169,7 @@ impl Members {
                 _ => 0,
             };
             Member {
+                body,
                 nodes,
                 shared: of_shared,
                 scaled: is_scaled,
@@ -166,6 +193,19 @@ impl Members {
 
     pub(super) fn required(&self, layout: &Layout) -> usize {
         3 * (self.single + layout.frames.len() + layout.unknown) - self.trivial()
+    }
+
+    /// The members of each class.
+    pub(super) fn blocks(&self, classes: &[usize]) -> Vec<Block> {
+        let mut blocks: BTreeMap<usize, Block> = BTreeMap::new();
+        for (member, &class) in self.all.iter().zip(classes) {
+            let block = blocks.entry(class).or_default();
+            match member.body {
+                Some(body) => block.bodies.push(body),
+                None => block.edges.push((member.nodes[0], member.nodes[1])),
+            }
+        }
+        blocks.into_values().collect()
     }
 
     /// The bound of Theorem 13.27 for the partition of the members into classes, with some unknown

@@ -59,7 +59,8 @@ fn rank(mut rows: Vec<Vec<u64>>) -> usize {
 struct Case {
     nodes: usize,
     edges: Vec<(u32, u32)>,
-    frames: RigFrames,
+    images: Vec<Vec<(u32, u32)>>,
+    known: Vec<bool>,
     /// The sensors of each rig.
     rigs: Vec<std::ops::Range<u32>>,
 }
@@ -113,7 +114,11 @@ fn case(dice: &mut Dice) -> Case {
     Case {
         nodes: (cameras + points) as usize,
         edges,
-        frames: RigFrames::new(frames, known).unwrap(),
+        images: frames
+            .into_iter()
+            .filter(|images| images.len() > 1)
+            .collect(),
+        known,
         rigs,
     }
 }
@@ -140,7 +145,7 @@ fn turned(dice: &mut Dice) -> [[u64; 3]; 3] {
 /// The dimension of all motions, of all cameras, points, origins of frames and places of sensors, by
 /// the whole matrix: the cross products of all observations, and an equation for each image.
 fn motions(case: &Case, dice: &mut Dice) -> usize {
-    let (frames, known) = (&case.frames.frames, &case.frames.known);
+    let (frames, known) = (&case.images, &case.known);
     let sensors = known.len();
     let columns = 3 * (case.nodes + frames.len() + sensors);
     let mut vector = || -> [u64; 3] { std::array::from_fn(|_| dice.roll(P)) };
@@ -192,7 +197,7 @@ fn motions(case: &Case, dice: &mut Dice) -> usize {
 /// What the matrix of all of it says too: the places of sensors in no frame, and for frames that see
 /// each other's sensors where their rig begins, are free there.
 fn gauge(case: &Case) -> usize {
-    let (frames, known) = (&case.frames.frames, &case.frames.known);
+    let (frames, known) = (&case.images, &case.known);
     let used = |sensor: u32| frames.iter().flatten().any(|&(_, k)| k == sensor);
     let mut free = 0;
     let mut linked: Vec<u32> = (0..known.len() as u32).collect();
@@ -220,11 +225,9 @@ fn gauge(case: &Case) -> usize {
 fn decided(case: &Case) -> Option<(SharedBaseLines, usize)> {
     let graph = Graph::new(case.nodes as u32, case.edges.iter().copied()).unwrap();
     // As whoever reads rigs does: known places are displacements.
-    let frames = case.frames.frames.iter();
+    let frames = case.images.iter();
     let groups = frames.flat_map(|images| {
-        let known = images
-            .iter()
-            .filter(|(_, k)| case.frames.known[*k as usize]);
+        let known = images.iter().filter(|(_, k)| case.known[*k as usize]);
         let nodes: Vec<u32> = known.map(|&(node, _)| node).collect();
         let first = nodes.first().copied();
         let others = nodes.into_iter().skip(1);
@@ -236,7 +239,8 @@ fn decided(case: &Case) -> Option<(SharedBaseLines, usize)> {
     let question = Calibrated::with(Known::Displacements(known));
     let verdict = decide(&graph, &Options::default().question(question)).unwrap();
     let watch = Watch::default();
-    let found = SharedBaseLines::new(&graph, &verdict, &case.frames, 7, &watch).unwrap();
+    let frames = RigFrames::new(case.images.iter().cloned(), case.known.clone()).unwrap();
+    let found = SharedBaseLines::new(&graph, &verdict, &frames, 7, &watch).unwrap();
     let found = found?;
     // What is solvable without frames is solvable with them.
     let own = verdict.rank == verdict.required;
@@ -257,8 +261,8 @@ fn as_the_whole_matrix_says() {
         cases += 1;
         let kernel = motions(&case, &mut dice) - gauge(&case);
         let unknowns = 3
-            * (case.nodes - case.frames.frames.iter().map(Vec::len).sum::<usize>()
-                + case.frames.len()
+            * (case.nodes - case.images.iter().map(Vec::len).sum::<usize>()
+                + case.images.len()
                 + found.base_lines);
         assert_eq!(unknowns - kernel, found.rank, "{seed}: {found:?}");
         assert!(found.at_most >= found.rank, "{seed}: {found:?}");
