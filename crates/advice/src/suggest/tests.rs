@@ -1,4 +1,5 @@
 use super::*;
+use crate::condensation::with;
 use crate::samples::{clusters, found, graphs, options, verdict};
 use viewcert::Model;
 

@@ -1,0 +1,163 @@
+//! Sets of pairs for two parts that no single pair joins, found greedily.
+
+use super::{CHOICE, Costs, Pair, Search, Suggestion, touched};
+use crate::condensation::{Condensation, terminals};
+use crate::joints::{How, Joint};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use viewcert::decide::{Options, VerdictError};
+use viewcert::graph::UnionFind;
+
+/// Most pairs of parts for which sets of several pairs are looked for.
+const SETS: usize = 20;
+
+/// Most pairs between two parts that are compared for a set.
+const POOL: usize = 250_000;
+
+impl Search<'_> {
+    /// Sets of pairs for joints that no single pair closes, and for the largest part and parts that
+    /// are not connected with it.
+    pub(super) fn several(
+        &self,
+        joints: &[Joint],
+        found: &[Suggestion],
+        costs: &Costs,
+        options: &Options,
+    ) -> Result<Vec<Vec<Pair>>, VerdictError> {
+        let joined = |[one, other]: [usize; 2]| {
+            let mut found = found.iter().filter(|found| !found.has_failed());
+            found.any(|found| found.components.contains(&one) && found.components.contains(&other))
+        };
+        let open = joints
+            .iter()
+            .map(|joint| (joint.components, joint.how.clone()));
+        let apart = self
+            .apart()
+            .into_iter()
+            .map(|parts| (parts, How::default()));
+        let open: Vec<([usize; 2], How)> = open
+            .filter(|(components, _)| !joined(*components))
+            .take(SETS)
+            .chain(apart.take(SETS))
+            .collect();
+        let sets = open.par_iter();
+        let sets = sets.map(|(components, how)| self.enough(*components, how, costs, options));
+        let sets: Result<Vec<Option<Vec<Pair>>>, VerdictError> = sets.collect();
+        Ok(sets?.into_iter().flatten().collect())
+    }
+
+    /// The largest part with the largest of every other connected part of the graph.
+    pub(super) fn apart(&self) -> Vec<[usize; 2]> {
+        let mut sets = UnionFind::new(self.graph.nodes());
+        for &(i, j) in self.graph.edges() {
+            sets.union(i as usize, j as usize);
+        }
+        let mut seen = BTreeSet::new();
+        let mut firsts = self.parts.parts.iter().filter(|part| {
+            let root = sets.find(part.nodes[0] as usize);
+            seen.insert(root)
+        });
+        let largest = firsts.next().map(|part| part.component);
+        let others: Vec<usize> = firsts.map(|part| part.component).collect();
+        let largest = largest.into_iter();
+        largest
+            .flat_map(|k| others.iter().map(move |&other| [k, other]))
+            .collect()
+    }
+
+    /// Pairs that make one of two parts, found greedily: each the one of the pool that takes most
+    /// freedom, then those left out that the others make superfluous. `None` if the pool is not
+    /// enough, or one pair is.
+    fn enough(
+        &self,
+        components: [usize; 2],
+        how: &How,
+        costs: &Costs,
+        options: &Options,
+    ) -> Result<Option<Vec<Pair>>, VerdictError> {
+        let nodes = components.map(|component| self.parts.nodes_of(component));
+        let all = self.pool(&nodes, how, costs);
+        let hopeful: Vec<Pair> = all
+            .iter()
+            .copied()
+            .filter(|&pair| !costs.has_failed(pair))
+            .collect();
+        let found = self.enough_of(&nodes, how, &hopeful, options)?;
+        match found {
+            None if hopeful.len() < all.len() => self.enough_of(&nodes, how, &all, options),
+            _ => Ok(found),
+        }
+    }
+
+    /// The same of a given pool.
+    fn enough_of(
+        &self,
+        nodes: &[Vec<u32>; 2],
+        how: &How,
+        pool: &[Pair],
+        options: &Options,
+    ) -> Result<Option<Vec<Pair>>, VerdictError> {
+        let by = how.through.iter().flat_map(|&[a, x, b]| [(a, x), (x, b)]);
+        let links = how.pairs.iter().copied().chain(by);
+        let ends = links
+            .clone()
+            .chain(pool.iter().copied())
+            .flat_map(|(a, b)| [a, b]);
+        let parts = [&nodes[0][..], &nodes[1]];
+        let alone = pool.iter().flat_map(|&(a, b)| [a, b]);
+        let small = Condensation::new(terminals(&parts, ends), links, alone);
+        let small = small.with_scales(self.parts);
+        let free = |set: &[Pair]| {
+            let more = set.iter().map(|&pair| small.pair(pair));
+            Ok::<usize, VerdictError>(small.freedom(more, options)?.0)
+        };
+        let mut chosen: Vec<Pair> = Vec::new();
+        let mut left = free(&chosen)?;
+        while left > 0 {
+            let mut best = None;
+            for &pair in pool.iter().filter(|pair| !chosen.contains(pair)) {
+                let then = free(&[&chosen[..], &[pair]].concat())?;
+                if then < best.map_or(left, |(then, _)| then) {
+                    best = Some((then, pair));
+                }
+            }
+            let Some((then, pair)) = best else {
+                return Ok(None);
+            };
+            left = then;
+            chosen.push(pair);
+        }
+        for k in (0..chosen.len()).rev() {
+            let mut fewer = chosen.clone();
+            fewer.remove(k);
+            if free(&fewer)? == 0 {
+                chosen = fewer;
+            }
+        }
+        chosen.sort_unstable();
+        Ok((chosen.len() > 1).then_some(chosen))
+    }
+
+    /// Pairs between two parts: the best ones, of different images first; of very large parts those
+    /// near the joint.
+    fn pool(&self, nodes: &[Vec<u32>; 2], how: &How, costs: &Costs) -> Vec<Pair> {
+        let [one, other] = [0, 1].map(|side| self.ends(&nodes[side], &touched(how, side), CHOICE));
+        if nodes[0].len().saturating_mul(nodes[1].len()) <= POOL {
+            return costs.between(&nodes[0], &nodes[1], CHOICE);
+        }
+        let known = self.known.keys().copied();
+        let near = self.nearness.map(|near| near.pairs(CHOICE as u32));
+        let within = |k: usize, v: u32| nodes[k].binary_search(&v).is_ok();
+        let between = |&(a, b): &Pair| within(0, a) && within(1, b) || within(1, a) && within(0, b);
+        let pairs = known.chain(near.into_iter().flatten()).filter(between);
+        let ends = pairs.flat_map(|(a, b)| [a, b]);
+        let mut sides = [one, other];
+        for v in ends {
+            let side = usize::from(!within(0, v));
+            if sides[side].len() < POOL.isqrt() && !sides[side].contains(&v) {
+                sides[side].push(v);
+            }
+        }
+        costs.between(&sides[0], &sides[1], CHOICE)
+    }
+}
