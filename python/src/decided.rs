@@ -12,6 +12,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use viewcert::decide::Draft;
 use viewcert::graph::{Coordinate, Displacements};
+use viewcert::intrinsics::{Class, Metric};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
@@ -20,6 +21,7 @@ use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
+use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_session::Outputs;
 
 /// A graph and what was decided about it.
@@ -32,6 +34,30 @@ pub(crate) struct Decided {
     focal: bool,
     seed: u64,
     time: Duration,
+}
+
+impl Decided {
+    /// The classes of the nodes, by their words.
+    fn classes(&self, words: &[String]) -> PyResult<Vec<Class>> {
+        if self.verdict.model != Model::Projective {
+            return Err(InputError::new_err(
+                "intrinsics are asked of a verdict of the projective model",
+            ));
+        }
+        if !self.verdict.known_parts.is_empty() {
+            return Err(InputError::new_err(
+                "nothing is proved yet about intrinsics beside known parts",
+            ));
+        }
+        let of_word = |word: &String| {
+            let class = Class::of_word(word);
+            class.ok_or_else(|| {
+                let words = Class::ALL.map(|(_, word)| word).join(", ");
+                InputError::new_err(format!("{word:?} is no class of cameras: {words}"))
+            })
+        };
+        words.iter().map(of_word).collect()
+    }
 }
 
 /// The displacements that sets of nodes know, of a graph with so many, with the vectors if they are
@@ -318,7 +344,7 @@ impl Decided {
     #[pyo3(signature = (
         kind, *, list_components=false, weak=None, suggest=None, explain=None, sweep=vec![],
         margin=None, export=None, surplus=false,
-        redundant=None, implied=None
+        redundant=None, implied=None, intrinsics=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -335,7 +361,9 @@ impl Decided {
         surplus: bool,
         redundant: Option<&str>,
         implied: Option<u32>,
+        intrinsics: Option<Vec<String>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
+        let classes = intrinsics.map(|words| self.classes(&words)).transpose()?;
         let weak = match weak {
             None => None,
             Some("pairs") => Some(Weak::Pairs),
@@ -371,7 +399,12 @@ impl Decided {
         let answer = move || -> anyhow::Result<Vec<u8>> {
             request.check(&[], &[])?;
             request.check_input(&input)?;
-            let scope = Scope::new(&input, &verdict, asked, &stop)?;
+            let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
+            if let Some(classes) = classes {
+                let found = Metric::new(&input.graph, &verdict, &classes, seed, &stop)?;
+                let line = IntrinsicsLine::new(&input, &classes, &found, list_components);
+                scope = scope.with_intrinsics(line);
+            }
             let outputs = Outputs::default();
             let mut shapes = Shapes::default();
             let advice = request.advise(&outputs, &input, &verdict, seed, &mut shapes, stop)?;

@@ -48,6 +48,7 @@ from ._graph import (
     tracks_from_database,
     tracks_from_reconstruction,
 )
+from ._intrinsics import Intrinsics, intrinsics
 from ._native import Verified, __version__
 from ._verdict import Joint, Planar, Solutions, Verdict, verify
 
@@ -60,6 +61,7 @@ __all__ = [
     "Graph",
     "Implied",
     "InputError",
+    "Intrinsics",
     "Joint",
     "Margin",
     "Outside",
@@ -84,6 +86,7 @@ __all__ = [
     "export",
     "from_database",
     "implied",
+    "intrinsics",
     "margin",
     "read",
     "redundant",

@@ -103,6 +103,7 @@ class Decided:
         surplus: bool = False,
         redundant: str | None = None,
         implied: int | None = None,
+        intrinsics: list[str] | None = None,
     ) -> bytes: ...
     def picture(self) -> str: ...
     @staticmethod

@@ -1,0 +1,53 @@
+"""Classes of cameras: against the two models at the ends, and what follows for more known cameras."""
+
+from __future__ import annotations
+
+import itertools
+
+import networkx as nx
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import viewcert
+
+ALL = list(itertools.combinations(range(7), 2))
+CLASSES = ["known", "focal", "focal+point", "unknown"]
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1), st.lists(st.sampled_from(CLASSES), min_size=7, max_size=7))
+def test_more_known_cameras_determine_more(edges: set[tuple[int, int]], drawn: list[str]) -> None:
+    graph = nx.Graph(sorted(edges))
+    classes = {node: drawn[node] for node in graph}
+    found = viewcert.intrinsics(graph, classes)
+    assert found.proved and found.rank == found.rank_at_most
+    assert found.metric == (found.rank == found.rank_required)
+    nx.set_node_attributes(graph, found.determined, "determined")
+    for node, determined in graph.nodes(data="determined"):
+        more = viewcert.intrinsics(graph, {**classes, node: "known"})
+        # A camera is determined iff to know it leaves as many motions.
+        motions = found.rank_required - found.rank
+        assert determined == (more.rank_required - more.rank == motions), node
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1))
+def test_the_two_ends(edges: set[tuple[int, int]]) -> None:
+    calibrated = viewcert.verify(edges, model="calibrated")
+    for word in ("known", "focal"):
+        found = viewcert.intrinsics(edges, {}, default=word)
+        assert found.metric == (calibrated.value == "solvable")
+        assert set(found.components) == {frozenset(part) for part in calibrated.components}
+    found = viewcert.intrinsics(edges, {})
+    assert found.rank == viewcert.verify(edges).rank and not found.metric
+
+
+def test_what_is_refused() -> None:
+    triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+    with pytest.raises(viewcert.InputError, match="no class of cameras: known, focal, focal\\+point, unknown"):
+        viewcert.intrinsics(triangle, {"a": "zoom"})
+    with pytest.raises(viewcert.InputError, match="no node 'x'"):
+        viewcert.intrinsics(triangle, {"x": "known"})
+    with pytest.raises(viewcert.InputError, match="projective model"):
+        viewcert.intrinsics(viewcert.verify(triangle, model="affine"), {"a": "known"})
