@@ -187,17 +187,7 @@ impl<'a> Drawn<'a> {
             ..self.key
         }
         .residues(f);
-        let mut y = vec![0; columns];
-        for &column in done.free_cols() {
-            y[column] = random();
-        }
-        let side = |row: &Vec<(usize, u64)>| {
-            let terms = row.iter().map(|&(column, x)| f.times(x, y[column]));
-            f.negate(terms.fold(0, |sum, term| f.plus(sum, term)))
-        };
-        let sides: Vec<u64> = rows.iter().map(side).collect();
-        let solved = done.solve(&sides).expect("a combination of columns");
-        let y: Vec<u64> = y.iter().zip(&solved).map(|(a, b)| f.plus(*a, *b)).collect();
+        let y = done.kernel_vector(&rows, &mut random);
         let moved = |u: usize| -> [u64; 3] {
             let unit = |k: usize| std::array::from_fn(|r| f.from_u64(u64::from(r == k)));
             std::array::from_fn(|k| {
