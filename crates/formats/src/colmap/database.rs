@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::open::Opened;
 use super::pairs::{Tables, of_cameras};
-use super::{DatabaseError, DatabaseFacts, Views, positions, rigs, tracks};
+use super::{DatabaseError, DatabaseFacts, Views, positions, rigs, summary, tracks};
 use crate::error::{Fault, Place};
 use crate::{Matching, NamedGraph, ReadAs, ReadError, ReadOptions, TrackOptions};
 use viewcert::graph::{Graph, Labels};
@@ -101,7 +101,7 @@ impl Database {
         } else {
             None
         };
-        let graph = tracks::read(
+        let mut graph = tracks::read(
             connection,
             table,
             names,
@@ -110,6 +110,9 @@ impl Database {
             frames,
             options,
         )?;
+        graph
+            .notes
+            .extend(summary::guessed(connection).map_err(input)?);
         let known = self
             .tables
             .between_cameras(&self.pairs, self.matching.clone());

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use rusqlite::Connection;
+
 use super::pairs::Tables;
-use super::{Bin, ConfigCount, DatabaseFacts, Pipeline};
+use super::tables::columns;
+use super::{Bin, ConfigCount, DatabaseError, DatabaseFacts, Pipeline};
 use viewcert::graph::{Graph, UnionFind};
 use viewcert::wording::counted;
 
@@ -126,6 +129,41 @@ impl Tables {
         }
         notes
     }
+}
+
+/// That focal lengths are guesses, if they are: of cameras that three images or more have they come out of
+/// the images, and are not counted. O(images).
+///
+/// # Errors
+/// Those of SQLite.
+pub(super) fn guessed(connection: &Connection) -> Result<Option<String>, DatabaseError> {
+    for (table, column) in [
+        ("images", "camera_id"),
+        ("cameras", "camera_id"),
+        ("cameras", "prior_focal_length"),
+    ] {
+        if !columns(connection, table)?
+            .iter()
+            .any(|name| name == column)
+        {
+            return Ok(None);
+        }
+    }
+    let query = "select coalesce(sum(images), 0) from (select count(*) as images from images join cameras \
+                 using (camera_id) where prior_focal_length = 0 group by camera_id) where images < 3";
+    let images: i64 = connection.query_row(query, [], |row| row.get(0))?;
+    let images = match usize::try_from(images) {
+        Ok(0) | Err(_) => return Ok(None),
+        Ok(1) => "1 image has a camera that no two others have and a focal length that is a guess"
+            .to_owned(),
+        Ok(count) => format!(
+            "{count} images have cameras that no two others have and focal lengths that are guesses"
+        ),
+    };
+    Ok(Some(format!(
+        "{images} (prior_focal_length 0): tracks are decided for known rotations, which a wrong focal \
+         length makes wrong"
+    )))
 }
 
 /// Where bins begin; doubling from the mappers' threshold on.

@@ -1,5 +1,5 @@
 use super::pairs::of_cameras;
-use super::summary::bins;
+use super::summary::{bins, guessed};
 use crate::{
     Format, Matching, NamedGraph, OtherPair, ReadError, ReadOptions, open_database, read_graphs,
 };
@@ -165,4 +165,36 @@ fn only_databases_are_opened() {
     let list = folder.path().join("list.txt");
     std::fs::write(&list, "a b\n").unwrap();
     assert!(open_database(&list, &ReadOptions::default()).is_none());
+}
+
+/// Focal lengths that are guesses, of cameras that one image has or two; three images of a camera tell its
+/// focal length, and a known one is no guess.
+#[test]
+fn focal_lengths_of_few_images_that_are_guesses_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |number: usize, prior: i64, cameras: &[i64]| {
+        let connection = Connection::open(folder.path().join(format!("{number}.db"))).unwrap();
+        let tables = format!(
+            "create table images (image_id integer primary key, name text, camera_id integer);
+             create table cameras (camera_id integer primary key, prior_focal_length integer);
+             insert into cameras values (1, {prior}), (2, {prior}), (3, 1);"
+        );
+        connection.execute_batch(&tables).unwrap();
+        for camera in cameras {
+            let image = "insert into images (name, camera_id) values ('x', ?)";
+            connection.execute(image, [camera]).unwrap();
+        }
+        guessed(&connection).unwrap()
+    };
+    let note = said(0, 0, &[1, 1, 2, 3]).unwrap();
+    assert!(note.starts_with("3 images have cameras"), "{note}");
+    let note = said(1, 0, &[1, 1, 1, 2, 3]).unwrap();
+    assert!(note.starts_with("1 image has a camera"), "{note}");
+    assert_eq!(said(2, 0, &[1, 1, 1, 3]), None);
+    assert_eq!(said(3, 1, &[1, 2, 3]), None);
+    // Older databases may not have the column.
+    let old = Connection::open_in_memory().unwrap();
+    old.execute_batch("create table images (image_id integer, name text)")
+        .unwrap();
+    assert_eq!(guessed(&old).unwrap(), None);
 }
