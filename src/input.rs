@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use viewcert_formats::colmap::Pipeline;
+use viewcert_formats::colmap::{Database, Pipeline};
 use viewcert_formats::documents::Document;
 use viewcert_formats::{
     Columns, Decimal, Format, ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions,
@@ -254,32 +254,39 @@ pub(super) fn for_each<W: Write>(
     out: &mut W,
     mut each: impl FnMut(&mut W, &NamedGraph, Instant) -> Result<u8>,
 ) -> Result<u8> {
-    let read = |out: &mut W, _: &Path, input: Read, start| each(out, &input?, start);
-    for_each_read(session, options, paths, too_many, out, read)
+    let read = |path: &Path| -> Inputs {
+        let graphs = read_graphs(path, options);
+        Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
+    };
+    let each = |out: &mut W, _: &Path, input: Result<Input, _>, start| each(out, &input?.0, start);
+    for_each_read(session, &read, paths, too_many, out, each)
 }
 
-/// A graph, or why there is none.
-pub(super) type Read = Result<NamedGraph, ReadError>;
+/// A graph, and the database that it is of, if that is open for more.
+pub(super) type Input = (NamedGraph, Option<Database>);
 
-/// The same for callers who know what to do with some of the inputs that give no graph, and want to
-/// know the path.
+/// The graphs of a file, or why there is none.
+pub(super) type Inputs = Box<dyn Iterator<Item = Result<Input, ReadError>>>;
+
+/// The same for callers who read in their own way, know what to do with some of the inputs that give no
+/// graph, and want to know the path.
 ///
 /// # Errors
 /// As there.
 pub(super) fn for_each_read<W: Write>(
     session: &Session,
-    options: &ReadOptions,
+    read: &dyn Fn(&Path) -> Inputs,
     paths: &[PathBuf],
     too_many: &dyn Fn(&str) -> Option<String>,
     out: &mut W,
-    mut each: impl FnMut(&mut W, &Path, Read, Instant) -> Result<u8>,
+    mut each: impl FnMut(&mut W, &Path, Result<Input, ReadError>, Instant) -> Result<u8>,
 ) -> Result<u8> {
     let mut code = GOOD;
     for path in paths {
         let mut bad = 0;
         let mut start = Instant::now();
         session.reading(path);
-        let mut graphs = read_graphs(path, options).peekable();
+        let mut graphs = read(path).peekable();
         while let Some(input) = graphs.next() {
             if let Some(reason) = too_many(&format!("several in {}", path.display()))
                 && graphs.peek().is_some()
@@ -289,8 +296,8 @@ pub(super) fn for_each_read<W: Write>(
             session.hide();
             bad += usize::from(input.is_err());
             let shown = input.is_ok() || bad <= MOST_ERRORS;
-            if let Ok(input) = &input {
-                session.doing(format!("working on {}", input.name));
+            if let Ok((graph, _)) = &input {
+                session.doing(format!("working on {}", graph.name));
             }
             code = code.max(match each(out, path, input, start) {
                 Ok(code) => code,

@@ -1,13 +1,14 @@
 //! `verify overview`: what pairs and tracks determine, on one screen.
 //!
 //! In: a database, or whatever else `verify` reads. Out: the verdicts on its pairs (theory 4) and
-//! on its cameras and points (theory 12), joints, and what follows for mapping. Pairs are read
-//! first; tracks are read again from the same file, since each is a graph of its own.
+//! on its cameras and points (theory 12), joints, and what follows for mapping. A database is opened
+//! once, for its pairs, its tracks and the geometry of single pairs; nobody who wants to write to it is
+//! kept waiting while something is decided.
 
 use super::foreseen::foreseen;
-use super::input::{self, InputArguments, Read};
+use super::input::{self, Input, InputArguments, Inputs};
 use super::next::next;
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::cell::OnceCell;
 use std::io::Write;
@@ -19,9 +20,9 @@ use viewcert::decide::{Calibrated, Options, decide};
 use viewcert::geometry::model::Model;
 use viewcert::wording::counted;
 use viewcert_advice::{Advice, Request, Shapes};
-use viewcert_formats::colmap::{DatabaseError, DatabaseFacts, Pipeline};
-use viewcert_formats::error::Problem;
-use viewcert_formats::{NamedGraph, read_graphs, with_rigs};
+use viewcert_formats::colmap::{Database, DatabaseError, DatabaseFacts, Pipeline};
+use viewcert_formats::error::{Problem, ReadError};
+use viewcert_formats::{NamedGraph, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::overview::{Overview, Wanted};
@@ -59,6 +60,8 @@ struct Source {
     pairs: Option<NamedGraph>,
     /// Its cameras and points, or why there are none.
     tracks: Result<NamedGraph, String>,
+    /// What both are of, if it is a database.
+    database: Option<Database>,
 }
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
@@ -76,19 +79,24 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<Ex
         ensure!(arguments.inputs.len() == 1, reason);
     }
     let mut out = outputs::text(&[page]);
-    let each = |out: &mut _, path: &Path, read: Read, start| {
+    let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
         let source = source(session, arguments, path, read)?;
-        overview(session, arguments, path, &source, start, out)
+        overview(session, arguments, path, source, start, out)
     };
     let options = arguments.input.read_options();
-    let code = input::for_each_read(
-        session,
-        &options,
-        &arguments.inputs,
-        &too_many,
-        &mut out,
-        each,
-    )?;
+    let read = |path: &Path| -> Inputs {
+        match open_database(path, &options) {
+            Some(database) => {
+                let opened = database.map(|database| (database.pairs(), Some(database)));
+                Box::new(std::iter::once(opened))
+            }
+            None => {
+                let graphs = read_graphs(path, &options);
+                Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
+            }
+        }
+    };
+    let code = input::for_each_read(session, &read, &arguments.inputs, &too_many, &mut out, each)?;
     Ok(ExitCode::from(code))
 }
 
@@ -97,10 +105,10 @@ fn source(
     session: &Session,
     arguments: &OverviewArguments,
     path: &Path,
-    read: Read,
+    read: Result<Input, ReadError>,
 ) -> Result<Source> {
-    let pairs = match read {
-        Ok(pairs) => pairs,
+    let (pairs, database) = match read {
+        Ok(read) => read,
         Err(error) if error.problem.holds_tracks() => {
             ensure!(
                 path != Path::new("-"),
@@ -108,52 +116,51 @@ fn source(
                 error.file,
                 error.problem
             );
-            let tracks =
-                read_tracks(session, arguments, path, true)?.map_err(|reason| anyhow!(reason))?;
+            session.reading(path);
+            let tracks = read_graphs(path, &arguments.input.of_tracks()).next();
+            session.hide();
+            let Some(tracks) = tracks else {
+                bail!("{}: no graph", path.display());
+            };
             return Ok(Source {
                 pairs: None,
-                tracks: Ok(tracks),
+                tracks: Ok(tracks?),
+                database: None,
             });
         }
         Err(error) => return Err(error.into()),
     };
-    let tracks = match &pairs.database {
+    let tracks = match &database {
         None => Err("this input has pairs alone".to_owned()),
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
-        Some(_) => read_tracks(session, arguments, path, true)?,
+        Some(database) => read_tracks(session, arguments, path, database, true)?,
     };
-    if let Ok(tracks) = &tracks {
-        ensure!(
-            tracks.database == pairs.database,
-            "{}: the database was written to between the reading of its pairs and of its tracks; try \
-             again when that is done",
-            path.display()
-        );
-    }
     Ok(Source {
         pairs: Some(pairs),
         tracks,
+        database,
     })
 }
 
-/// The cameras and points of a file, with the rigs or as if every image had a centre of its own, or why there are none in a database that has pairs.
+/// The cameras and points of a database, with the rigs or as if every image had a centre of its own, or
+/// why there are none in one that has pairs.
 fn read_tracks(
     session: &Session,
     arguments: &OverviewArguments,
     path: &Path,
+    database: &Database,
     rigs: bool,
 ) -> Result<Result<NamedGraph, String>> {
-    let mut options = arguments.input.of_tracks();
-    if let Some(tracks) = &mut options.tracks {
-        tracks.rigs &= rigs;
-    }
+    let mut options = arguments.input.of_tracks().tracks.unwrap_or_default();
+    options.rigs &= rigs;
     session.reading(path);
-    let read = read_graphs(path, &options).next();
+    let tracks = database.tracks(options);
     session.hide();
-    match read {
-        None => bail!("{}: no graph", path.display()),
-        Some(Ok(tracks)) => Ok(Ok(tracks)),
-        Some(Err(error)) => match &error.problem {
+    // Others may write while all of this is decided.
+    database.rest()?;
+    match tracks {
+        Ok(tracks) => Ok(Ok(tracks)),
+        Err(error) => match &error.problem {
             Problem::Database(why) if matches!(**why, DatabaseError::NoLists(_)) => {
                 Ok(Err(why.to_string()))
             }
@@ -167,7 +174,7 @@ fn overview(
     session: &Session,
     arguments: &OverviewArguments,
     path: &Path,
-    source: &Source,
+    mut source: Source,
     start: Instant,
     out: &mut impl Write,
 ) -> Result<u8> {
@@ -211,12 +218,17 @@ fn overview(
     let frames = input.frames.as_ref();
     let each = match frames {
         // Mappers place images, of which several may be one camera here.
-        Some(frames) if !frames.together.is_empty() => {
-            read_tracks(session, arguments, path, false)?.ok()
-        }
+        Some(frames) if !frames.together.is_empty() => match &source.database {
+            Some(database) => read_tracks(session, arguments, path, database, false)?.ok(),
+            None => None,
+        },
         _ => None,
     };
-    let (mappers, narrow) = foreseen(path, of_pairs, of_tracks, each.as_ref())?;
+    let database = source.database.as_ref();
+    let (mappers, narrow) = foreseen(database, of_pairs, of_tracks, each.as_ref())?;
+    if let Some(database) = source.database.take() {
+        database.finish()?;
+    }
     let no_joints = Advice::default();
     let any_scope = Scope::default();
     let report = |input, verdict, advice| Report {
@@ -231,7 +243,7 @@ fn overview(
     };
     let mut found = Overview {
         name: &input.name,
-        notes: notes(arguments, source),
+        notes: notes(arguments, &source),
         read: &input.read,
         pairs: pairs
             .as_ref()

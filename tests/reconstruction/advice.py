@@ -137,6 +137,15 @@ def cuts(images, inliers):
         yield "at random", [draws.randrange(2) for _ in range(images)]
 
 
+def chosen(oracle, every, most):
+    """The cuts that are tried: of each kind as large a share as of the others."""
+    both = [(kind, groups, share) for kind, groups in cuts(len(oracle.names), oracle.inliers) for share in (0, 0.7)]
+    both = both[every - 1 :: every]
+    if most is None or most >= len(both):
+        return both
+    return [both[k * len(both) // most] for k in range(most)]
+
+
 def mend(arguments, oracle, groups, share, target, folder):
     """How many joins a cut asks for, how many tries it took, and whether it is whole then."""
     images = len(oracle.names)
@@ -187,6 +196,7 @@ def main():
     parser.add_argument("--model", choices=("tracks", "calibrated", "projective"), default="tracks")
     parser.add_argument("--shuffle", action="store_true", help="names and positions that say nothing")
     parser.add_argument("--every", type=int, default=1, help="only each so many-th cut")
+    parser.add_argument("--most", type=int, help="so many cuts of a database at most, of all kinds alike")
     arguments = parser.parse_args()
     tracks = arguments.model == "tracks"
     arguments.question = ["--tracks"] if tracks else ["--model", arguments.model]
@@ -200,15 +210,10 @@ def main():
             folder = Path(folder)
             oracle.cut(folder / "uncut.db", []).close()
             target = parts(verdict(arguments, folder / "uncut.db"))[0]
-            number = 0
-            for kind, groups in cuts(len(oracle.names), oracle.inliers):
-                for share in (0, 0.7):
-                    number += 1
-                    if number % arguments.every:
-                        continue
-                    found = mend(arguments, oracle, groups, share, target, folder)
-                    if found is not None:
-                        rows.setdefault(kind, []).append(found)
+            for kind, groups, share in chosen(oracle, arguments.every, arguments.most):
+                found = mend(arguments, oracle, groups, share, target, folder)
+                if found is not None:
+                    rows.setdefault(kind, []).append(found)
         for kind, found in rows.items():
             report(path.stem, kind, found)
         everything += [one for found in rows.values() for one in found]

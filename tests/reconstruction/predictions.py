@@ -251,7 +251,7 @@ def judge(arguments):
         predicted = [set(model["images"]) for model in said["incremental"]["models"]]
         models = [set(model) for model in truth["models"]["incremental"]]
         whole = set(said["global"]["images"]) if said["global"]["images"] else set()
-        of = "synthetic" if truth["clusters"] else "photographs"
+        of = truth.get("of", "synthetic") if truth["clusters"] else "photographs"
         tally[of, "databases"] += 1
         tally[of, "exact"] += sizes(predicted) == sizes(models)
         tally[of, "same"] += sorted(map(sorted, predicted)) == sorted(map(sorted, models))
@@ -274,7 +274,7 @@ def judge(arguments):
                     tally[of_promise, "thin"] += thin(arguments.verify, str(record.with_suffix(".db")))
             if joined != expected and arguments.misses:
                 print(f"{record.stem} {a}-{b} {truth['shapes']}: incremental {sizes(models)}, predicted {sizes(predicted)}")
-    for of in ("synthetic", "photographs"):
+    for of in ("synthetic", "joined", "photographs"):
         if not tally[of, "databases"]:
             continue
         print(f"\n{of}: {tally[of, 'databases']} databases; models of exactly these sizes {tally[of, 'exact']}, "

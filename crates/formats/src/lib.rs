@@ -38,7 +38,7 @@ pub use given::{Given, NamedParts, given, read_given, with_rigs};
 pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};
 pub use model::Model;
-pub use read::{Format, NamedGraph, ReadOptions, read_graphs, read_meant};
+pub use read::{Format, NamedGraph, ReadOptions, open_database, read_graphs, read_meant};
 pub use read_as::{Parsed, ReadAs};
 pub use tracks::{Frames, TrackFacts, TrackOptions};
 

@@ -3,8 +3,11 @@
 //! In: a path. Out: the graph of the pairs that a mapper takes (nodes are all images, by name),
 //! what the database knows of every pair ([`Matching`](crate::Matching)), and a summary
 //! ([`DatabaseFacts`]). With `--tracks` the matches are joined to tracks and the graph is that of
-//! cameras and points (docs/theory.md, section 12). The database is never written to.
+//! cameras and points (docs/theory.md, section 12). The database is never written to. Who wants
+//! several of these opens it once ([`Database`]).
 
+#[cfg(not(feature = "databases"))]
+mod absent;
 #[cfg(feature = "databases")]
 mod database;
 #[cfg(feature = "databases")]
@@ -18,9 +21,13 @@ mod keypoints;
 #[cfg(feature = "databases")]
 mod open;
 #[cfg(feature = "databases")]
+mod pairs;
+#[cfg(feature = "databases")]
 mod positions;
 #[cfg(feature = "databases")]
 mod rigs;
+#[cfg(feature = "databases")]
+mod summary;
 #[cfg(feature = "databases")]
 mod tables;
 #[cfg(feature = "databases")]
@@ -29,14 +36,16 @@ mod two_views;
 #[cfg(feature = "databases")]
 mod views;
 
+#[cfg(not(feature = "databases"))]
+pub use absent::{Database, Views};
+#[cfg(feature = "databases")]
+pub use database::Database;
 pub use error::DatabaseError;
 pub use facts::{Bin, ConfigCount, DatabaseFacts, config_name};
 pub use two_views::TwoViews;
 #[cfg(feature = "databases")]
 pub use views::Views;
 
-#[cfg(feature = "databases")]
-pub(crate) use database::read;
 #[cfg(feature = "databases")]
 pub(crate) use focal::focal_lengths;
 #[cfg(feature = "databases")]
@@ -46,19 +55,6 @@ use std::fmt;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
-
-/// Says that this build reads none.
-///
-/// # Errors
-/// Always.
-#[cfg(not(feature = "databases"))]
-pub(crate) fn read(
-    _: &str,
-    _: &Path,
-    _: &crate::ReadOptions,
-) -> Result<crate::NamedGraph, crate::error::Fault> {
-    Err(crate::error::Place::Input.fault(DatabaseError::NotBuilt.into()))
-}
 
 /// Says that this build reads none.
 ///

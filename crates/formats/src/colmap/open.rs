@@ -7,6 +7,7 @@
 //! file, a `-shm` file beside it belongs to a program that has the database open: it is used and
 //! not written to. If there is none, SQLite would make one; so a temporary copy is read.
 
+use std::cell::Cell;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -30,6 +31,8 @@ pub(super) struct Opened {
     pub(super) note: Option<String>,
     /// The state of the files, if no lock keeps them as they are.
     unlocked: Option<State>,
+    /// While nothing is read: SQLite's number of the state that was read (`data_version`).
+    resting: Cell<Option<i64>>,
     /// Holds the copy, if one is read; goes last.
     _copy: Option<tempfile::TempDir>,
 }
@@ -95,13 +98,10 @@ impl Opened {
             connection,
             note: None,
             unlocked,
+            resting: Cell::new(None),
             _copy: None,
         };
-        // All that follows sees one state of the database.
-        match opened
-            .connection
-            .execute_batch("begin; select 1 from sqlite_schema limit 1")
-        {
+        match opened.begin() {
             Err(rusqlite::Error::SqliteFailure(code, text))
                 if code.code == rusqlite::ErrorCode::CannotOpen =>
             {
@@ -112,6 +112,45 @@ impl Opened {
             Err(error) => Err(error.into()),
             Ok(()) => Ok(opened),
         }
+    }
+
+    /// All that follows sees one state of the database.
+    fn begin(&self) -> rusqlite::Result<()> {
+        self.connection
+            .execute_batch("begin; select 1 from sqlite_schema limit 1")
+    }
+
+    /// SQLite's number of the state that is read: another one after another connection has written.
+    fn data_version(&self) -> rusqlite::Result<i64> {
+        self.connection
+            .pragma_query_value(None, "data_version", |row| row.get(0))
+    }
+
+    /// Lets go of the lock, so that nobody waits who wants to write.
+    ///
+    /// # Errors
+    /// Those of SQLite.
+    pub(super) fn rest(&self) -> Result<(), DatabaseError> {
+        if self.resting.get().is_none() {
+            self.resting.set(Some(self.data_version()?));
+            self.connection.execute_batch("commit")?;
+        }
+        Ok(())
+    }
+
+    /// To be called before anything more is read.
+    ///
+    /// # Errors
+    /// If somebody has written meanwhile.
+    pub(super) fn wake(&self) -> Result<(), DatabaseError> {
+        let Some(version) = self.resting.take() else {
+            return Ok(());
+        };
+        self.begin()?;
+        if self.data_version()? != version {
+            return Err(DatabaseError::Changed);
+        }
+        Ok(())
     }
 
     /// A copy of the database and of its log, which nobody has open.

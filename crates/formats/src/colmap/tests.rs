@@ -1,5 +1,8 @@
-use super::database::{bins, of_cameras};
-use crate::{Matching, NamedGraph, OtherPair, ReadError, ReadOptions, read_graphs};
+use super::pairs::of_cameras;
+use super::summary::{bins, guessed};
+use crate::{
+    Format, Matching, NamedGraph, OtherPair, ReadError, ReadOptions, open_database, read_graphs,
+};
 use rusqlite::Connection;
 use viewcert::graph::Labels;
 
@@ -104,4 +107,94 @@ fn cameras_have_the_pairs_and_positions_of_their_images() {
     assert_eq!(found.others, [pair((0, 1), 9)]);
     let positions = [Some([1.0, 2.0, 3.0]), Some([4.0, 5.0, 6.0])];
     assert_eq!(found.positions, positions);
+}
+
+/// A database with two images and a pair, at a path.
+fn written(path: &std::path::Path) -> Connection {
+    let connection = Connection::open(path).unwrap();
+    let tables = "
+        create table images (image_id integer primary key, name text);
+        insert into images values (1, 'a'), (2, 'b');
+        create table matches (pair_id integer primary key, rows integer);
+        create table two_view_geometries (pair_id integer primary key, rows integer,
+            cols integer, data blob, config integer);
+        insert into two_view_geometries values (2147483647 * 1 + 2, 40, 2, null, 2);";
+    connection.execute_batch(tables).unwrap();
+    connection
+}
+
+/// Writers wait while something is read, and do not while nothing is; what they wrote is found out.
+#[test]
+fn who_wants_to_write_waits_only_while_something_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.db");
+    let writer = written(&path);
+    writer.busy_timeout(std::time::Duration::ZERO).unwrap();
+    let write = || writer.execute_batch("insert into images values (3, 'c')");
+    let opened = || {
+        let opened = open_database(&path, &ReadOptions::default());
+        opened.unwrap().unwrap()
+    };
+    let database = opened();
+    assert_eq!(database.pairs().graph.edges(), [(0, 1)]);
+    assert!(write().is_err(), "it is locked");
+    database.rest().unwrap();
+    assert!(database.views().is_ok(), "nobody has written");
+    assert!(write().is_err(), "it is locked again");
+    database.rest().unwrap();
+    write().unwrap();
+    let error = database.views().err().unwrap().to_string();
+    assert!(
+        error.contains("was written to while it was read"),
+        "{error}"
+    );
+    assert_eq!(opened().pairs().graph.nodes(), 3);
+}
+
+/// What is no database, or is to be read as something else, is not opened.
+#[test]
+fn only_databases_are_opened() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.db");
+    drop(written(&path));
+    let edges = ReadOptions {
+        format: Some(Format::Edges),
+        ..ReadOptions::default()
+    };
+    assert!(open_database(&path, &edges).is_none());
+    let list = folder.path().join("list.txt");
+    std::fs::write(&list, "a b\n").unwrap();
+    assert!(open_database(&list, &ReadOptions::default()).is_none());
+}
+
+/// Focal lengths that are guesses, of cameras that one image has or two; three images of a camera tell its
+/// focal length, and a known one is no guess.
+#[test]
+fn focal_lengths_of_few_images_that_are_guesses_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |number: usize, prior: i64, cameras: &[i64]| {
+        let connection = Connection::open(folder.path().join(format!("{number}.db"))).unwrap();
+        let tables = format!(
+            "create table images (image_id integer primary key, name text, camera_id integer);
+             create table cameras (camera_id integer primary key, prior_focal_length integer);
+             insert into cameras values (1, {prior}), (2, {prior}), (3, 1);"
+        );
+        connection.execute_batch(&tables).unwrap();
+        for camera in cameras {
+            let image = "insert into images (name, camera_id) values ('x', ?)";
+            connection.execute(image, [camera]).unwrap();
+        }
+        guessed(&connection).unwrap()
+    };
+    let note = said(0, 0, &[1, 1, 2, 3]).unwrap();
+    assert!(note.starts_with("3 images have cameras"), "{note}");
+    let note = said(1, 0, &[1, 1, 1, 2, 3]).unwrap();
+    assert!(note.starts_with("1 image has a camera"), "{note}");
+    assert_eq!(said(2, 0, &[1, 1, 1, 3]), None);
+    assert_eq!(said(3, 1, &[1, 2, 3]), None);
+    // Older databases may not have the column.
+    let old = Connection::open_in_memory().unwrap();
+    old.execute_batch("create table images (image_id integer, name text)")
+        .unwrap();
+    assert_eq!(guessed(&old).unwrap(), None);
 }

@@ -1,21 +1,19 @@
 //! Single pairs of a database, read on demand: keypoints, cameras and relative poses.
 //!
-//! In: a path. Out: [`TwoViews`] of the pairs that are asked for. Most questions are about a few
+//! In: a database that is open. Out: [`TwoViews`] of the pairs that are asked for. Most questions are about a few
 //! pairs of many, and keypoints are most of a database; so what is read once is an index of images.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use rusqlite::types::ValueRef;
-use rusqlite::{OptionalExtension, Row, params};
+use rusqlite::{Connection, OptionalExtension, Row, params};
 
-use super::open::Opened;
-use super::tables::{PAIR_FACTOR, columns, images, verified_table};
+use super::tables::{PAIR_FACTOR, columns};
 use super::{DatabaseError, TwoViews};
 
 /// A database whose pairs are asked for one by one.
-pub struct Views {
-    opened: Opened,
+pub struct Views<'a> {
+    connection: &'a Connection,
     table: &'static str,
     /// The number of every image, by its node.
     ids: Vec<i64>,
@@ -43,21 +41,22 @@ struct Camera {
     prior: bool,
 }
 
-impl Views {
-    /// Opens a database and reads its images and cameras. O(images).
+impl<'a> Views<'a> {
+    /// Reads the cameras of so many images, whose nodes are given by their numbers. O(images).
     ///
     /// # Errors
     /// A database that cannot be read.
-    pub fn open(path: &Path) -> Result<Self, DatabaseError> {
-        let opened = Opened::new(path)?;
-        let connection = &opened.connection;
-        let table = verified_table(connection)?;
-        let (names, nodes) = images(connection)?;
-        let mut ids = vec![0; names.len()];
-        for (&id, &node) in &nodes {
+    pub(super) fn new(
+        connection: &'a Connection,
+        table: &'static str,
+        images: usize,
+        nodes: &HashMap<i64, u32>,
+    ) -> Result<Self, DatabaseError> {
+        let mut ids = vec![0; images];
+        for (&id, &node) in nodes {
             ids[node as usize] = id;
         }
-        let mut cameras = vec![None; names.len()];
+        let mut cameras = vec![None; images];
         if columns(connection, "cameras")?.len() > 5
             && columns(connection, "images")?
                 .iter()
@@ -88,7 +87,7 @@ impl Views {
             has: [has("E"), has("F"), posed],
             has_config: has("config"),
             keypoints: keypoints.then(Keypoints::default),
-            opened,
+            connection,
         })
     }
 
@@ -141,7 +140,7 @@ impl Views {
                 [e?, f?, q?, t?],
             ))
         };
-        let mut statement = self.opened.connection.prepare_cached(&query)?;
+        let mut statement = self.connection.prepare_cached(&query)?;
         let Some((inliers, config, list, [e, f, q, t])) =
             statement.query_row(params![pair], read).optional()?
         else {
@@ -190,14 +189,6 @@ impl Views {
         }
         Ok(Some(found))
     }
-
-    /// To be called after everything is read.
-    ///
-    /// # Errors
-    /// If somebody has written in between.
-    pub fn finish(self) -> Result<(), DatabaseError> {
-        self.opened.finish()
-    }
 }
 
 impl Keypoints {
@@ -211,7 +202,7 @@ impl Keypoints {
                 continue;
             }
             let query = "select cols, data from keypoints where image_id = ?";
-            let mut statement = views.opened.connection.prepare_cached(query)?;
+            let mut statement = views.connection.prepare_cached(query)?;
             let read = |row: &Row| {
                 let columns: Option<u32> = row.get(0)?;
                 let data = row.get_ref(1)?.as_blob().unwrap_or(&[]);

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use crate::colmap::{self, DatabaseError, DatabaseFacts, Pipeline};
+use crate::colmap::{self, Database, DatabaseError, DatabaseFacts, Pipeline};
 use crate::documents::{self, Document};
 use crate::edge_list::Reading;
 use crate::edge_list::layout::ListOptions;
@@ -489,6 +489,23 @@ fn ignored(options: &ReadOptions, kind: &Result<Option<Kind>, Problem>) -> Vec<S
     notes
 }
 
+/// The database at a path, open to be read in several ways; nothing, if there is none or a format says
+/// that it is something else. O(images + pairs) and the sorting of both.
+///
+/// # Errors
+/// Those of [`read_graphs`] about a database.
+pub fn open_database(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Option<Result<Database, ReadError>> {
+    let path = path.as_ref();
+    let is_meant = options.format.is_none() && colmap::is_database(path);
+    is_meant.then(|| {
+        let unused = ignored(options, &Ok(Some(Kind::Sqlite)));
+        Database::open(&path.display().to_string(), path, options, unused)
+    })
+}
+
 /// The graph of a database, which has to be a file.
 fn database(
     path: Option<&Path>,
@@ -496,11 +513,16 @@ fn database(
     options: &ReadOptions,
     unused: Vec<String>,
 ) -> Result<NamedGraph, ReadError> {
-    let no_file = || Place::Input.fault(DatabaseError::NoFile.into());
-    let graph = path.ok_or_else(no_file);
-    let graph = graph.and_then(|path| colmap::read(name, path, options));
-    let mut graph = graph.map_err(|fault| fault.in_file(name))?;
-    graph.notes.extend(unused);
+    let no_file = || {
+        let fault = Place::Input.fault(DatabaseError::NoFile.into());
+        fault.in_file(name)
+    };
+    let database = Database::open(name, path.ok_or_else(no_file)?, options, unused)?;
+    let graph = match options.tracks {
+        None => database.pairs(),
+        Some(tracks) => database.tracks(tracks)?,
+    };
+    database.finish()?;
     Ok(graph)
 }
 

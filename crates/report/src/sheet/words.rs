@@ -14,6 +14,8 @@ const TITLE: usize = 2;
 const PURPOSE: &str = "# ";
 /// The title of commands.
 const COMMANDS: &str = "next";
+/// What begins a statement of its own about what follows, in a line without a title.
+const STATEMENTS: [&str; 3] = ["global: ", "incremental: ", "averaging of "];
 /// How long it took, which says nothing about the input: a page is the same each time.
 const TIME: &str = "time";
 
@@ -47,7 +49,7 @@ pub(super) fn entries(text: &str) -> String {
             }
             // A command without a title of its own, or words that go on.
             (WORDS, Some(last)) => match last.lines.last_mut() {
-                Some(Line::Words(before)) => {
+                Some(Line::Words(before)) if !is_statement(words) => {
                     before.push(' ');
                     before.push_str(words);
                 }
@@ -59,6 +61,10 @@ pub(super) fn entries(text: &str) -> String {
     let items = entries.iter().filter(|entry| entry.title != TIME).map(item);
     let items: Vec<String> = items.collect();
     format!("<dl class=\"said\">\n{}</dl>\n", items.concat())
+}
+
+fn is_statement(words: &str) -> bool {
+    STATEMENTS.iter().any(|head| words.starts_with(head))
 }
 
 /// The entry that begins in a line.

@@ -1,0 +1,81 @@
+//! What stands for an open database in a build that opens none: nothing, so its methods are never called.
+
+use std::path::Path;
+
+use super::{DatabaseError, TwoViews};
+use crate::error::Place;
+use crate::{NamedGraph, ReadError, ReadOptions, TrackOptions};
+
+/// A database, which this build does not have.
+pub enum Database {}
+
+/// The geometry of its pairs.
+pub struct Views<'a>(&'a Database);
+
+impl Database {
+    /// Says that this build opens none.
+    ///
+    /// # Errors
+    /// Always.
+    pub(crate) fn open(
+        name: &str,
+        _: &Path,
+        _: &ReadOptions,
+        _: Vec<String>,
+    ) -> Result<Self, ReadError> {
+        let error = DatabaseError::NotBuilt.into();
+        Err(Place::Input.fault(error).in_file(name))
+    }
+
+    /// The graph of its pairs.
+    pub fn pairs(&self) -> NamedGraph {
+        match *self {}
+    }
+
+    /// The graph of its tracks.
+    ///
+    /// # Errors
+    /// None.
+    pub fn tracks(&self, _: TrackOptions) -> Result<NamedGraph, ReadError> {
+        match *self {}
+    }
+
+    /// The geometry of its pairs.
+    ///
+    /// # Errors
+    /// None.
+    pub fn views(&self) -> Result<Views<'_>, ReadError> {
+        match *self {}
+    }
+
+    /// Keeps no writer waiting.
+    ///
+    /// # Errors
+    /// None.
+    pub fn rest(&self) -> Result<(), ReadError> {
+        match *self {}
+    }
+
+    /// To be called after everything is read.
+    ///
+    /// # Errors
+    /// None.
+    pub fn finish(self) -> Result<(), ReadError> {
+        match self {}
+    }
+}
+
+impl Views<'_> {
+    /// Whether the focal length of an image was known before matching.
+    pub fn has_prior_focal_length(&self, _: u32) -> bool {
+        match *self.0 {}
+    }
+
+    /// What is known of a pair.
+    ///
+    /// # Errors
+    /// None.
+    pub fn two(&mut self, _: u32, _: u32) -> Result<Option<TwoViews>, DatabaseError> {
+        match *self.0 {}
+    }
+}

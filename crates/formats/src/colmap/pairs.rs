@@ -1,0 +1,320 @@
+//! The tables of images and pairs, and the choice of the pairs that a mapper takes.
+
+use std::collections::HashMap;
+
+use rusqlite::{Connection, Row};
+
+use super::tables::{NoPair, columns, ends, images, verified_table};
+use super::{DEFAULT_MIN_INLIERS, DatabaseError, Pipeline};
+use crate::{Matching, OtherPair, ReadOptions};
+use viewcert::graph::Graph;
+
+/// What the tables say, and the choice of pairs.
+pub(super) struct Tables {
+    /// The images by name.
+    pub(super) names: Vec<Box<str>>,
+    /// Their nodes by their numbers.
+    pub(super) nodes: HashMap<i64, u32>,
+    /// Pairs of known images, in the order of the table.
+    pub(super) pairs: Vec<Pair>,
+    /// Matches before verification of pairs of known images, by the two nodes, increasing.
+    pub(super) matches: Vec<((u32, u32), u32)>,
+    /// Pairs with an image that is not there.
+    pub(super) dangling: usize,
+    /// Pairs of an image with itself.
+    pub(super) loops: usize,
+    /// Rigs of several sensors.
+    pub(super) rigs: usize,
+    /// The version of COLMAP that wrote it, if it says so.
+    pub(super) version: Option<u32>,
+    pub(super) table: &'static str,
+    pub(super) pipeline: Pipeline,
+    pub(super) min_inliers: u32,
+    /// For every node whether its pairs count.
+    pub(super) meant: Vec<bool>,
+}
+
+/// A row of the table of verified pairs.
+pub(super) struct Pair {
+    /// The smaller node first.
+    pub(super) nodes: (u32, u32),
+    pub(super) inliers: u32,
+    pub(super) config: i64,
+    pub(super) used: bool,
+}
+
+impl Tables {
+    /// Reads them. O(images + pairs) and the sorting of both.
+    ///
+    /// # Errors
+    /// What is no database of COLMAP, is damaged, or has no verified pair.
+    pub(super) fn read(
+        connection: &Connection,
+        options: &ReadOptions,
+    ) -> Result<Self, DatabaseError> {
+        let table = verified_table(connection)?;
+        let (names, nodes) = images(connection)?;
+        let meant = names.iter().map(|name| {
+            let only = options.only.as_ref();
+            only.is_none_or(|only| only.contains(&**name))
+        });
+        let mut tables = Self {
+            meant: meant.collect(),
+            names,
+            nodes,
+            pairs: Vec::new(),
+            matches: Vec::new(),
+            dangling: 0,
+            loops: 0,
+            rigs: several_sensors(connection)?,
+            version: version(connection)?,
+            table,
+            pipeline: options.pipeline.unwrap_or_default(),
+            min_inliers: options.min_inliers.unwrap_or(DEFAULT_MIN_INLIERS),
+        };
+        tables.read_pairs(connection)?;
+        tables.read_matches(connection)?;
+        if tables.pairs.is_empty() && tables.dangling == 0 {
+            let matched = tables.matches.iter().filter(|&&(_, count)| count > 0);
+            return Err(match matched.count() {
+                0 => DatabaseError::NotMatched(tables.names.len()),
+                matched => DatabaseError::NotVerified(matched, table),
+            });
+        }
+        Ok(tables)
+    }
+
+    /// The verified pairs. Of a row only numbers are read, not what was matched.
+    fn read_pairs(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
+        let present = columns(connection, self.table)?;
+        let has = |column: &str| present.iter().any(|name| name == column);
+        let config = if has("config") { "config" } else { "0" };
+        // Poses stand behind the matches, and only one pipeline asks for them.
+        let posed = self.pipeline == Pipeline::Global && has("qvec") && has("tvec");
+        let pose = if posed { "qvec, tvec" } else { "null, null" };
+        let table = self.table;
+        let query = format!("select pair_id, rows, {config}, {pose} from {table}");
+        let mut statement = connection.prepare(&query)?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let inliers = count(row, 1)?;
+            let config: Option<i64> = row.get(2)?;
+            let config = config.unwrap_or(0);
+            let Some(ends) = self.ends(row.get(0)?) else {
+                continue;
+            };
+            let (a, b) = ends;
+            let used = self.meant[a as usize]
+                && self.meant[b as usize]
+                && inliers >= self.min_inliers
+                && match self.pipeline {
+                    Pipeline::Incremental => true,
+                    Pipeline::Global => (2..=6).contains(&config) || has_pose(row)?,
+                };
+            self.pairs.push(Pair {
+                nodes: ends,
+                inliers,
+                config,
+                used,
+            });
+        }
+        Ok(())
+    }
+
+    /// How many matches there were before verification, where the table says so.
+    fn read_matches(&mut self, connection: &Connection) -> Result<(), DatabaseError> {
+        let present = columns(connection, "matches")?;
+        if !["pair_id", "rows"]
+            .iter()
+            .all(|&column| present.iter().any(|name| name == column))
+        {
+            return Ok(());
+        }
+        let mut statement = connection.prepare("select pair_id, rows from matches")?;
+        let mut rows = statement.query([])?;
+        while let Some(row) = rows.next()? {
+            let matches = count(row, 1)?;
+            // A row without matches says that the pair was tried.
+            if let Ok(ends) = ends(row.get(0)?, &self.nodes) {
+                self.matches.push((ends, matches));
+            }
+        }
+        // Of two numbers for one pair the later one counts.
+        self.matches.sort_by_key(|&(ends, _)| ends);
+        self.matches.dedup_by(|later, first| {
+            let same = later.0 == first.0;
+            if same {
+                first.1 = later.1;
+            }
+            same
+        });
+        Ok(())
+    }
+
+    /// The nodes of a pair; counts those that are none.
+    fn ends(&mut self, pair: i64) -> Option<(u32, u32)> {
+        match ends(pair, &self.nodes) {
+            Ok(ends) => return Some(ends),
+            Err(NoPair::Loop) => self.loops += 1,
+            Err(NoPair::Dangling) => self.dangling += 1,
+        }
+        None
+    }
+
+    /// The graph of the pairs that are used, and what is known of all pairs.
+    pub(super) fn graph(&self) -> Result<(Graph, Matching), DatabaseError> {
+        let nodes = u32::try_from(self.names.len())
+            .map_err(|_| DatabaseError::Other("it has more than 4294967295 images".into()))?;
+        let mut used: Vec<_> = self.pairs.iter().filter(|pair| pair.used).collect();
+        used.sort_unstable_by_key(|pair| pair.nodes);
+        let edges = used.iter().map(|pair| pair.nodes).collect();
+        // Rows are keyed by the pair, so no edge comes twice; loops and strangers are left out.
+        let (graph, merged) = Graph::from_pairs(nodes, edges)
+            .map_err(|error| DatabaseError::Damaged(error.to_string()))?;
+        if merged > 0 {
+            return Err(DatabaseError::Damaged(format!(
+                "{} has pairs twice",
+                self.table
+            )));
+        }
+        let mut others: Vec<OtherPair> = Vec::new();
+        others.extend(
+            self.pairs
+                .iter()
+                .filter(|pair| !pair.used)
+                .map(|pair| OtherPair {
+                    images: pair.nodes,
+                    inliers: pair.inliers,
+                    matches: None,
+                    verified: true,
+                    used: false,
+                }),
+        );
+        let matched = self.matches.iter();
+        let matched = matched.filter(|(images, _)| graph.edge_number(images.0, images.1).is_none());
+        others.extend(matched.map(|&(images, matches)| OtherPair {
+            images,
+            inliers: 0,
+            matches: Some(matches),
+            verified: false,
+            used: false,
+        }));
+        // Of a pair with both, what was verified comes first and learns how many were matched.
+        others.sort_by_key(|pair| pair.images);
+        others.dedup_by(|later, first| {
+            let same = later.images == first.images;
+            if same {
+                first.matches = later.matches;
+            }
+            same
+        });
+        let matching = Matching {
+            inliers: used.iter().map(|pair| pair.inliers).collect(),
+            others,
+            positions: Vec::new(),
+        };
+        Ok((graph, matching))
+    }
+
+    /// What is known of all pairs, for a graph in which no pair of cameras is an edge.
+    pub(super) fn between_cameras(&self, pairs: &Graph, matching: Matching) -> Matching {
+        let used = pairs.edges().iter().zip(matching.inliers);
+        let used = used.map(|(&images, inliers)| OtherPair {
+            images,
+            inliers,
+            matches: self.matches_of(images),
+            verified: true,
+            used: true,
+        });
+        let mut others: Vec<OtherPair> = used.chain(matching.others).collect();
+        others.sort_unstable_by_key(|pair| pair.images);
+        Matching {
+            inliers: Vec::new(),
+            others,
+            positions: matching.positions,
+        }
+    }
+
+    /// How many matches two images have, where the table says so. O(log m).
+    fn matches_of(&self, images: (u32, u32)) -> Option<u32> {
+        let found = self
+            .matches
+            .binary_search_by_key(&images, |&(ends, _)| ends);
+        found.ok().map(|at| self.matches[at].1)
+    }
+}
+
+/// What is known of images and their pairs, for cameras that may stand for several: of two cameras the
+/// pair with most inliers, of a camera the first position.
+pub(super) fn of_cameras(matching: Matching, camera_of: impl Fn(u32) -> u32) -> Matching {
+    let mut others = matching.others;
+    for pair in &mut others {
+        let (a, b) = pair.images;
+        let (a, b) = (camera_of(a), camera_of(b));
+        pair.images = (a.min(b), a.max(b));
+    }
+    others.retain(|pair| pair.images.0 != pair.images.1);
+    others.sort_unstable_by_key(|pair| (pair.images, std::cmp::Reverse(pair.inliers)));
+    others.dedup_by_key(|pair| pair.images);
+    let images = (0..).zip(&matching.positions);
+    let of_images = images.map(|(image, &place)| (camera_of(image) as usize, place));
+    let of_images: Vec<_> = of_images.collect();
+    let count = of_images.iter().map(|&(camera, _)| camera + 1).max();
+    let mut positions = vec![None; count.unwrap_or(0)];
+    for (camera, place) in of_images {
+        positions[camera] = positions[camera].or(place);
+    }
+    Matching {
+        others,
+        positions,
+        ..matching
+    }
+}
+
+/// How many rigs have sensors besides their reference sensor.
+fn several_sensors(connection: &Connection) -> Result<usize, DatabaseError> {
+    if !columns(connection, "rig_sensors")?
+        .iter()
+        .any(|name| name == "rig_id")
+    {
+        return Ok(0);
+    }
+    let query = "select count(distinct rig_id) from rig_sensors";
+    let count: i64 = connection.query_row(query, [], |row| row.get(0))?;
+    Ok(count.max(0) as usize)
+}
+
+/// The version that a database was written by.
+fn version(connection: &Connection) -> Result<Option<u32>, DatabaseError> {
+    let version: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    Ok(u32::try_from(version).ok().filter(|&version| version > 0))
+}
+
+/// A number of matches.
+fn count(row: &Row, column: usize) -> Result<u32, DatabaseError> {
+    let count: Option<i64> = row.get(column)?;
+    u32::try_from(count.unwrap_or(0))
+        .map_err(|_| DatabaseError::Damaged(format!("a pair has {} matches", count.unwrap_or(0))))
+}
+
+/// Whether a relative pose is stored: a quaternion that is not zero, and a translation.
+fn has_pose(row: &Row) -> Result<bool, DatabaseError> {
+    let blob = |column| -> Result<Option<Vec<u8>>, DatabaseError> {
+        Ok(row
+            .get_ref(column)?
+            .as_blob_or_null()
+            .map_err(|_| DatabaseError::Damaged("a relative pose is not stored as bytes".into()))?
+            .map(<[u8]>::to_vec))
+    };
+    // COLMAP 3.8 writes zeros, some of them negative, where there is no pose.
+    let zero = |bytes: &[u8]| {
+        let (numbers, _) = bytes.as_chunks();
+        numbers.iter().all(|&b| u64::from_le_bytes(b) << 1 == 0)
+    };
+    Ok(match (blob(3)?, blob(4)?) {
+        (Some(rotation), Some(translation)) => {
+            rotation.len() == 32 && translation.len() == 24 && !zero(&rotation)
+        }
+        _ => false,
+    })
+}

@@ -1,0 +1,201 @@
+//! What is said of a database: its summary, and what was chosen and left out.
+
+use std::collections::BTreeMap;
+
+use rusqlite::Connection;
+
+use super::pairs::Tables;
+use super::tables::columns;
+use super::{Bin, ConfigCount, DatabaseError, DatabaseFacts, Pipeline};
+use viewcert::graph::{Graph, UnionFind};
+use viewcert::wording::counted;
+
+impl Tables {
+    /// The summary; so many images have a position.
+    pub(super) fn facts(&self, graph: &Graph, positions: usize) -> DatabaseFacts {
+        let mut configs: BTreeMap<i64, ConfigCount> = BTreeMap::new();
+        for pair in &self.pairs {
+            let config = pair.config;
+            let count = configs.entry(config).or_insert(ConfigCount {
+                config,
+                pairs: 0,
+                used: 0,
+            });
+            count.pairs += 1;
+            count.used += usize::from(pair.used);
+        }
+        let connected = connected(graph);
+        DatabaseFacts {
+            table: self.table,
+            pipeline: self.pipeline,
+            min_inliers: self.min_inliers,
+            images: self.names.len(),
+            images_without_pair: connected.iter().filter(|&&size| size == 1).count(),
+            pairs: self.pairs.len(),
+            pairs_used: graph.edges().len(),
+            configs: configs.into_values().collect(),
+            inliers: bins(self.pairs.iter().map(|pair| pair.inliers)),
+            rigs: self.rigs,
+            version: self.version,
+            positions,
+            connected,
+        }
+    }
+
+    /// Pairs that tracks are made of and that global mapping may not take.
+    pub(super) fn other_mapper(&self) -> Option<String> {
+        if self.pipeline == Pipeline::Global {
+            return None;
+        }
+        let others = self.pairs.iter().filter(|pair| pair.used);
+        let others = others.filter(|pair| !(2..=6).contains(&pair.config));
+        match others.count() {
+            0 => None,
+            used => Some(format!(
+                "{} of another configuration than 2 to 6: global mapping takes these only with a \
+                 stored relative pose (--pipeline global)",
+                counted(used, "used pair")
+            )),
+        }
+    }
+
+    /// What was chosen and left out, in words; and that rigs do not count, if they do not.
+    pub(super) fn notes(&self, facts: &DatabaseFacts, rigs_count: bool) -> Vec<String> {
+        let mut notes = Vec::new();
+        let least = self.min_inliers;
+        let few = self
+            .pairs
+            .iter()
+            .filter(|pair| pair.inliers < least)
+            .count();
+        if few > 0 {
+            let pairs = counted(few, "verified pair");
+            let has = if few == 1 { "has" } else { "have" };
+            notes.push(format!(
+                "{pairs} of {} {has} fewer than {least} inliers and {} not used (--min-inliers)",
+                facts.pairs,
+                if few == 1 { "is" } else { "are" }
+            ));
+        }
+        let unfit = facts.pairs - few - facts.pairs_used;
+        if unfit > 0 {
+            notes.push(format!(
+                "{} with enough inliers left out: global mapping takes the configurations 2 to 6, and \
+                 pairs with a stored pose (--pipeline)",
+                counted(unfit, "verified pair")
+            ));
+        }
+        if let Some(zero) = facts.configs.iter().find(|count| count.config == 0)
+            && zero.used > 0
+        {
+            notes.push(format!(
+                "used although the database does not say how they were verified, if at all: {} of \
+                 undefined configuration (0)",
+                counted(zero.used, "pair")
+            ));
+        }
+        if self.dangling > 0 {
+            notes.push(format!(
+                "ignored: {} with an image that the database does not have",
+                counted(self.dangling, "verified pair")
+            ));
+        }
+        if self.loops > 0 {
+            notes.push(format!(
+                "ignored: {} of an image with itself",
+                counted(self.loops, "verified pair")
+            ));
+        }
+        if facts.images_without_pair > 0 {
+            let (these, they) = match facts.images_without_pair {
+                1 => ("is in no pair that is used", "it is a camera"),
+                _ => ("are in no pair that is used", "they are cameras"),
+            };
+            let images = counted(facts.images_without_pair, "image");
+            notes.push(format!("{images} {these}: {they} that nothing determines"));
+        }
+        let numbers = self.nodes.iter().map(|(&id, &node)| (node, id));
+        let mut numbers: Vec<(u32, i64)> = numbers.collect();
+        numbers.sort_unstable();
+        if !numbers.is_sorted_by_key(|&(_, id)| id) {
+            notes.push("the numbers of the images are not in the order of their names".to_owned());
+        }
+        if facts.rigs > 0 && !rigs_count {
+            notes.push(format!(
+                "{} of several cameras in the database: poses that are known within a rig are not \
+                 used here",
+                counted(facts.rigs, "rig")
+            ));
+        }
+        notes
+    }
+}
+
+/// That focal lengths are guesses, if they are: of cameras that three images or more have they come out of
+/// the images, and are not counted. O(images).
+///
+/// # Errors
+/// Those of SQLite.
+pub(super) fn guessed(connection: &Connection) -> Result<Option<String>, DatabaseError> {
+    for (table, column) in [
+        ("images", "camera_id"),
+        ("cameras", "camera_id"),
+        ("cameras", "prior_focal_length"),
+    ] {
+        if !columns(connection, table)?
+            .iter()
+            .any(|name| name == column)
+        {
+            return Ok(None);
+        }
+    }
+    let query = "select coalesce(sum(images), 0) from (select count(*) as images from images join cameras \
+                 using (camera_id) where prior_focal_length = 0 group by camera_id) where images < 3";
+    let images: i64 = connection.query_row(query, [], |row| row.get(0))?;
+    let images = match usize::try_from(images) {
+        Ok(0) | Err(_) => return Ok(None),
+        Ok(1) => "1 image has a camera that no two others have and a focal length that is a guess"
+            .to_owned(),
+        Ok(count) => format!(
+            "{count} images have cameras that no two others have and focal lengths that are guesses"
+        ),
+    };
+    Ok(Some(format!(
+        "{images} (prior_focal_length 0): tracks are decided for known rotations, which a wrong focal \
+         length makes wrong"
+    )))
+}
+
+/// Where bins begin; doubling from the mappers' threshold on.
+const BINS: [u32; 9] = [0, 1, 15, 30, 60, 120, 240, 480, 960];
+
+/// Numbers of inliers, counted. O(numbers).
+pub(super) fn bins(numbers: impl Iterator<Item = u32>) -> Vec<Bin> {
+    let mut pairs = [0; BINS.len()];
+    for number in numbers {
+        pairs[BINS.partition_point(|&from| from <= number) - 1] += 1;
+    }
+    (0..BINS.len())
+        .filter(|&k| pairs[k] > 0)
+        .map(|k| Bin {
+            from: BINS[k],
+            to: BINS.get(k + 1).map(|next| next - 1),
+            pairs: pairs[k],
+        })
+        .collect()
+}
+
+/// The sizes of the connected parts, falling. O(nodes + edges).
+fn connected(graph: &Graph) -> Vec<usize> {
+    let mut parts = UnionFind::new(graph.nodes());
+    for &(i, j) in graph.edges() {
+        parts.union(i as usize, j as usize);
+    }
+    let mut sizes = vec![0; graph.nodes()];
+    for node in 0..graph.nodes() {
+        sizes[parts.find(node)] += 1;
+    }
+    sizes.retain(|&size| size > 0);
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes
+}
