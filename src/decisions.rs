@@ -149,7 +149,8 @@ impl Work<'_> {
             written.proof = Some(proof);
         }
         if let Some(path) = &products.witness {
-            match witness::write(outputs, path, input, verdict, self.plan.seed)? {
+            let wish = (self.plan.seed, products.oriented);
+            match witness::write(outputs, path, input, verdict, wish)? {
                 witness::Found::Written => {
                     written
                         .lines

@@ -1,17 +1,17 @@
 //! `verify witness GRAPH FILE`: two families of cameras with the same fundamental matrices, to look
-//! at.
+//! at; with `--oriented` two real scenes with the same images.
 
 use super::input::InputArguments;
 use super::plan::{Form, Plan};
 use anyhow::Result;
 use clap::Args;
-use serde_json::to_string;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use viewcert::decide::{CountSolutions, Verdict};
 use viewcert::geometry::model::Model;
-use viewcert::solutions::Witness;
+use viewcert::solutions::Solutions;
 use viewcert_formats::NamedGraph;
+use viewcert_report::second_scene::{self, SecondScene};
+use viewcert_report::witness_file::{write_second_scene, write_witness};
 use viewcert_session::Outputs;
 
 /// Of what, and where to.
@@ -26,6 +26,10 @@ pub(super) struct WitnessArguments {
     /// Count solutions whatever it takes.
     #[arg(long)]
     full: bool,
+    /// A real second solution that may be another scene in front of other cameras with the same images,
+    /// exact at integer centres; a FILE that ends in `.svg` is a picture of both scenes.
+    #[arg(long)]
+    oriented: bool,
     /// Seed of all random cameras.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -44,13 +48,14 @@ impl WitnessArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let graphs = std::slice::from_ref(&self.graph);
         let mut plan = Plan::new(graphs, self.input.of_pairs()?, Model::Projective, self.seed);
-        if self.full {
+        if self.full || self.oriented {
             plan.draft.solutions = CountSolutions::Full;
         }
         if self.json {
             plan.form = Form::Json;
         }
         plan.products.witness = Some(self.file.clone());
+        plan.products.oriented = self.oriented;
         plan.checked()
     }
 }
@@ -72,13 +77,16 @@ pub(super) fn write(
     path: &Path,
     input: &NamedGraph,
     verdict: &Verdict,
-    seed: u64,
+    (seed, is_oriented): (u64, bool),
 ) -> Result<Found> {
     let Some(count) = &verdict.solutions else {
         return Ok(Found::Nothing("there are infinitely many solutions"));
     };
     if count.is_one() {
         return Ok(Found::Nothing("there is one solution only"));
+    }
+    if is_oriented {
+        return write_oriented(outputs, path, input, count.evidence.as_deref());
     }
     let witness = count
         .evidence
@@ -91,27 +99,32 @@ pub(super) fn write(
     Ok(Found::Written)
 }
 
-/// A JSON object with a camera a line; residues are strings, so that no reader rounds them.
-fn write_witness(
-    out: &mut dyn Write,
+/// Writes a real second solution, as a picture if the file is to be one.
+fn write_oriented(
+    outputs: &Outputs,
+    path: &Path,
     input: &NamedGraph,
-    witness: &Witness,
-) -> std::io::Result<()> {
-    let nodes = 0..input.graph.nodes() as u32;
-    let labels: Vec<String> = nodes.map(|v| input.labels.label(v).into_owned()).collect();
-    writeln!(out, "{{\"format\": \"viewcert witness\", \"version\": 1,")?;
-    writeln!(out, " \"graph\": {},", to_string(&input.name)?)?;
-    writeln!(out, " \"prime\": \"{}\",", witness.prime)?;
-    writeln!(out, " \"nodes\": {},", to_string(&labels)?)?;
-    writeln!(out, " \"edges\": {},", to_string(&input.graph.edges())?)?;
-    for (k, family) in witness.families.iter().enumerate() {
-        writeln!(out, " \"{}\": [", ["first", "second"][k])?;
-        for (v, camera) in (1..).zip(family) {
-            let entries = camera.map(|row| row.map(|x| x.to_string()));
-            let comma = if v < family.len() { "," } else { "" };
-            writeln!(out, "  {}{comma}", to_string(&entries)?)?;
-        }
-        writeln!(out, " ]{}", if k == 0 { "," } else { "}" })?;
+    evidence: Option<&Solutions>,
+) -> Result<Found> {
+    let Some(oriented) = evidence.and_then(|found| found.oriented.as_ref()) else {
+        return Ok(Found::Nothing(
+            "real solutions are looked for where there are two to eight, known exactly, of one core",
+        ));
+    };
+    let Some(second) = SecondScene::of(oriented) else {
+        return Ok(Found::Nothing(
+            "no second scene in front of its cameras was found; another --seed may find one",
+        ));
+    };
+    if path.extension().is_some_and(|extension| extension == "svg") {
+        let Some(picture) = second_scene::picture(input, &second) else {
+            return Ok(Found::Nothing(
+                "the second scene is too far from the first one to be drawn; another --seed may do",
+            ));
+        };
+        outputs.write(path, |out| out.write_all(picture.as_bytes()))?;
+    } else {
+        outputs.write(path, |out| write_second_scene(out, input, &second))?;
     }
-    Ok(())
+    Ok(Found::Written)
 }

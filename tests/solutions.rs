@@ -135,3 +135,67 @@ fn a_second_solution_to_look_at() {
     let run = verify(&["witness", &graph, &graph]);
     assert_eq!(run.status.code(), Some(2), "the graph itself");
 }
+
+/// A second scene in front of its cameras is checked by a script that shares nothing with the program: by
+/// fractions, with points that both scenes show at the same places of all images.
+#[test]
+fn a_second_scene_to_look_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = graph_file(folder.path(), "HBQkcP_");
+    let witness = folder.path().join("scene.json");
+    let path = witness.to_str().unwrap();
+    let run = verify(&["witness", &graph, path, "--oriented"]);
+    assert_eq!(run.status.code(), Some(0));
+    let said = String::from_utf8(run.stdout).unwrap();
+    let line = "  oriented    1 of 2 real solutions near some cameras, 2 of 2 near others (proved)";
+    assert!(said.lines().any(|other| other == line), "{said}");
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/crates/check/second/second_scene.py"
+    );
+    let checked = || {
+        let run = Command::new(&python).args([script, path]).output().unwrap();
+        let said = [run.stdout, run.stderr].map(|text| String::from_utf8(text).unwrap());
+        (run.status.code(), said.concat())
+    };
+    let (code, said) = checked();
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.starts_with("12 pairs see the same images"), "{said}");
+    let text = std::fs::read_to_string(&witness).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let rejected = |change: &dyn Fn(&mut serde_json::Value), words: &str| {
+        let mut other = found.clone();
+        change(&mut other);
+        std::fs::write(&witness, other.to_string()).unwrap();
+        let (code, said) = checked();
+        assert_eq!(code, Some(1), "{said}");
+        assert!(said.contains(words), "{words}: {said}");
+    };
+    let entry = |other: &mut serde_json::Value| other["second"][0][0][0] = serde_json::json!(["7"]);
+    rejected(&entry, "another fundamental matrix");
+    let edge = |other: &mut serde_json::Value| other["edges"][0] = serde_json::json!([0, 1]);
+    rejected(&edge, "another fundamental matrix");
+    // With two centres behind others no plane but a suitable one will do.
+    let plane = |other: &mut serde_json::Value| other["plane"] = serde_json::json!([1, 0, 0, 0]);
+    rejected(&plane, "no point is in front of both cameras of some pair");
+
+    let picture = folder.path().join("scene.svg");
+    let run = verify(&["witness", &graph, picture.to_str().unwrap(), "--oriented"]);
+    assert_eq!(run.status.code(), Some(0));
+    let picture = std::fs::read_to_string(picture).unwrap();
+    // Nine cameras and a point for each of twelve pairs, twice.
+    assert_eq!(picture.matches("<circle").count(), 2 * (9 + 12));
+    assert_eq!(picture.matches("<line").count(), 2 * 24);
+
+    // A graph that is one body.
+    let graph = graph_file(folder.path(), "D]o");
+    let none = folder.path().join("none.json");
+    let run = verify(&["witness", &graph, none.to_str().unwrap(), "--oriented"]);
+    let said = String::from_utf8(run.stderr).unwrap();
+    assert!(
+        said.contains("no witness: there is one solution only"),
+        "{said}"
+    );
+    assert!(!none.exists());
+}

@@ -7,6 +7,7 @@ mod catalog_page;
 mod census;
 mod command;
 mod layout;
+mod oriented;
 mod plot;
 mod solutions;
 mod thinned;
@@ -40,6 +41,8 @@ enum Command {
     /// Count the solutions of the finite solvable graphs with the fewest pairs, or of the Laman
     /// graphs.
     Solutions(command::solutions::Arguments),
+    /// Count in how many scenes of the graphs with several solutions the scene is unique all the same.
+    Oriented(command::oriented::Arguments),
     /// Count the solutions of pieces of graphs that are only just finite solvable.
     Thin(command::thin::Arguments),
     /// Print the completion script of a shell for verify.
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
             Command::Census(arguments) => command::census::run(session, arguments),
             Command::Random(arguments) => command::random::run(session, arguments),
             Command::Solutions(arguments) => command::solutions::run(session, arguments),
+            Command::Oriented(arguments) => command::oriented::run(session, arguments),
             Command::Thin(arguments) => command::thin::run(session, arguments),
             Command::Completions(arguments) => command::man::completions(arguments),
             Command::Manpage(arguments) => command::man::manpage(arguments),

@@ -79,7 +79,7 @@ fn rank(field: &Field, centres: &[[u64; 3]], setting: &Setting, core: &Core) -> 
     let mut echelon = Echelon::new(field, 12 * core.nodes, setting.meter);
     let mut rank = 0;
     for row in 0..10 * core.edges.len() {
-        rank += i64::from(echelon.push(jacobian(field, core, &cameras, row), None)?);
+        rank += i64::from(echelon.push(jacobian(field, &core.edges, &cameras, row), None)?);
     }
     Ok(rank)
 }

@@ -72,7 +72,7 @@ struct IntegerMatrix {
 impl IntegerMatrix {
     fn jacobian(core: &Core, cameras: &[Camera<i128>]) -> IntegerMatrix {
         let row = |number| {
-            let mut entries = jacobian(&Integers, core, cameras, number);
+            let mut entries = jacobian(&Integers, &core.edges, cameras, number);
             entries.retain(|(_, value)| *value != 0);
             let content = entries
                 .iter()

@@ -192,7 +192,7 @@ impl Certificate {
             &structure.everything,
         )?;
         let evidence = document.solutions.0.as_ref().map(|evidence| {
-            let members = (&structure.everything, name.nodes);
+            let members = (&structure.everything, name.nodes, parts.len());
             let count = solutions::check(evidence, structure, &pieces, members);
             count.within(|| "solutions".into())
         });

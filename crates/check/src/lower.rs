@@ -73,7 +73,9 @@ fn check_minor(minor: &Minor, setting: &Setting, core: &Core) -> Checked<Lower> 
     let cameras = cameras::general(&mut stream, field, core.nodes)?;
     let pivots = Pivots::of_jacobian(&minor.rows, &minor.cols, core)?;
     let echelon = Echelon::new(field, 12 * core.nodes, setting.meter);
-    Factors::new(echelon, &pivots, |row| jacobian(field, core, &cameras, row))?;
+    Factors::new(echelon, &pivots, |row| {
+        jacobian(field, &core.edges, &cameras, row)
+    })?;
     Ok(Lower {
         rank: minor.rows.len() as i64,
         at: None,

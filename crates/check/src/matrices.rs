@@ -24,13 +24,13 @@ fn fundamental<R: Ring>(ring: &R, i: &Camera<R::E>, j: &Camera<R::E>) -> [[R::E;
     std::array::from_fn(|h| std::array::from_fn(|k| entry(h, k)))
 }
 
-/// Row `row` of J_P of a core: entries with their columns, each column once.
+/// Row `row` of J_P of the edges of a core: entries with their columns, each column once.
 ///
 /// With S = Q^T F P for the edge's cameras P and Q, the derivative of S + S^T in entry (r, c) of P
 /// has M = Q^T F in row and column c; that in entry (r, c) of Q has K = F P there.
 pub(crate) fn jacobian<R: Ring>(
     ring: &R,
-    core: &Core,
+    edges: &[(usize, usize)],
     cameras: &[Camera<R::E>],
     row: usize,
 ) -> Vec<(usize, R::E)> {
@@ -46,7 +46,7 @@ pub(crate) fn jacobian<R: Ring>(
         (3, 2),
         (3, 3),
     ];
-    let (i, j) = core.edges[row / 10];
+    let (i, j) = edges[row / 10];
     let (p, q) = (&cameras[i], &cameras[j]);
     let f = fundamental(ring, p, q);
     let (a, b) = VECH[row % 10];

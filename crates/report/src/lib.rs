@@ -27,6 +27,7 @@ pub mod overview_page;
 pub mod page;
 mod part_names;
 pub mod read;
+pub mod second_scene;
 pub mod sheet;
 mod shown;
 pub mod split;
@@ -34,6 +35,7 @@ pub mod svg;
 pub mod table;
 pub mod text;
 pub mod tracks;
+pub mod witness_file;
 
 use assumptions::Scope;
 use graph_picture::{Picture, document, draw};

@@ -16,6 +16,7 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use viewcert::decide::{
     CountSolutions, Options, Prime, Projective, Value, Verdict, VerdictError, decide,
 };
@@ -201,17 +202,23 @@ impl Counts {
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
-/// is decided anew modulo the default prime.
+/// is decided anew modulo the default prime. Which solutions are oriented is left out: it would be most of
+/// the published certificates, and one command finds it again.
 fn decide_small(graph: &Graph, watch: &Watch) -> Result<Verdict, VerdictError> {
     let options = options(CountSolutions::Full, watch.clone());
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
     );
-    match decide(graph, &small) {
+    let mut verdict = match decide(graph, &small) {
         Err(VerdictError::Undecided { .. }) => decide(graph, &options),
         decided => decided,
+    }?;
+    let solutions = verdict.solutions.as_mut();
+    if let Some(evidence) = solutions.and_then(|count| count.evidence.as_mut()) {
+        Arc::make_mut(evidence).oriented = None;
     }
+    Ok(verdict)
 }
 
 /// The candidates of a size, all labelled canonically, in the order of the generator.

@@ -45,7 +45,11 @@ pub(super) fn check(factors: &[Factor], members: &Members, meter: &Meter) -> Che
         at_least = at_least.times(&found.at_least);
         at_most = most.map(|(product, most)| product.times(&most));
     }
-    Ok(Count { at_least, at_most })
+    Ok(Count {
+        at_least,
+        at_most,
+        oriented: None,
+    })
 }
 
 /// (S24) for one factor.

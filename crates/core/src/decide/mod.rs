@@ -263,7 +263,14 @@ impl Found<'_> {
             Value::Solvable => Some(SolutionCount::one()),
             Value::FiniteSolvable => {
                 let effort = self.effort(contraction);
-                Some(self.count(contraction, &contraction.finals, &contraction.loose, effort)?)
+                let (bodies, edges) = (&contraction.finals, &contraction.loose);
+                let mut count = self.count(contraction, bodies, edges, effort)?;
+                if effort == CountSolutions::Full && self.known_parts.is_empty() {
+                    let members = nodes_of(contraction, bodies, edges);
+                    let task = self.options.watch.task(Step::Solutions, self.graph.nodes());
+                    count.look_for_oriented(self.graph, &members, self.options.seed, &task)?;
+                }
+                Some(count)
             }
             Value::NotFiniteSolvable => None,
         })

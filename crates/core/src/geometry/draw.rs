@@ -348,6 +348,21 @@ pub fn cameras_rational(
     key.draw(nodes, draw, centre)
 }
 
+/// Distinct integer centres with coordinates in `-bound..=bound`, one a node.
+///
+/// # Errors
+/// The bound is too small for so many distinct centres.
+pub(crate) fn integer_centres(
+    nodes: usize,
+    bound: u64,
+    key: &DrawKey,
+) -> Result<Drawn<Vec<[i64; 3]>>, DrawError> {
+    let draw = |generator: &mut ChaCha20Rng, _: &[[i64; 3]]| {
+        std::array::from_fn(|_| symmetric(generator, bound))
+    };
+    key.draw(nodes, draw, |&centre: &[i64; 3]| Some(centre))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -166,6 +166,8 @@ pub(super) struct Draws<'w> {
     field: PrimeField,
     key: DrawKey,
     work: &'w Work<'w>,
+    /// The centres of all nodes, if they are given.
+    given: Option<Vec<[u64; 3]>>,
     /// Whether a core was left out that is not too large for a full count.
     left_out: Cell<bool>,
 }
@@ -182,18 +184,33 @@ impl<'w> Draws<'w> {
             field: PrimeField::mersenne61(),
             key,
             work,
+            given: None,
             left_out: Cell::new(false),
         }
     }
 
+    /// The same with centres that are given, for all nodes of the graph.
+    pub(super) fn at(self, centres: Vec<[u64; 3]>) -> Self {
+        Self {
+            given: Some(centres),
+            ..self
+        }
+    }
+
     /// Distinct centres of nodes.
-    fn centres(&self, nodes: usize, draw: usize) -> Option<Vec<[u64; 3]>> {
+    fn centres(&self, nodes: &[u32], draw: usize) -> Option<Vec<[u64; 3]>> {
+        if let Some(given) = &self.given {
+            return nodes
+                .iter()
+                .map(|&v| given.get(v as usize).copied())
+                .collect();
+        }
         // Centres are redrawn one number after the other, should two of them be equal.
         let key = DrawKey {
             draw: (draw as u64) << 16,
             ..self.key
         };
-        centres_mod(&self.field, nodes, &key)
+        centres_mod(&self.field, nodes.len(), &key)
             .ok()
             .map(|drawn| drawn.values)
     }
@@ -292,7 +309,7 @@ fn excess_of(members: &[Vec<u32>]) -> Option<i64> {
 fn rigid(members: &[&[u32]], draws: &Draws<'_>) -> Option<Place> {
     let lists: Vec<Vec<u32>> = members.iter().map(|member| member.to_vec()).collect();
     let core = Core::new(&Members::unmerged(&lists)?, 0)?;
-    let centres = draws.centres(core.nodes.len(), 0)?;
+    let centres = draws.centres(&core.nodes, 0)?;
     let system = System::new(draws.field, &core, &centres)?;
     is_finite_solvable(&system).then(|| draws.place(&core, &centres))
 }
@@ -407,7 +424,7 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
     }
     let core = Core::new(members, 0)?;
     if core.unknowns > MOST_UNKNOWNS {
-        let centres = draws.centres(core.nodes.len(), 0)?;
+        let centres = draws.centres(&core.nodes, 0)?;
         return is_finite_solvable(&System::new(draws.field, &core, &centres)?).then_some(best);
     }
     let effort = effort.for_unknowns(core.unknowns);
@@ -450,6 +467,7 @@ impl Solutions {
             lower: None,
             product: Vec::new(),
             excess,
+            oriented: None,
         }
     }
 
@@ -508,8 +526,12 @@ struct Charted {
 impl Charted {
     /// `None` if finite solvability is not proved.
     fn new(members: &Members, chart: usize, draws: &Draws<'_>) -> Option<Self> {
-        let core = Core::new(members, chart)?;
-        let centres = draws.centres(core.nodes.len(), 0)?;
+        Self::of(Core::new(members, chart)?, members.excess() == 0, draws)
+    }
+
+    /// A core in its chart.
+    fn of(core: Core, is_tight: bool, draws: &Draws<'_>) -> Option<Self> {
+        let centres = draws.centres(&core.nodes, 0)?;
         let system = System::new(draws.field, &core, &centres)?.under(draws.work);
         if !is_finite_solvable(&system) {
             return None;
@@ -517,7 +539,7 @@ impl Charted {
         let mut values: Values = vec![None; core.unknowns];
         let (ones, spans) = ones(&system, &mut values);
         Some(Self {
-            is_tight: members.excess() == 0,
+            is_tight,
             core,
             centres,
             values,
@@ -597,7 +619,7 @@ impl Charted {
         draws: &Draws<'_>,
         best: &mut Solutions,
     ) -> bool {
-        let Some(centres) = draws.centres(self.core.nodes.len(), draw) else {
+        let Some(centres) = draws.centres(&self.core.nodes, draw) else {
             return false;
         };
         let Some(system) = self.system(&centres, draws) else {
@@ -653,6 +675,20 @@ fn redraw(charts: &[Charted], most: usize, draws: &Draws<'_>, best: &mut Solutio
                 && charted.elsewhere(unknowns, draw, draws, best)
         });
     }
+}
+
+/// The simple points of a tight core at the centres that are given, as many as are known to be elsewhere,
+/// in the same chart. `None` if they are not all residues, or not simple.
+pub(super) fn points_at(known: &Solutions, draws: &Draws<'_>) -> Option<Lower> {
+    let unknowns = &known.upper.as_ref()?.points.as_ref()?.1.unknowns;
+    let core = Core::of_chart(&known.lower.as_ref()?.place.chart)?;
+    let mut charted = Charted::of(core, true, draws)?;
+    let system = System::new(draws.field, &charted.core, &charted.centres)?;
+    let span = MinorSpan::new(&system, &charted.values, unknowns)?;
+    let mut best = Solutions::nothing(None);
+    charted.points(&span, draws, &mut best);
+    let all = best.at_least == known.at_least && best.at_most == known.at_most;
+    best.lower.filter(|_| all)
 }
 
 /// Whether u = 1 shows at these centres that the core is finite solvable (Lemma 10.9).

@@ -6,7 +6,8 @@
 //! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
 //! simple points of tight cores (`simple`, Theorem 10.10). What hangs together in a few nodes only
 //! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
-//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`).
+//! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`), and which
+//! of several are real and in front of the cameras is found at integer centres (`oriented`).
 
 mod chart;
 mod count;
@@ -16,6 +17,7 @@ mod linear;
 mod members;
 mod minors;
 mod number;
+mod oriented;
 mod outside;
 mod points;
 mod product;
@@ -31,10 +33,11 @@ mod zeros;
 pub use count::{Effort, count};
 pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
-    AtMost, Chart, Factor, Limit, Linear, Lower, Merge, Minor, One, Outside, Part, Place, Rule,
-    Scale, Solutions, Upper,
+    AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, One, Oriented, Outside,
+    Part, Place, Root, Rule, Scale, Scene, Solutions, Standing, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;
 pub use number::Number;
+pub use oriented::Search;
 pub use witness::Witness;

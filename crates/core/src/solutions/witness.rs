@@ -44,18 +44,7 @@ impl Solutions {
         for &(v, centre) in &lower.place.centres {
             centres[v as usize] = centre.map(|x| field.from_u64(x));
         }
-        let other = lower
-            .points
-            .iter()
-            .find(|point| point.iter().any(|&u| u != 1))?;
-        let scales: Vec<u64> = other.iter().map(|&u| field.from_u64(u)).collect();
-        let place = At {
-            field,
-            graph,
-            centres,
-            lower,
-            scales,
-        };
+        let place = At::new(field, graph, centres, lower, other_points(lower).next()?);
         let first = place.given();
         let second = place.second(&first)?;
         place.is_witness(&first, &second).then(|| {
@@ -87,6 +76,29 @@ impl Solutions {
     }
 }
 
+/// The points of a core other than u = 1.
+fn other_points(lower: &Lower) -> impl Iterator<Item = &Vec<u64>> {
+    let points = lower.points.iter();
+    points.filter(|point| point.iter().any(|&u| u != 1))
+}
+
+/// The cameras of all nodes at each point other than u = 1, for these centres of all nodes; `None` if
+/// one of them is not what it has to be.
+pub(super) fn other_families(
+    graph: &Graph,
+    field: PrimeField,
+    centres: Vec<[u64; 3]>,
+    lower: &Lower,
+) -> Option<Vec<Vec<Camera<u64>>>> {
+    let families = other_points(lower).map(|point| {
+        let place = At::new(field, graph, centres.clone(), lower, point);
+        let first = place.given();
+        let second = place.second(&first)?;
+        place.is_witness(&first, &second).then_some(second)
+    });
+    families.collect()
+}
+
 /// A point of a core, and the centres of all nodes.
 struct At<'a> {
     field: PrimeField,
@@ -96,7 +108,23 @@ struct At<'a> {
     scales: Vec<u64>,
 }
 
-impl At<'_> {
+impl<'a> At<'a> {
+    fn new(
+        field: PrimeField,
+        graph: &'a Graph,
+        centres: Vec<[u64; 3]>,
+        lower: &'a Lower,
+        point: &[u64],
+    ) -> Self {
+        Self {
+            scales: point.iter().map(|&u| field.from_u64(u)).collect(),
+            field,
+            graph,
+            centres,
+            lower,
+        }
+    }
+
     fn given(&self) -> Vec<Camera<u64>> {
         self.centres
             .iter()
