@@ -24,7 +24,7 @@ use viewcert_formats::colmap::{Database, DatabaseError, DatabaseFacts, Pipeline}
 use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::Scope;
+use viewcert_report::assumptions::{Asked, BaseLines, Scope};
 use viewcert_report::overview::{Overview, Wanted};
 use viewcert_report::overview_page;
 use viewcert_session::Session;
@@ -204,13 +204,26 @@ fn overview(
         (None, Some((input, [_, calibrated]))) => (*input, calibrated),
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
+    let scope = tracks.as_ref().map(|(input, verdict)| {
+        Scope::new(input, verdict, Asked::default(), &session.shown_watch())
+    });
+    let scope = scope.transpose();
+    session.hide();
+    let scope = scope
+        .with_context(|| input.name.clone())?
+        .unwrap_or_default();
+    let by_frames = scope.base_lines().is_some_and(BaseLines::is_determined);
     let request = Request {
         suggest: Some(SUGGESTED),
         ..Request::default()
     };
     let (outputs, seed) = (session.outputs(), Options::default().seed);
     let (shapes, watch) = (&mut Shapes::default(), session.watch());
-    let advice = request.advise(outputs, input, verdict, seed, shapes, watch);
+    // What frames hold together has no joints, and nothing is to be matched for them.
+    let advice = match by_frames {
+        true => Ok(Advice::default()),
+        false => request.advise(outputs, input, verdict, seed, shapes, watch),
+    };
     session.hide();
     let advice = advice.with_context(|| input.name.clone())?;
     let of_pairs = source.pairs.as_ref().unwrap_or(input);
@@ -225,7 +238,10 @@ fn overview(
         _ => None,
     };
     let database = source.database.as_ref();
-    let (mappers, narrow) = foreseen(database, of_pairs, of_tracks, each.as_ref())?;
+    let (mut mappers, narrow) = foreseen(database, of_pairs, of_tracks, each.as_ref())?;
+    if let Some(mappers) = mappers.as_mut().filter(|_| by_frames) {
+        mappers.global.parts = vec![mappers.global.images.clone()];
+    }
     if let Some(database) = source.database.take() {
         database.finish()?;
     }
@@ -248,9 +264,10 @@ fn overview(
         pairs: pairs
             .as_ref()
             .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),
-        tracks: tracks
-            .as_ref()
-            .map(|(input, verdict)| report(*input, verdict, &advice)),
+        tracks: tracks.as_ref().map(|(input, verdict)| Report {
+            scope: &scope,
+            ..report(*input, verdict, &advice)
+        }),
         no_tracks: source.tracks.as_ref().err().map(String::as_str),
         joints: &advice,
         // Where images of a frame are one camera, images have other numbers than cameras.

@@ -7,10 +7,10 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
-use viewcert_advice::{named_joints, split};
+use viewcert_advice::{Advice, named_joints, split};
 use viewcert_formats::{Model, ReadOptions, TrackOptions, read_graphs, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::Scope;
+use viewcert_report::assumptions::{Asked, BaseLines, Scope};
 use viewcert_report::split::SplitReport;
 use viewcert_session::Session;
 use viewcert_session::outputs;
@@ -68,10 +68,17 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     let verdict = decide(&input.graph, &options.watch(session.shown_watch()));
     session.hide();
     let verdict = verdict.with_context(|| input.name.clone())?;
-    let joints = named_joints(&input, &verdict, Options::default().seed, session.watch());
+    let scope = Scope::new(&input, &verdict, Asked::default(), &session.shown_watch());
+    session.hide();
+    let scope = scope.with_context(|| input.name.clone())?;
+    let whole = scope.base_lines().is_some_and(BaseLines::is_determined);
+    // What frames hold together has no joints.
+    let joints = match whole {
+        true => Ok(Advice::default()),
+        false => named_joints(&input, &verdict, Options::default().seed, session.watch()),
+    };
     session.hide();
     let joints = joints.with_context(|| input.name.clone())?;
-    let scope = Scope::default();
     let mut report = Report {
         input: &input,
         verdict: &verdict,
@@ -84,7 +91,7 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
     };
     session.doing(format!("writing {}", arguments.folder.display()));
     let (outputs, folder) = (session.outputs(), &arguments.folder);
-    let found = split::split(outputs, folder, &model, &input, &verdict, |split| {
+    let found = split::split(outputs, folder, &model, &input, &verdict, whole, |split| {
         report.time = start.elapsed();
         let report = SplitReport { report, split };
         Ok(report.page()?.into_bytes())

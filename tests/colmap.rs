@@ -1344,12 +1344,31 @@ fn frames_share_base_lines_that_are_not_known() {
     let found = &line["base_lines"];
     // 40 points, 3 frames and a base line.
     let expected = json!({ "frames": 3, "unknown": 1, "verdict": "solvable", "rank": 128,
-        "rank_at_most": 128, "rank_required": 128, "parts": 1, "about_one_axis": false });
+        "rank_at_most": 128, "rank_required": 128, "parts": 1, "parts_proved": true, "about_one_axis": false });
     assert_eq!(found, &expected);
     let run = verify(&["--tracks", text(&path)]);
     assert_eq!(run.code, 0, "{}", run.err);
     let said = "  base lines  1 unknown base line, the same in 3 frames: solvable: ";
     assert!(run.out.contains(said), "{}", run.out);
+    // The overview goes by it: one part, nothing to match.
+    let run = verify(&["overview", text(&path)]);
+    assert!(run.code == 0 && run.out.contains(said), "{}", run.out);
+    let screen = verify(&["overview", "--json", text(&path)])
+        .json()
+        .remove(0);
+    assert_eq!(&screen["tracks"]["base_lines"], found);
+    assert_eq!(
+        screen["tracks"]["positions"]["verdict"],
+        "not-finite-solvable"
+    );
+    assert_eq!(
+        screen["mappers"]["global"]["parts"]
+            .as_array()
+            .unwrap()
+            .len(),
+        1
+    );
+    assert_eq!(screen["joints"], json!([]));
     let run = verify(&["--tracks", "--no-rigs", text(&path)]);
     let silent = !run.out.contains("base lines");
     assert!(run.code == 1 && silent, "{}", run.out);

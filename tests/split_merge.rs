@@ -44,6 +44,73 @@ fn glued() -> Vec<Vec<usize>> {
     tracks
 }
 
+/// Frames of a stereo rig with a base line that is not known, of which left and right images see
+/// nothing in common: image 2 k is the left one of a frame, 2 k + 1 the right one.
+fn uncalibrated(folder: &Path, frames: usize) {
+    let side = |first: usize| (0..frames).map(move |frame| 2 * frame + first).collect();
+    let tracks: Vec<Vec<usize>> = (0..20).map(|k| side(k % 2)).collect();
+    model(folder, 2 * frames, &tracks);
+    let mut list = fs::read_to_string(folder.join("images.txt")).unwrap();
+    let mut lines = String::new();
+    for frame in 0..frames {
+        let (left, right) = (2 * frame + 1, 2 * frame + 2);
+        let name = format!("{}.jpg", left);
+        list = list.replace(&format!(" 1 {name}"), &format!(" 2 {name}"));
+        let pose = "1 0 0 0 0 0 0";
+        lines += &format!(
+            "{} 1 {pose} 2 CAMERA 1 {left} CAMERA 2 {right}\n",
+            frame + 1
+        );
+    }
+    let cameras = "1 PINHOLE 9 9 8 8 4 4\n2 PINHOLE 9 9 8 8 4 4\n";
+    fs::write(folder.join("cameras.txt"), cameras).unwrap();
+    fs::write(folder.join("images.txt"), list).unwrap();
+    fs::write(folder.join("rigs.txt"), "1 2 CAMERA 1 CAMERA 2 0\n").unwrap();
+    fs::write(folder.join("frames.txt"), lines).unwrap();
+}
+
+/// Three frames that turn tell the base line, and with it how both sides lie; two do not.
+#[test]
+fn unknown_base_lines_hold_models_together() {
+    let folder = tempfile::tempdir().unwrap();
+    for (frames, value, parts) in [(3, "solvable", 1), (2, "not-finite-solvable", 2)] {
+        let folder = folder.path().join(frames.to_string());
+        uncalibrated(&folder.join("model"), frames);
+        let options = ["model", "parts", "--min-views", "2"];
+        let split = run(&folder, "split", &[&options[..], &["--json"]].concat());
+        assert_eq!(split.code, i32::from(parts > 1), "{}", split.err);
+        let line = keeps_to("split", &split, &["program", "graph", "split", "whole"]).remove(0);
+        assert_eq!(line["base_lines"]["verdict"], value);
+        assert_eq!(line["positions"]["verdict"], "not-finite-solvable");
+        assert_eq!(line["whole"], parts == 1);
+        let found = line["split"]["parts"].as_array().unwrap();
+        assert_eq!(found.len(), parts, "{line}");
+        let images = if parts == 1 { 2 * frames } else { frames };
+        assert!(
+            found
+                .iter()
+                .all(|part| part["images"].as_array().unwrap().len() == images)
+        );
+        assert_eq!(line["joints"], json!([]));
+        let said = run(&folder, "split", &options);
+        assert!(
+            said.out
+                .contains("\n  base lines  1 unknown base line, the same in "),
+            "{}",
+            said.out
+        );
+        let why = "as frames share their base lines";
+        assert_eq!(said.out.contains(why), parts == 1);
+        let apart = run(
+            &folder,
+            "split",
+            &[&options[..], &["--no-rigs", "--json"]].concat(),
+        );
+        let line = &apart.json()[0];
+        assert_eq!((apart.code, line.get("base_lines")), (1, None));
+    }
+}
+
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
     entries

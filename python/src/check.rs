@@ -12,7 +12,7 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
 use viewcert::watch::Watch;
-use viewcert_check::{Certificate, Failure, Limits, Strength, Unreadable};
+use viewcert_check::{BaseLines, Certificate, Failure, Limits, Strength, Unreadable};
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant, with_rigs};
 
 /// What a certificate proves.
@@ -40,6 +40,8 @@ pub(crate) struct Verified {
     parts: usize,
     /// Between how many sets of nodes displacements are taken for given.
     displacements: usize,
+    /// What frames add where base lines are unknown: the answer, if the certificate has one.
+    base_lines: Option<&'static str>,
     /// The question.
     model: String,
     /// All of it in words.
@@ -67,6 +69,7 @@ impl From<viewcert_check::Verified> for Verified {
                 .displacements
                 .as_ref()
                 .map_or(0, |known| known.groups),
+            base_lines: verified.base_lines.as_ref().map(BaseLines::value),
             model: verified.model.to_string(),
             text: verified.to_string(),
             sha256: verified.sha256,
@@ -153,7 +156,10 @@ pub(crate) fn check(
                 let edges = input.graph.edges().iter().copied();
                 let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
                 let graph = graph.and_then(|graph| graph.with_parts(parts));
-                let graph = graph.map_err(Problem::Graph)?;
+                let mut graph = graph.map_err(Problem::Graph)?;
+                if let Some(hash) = input.frames.as_ref().and_then(|frames| frames.sha256()) {
+                    graph = graph.with_frames(hex(&hash));
+                }
                 Some(if known.is_empty() {
                     graph
                 } else {

@@ -326,9 +326,18 @@ impl Decided {
         embed_graph: bool,
         compact: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
+        let watch = work::watch(None, None)?;
+        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
+        let (threads, stop) = (work::threads()?, watch.clone());
+        let asked = move || assumptions::base_lines(&input, &verdict, &stop);
+        let base_lines = work::run(py, &watch, None, move || threads.install(asked))?;
+        let base_lines = base_lines.map_err(|stopped| of_any(&stopped.into()))?;
         let written = py.detach(|| -> std::io::Result<Vec<u8>> {
             let certificate = self.verdict.certificate(&self.input.graph);
-            let certificate = certificate.named(&self.input.name);
+            let mut certificate = certificate.named(&self.input.name);
+            if let Some((_, found)) = &base_lines {
+                certificate = certificate.with_base_lines(found);
+            }
             let mut certificate = certificate.embed_graph(embed_graph);
             if compact {
                 certificate = certificate.compact();

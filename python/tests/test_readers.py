@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pathlib
 
 import pycolmap
@@ -136,3 +137,55 @@ def test_options_of_lists(tmp_path: pathlib.Path) -> None:
         viewcert.read(path, min_weight=0.5)  # type: ignore[arg-type]
     with pytest.raises(viewcert.InputError, match="expected the two columns"):
         viewcert.read(path, columns=["query"])
+
+
+def uncalibrated(folder: pathlib.Path, frames: int) -> pathlib.Path:
+    """A COLMAP model of a stereo rig whose base line is unknown; its sides see nothing in common."""
+    pose = "1 0 0 0 0 0 0"
+    (folder / "cameras.txt").write_text("".join(f"{k} PINHOLE 100 100 90 90 50 50\n" for k in (1, 2)))
+    (folder / "rigs.txt").write_text("1 2 CAMERA 1 CAMERA 2 0\n")
+    (folder / "frames.txt").write_text(
+        "".join(
+            f"{f} 1 {pose} 2 CAMERA 1 {2 * f - 1} CAMERA 2 {2 * f}\n" for f in range(1, frames + 1)
+        )
+    )
+    images, points = "", ""
+    for image in range(1, 2 * frames + 1):
+        side = 2 - image % 2
+        seen = " ".join(f"{k} {k} {20 * side + k}" for k in range(20))
+        images += f"{image} {pose} {side} {image:02}.jpg\n{seen}\n"
+    for side in (1, 2):
+        for k in range(20):
+            track = " ".join(f"{image} {k}" for image in range(side, 2 * frames + 1, 2))
+            points += f"{20 * side + k} {k} 1 5 0 0 0 0.5 {track}\n"
+    (folder / "images.txt").write_text(images)
+    (folder / "points3D.txt").write_text(points)
+    return folder
+
+
+@pytest.mark.parametrize(("frames", "value", "rank"), [(3, "solvable", 128), (2, "not-finite-solvable", 124)])
+def test_unknown_base_lines(
+    frames: int, value: str, rank: int, tmp_path: pathlib.Path, program: Program
+) -> None:
+    """Three frames that turn tell the base line, two do not: 40 points, the frames and one vector."""
+    model = tmp_path / "model"
+    model.mkdir()
+    graph = viewcert.read(uncalibrated(model, frames), tracks=True, min_views=2)
+    verdict = viewcert.verify(graph)
+    found = verdict.base_lines
+    assert found is not None and verdict.value == "not-finite-solvable"
+    required = 3 * (40 + frames + 1) - 4
+    assert (found.value, found.rank, found.rank_at_most, found.required) == (value, rank, rank, required)
+    assert (found.frames, found.unknown, found.about_one_axis) == (frames, 1, False)
+    assert found.parts == (1 if value == "solvable" else 2)
+    certificate = verdict.certificate()
+    assert viewcert.check(certificate).base_lines == value
+    assert viewcert.check(verdict).base_lines == value
+    assert viewcert.check(certificate, graph).base_lines == value
+    without = viewcert.read(model, tracks=True, min_views=2, rigs=False)
+    assert viewcert.verify(without).base_lines is None
+    with pytest.raises(viewcert.Rejected, match="the frames are not those that are given"):
+        viewcert.check(certificate, without)
+    theirs = tmp_path / "program.json"
+    program.run(model, "--tracks", "--min-views", "2", "--certificate", theirs)
+    assert json.loads(theirs.read_bytes())["base_lines"] == json.loads(certificate)["base_lines"]

@@ -137,6 +137,7 @@ fn foreign(folder: &Path) -> std::io::Result<Option<PathBuf>> {
 /// Takes a model apart by the components of its camera-point graph, whose cameras have the names of
 /// the model's images, and writes the folder, whole or not at all. A camera that stands for several
 /// images of a frame, as these were taken at one place, is all of them; a frame without points is no
+/// part. Where frames hold all of it together, though components do not (`whole`), all images are one
 /// part. `page` writes what the parts are and why, for people. Linear in the model for each part.
 ///
 /// # Errors
@@ -147,6 +148,7 @@ pub fn split(
     model: &Model,
     input: &NamedGraph,
     verdict: &Verdict,
+    whole: bool,
     page: impl FnOnce(&Split) -> Result<Vec<u8>>,
 ) -> Result<Split> {
     let names = Names::new(input);
@@ -158,7 +160,11 @@ pub fn split(
         let images = part.nodes.iter().copied().filter(|&v| v < cameras);
         (part.component, images.collect::<Vec<u32>>())
     });
-    let members: Vec<(usize, Vec<u32>)> = members.filter(|(_, images)| images.len() > 1).collect();
+    let members: Vec<(usize, Vec<u32>)> = if whole {
+        vec![(0, names.images().collect())]
+    } else {
+        members.filter(|(_, images)| images.len() > 1).collect()
+    };
     let digits = members
         .last()
         .map_or(3, |(last, _)| number(*last).to_string().len().max(3));

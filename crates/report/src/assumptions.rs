@@ -108,6 +108,8 @@ pub struct BaseLines {
     rank_at_most: usize,
     rank_required: usize,
     parts: usize,
+    /// Whether there are just so many.
+    parts_proved: bool,
     /// Whether it is solvable too if all frames turn about one axis.
     about_one_axis: bool,
     /// How many groups of images are not turned against each other by pairs and known poses, if more
@@ -132,6 +134,7 @@ impl BaseLines {
             rank_at_most: found.at_most,
             rank_required: found.required,
             parts: found.parts,
+            parts_proved: found.parts_are_all(),
         }
     }
 
@@ -163,7 +166,8 @@ impl BaseLines {
                 "open: not determined at drawn positions, and counting gives no proof (rank {rank_at_most} at most)"
             ),
             _ if rank == rank_at_most => format!(
-                "not solvable: {} move against each other (proved)",
+                "not solvable: {}{} move against each other (proved)",
+                if self.parts_proved { "" } else { "at least " },
                 counted(self.parts, "part")
             ),
             _ => format!(

@@ -10,6 +10,7 @@ use super::read::ReadLine;
 use super::tracks::TrackLine;
 use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
 use crate::advice::{joints as write_joints, suggestions as write_suggestions};
+use crate::assumptions::BaseLines;
 use serde::Serialize;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -139,7 +140,12 @@ pub struct Parts {
 impl Parts {
     fn new(report: &Report, wanted: &Wanted) -> Self {
         let components = &report.verdict.components;
+        let by_frames = report
+            .scope
+            .base_lines()
+            .filter(|found| found.is_determined());
         let all: Vec<Vec<u32>> = match report.input.cameras {
+            Some(cameras) if by_frames.is_some() => vec![(0..cameras).collect()],
             None => components.iter().map(|part| part.nodes()).collect(),
             // A frame that no point holds to anything is no part.
             Some(cameras) => components
@@ -366,6 +372,9 @@ impl Overview<'_> {
                     self.write_notes(out)?;
                 }
                 writeln!(out, "  positions   {}", text::answer(report))?;
+                if let Some(found) = report.scope.base_lines() {
+                    writeln!(out, "  base lines  {}", found.words())?;
+                }
                 text::write_components(out, report)?;
             }
             (None, Some(reason)) => writeln!(out, "  tracks      none: {reason}")?,
@@ -485,6 +494,7 @@ impl Overview<'_> {
             Some(PositionLine {
                 facts: TrackLine::new(cameras, facts),
                 positions: AnswerLine::from(report),
+                base_lines: report.scope.base_lines(),
             })
         });
         let database = self.pairs.as_ref().and_then(|[report, _]| {
@@ -536,7 +546,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<PairLine>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    tracks: Option<PositionLine>,
+    tracks: Option<PositionLine<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     no_tracks: Option<&'a str>,
     #[serde(flatten)]
@@ -573,10 +583,12 @@ struct PairLine {
 }
 
 #[derive(Serialize)]
-struct PositionLine {
+struct PositionLine<'a> {
     #[serde(flatten)]
     facts: TrackLine,
     positions: AnswerLine,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_lines: Option<&'a BaseLines>,
 }
 
 /// Writes words in lines of limited width.

@@ -5,6 +5,7 @@ use super::read::ReadLine;
 use super::tracks::{self, TrackLine};
 use super::{Report, counted, text};
 use crate::advice::joints as write_joints;
+use crate::assumptions::BaseLines;
 use crate::sheet::{Scene, Sheet};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -43,6 +44,9 @@ impl SplitReport<'_> {
             tracks::write_size(out, facts)?;
         }
         writeln!(out, "  positions   {}", text::answer(report))?;
+        if let Some(found) = report.scope.base_lines() {
+            writeln!(out, "  base lines  {}", found.words())?;
+        }
         let count = counted(split.parts.len(), "model");
         writeln!(out, "  written     {count} in {}", split.folder)?;
         for part in split.parts.iter().take(SHOWN) {
@@ -84,6 +88,12 @@ impl SplitReport<'_> {
         )
     }
 
+    /// Whether base lines that frames share make one part of what tracks alone do not hold together.
+    fn by_frames(&self) -> bool {
+        let found = self.report.scope.base_lines();
+        found.is_some_and(BaseLines::is_determined)
+    }
+
     fn piece(&self, part: &Piece) -> String {
         let ends = match (part.images.first(), part.images.last()) {
             (Some(first), Some(last)) => format!("{first} to {last}"),
@@ -109,6 +119,10 @@ impl SplitReport<'_> {
         };
         match self.split.parts.len() {
             0 => "the tracks determine no two images against each other".to_owned(),
+            1 if self.by_frames() => format!(
+                "the tracks determine all {all} against each other, as frames share their base lines: \
+                 there is one part"
+            ),
             1 if without.is_empty() => {
                 format!("the tracks determine all {all} against each other: there is one part")
             }
@@ -151,6 +165,7 @@ impl SplitReport<'_> {
             notes: &report.input.notes,
             tracks: facts.map(|(cameras, facts)| TrackLine::new(cameras, facts)),
             positions: AnswerLine::from(report),
+            base_lines: report.scope.base_lines(),
             joints: report.advice,
             split: self.split,
             whole: self.is_whole(),
@@ -191,6 +206,8 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     tracks: Option<TrackLine>,
     positions: AnswerLine,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    base_lines: Option<&'a BaseLines>,
     #[serde(flatten)]
     joints: &'a Advice,
     split: &'a Split,

@@ -50,9 +50,10 @@ from ._graph import (
 )
 from ._intrinsics import Intrinsics, intrinsics
 from ._native import Verified, __version__
-from ._verdict import Joint, Planar, Solutions, Verdict, verify
+from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
+    "BaseLines",
     "Break",
     "Entry",
     "Error",

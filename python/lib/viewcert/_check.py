@@ -45,8 +45,9 @@ def check(
     Verified
         What the certificate proves: `value`, `strength`, `error_log2`, `rank`, `required`, the
         number of `components`, and of the graph `nodes`, `edges`, `sha256`; how many known `parts`
-        it takes for given, and between how many sets of nodes `displacements`; `model`; all of it in
-        words as `text`.
+        it takes for given, and between how many sets of nodes `displacements`; `base_lines`: what
+        frames add where base lines are unknown (``'solvable'``, ``'not-finite-solvable'`` or
+        ``'open'``), or None; `model`; all of it in words as `text`.
 
     Raises
     ------

@@ -115,6 +115,49 @@ class Planar:
     required: int
 
 
+@dataclass(frozen=True)
+class BaseLines:
+    """What frames of rigs add where base lines are unknown: one vector for a sensor, the same in all
+    frames, turned with each.
+
+    Attributes
+    ----------
+    value : str
+        ``'solvable'`` (all positions are unique) or ``'not-finite-solvable'``, both proved; or
+        ``'open'``.
+    frames : int
+        Frames of two images or more.
+    unknown : int
+        Base lines that are not known.
+    rank : int
+        The rank at drawn positions, which the generic rank is not below.
+    rank_at_most : int
+        What it is not above.
+    required : int
+        The rank at which all positions are unique.
+    parts : int
+        How many parts move against each other: so many at least, where the rank is proved.
+    parts_proved : bool
+        Whether there are just so many.
+    about_one_axis : bool
+        Whether all positions are unique too if all frames turn about one axis, as a vehicle's do.
+    groups_not_turned : int, optional
+        How many groups of images neither pairs nor known poses turn against each other, if there
+        are several: the value is ``'open'`` then.
+    """
+
+    value: str
+    frames: int
+    unknown: int
+    rank: int
+    rank_at_most: int
+    required: int
+    parts: int
+    parts_proved: bool
+    about_one_axis: bool
+    groups_not_turned: Optional[int] = None
+
+
 class Verdict:
     """What a graph determines. It cannot be changed, and has three values, so that it is neither
     true nor false.
@@ -271,6 +314,16 @@ class Verdict:
         if found is None:
             return None
         return Planar(found["verdict"], found["rank"], found["rank_required"])
+
+    @property
+    def base_lines(self) -> Optional[BaseLines]:
+        """What frames add: if there are base lines that are not known, and the verdict does not say
+        that all is unique without them."""
+        found = self.to_dict().get("base_lines")
+        if found is None:
+            return None
+        others = {name: found[name] for name in found if name not in ("verdict", "rank_required")}
+        return BaseLines(found["verdict"], required=found["rank_required"], **others)
 
     @property
     def components(self) -> List[FrozenSet[Node]]:

@@ -67,6 +67,7 @@ impl<'a> From<&'a SharedBaseLines> for BaseLinesView<'a> {
             lower,
             one_axis,
             upper,
+            ..
         } = &found.evidence;
         Self {
             frames: frames.frames(),

@@ -157,6 +157,8 @@ pub(crate) struct BaseLinesEvidence {
     /// Sensors whose places are held, and the blocks with the bound they give, if it is below what
     /// is required.
     pub(crate) upper: Option<(Vec<u32>, Vec<Block>)>,
+    /// How many nodes nothing holds; no block has them.
+    pub(crate) alone: usize,
 }
 
 impl SharedBaseLines {
@@ -169,6 +171,14 @@ impl SharedBaseLines {
     /// Whether it is proved that they are not.
     pub fn is_refuted(&self) -> bool {
         self.at_most < self.required
+    }
+
+    /// Whether it is proved that there are just so many parts: counting allows each of them no motion
+    /// in itself, and one motion tells all of them apart (docs/theory.md, Theorem 13.28).
+    pub fn parts_are_all(&self) -> bool {
+        let blocks = self.evidence.upper.as_ref();
+        let blocks = blocks.map_or(1, |(_, blocks)| blocks.len());
+        self.rank == self.at_most && blocks + self.evidence.alone == self.parts
     }
 
     /// The answer, as certificates have it.
@@ -248,6 +258,7 @@ impl SharedBaseLines {
                     lower: (drawn.name(), free.pivots),
                     one_axis: None,
                     upper: None,
+                    alone: members.alone,
                 },
             };
             // A larger rank is nearer to the generic one, and its motions are those that there are.

@@ -222,7 +222,8 @@ fn gauge(case: &Case) -> usize {
     3 * free
 }
 
-fn decided(case: &Case) -> Option<(SharedBaseLines, usize)> {
+/// What is found, the number of components without frames, and the nodes of the blocks that bound the rank.
+fn decided(case: &Case) -> Option<(SharedBaseLines, usize, Vec<Vec<u32>>)> {
     let graph = Graph::new(case.nodes as u32, case.edges.iter().copied()).unwrap();
     // As whoever reads rigs does: known places are displacements.
     let frames = case.images.iter();
@@ -245,17 +246,29 @@ fn decided(case: &Case) -> Option<(SharedBaseLines, usize)> {
     // What is solvable without frames is solvable with them.
     let own = verdict.rank == verdict.required;
     assert!(!own || found.is_determined());
-    Some((found, verdict.components.len()))
+    let upper = found.evidence.upper.iter().flat_map(|(_, blocks)| blocks);
+    let blocks = upper.map(|block| {
+        let bodies = block.bodies.iter();
+        let bodies = bodies.map(|&body| &verdict.contraction.bodies[body as usize].nodes);
+        let ends = block.edges.iter().flat_map(|&(i, j)| [i, j]);
+        let mut nodes: Vec<u32> = bodies.flatten().copied().chain(ends).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    });
+    let blocks = blocks.collect();
+    Some((found, verdict.components.len(), blocks))
 }
 
 /// Against the whole matrix, by other arithmetic and other rotations; and the bounds by counting are valid.
 #[test]
 fn as_the_whole_matrix_says() {
     let (mut cases, mut determined, mut refuted, mut gained, mut open) = (0, 0, 0, 0, 0);
+    let (mut told, mut untold) = (0, 0);
     for seed in 0..900 {
         let mut dice = Dice(seed);
         let case = case(&mut dice);
-        let Some((found, components)) = decided(&case) else {
+        let Some((found, components, blocks)) = decided(&case) else {
             continue;
         };
         cases += 1;
@@ -266,12 +279,30 @@ fn as_the_whole_matrix_says() {
                 + found.base_lines);
         assert_eq!(unknowns - kernel, found.rank, "{seed}: {found:?}");
         assert!(found.at_most >= found.rank, "{seed}: {found:?}");
+        // Within blocks of a bound that is the rank nothing moves: all pairs of each change nothing.
+        if found.rank == found.at_most && !blocks.is_empty() {
+            let pairs = blocks.iter().flat_map(|nodes| {
+                let others = move |k: usize| nodes[k + 1..].iter().map(move |&w| (nodes[k], w));
+                (0..nodes.len()).flat_map(others)
+            });
+            let larger = Case {
+                edges: case.edges.iter().copied().chain(pairs).collect(),
+                images: case.images.clone(),
+                known: case.known.clone(),
+                rigs: case.rigs.clone(),
+                ..case
+            };
+            assert_eq!(motions(&larger, &mut dice) - gauge(&case), kernel, "{seed}");
+            told += usize::from(found.parts_are_all() && found.parts > 1);
+            untold += usize::from(!found.parts_are_all());
+        }
         open += usize::from(found.at_most > found.rank);
         determined += usize::from(found.is_determined());
         refuted += usize::from(found.is_refuted());
         gained += usize::from(found.is_determined() && components > 1);
     }
     assert!(cases > 500 && determined > 100 && refuted > 100 && gained > 30 && open < 10);
+    assert!(told > 100 && untold < 10, "{told} {untold}");
 }
 
 /// Two clusters that one sensor each sees: two frames leave the base line a line's worth, three settle it.
@@ -292,6 +323,7 @@ fn frames_tell_by_turning() {
         // Along the axis the base line adds the same to all frames, whatever they see.
         assert!(!found.about_one_axis);
         assert_eq!(found.parts, if determined { 1 } else { 2 });
+        assert!(found.parts_are_all());
     }
 }
 
