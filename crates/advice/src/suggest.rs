@@ -95,7 +95,7 @@ const ALIKE: usize = 8;
 /// A decision of the condensed graph for each of some hundred candidates.
 ///
 /// # Errors
-/// Those of [`decide`].
+/// Those of [`decide`](viewcert::decide::decide).
 pub fn suggest(
     graph: &Graph,
     parts: &Parts,
