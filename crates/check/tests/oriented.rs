@@ -432,6 +432,15 @@ fn s33_wide_intervals() {
 }
 
 #[test]
+fn several_solutions() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions/linear.json");
+    let mut one: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    one["solutions"]["upper"]["points"] = Value::Null;
+    one["solutions"]["oriented"] = value_at("");
+    refused(&one, "oriented: there is one solution only");
+}
+
+#[test]
 fn not_in_parts_and_factors() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions/product.json");
     let mut product: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();

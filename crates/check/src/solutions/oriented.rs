@@ -380,7 +380,7 @@ impl<'a> At<'a> {
                     let others: Vec<_> = others.map(|k| &centres[five[k] as usize]).collect();
                     let product =
                         Polynomial::dot(others[0], &minors([others[1], others[2], others[3]]));
-                    if omitted % 2 == 0 {
+                    if omitted.is_multiple_of(2) {
                         product
                     } else {
                         product.negative()

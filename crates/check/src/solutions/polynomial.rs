@@ -126,7 +126,13 @@ impl Polynomial {
             .iter()
             .filter_map(|f| Some((f.0.last()?.sign(), f.0.len())));
         let above: Vec<Sign> = ends.clone().map(|(sign, _)| sign).collect();
-        let flipped = |(sign, length): (Sign, usize)| if length % 2 == 0 { -sign } else { sign };
+        let flipped = |(sign, length): (Sign, usize)| {
+            if length.is_multiple_of(2) {
+                -sign
+            } else {
+                sign
+            }
+        };
         let below: Vec<Sign> = ends.map(flipped).collect();
         let changes = |signs: &[Sign]| signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
         changes(&below).saturating_sub(changes(&above))
