@@ -29,6 +29,7 @@ Print Assumptions corollary_3_3.
 Print Assumptions theorem_4_1.
 Print Assumptions rule_1.
 Print Assumptions rule_3.
+Print Assumptions rule_5.
 Print Assumptions corollary_4_2.
 Print Assumptions generic_cameras.
 Print Assumptions rank_generically.

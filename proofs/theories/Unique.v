@@ -119,21 +119,17 @@ Qed.
 Lemma annihilator (A : 'M[F]_(3, 4)) p (X : 'M_(p, 4)) : row_free A -> X *m A^T = 0 -> (\rank X <= 1)%N.
 Proof. by move=> f /sub_kermxP /mxrankS; rewrite mxrank_ker mxrank_tr (eqP f). Qed.
 
-(* Rule 3, for a node v that is joined to two nodes *)
-Theorem rule_3 b a c v P Q : a \in b -> c \in b ->
-  row_free (cam P a) -> row_free (cam P c) -> row_free (cam P v) ->
-  row_free (independence (cam P a) (cam P c) (cam P v)) ->
-  same_cameras P Q b -> same_cameras P Q [:: v; a] -> same_cameras P Q [:: v; c] -> same_cameras P Q (v :: b).
+(* Bodies H1, H2, H3 of which each two share one of three nodes: only this is asked of the first one that it is a matrix. *)
+Lemma three_bodies (A C V : 'M[F]_(3, 4)) (H1 H2 H3 : 'M[F]_4) s1 s2 t1 t3 w2 w3 : row_free A -> row_free C -> row_free V ->
+  row_free (independence A C V) -> H3 \in unitmx -> t1 != 0 -> w2 != 0 ->
+  s1 *: (A *m H1) = s2 *: (A *m H2) -> t1 *: (C *m H1) = t3 *: (C *m H3) -> w2 *: (V *m H2) = w3 *: (V *m H3) ->
+  s1 *: H1 = s2 *: H2.
 Proof.
-move=> ab cb fa fc fv ind [H1 u1 h1] [H2 u2 h2] [H3 u3 h3].
-have [s1 s10 e1] := h1 a ab; have [s2 s20 e2] := h2 a (mem_last v [:: a]).
-have [t1 t10 g1] := h1 c cb; have [t3 t30 g3] := h3 c (mem_last v [:: c]).
-have [w2 w20 k2] := h2 v (mem_head _ _); have [w3 w30 k3] := h3 v (mem_head _ _).
-move: e2 g3 k3; rewrite e1 g1 k2 {e1 g1} => e g k.
+move=> fa fc fv ind u3 t10 w20 e g k.
 pose X := (s1 *: H1 - s2 *: H2)^T; pose Y := (t1 *: H1 - t3 *: H3)^T; pose Z := (w2 *: H2 - w3 *: H3)^T.
-have zero (A : 'M[F]_(3, 4)) (x y : F) (K L : 'M_4) : x *: (A *m K) = y *: (A *m L) -> (x *: K - y *: L)^T *m A^T = 0.
+have zero (B : 'M[F]_(3, 4)) (x y : F) (K L : 'M_4) : x *: (B *m K) = y *: (B *m L) -> (x *: K - y *: L)^T *m B^T = 0.
   by move=> xy; rewrite -trmx_mul mulmxBr -!scalemxAr xy subrr trmx0.
-have [XA YC ZV] : [/\ X *m (cam P a)^T = 0, Y *m (cam P c)^T = 0 & Z *m (cam P v)^T = 0] by split; exact: zero.
+have [XA YC ZV] : [/\ X *m A^T = 0, Y *m C^T = 0 & Z *m V^T = 0] by split; exact: zero.
 have {zero} := And3 XA YC ZV.
 have sum (kap : F) : kap = s1 * w2 * t3 - s2 * t1 * w3 -> kap *: H3^T = (t1 * w2) *: X - (s1 * w2) *: Y + (s2 * t1) *: Z.
   move=> ->; rewrite /X /Y /Z; apply/matrixP=> i j; rewrite !mxE.
@@ -141,7 +137,7 @@ have sum (kap : F) : kap = s1 * w2 * t3 - s2 * t1 * w3 -> kap *: H3^T = (t1 * w2
 have H12 : X = 0 -> s1 *: H1 = s2 *: H2.
   by move/eqP; rewrite /X trmx_eq0 subr_eq0 => /eqP.
 move: X Y Z sum H12 {XA YC ZV} => X Y Z sum H12 [XA YC ZV].
-have le1 (A : 'M[F]_(3, 4)) (K : 'M_4) z : row_free A -> K *m A^T = 0 -> (\rank (z *: K) <= 1)%N.
+have le1 (D : 'M[F]_(3, 4)) (K : 'M_4) z : row_free D -> K *m D^T = 0 -> (\rank (z *: K) <= 1)%N.
   by move=> f h; apply: annihilator f _; rewrite -scalemxAl h scaler0.
 have {}sum := sum _ erefl; set kap := (X in X *: _) in sum.
 have kap0 : kap = 0.
@@ -157,13 +153,162 @@ have X0 : (t1 * w2) *: X = 0.
   apply: (independent ind (Y := - ((s1 * w2) *: Y))); first by rewrite -scalemxAl XA scaler0.
     by rewrite mulNmx -scalemxAl YC scaler0 oppr0.
   by rewrite sum mulNmx -scalemxAl ZV scaler0 oppr0.
-have {}H12 : s1 *: H1 = s2 *: H2.
-  by apply: H12; apply/eqP; move/eqP: X0; rewrite scaler_eq0 mulf_eq0 (negbTE t10) (negbTE w20).
+by apply: H12; apply/eqP; move/eqP: X0; rewrite scaler_eq0 mulf_eq0 (negbTE t10) (negbTE w20).
+Qed.
+
+(* Rule 3, for a node v that is joined to two nodes *)
+Theorem rule_3 b a c v P Q : a \in b -> c \in b ->
+  row_free (cam P a) -> row_free (cam P c) -> row_free (cam P v) ->
+  row_free (independence (cam P a) (cam P c) (cam P v)) ->
+  same_cameras P Q b -> same_cameras P Q [:: v; a] -> same_cameras P Q [:: v; c] -> same_cameras P Q (v :: b).
+Proof.
+move=> ab cb fa fc fv ind [H1 u1 h1] [H2 u2 h2] [H3 u3 h3].
+have [s1 s10 e1] := h1 a ab; have [s2 s20 e2] := h2 a (mem_last v [:: a]).
+have [t1 t10 g1] := h1 c cb; have [t3 t30 g3] := h3 c (mem_last v [:: c]).
+have [w2 w20 k2] := h2 v (mem_head _ _); have [w3 w30 k3] := h3 v (mem_head _ _).
+move: e2 g3 k3; rewrite e1 g1 k2 {e1 g1} => e g k.
+have H12 : s1 *: H1 = s2 *: H2 := three_bodies fa fc fv ind u3 t10 w20 e g k.
 exists H1 => // x; rewrite inE => /predU1P [->|/h1 //].
 exists (w2 / s2 * s1); first by rewrite !mulf_neq0 // invr_eq0.
 by rewrite k2 -scalerA (scalemxAr s1) H12 -scalemxAr scalerA divfK.
 Qed.
 End Same.
+
+(* Theorem 10.3, rule 5: nodes v_1, v_2, v_3 between a and b, each with a body that holds it and a and with one that holds
+   it and b *)
+Section Biclique.
+Variable F : fieldType.
+Implicit Types A B C D V Q : 'M[F]_(3, 4).
+
+(* u_1 A = u_2 B = u_3 C = u_4 D for no planes but 0 : the four centres are in no plane *)
+Definition four_planes (R : comRingType) (A B C D : 'M[R]_(3, 4)) : 'M[R]_(3 + 3 + (3 + 3), 4 + 4 + 4) :=
+  col_mx (col_mx (row_mx (row_mx A 0) 0) (row_mx (row_mx (- B) B) 0))
+         (col_mx (row_mx (row_mx 0 (- C)) C) (row_mx (row_mx 0 0) (- D))).
+
+Lemma no_plane A B C D (w : 'rV_4) : row_free (four_planes A B C D) ->
+  (w <= A)%MS -> (w <= B)%MS -> (w <= C)%MS -> (w <= D)%MS -> w = 0.
+Proof.
+move=> free /submxP [a ea] /submxP [b eb] /submxP [c ec] /submxP [d ed].
+have : row_mx (row_mx a b) (row_mx c d) *m four_planes A B C D = 0.
+  rewrite /four_planes !mul_row_col !mul_mx_row !mulmx0 !mulmxN !add_row_mx -ea -eb -ec -ed.
+  by rewrite !(addr0, add0r) !subrr !row_mx0.
+by move/eqP; rewrite mulmx_free_eq0 // !row_mx_eq0 => /andP [/andP [/eqP a0 _] _]; rewrite ea a0 mul0mx.
+Qed.
+
+Lemma plane_through A B V : \rank (A :&: B)%MS = 2%N -> row_free V ->
+  exists2 w : 'rV[F]_4, w != 0 & [/\ (w <= A)%MS, (w <= B)%MS & (w <= V)%MS].
+Proof.
+move=> r2 fV; pose W := ((A :&: B) :&: V)%MS.
+have W0 : W != 0.
+  rewrite -mxrank_eq0; have := mxrank_sum_cap (A :&: B)%MS V; rewrite r2 (eqP fV) -/W.
+  by have := rank_leq_col (A :&: B + V)%MS; move: (\rank _) (\rank W) => x y; lia.
+exists (nz_row W); first by rewrite nz_row_eq0.
+have := nz_row_sub W; rewrite !sub_capmx => /andP [/andP [-> ->] ->].
+by split.
+Qed.
+
+(* what a node between two others says of these *)
+Lemma between A B V Qa Qb Qv (H H' : 'M_4) x y x' y' (w : 'rV_4) a b : y != 0 -> x' != 0 -> w = a *m A -> w = b *m B -> (w <= V)%MS ->
+  Qa = x *: (A *m H) -> Qv = y *: (V *m H) -> Qv = y' *: (V *m H') -> Qb = x' *: (B *m H') ->
+  a *m Qa = (x * y' / (y * x')) *: (b *m Qb).
+Proof.
+move=> y0 x0 ea eb /submxP [c ec] -> e1 e2 ->; rewrite -!scalemxAr !mulmxA -ea -eb ec -!mulmxA scalerA.
+have -> : V *m H = (y^-1 * y') *: (V *m H') by rewrite -scalerA -e2 e1 scalerA mulVf // scale1r.
+rewrite -scalemxAr scalerA; congr (_ *: _).
+by field; rewrite y0 x0.
+Qed.
+
+Theorem rule_5 A B V1 V2 V3 Qa Qb :
+  row_free A -> row_free B -> row_free V1 -> row_free V2 -> row_free V3 -> row_free Qb -> fund A B != 0 ->
+  row_free (independence A B V1) ->
+  row_free (four_planes A B V1 V2) -> row_free (four_planes A B V1 V3) -> row_free (four_planes A B V2 V3) ->
+  (forall V, V \in [:: V1; V2; V3] -> exists Qv : 'M[F]_(3, 4), exists2 H : 'M[F]_4, H \in unitmx & exists2 H' : 'M[F]_4, H' \in unitmx &
+     exists x y x' y' : F, [/\ x != 0, y != 0, x' != 0 & y' != 0] /\ [/\ Qa = x *: (A *m H), Qv = y *: (V *m H), Qv = y' *: (V *m H') & Qb = x' *: (B *m H')]) ->
+  exists2 H : 'M[F]_4, H \in unitmx & Qa = A *m H /\ exists2 s, s != 0 & Qb = s *: (B *m H).
+Proof.
+move=> fA fB f1 f2 f3 fQ nz ind p12 p13 p23 mid.
+have cap2 : \rank (A :&: B)%MS = 2%N.
+  have := mxrank_sum_cap A B; rewrite (distinct nz) (eqP fA) (eqP fB); move: (\rank _) => z; lia.
+have [w1 n1 [a1 b1 v1]] := plane_through cap2 f1.
+have [w2 n2 [a2 b2 v2]] := plane_through cap2 f2.
+have [w3 n3 [a3 b3 v3]] := plane_through cap2 f3.
+have indep c d : c *: w2 + d *: w3 = 0 -> c = 0 /\ d = 0.
+  move=> e; have d0 : d = 0.
+    apply/eqP; apply: contraT => d0; case/negP: n3; apply/eqP; apply: (no_plane p23) => //.
+    have -> : w3 = (- (d^-1 * c)) *: w2; last exact: scalemx_sub.
+    have -> : w3 = d^-1 *: (d *: w3) by rewrite scalerA mulVf // scale1r.
+    by have /eqP := e; rewrite addrC addr_eq0 => /eqP ->; rewrite scalerN scalerA scaleNr.
+  split=> //; move: e; rewrite d0 scale0r addr0 => /eqP; rewrite scaler_eq0 (negbTE n2) orbF => /eqP.
+  by [].
+have span (w : 'rV_4) : (w <= A)%MS -> (w <= B)%MS -> exists c d, w = c *: w2 + d *: w3.
+  move=> wA wB; have r : row_free (col_mx w2 w3).
+    rewrite -kermx_eq0; apply/rowV0P=> u /sub_kermxP; rewrite -[u]hsubmxK mul_row_col.
+    rewrite [lsubmx u]mx11_scalar [rsubmx u]mx11_scalar !mul_scalar_mx => /indep [-> ->].
+    by rewrite !raddf0 row_mx0.
+  have sub : (col_mx w2 w3 <= A :&: B)%MS by rewrite sub_capmx !col_mx_sub a2 a3 b2 b3.
+  have : (w <= col_mx w2 w3)%MS.
+    apply: submx_trans (_ : (A :&: B <= _)%MS); first by rewrite sub_capmx wA.
+    by rewrite -(geq_leqif (mxrank_leqif_sup sub)) cap2 (eqP r).
+  case/submxP=> u ->; exists (lsubmx u 0 0), (rsubmx u 0 0); rewrite -{1}[u]hsubmxK mul_row_col.
+  by rewrite {1}[lsubmx u]mx11_scalar {1}[rsubmx u]mx11_scalar !mul_scalar_mx.
+have [p [q w1E]] := span w1 a1 b1.
+have p0 : p != 0.
+  apply: contra n1 => /eqP p0; apply/eqP; apply: (no_plane p13) => //.
+  by rewrite w1E p0 scale0r add0r scalemx_sub.
+have q0 : q != 0.
+  apply: contra n1 => /eqP q0; apply/eqP; apply: (no_plane p12) => //.
+  by rewrite w1E q0 scale0r addr0 scalemx_sub.
+move: a1 a2 a3 b1 b2 b3 => /submxP [a1 ea1] /submxP [a2 ea2] /submxP [a3 ea3] /submxP [b1 eb1] /submxP [b2 eb2] /submxP [b3 eb3].
+have scale V (w : 'rV_4) a b : V \in [:: V1; V2; V3] -> (w <= V)%MS -> w = a *m A -> w = b *m B ->
+    exists2 s : F, s != 0 & a *m Qa = s *: (b *m Qb).
+  move=> /mid [Qv [H _ [H' _ [x [y [x' [y' [[x0 y0 x'0 y'0] [eA eV eV' eB]]]]]]]]] wV wA wB.
+  exists (x * y' / (y * x')); first by rewrite !mulf_neq0 // invr_eq0 mulf_neq0.
+  exact: (between y0 x'0 wA wB wV eA eV eV' eB).
+have [s1 _ e1] := scale V1 w1 a1 b1 (mem_head _ _) v1 ea1 eb1.
+have [s2 s20 e2] : exists2 s : F, s != 0 & a2 *m Qa = s *: (b2 *m Qb) by apply: (scale V2 w2) => //; rewrite !inE eqxx orbT.
+have [s3 _ e3] : exists2 s : F, s != 0 & a3 *m Qa = s *: (b3 *m Qb) by apply: (scale V3 w3) => //; rewrite !inE eqxx !orbT.
+have a1E : a1 = p *: a2 + q *: a3.
+  by apply: (row_free_inj fA); rewrite mulmxDl -!scalemxAl -ea1 -ea2 -ea3.
+have b1E : b1 = p *: b2 + q *: b3.
+  by apply: (row_free_inj fB); rewrite mulmxDl -!scalemxAl -eb1 -eb2 -eb3.
+have sE : (p * (s1 - s2)) *: b2 + (q * (s1 - s3)) *: b3 = 0.
+  apply: (row_free_inj fQ); rewrite mul0mx mulmxDl -!scalemxAl.
+  move: e1; rewrite a1E b1E !mulmxDl -!scalemxAl e2 e3 => /eqP; rewrite -subr_eq0 => /eqP e.
+  apply/rowP=> k; have := congr1 (fun z : 'rV_4 => z 0 k) e; rewrite !mxE.
+  move: ((b2 *m Qb) 0 k) ((b3 *m Qb) 0 k) => y z h; apply/eqP; rewrite -oppr_eq0 -[X in _ == X]h; apply/eqP; ring.
+have [z2 z3] : p * (s1 - s2) = 0 /\ q * (s1 - s3) = 0.
+  by apply: indep; rewrite eb2 eb3 !scalemxAl -mulmxDl sE mul0mx.
+have {z2} s12 : s1 = s2 by move/eqP: z2; rewrite mulf_eq0 (negbTE p0) subr_eq0 => /eqP.
+have {z3} s13 : s1 = s3 by move/eqP: z3; rewrite mulf_eq0 (negbTE q0) subr_eq0 => /eqP.
+pose M := col_mx A B; pose N := col_mx Qa (s2 *: Qb).
+have kN (m : nat) (u : 'M_(m, 3 + 3)) : u *m M = 0 -> u *m N = 0.
+  move=> uM; apply/row_matrixP=> i; rewrite row_mul row0; have {uM} : row i u *m M = 0 by rewrite -row_mul uM row0.
+  rewrite -[row i u]hsubmxK /M /N !mul_row_col; move: (lsubmx _) (rsubmx _) => x y /eqP; rewrite addr_eq0 => /eqP xy.
+  have [c [d e]] : exists c d, x *m A = c *: w2 + d *: w3.
+    by apply: span; [exact: submxMl | rewrite xy -mulNmx submxMl].
+  have -> : x = c *: a2 + d *: a3 by apply: (row_free_inj fA); rewrite e mulmxDl -!scalemxAl -ea2 -ea3.
+  have -> : y = - (c *: b2 + d *: b3).
+    by apply: (row_free_inj fB); rewrite mulNmx mulmxDl -!scalemxAl -eb2 -eb3 -e xy opprK.
+  rewrite mulNmx !mulmxDl -!scalemxAl e2 e3 -s13 s12 -!scalemxAr !scalerA [c * _]mulrC [d * _]mulrC.
+  by rewrite subrr.
+pose H := pinvmx M *m N.
+have MH : M *m H = N.
+  apply/eqP; rewrite -subr_eq0; apply/eqP; have : (M *m pinvmx M - 1%:M) *m N = 0.
+    by apply: kN; rewrite mulmxBl mul1mx mulmxKpV ?subrr.
+  by rewrite mulmxBl mul1mx /H mulmxA.
+have [AH BH] : A *m H = Qa /\ B *m H = s2 *: Qb by have := MH; rewrite /M mul_col_mx => /eq_col_mx.
+have [Qv [H1 u1 [H1' u1' [x [y [x' [y' [[x0 y0 x'0 y'0] [eA eV eV' eB]]]]]]]]] := mid V1 (mem_head _ _).
+have HH : 1 *: H = x *: H1.
+  apply: (three_bodies (A := A) (C := B) (V := V1) (H1 := H) (H2 := H1) (H3 := H1') (s1 := 1) (s2 := x) (t1 := 1) (t3 := s2 * x') (w2 := y) (w3 := y')) => //; rewrite ?oner_neq0 // ?scale1r.
+  - by rewrite AH.
+  - by rewrite BH eB scalerA.
+  - by rewrite -eV.
+exists H; first by rewrite -[H]scale1r HH unitmxZ // unitfE.
+split; first by rewrite AH.
+exists s2^-1; first by rewrite invr_eq0.
+by rewrite BH scalerA mulVf // scale1r.
+Qed.
+End Biclique.
 
 (* Cameras of rank 3 whose centres are different, and no three of them on a line *)
 Definition no_three_on_a_line (F : fieldType) n (P : cameras F n) : Prop :=
