@@ -129,11 +129,31 @@ def components(n, pairs, draw):
     return set(found)
 
 
+def determined_by_rules(n, pairs):
+    """Whether rules 1 to 3 of Theorem 4.1 make one body: sets of nodes, merged as long as two share two nodes, or three
+    pairwise different ones."""
+    sets = [frozenset(pair) for pair in pairs]
+
+    def merged():
+        for a, b in itertools.combinations(sets, 2):
+            if len(a & b) > 1:
+                return a, b
+        for three in itertools.combinations(sets, 3):
+            meet = [x & y for x, y in itertools.combinations(three, 2)]
+            if all(meet) and len(frozenset.union(*meet)) == 3:
+                return three
+
+    while found := merged():
+        sets = [x for x in sets if x not in found] + [frozenset.union(*found)]
+    return sets == [frozenset(range(n))]
+
+
 def text_of(pairs):
     return "".join(f"{i} {j}\n" for i, j in pairs)
 
 
 TRIANGLE = [(0, 1), (0, 2), (1, 2)]
+UNIQUE_BY_RULES = 2  # of the published graphs: the triangle, and two triangles that share a pair
 TRIANGLE_PROOF = "viewcert proof 1\ngraph 3 3\nclaim 18 18\nbody 3 0 0\nfree 0\none 1 0 0\ntwo 2 0 0 1 0\nend\n"
 CYCLE = [(0, 1), (0, 3), (1, 2), (2, 3)]
 CYCLE_PROOF = """viewcert proof 1
@@ -412,6 +432,30 @@ def by_hand(program):
     case("a flow that ends early", 2, t, FLOW_PROOF.replace(" 57380 1", ""))
     case("10^9 flows", 2, t, FLOW_PROOF.replace("flows 1", "flows 1000000000"), "sizes out of range")
     case("flows without rows", 2, t, TRIANGLE_PROOF.replace("body 3 0 0", "body 3 0 0\nflows 1"), "sizes out of range")
+    unique = TRIANGLE_PROOF.replace("claim 18", "claim 0").replace("end", "solvable\nend")
+    case("solvable", 0, t, unique, "solvable: fundamental matrices determine generic cameras")
+    case("solvable, and the rank", 0, t, TRIANGLE_PROOF.replace("end", "solvable\nend"), "full rank\n  solvable: ")
+    case("solvable, no body", 1, t, "viewcert proof 1\ngraph 3 3\nclaim 0 18\nsolvable\nend\n")
+    case("solvable, twice", 2, t, unique.replace("solvable", "solvable\nsolvable"), "end expected")
+    case("solvable, from one node", 1, t, unique.replace("two 2 0 0 1 0", "one 2 0 0"))
+    case("solvable, from one node twice", 1, t, unique.replace("two 2 0 0 1 0", "two 2 0 0 0 0"))
+    case("solvable, a second free node", 1, t, unique.replace("one 1 0 0", "free 1"))
+    case("solvable, two nodes of three", 1, t, unique.replace("body 3", "body 2").replace("two 2 0 0 1 0\n", ""))
+    case("solvable, by rank", 1, t, FLOW_PROOF.replace("end", "solvable\nend"))
+    by_rank = FLOW_PROOF.replace("claim 18", "claim 0").replace("end", "body 3 0 0\nfree 0\none 1 0 {0}\ntwo 2 0 {0} 1 {0}\nsolvable\nend")
+    case("solvable, from pairs", 0, t, by_rank.format(0), "solvable: ")
+    case("solvable, from a body by rank", 1, t, by_rank.format(1))
+    # two triangles that share a pair, and the pair of the other two nodes, which is not in the graph, through a body
+    four = text_of([(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)])
+    first = "body 3 0 0\nfree 0\none 1 0 0\ntwo 2 0 0 1 0\n"
+    glued = f"viewcert proof 1\ngraph 4 5\nclaim 0 29\n{first}body 4 0 0\nfree 3\none 1 3 0\ntwo 2 3 0 1 1\ntwo 0 1 1 2 1\nsolvable\nend\n"
+    case("solvable, by bodies", 0, four, glued, "solvable: ")
+    twice = f"viewcert proof 1\ngraph 4 5\nclaim 0 29\n{first.replace('3', '4', 1)}two 1 0 0 2 0\nsolvable\nend\n"
+    case("solvable, a node twice", 1, four, twice)
+    case("solvable, a body that is not determined", 1, four, glued.replace("two 2 0 0 1 0", "one 2 0 0"))
+    case("solvable, a body that is not used", 0, four, glued.replace(first, first + "body 2 0 0\nfree 0\nfree 3\n"), "solvable: ")
+    case("solvable, a node outside of the body", 2, four, glued.replace("two 0 1 1 2 1", "two 0 3 1 2 1"), "are not both in body 0")
+    case("solvable, the last body alone counts", 1, four, glued.replace("solvable", first + "solvable"))
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -451,12 +495,14 @@ def catalog(program, prove, required, draw):
     folder.mkdir()
     ranks = []
     lines = []
+    verdicts_claimed = []
     for file in sorted((HERE.parent / "certificates").glob("n*.jsonl.gz")):
         for line in gzip.open(file, "rt"):
             document = json.loads(line)
             lines.append(document["graph"]["graph6"])
             claim = document["claim"]
             ranks.append((document["graph"]["nodes"], claim["rank"]["value"], claim["components"]["value"]))
+            verdicts_claimed.append(claim["verdict"]["value"])
     # Examples 5.10 and 5.14: parts that overlap, with hubs, and implied pairs; all components are pairs
     larger = {"M@`?hUOcB?K?H?E??": (14, 138, 20), "M?YTD@OS@_E?H?E??": (14, 138, 20), "M?]OdA_OaCC_G_G_?": (14, 138, 20), "O?IWqCO_K@K?W?GOCC@@?": (16, 160, 23)}
     lines += larger
@@ -467,12 +513,17 @@ def catalog(program, prove, required, draw):
     code, out, err = program.list(folder / "list")
     seconds = time.time() - start
     assert code == 0, (code, err)
-    seen = tried = 0
+    seen = tried = unique = 0
     for verdict in out.split(str(folder) + "/")[1:]:
         number = int(verdict.split(".")[0])
         n, value, parts = ranks[number]
         assert "VERIFIED" in verdict and f"generic rank of J is {value}" in verdict, verdict
         assert ("full rank\n" in verdict and "not of" not in verdict) == (value == 11 * n - 15), verdict
+        if "  solvable: " in verdict:
+            unique += 1
+            assert verdicts_claimed[number] == "solvable", verdict
+        pairs = [tuple(map(int, line.split())) for line in (folder / f"{number}.txt").read_text().splitlines()]
+        assert ("  solvable: " in verdict) == determined_by_rules(n, pairs), verdict
         found = listed(verdict)
         assert (found is None) == (value == 11 * n - 15) and (found is None or len(found) == parts), verdict
         if found and (n < 7 or (n == 7 and number % 4 == 0)):
@@ -484,7 +535,8 @@ def catalog(program, prove, required, draw):
     assert seen == len(ranks) == required + len(larger), seen
     hubs = [k for k in range(seen) if "\nhub " in (folder / f"{k}.proof").read_text()]
     assert len(hubs) == 10 + len(larger), hubs
-    print(f"catalog: {seen} graphs, rank, verdict and components, {seconds:.1f} s")
+    assert unique == UNIQUE_BY_RULES
+    print(f"catalog: {seen} graphs, rank, verdict and components, {seconds:.1f} s; {unique} solvable")
     return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in [*range(400), *hubs * 4]]
 
 
@@ -505,15 +557,16 @@ def published(program, verify, data):
     seconds = time.time() - start
     verdicts = out.split(str(folder) + "/")[1:]
     assert code == 0 and len(verdicts) == len(rows) == 29, (code, err)
-    several = 0
+    several = unique = 0
     for row, verdict in zip(rows, verdicts):
         found, parts = listed(verdict), int(row["components_edge_based"])
         low, high = bounds(verdict)
         assert verdict.startswith(row["file"]) and "VERIFIED" in verdict and low == high, verdict[:400]
         assert (1 if found is None else len(found)) == parts and (found is None) == ("full rank\n" in verdict and "not of" not in verdict), (row, verdict[:400])
         several += parts > 1
-    assert several == 5
-    print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s")
+        unique += "  solvable: " in verdict
+    assert several == 5 and unique == 24
+    print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s; {unique} solvable")
 
 
 def large(program, verify, draw):
@@ -555,7 +608,7 @@ def both(program, verify, folder):
 
     for pairs, said in (
         (CYCLE, [f"not-finite-solvable: {two}", f"rank 28: {two}", f"components 4: {two}"]),
-        (TRIANGLE, [f"solvable: {one}", f"finite-solvable: {two}", f"rank 18: {two}", f"components 1: {two}"]),
+        (TRIANGLE, [f"solvable: {two}", f"finite-solvable: {two}", f"rank 18: {two}", f"components 1: {two}"]),
     ):
         graph.write_text(text_of(pairs))
         subprocess.run([verify, graph, "--certificate", certificate, "--proof", proof], capture_output=True)
@@ -589,6 +642,7 @@ def others_agree(program, checkers, graph, out):
     claim = json.loads(certificate.read_text())["claim"]
     low, high = bounds(out)
     found = listed(out)
+    assert "  solvable: " not in out or claim["verdict"]["value"] == "solvable", (graph, out, claim)
     assert (low or 0) <= claim["rank"]["value"] and (high is None or claim["rank"]["value"] <= high), (graph, out, claim)
     assert (claim["verdict"]["value"] == "not-finite-solvable") or "not of full rank" not in out, (graph, out, claim)
     assert found is None or len(found) == claim["components"]["value"], (graph, out, claim)
@@ -597,7 +651,7 @@ def others_agree(program, checkers, graph, out):
 def mutants(program, base, count, draw, checkers):
     """Changed files: never a crash, and what is accepted is true."""
     accepted = {0: 0, 1: 0, 2: 0}
-    parts = 0
+    parts = unique = 0
     for _ in range(count):
         graph, proof = draw.choice(base)
         if draw.random() < 0.2:
@@ -613,13 +667,16 @@ def mutants(program, base, count, draw, checkers):
             true = generic_rank(n, [pair for pair in pairs if len(pair) == 2], draw)
             low, high = bounds(out)
             assert (low or 0) <= true and (high is None or true <= high), (graph, proof, out, true)
+            if "  solvable: " in out:
+                assert determined_by_rules(n, [pair for pair in pairs if len(pair) == 2]), (graph, proof, out)
+                unique += 1
             if checkers:
                 others_agree(program, checkers, graph, out)
             found = listed(out)
             if found is not None and n < 8:
                 assert found == components(n, [pair for pair in pairs if len(pair) == 2], draw), (graph, proof, out)
                 parts += 1
-    print(f"{count} mutants: {accepted[0]} accepted and true, {accepted[1]} rejected, {accepted[2]} unreadable; {parts} times components")
+    print(f"{count} mutants: {accepted[0]} accepted and true, {accepted[1]} rejected, {accepted[2]} unreadable; {parts} times components, {unique} times solvable")
     assert accepted[0] and accepted[1] and accepted[2]
 
 
@@ -699,6 +756,7 @@ def main():
         large(program, asked.checkers[0], draw)
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
     base += [(text_of(GAMMA), GAMMA_PROOF)] * 5 + [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF), (text_of(TRIANGLE), FLOW_PROOF)]
+    base += [(text_of(TRIANGLE), TRIANGLE_PROOF.replace("end", "solvable\nend"))] * 3
     if asked.catalog:
         files = catalog(program, asked.catalog, 6525, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]

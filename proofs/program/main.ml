@@ -5,7 +5,7 @@
 let say = Printf.printf
 
 (* what verify_sound and its corollaries say of these numbers *)
-let theorem n lower upper =
+let theorem n lower upper solvable =
   let full = (11 * n) - 15 in
   if lower = full then say "  the generic rank of J is %d = 11 n - 15: full rank\n" full
   else if lower = upper then say "  the generic rank of J is %d\n" lower
@@ -14,7 +14,9 @@ let theorem n lower upper =
     if upper < full then say "  for all cameras over all fields of characteristic 0 the rank of J is at most %d\n" upper
   end;
   if upper < full then say "  full rank would be 11 n - 15 = %d: not of full rank\n" full;
-  if lower = 0 && upper >= full then say "  nothing is claimed\n"
+  (* what verify_solvable says *)
+  if solvable then say "  solvable: fundamental matrices determine generic cameras, up to factors and one projectivity\n"
+  else if lower = 0 && upper >= full then say "  nothing is claimed\n"
 
 (* what verify_components says of these bodies *)
 let components bodies =
@@ -44,6 +46,9 @@ let check graph_path proof_path =
          (fun b -> proof.bodies.(b)) proof.owner last proof.lower
          (fun c -> bound.blocks.(c)) bound.half bound.shared (Array.length bound.blocks) place proof.upper
     &&
+    (not proof.solvable
+    || (Array.length proof.bodies > 0 && Checker.solvable_ok n m first second (fun b -> proof.bodies.(b)) proof.sure last))
+    &&
     match proof.components with
     | None -> true
     | Some c ->
@@ -55,7 +60,7 @@ let check graph_path proof_path =
   say "%s: %d nodes, %d pairs, SHA-256 of the file %s: %s\n" graph_path n m graph.sha256
     (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");
   if accepted then begin
-    theorem n proof.lower proof.upper;
+    theorem n proof.lower proof.upper proof.solvable;
     Option.iter (fun c -> components (Array.map (fun b -> proof.bodies.(b)) c.Proof.numbers)) proof.components
   end;
   if accepted then 0 else 1
@@ -87,5 +92,5 @@ let () =
   in
   if pairs = [] then (prerr_endline "viewcert-proved: an empty list"; exit 2);
   say "Statements are about the matrix J of proofs/theories/Statement.v. A graph is finite solvable iff it has full rank:\n\
-       that is Theorem 1.3 of docs/theory.md, which is cited and not proved here.\n";
+       that is Theorem 1.3 of docs/theory.md, which is cited and not proved here. Solvable is as Statement.v defines it.\n";
   exit (List.fold_left (fun worst (graph, proof) -> max worst (guarded graph proof)) 0 pairs)

@@ -25,6 +25,8 @@ type t = {
   owner : int -> int;
   bound : bound;
   components : components option;
+  sure : int -> bool;  (** which bodies are uniquely determined *)
+  solvable : bool;
 }
 
 module Table = Hashtbl.Make (struct
@@ -391,6 +393,18 @@ let owners bodies numbers =
   done;
   owner
 
+(* Bodies without a core that are made by the rules from pairs and such bodies *)
+let determined bodies =
+  let sure = Array.make (Array.length bodies) false in
+  let good b body =
+    let number = function Checker.Pair _ -> true | Checker.Inside (c, _, _) -> c < b && sure.(c) | _ -> false in
+    let joined s = List.length (body.Checker.joins s) = min s 2 && List.for_all (fun (_, why) -> number why) (body.joins s) in
+    let rec all s = s >= body.body_size || (joined s && all (s + 1)) in
+    body.core_size = 0 && all 0
+  in
+  Array.iteri (fun b body -> sure.(b) <- good b body) bodies;
+  sure
+
 let components reader (graph : Graph.t) bodies body_at =
   let count = reader.number () in
   if count > Array.length bodies then reader.fail "sizes out of range";
@@ -467,11 +481,13 @@ let read path (graph : Graph.t) =
   let next = all (word ()) in
   let bodies = Array.of_list (List.rev !bodies) in
   let bound, next = bound reader next in
+  let solvable = next = "solvable" in
   let components =
     match next with
+    | "solvable" -> expect "end"; None
     | "end" -> None
     | "components" -> Some (components reader graph bodies body_at)
-    | _ -> fail "body, block, other, components or end expected"
+    | _ -> fail "body, block, other, solvable, components or end expected"
   in
   if not (finished ()) then fail "something after the end";
   let owner, components =
@@ -479,4 +495,5 @@ let read path (graph : Graph.t) =
     | None -> ((fun _ -> 0), None)
     | Some (owner, components) -> ((fun b -> owner.(b)), Some components)
   in
-  { lower; upper; bodies; owner; bound; components }
+  let sure = if solvable then determined bodies else [||] in
+  { lower; upper; bodies; owner; bound; components; sure = (fun b -> sure.(b)); solvable }

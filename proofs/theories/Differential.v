@@ -25,7 +25,7 @@ move: i j ne; case=> [[|[|//]] hi]; case=> [[|[|//]] hj] // _.
 by rewrite mulrN1 -e; congr (s _ _); apply: val_inj.
 Qed.
 
-Lemma skew_span r (U : 'M[F]_(r, 4)) (S : 'M[F]_4) (r2 : r = 2%N) : S^T = - S -> (S <= U)%MS ->
+Lemma skew_span k r (U : 'M[F]_(r, k)) (S : 'M[F]_k) (r2 : r = 2%N) : S^T = - S -> (S <= U)%MS ->
   exists x : F, S = x *: (U^T *m castmx (esym r2, esym r2) turn *m U).
 Proof.
 subst r => sk SU; rewrite castmx_id.
@@ -45,6 +45,18 @@ apply/row_subP=> i; have -> : row i (row' k A) = row (lift k i) A by apply/rowP=
 exact: row_sub.
 Qed.
 
+Lemma distinct (A B : 'M[F]_(3, 4)) : fund A B != 0 -> \rank (A + B)%MS = 4%N.
+Proof.
+move=> nz; apply/eqP; rewrite eqn_leq rank_leq_col /= leqNgt; apply: contra nz => r3; apply/eqP/matrixP=> h k.
+rewrite [LHS]mxE [RHS]mxE; pose C : 'M[F]_4 := col_mx (row' k A) (row' h B).
+have rC : (\rank C < 4)%N.
+  have := col_mx_sub (row' k A) (row' h B) (A + B)%MS.
+  rewrite (submx_trans (without k A) (addsmxSl _ _)) (submx_trans (without h B) (addsmxSr _ _)).
+  by move/mxrankS => le; apply: leq_ltn_trans r3.
+have : C \notin unitmx by rewrite -row_full_unit /row_full neq_ltn rC.
+by rewrite unitmxE unitfE negbK => /eqP; rewrite /C => ->; rewrite mulr0.
+Qed.
+
 (* Cameras of rank 3 with different centres: a matrix whose S is skew-symmetric is a multiple of F. *)
 Theorem lemma_1_2 (A B : 'M[F]_(3, 4)) (M : 'M[F]_3) : row_free A -> row_free B -> fund A B != 0 ->
   let S := B^T *m M *m A in S^T = - S -> exists t : F, M = t *: fund A B.
@@ -56,15 +68,7 @@ have recover (N : 'M[F]_3) : B'^T *m (B^T *m N *m A) *m A' = N.
 have inside (N : 'M[F]_3) : (B^T *m N *m A)^T = - (B^T *m N *m A) -> (B^T *m N *m A <= A :&: B)%MS.
   move=> k; rewrite sub_capmx submxMl /= -[X in (X <= _)%MS]opprK -k eqmx_opp.
   by rewrite !trmx_mul trmxK mulmxA submxMl.
-have full : \rank (A + B)%MS = 4%N.
-  apply/eqP; rewrite eqn_leq rank_leq_col /= leqNgt; apply: contra nz => r3; apply/eqP/matrixP=> h k.
-  rewrite [LHS]mxE [RHS]mxE; pose C : 'M[F]_4 := col_mx (row' k A) (row' h B).
-  have rC : (\rank C < 4)%N.
-    have := col_mx_sub (row' k A) (row' h B) (A + B)%MS.
-    rewrite (submx_trans (without k A) (addsmxSl _ _)) (submx_trans (without h B) (addsmxSr _ _)).
-    by move/mxrankS => le; apply: leq_ltn_trans r3.
-  have : C \notin unitmx by rewrite -row_full_unit /row_full neq_ltn rC.
-  by rewrite unitmxE unitfE negbK => /eqP; rewrite /C => ->; rewrite mulr0.
+have full := distinct nz.
 have cap2 : \rank (A :&: B)%MS = 2%N.
   have := mxrank_sum_cap A B; rewrite full (eqP fA) (eqP fB); lia.
 have base (N : 'M[F]_3) : (B^T *m N *m A)^T = - (B^T *m N *m A) -> (B^T *m N *m A <= row_base (A :&: B))%MS.

@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Sanity.
+From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Generically Unique Solvable Sanity.
 
 Extract Inlined Constant muln => "Natural.mul".
 Extract Inlined Constant addn => "Natural.add".
@@ -11,10 +11,11 @@ Extract Inlined Constant leq => "Natural.leq".
 Extract Inlined Constant eqn => "Natural.eq".
 Extract Inlined Constant modn => "Natural.modulo".
 Extract Inlined Constant divn => "Natural.div".
-Extraction "checker.ml" graph_ok verify components_ok cells solved the_prime entries10.
+Extraction "checker.ml" graph_ok verify solvable_ok components_ok cells solved the_prime entries10.
 
 Print Assumptions verify_sound.
 Print Assumptions verify_components.
+Print Assumptions verify_solvable.
 Print Assumptions exact_rank.
 Print Assumptions has_full_rank.
 Print Assumptions lacks_full_rank.
@@ -26,6 +27,12 @@ Print Assumptions proposition_1_4.
 Print Assumptions lemma_3_1.
 Print Assumptions corollary_3_3.
 Print Assumptions theorem_4_1.
+Print Assumptions rule_1.
+Print Assumptions rule_3.
+Print Assumptions rule_5.
+Print Assumptions corollary_4_2.
+Print Assumptions generic_cameras.
+Print Assumptions rank_generically.
 Print Assumptions theorem_5_1.
 Print Assumptions theorem_5_2.
 Print Assumptions theorem_5_9.
@@ -45,4 +52,6 @@ Print Assumptions full_rank_component.
 Print Assumptions one_pair_has_rank_7.
 Print Assumptions pair.
 Print Assumptions triangle.
+Print Assumptions triangle_solvable.
+Print Assumptions no_pair_unsolvable.
 Print Assumptions four_cycle.

@@ -1,6 +1,6 @@
 (* Is Statement.v about what it should be about? What a sceptic may want to see before he believes it. *)
 From mathcomp Require Import all_ssreflect all_algebra zify ring.
-From Viewcert Require Import Statement Skew Motions Generic Counting Rigid Checker.
+From Viewcert Require Import Statement Skew Motions Differential Generic NormalForm Counting Rigid Checker Generically Unique Solvable.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -218,4 +218,32 @@ apply: (@lacks_full_rank 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); 
 have := @verify_sound 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
   (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 28.
 by apply; vm_compute.
+Qed.
+
+(* A triangle is solvable, as the program checks it; two nodes without a pair are not. *)
+Theorem triangle_solvable : solvable 3 [:: (0, 1); (0, 2); (1, 2)]%N.
+Proof.
+pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
+have := @verify_solvable 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+  (fun _ => chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s) 0) (fun _ => true) 0.
+by apply; vm_compute.
+Qed.
+
+Theorem no_pair_unsolvable : ~ solvable 2 [::].
+Proof.
+move=> [_ sol]; have [q [P nz] both] := generically_and sol (@generic_cameras 2).
+have [det [_ funds _]] := both [numFieldType of rat] P nz.
+pose Q := normal 2 (fun _ _ => 0%R) : cameras rat_comRing 2.
+have [|e|H unitH h] := det Q; [by move=> v; apply/eqP; exact: normal_free | by [] |].
+pose i : 'I_2 := ord0; pose j : 'I_2 := lift ord0 ord0.
+have [t t0 ei] := h i (mem_enum _ _); have [u u0 ej] := h j (mem_enum _ _).
+have := funds i j isT; set A := cam P i; set B := cam P j => r2.
+have : fund A B != 0%R by rewrite -mxrank_eq0 -lt0n ltnW.
+move/distinct; have same : (t *: (A *m H) = u *: (B *m H))%R by rewrite -ei -ej !cam_normal; apply/matrixP=> a b; rewrite !mxE.
+have AB : (A <= B)%MS.
+  have -> : A = ((t^-1 * u) *: B)%R; last exact: scalemx_sub.
+  rewrite -[LHS](mulmxK unitH) -[RHS](mulmxK unitH) -scalemxAl -[(A *m H)%R]scale1r -(mulVf t0) -scalerA same.
+  by rewrite scalerA -scalemxAl.
+have le : (A + B <= B)%MS by rewrite addsmx_sub AB submx_refl.
+by move=> r4; have := leq_trans (mxrankS le) (rank_leq_row B); rewrite r4.
 Qed.

@@ -1,7 +1,7 @@
-(* What has to be read: the objects that the proved checker speaks of, and the two claims it makes.
+(* What has to be read: the objects that the proved checker speaks of, and the claims it makes.
 
    Theorem 1.3 of docs/theory.md (a graph is finite solvable iff [full_rank] holds) is not formal. It is cited from
-   the literature, and no name here says more than a rank. *)
+   the literature, and no name before [solvable] says more than a rank. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -63,3 +63,32 @@ Definition part n G b : Prop :=
 Definition component n G b : Prop := part n G b /\ forall b', part n G b' -> {subset b <= b'} -> {subset b' <= b}.
 Definition components n G (C : seq (seq nat)) : Prop :=
   (forall b, b \in C -> component n G b) /\ (forall b, component n G b -> exists2 c, c \in C & c =i b).
+
+(* Cameras Q have the fundamental matrices of P, up to factors; they are P, up to factors and one projectivity. *)
+Definition same_matrices (F : fieldType) n (E : seq ('I_n * 'I_n)) (P Q : cameras F n) : Prop :=
+  forall e, e \in E -> exists2 t : F, t != 0 & fund (cam Q e.1) (cam Q e.2) = t *: fund (cam P e.1) (cam P e.2).
+Definition same_cameras (F : fieldType) n (P Q : cameras F n) (b : seq 'I_n) : Prop :=
+  exists2 H : 'M[F]_4, H \in unitmx & forall v, v \in b -> exists2 t : F, t != 0 & cam Q v = t *: (cam P v *m H).
+
+(* polynomials with integer coefficients in the entries of n cameras *)
+Inductive polynomial n :=
+  | Number of int
+  | Entry of 'I_n & 'I_(3 * 4)
+  | Plus of polynomial n & polynomial n
+  | Times of polynomial n & polynomial n.
+Fixpoint evaluate (R : comRingType) n (P : cameras R n) (q : polynomial n) : R :=
+  match q with
+  | Number c => c%:~R
+  | Entry v k => P v k
+  | Plus a b => evaluate P a + evaluate P b
+  | Times a b => evaluate P a * evaluate P b
+  end.
+
+(* What holds for generic cameras: wherever some polynomial that is not zero everywhere is not zero. *)
+Definition generically n (C : forall F : numFieldType, cameras F n -> Prop) : Prop :=
+  exists2 q : polynomial n, (exists P : cameras rat_comRing n, evaluate P q != 0) &
+    forall (F : numFieldType) (P : cameras F n), evaluate P q != 0 -> C F P.
+
+(* Fundamental matrices determine generic cameras (section 1 of docs/theory.md). *)
+Definition solvable n G : Prop := well_formed n G /\ @generically n (fun F P =>
+  forall Q, (forall v, \rank (cam Q v) = 3%N) -> same_matrices (edges n G) P Q -> same_cameras P Q (enum 'I_n)).

@@ -21,6 +21,7 @@ struct Answer {
     at_least: Option<i64>,
     at_most: Option<i64>,
     components: Option<usize>,
+    solvable: bool,
 }
 
 impl Answer {
@@ -39,6 +40,7 @@ impl Answer {
                 .at_least
                 .or(number("some rational cameras have rank "));
             answer.at_most = answer.at_most.or(number("the rank of J is at most "));
+            answer.solvable |= line.starts_with("solvable: ");
             let components = "full rank among themselves: ";
             answer.components = answer
                 .components
@@ -100,7 +102,7 @@ fn words(proved: &Proved, answer: &Answer) -> Result<String> {
         .components
         .is_none_or(|count| count == proved.components);
     ensure!(
-        below && above && same,
+        below && above && same && (!answer.solvable || proved.verdict == "solvable"),
         "{PROGRAM} and viewcert-check contradict each other ({answer:?}; rank {rank}, {} components): one of them is \
          wrong, please report it",
         proved.components
@@ -123,7 +125,7 @@ fn words(proved: &Proved, answer: &Answer) -> Result<String> {
     let verdict = &proved.verdict;
     if full && verdict == "solvable" {
         lines.insert(0, format!("finite-solvable: {BOTH}"));
-        lines.insert(0, format!("{verdict}: {ONE}"));
+        lines.insert(0, format!("{verdict}: {}", who(answer.solvable)));
     } else {
         lines.insert(0, format!("{verdict}: {}", who(full || lacks)));
     }
@@ -179,6 +181,12 @@ mod tests {
         assert!(unique.starts_with(&format!(
             "solvable: {ONE}\nfinite-solvable: {BOTH}\nrank 40: {BOTH}"
         )));
+        let determined =
+            format!("{full}  solvable: fundamental matrices determine generic cameras\n");
+        let unique = words(&proved("solvable", 40, 1), &Answer::of(&determined)).unwrap();
+        assert!(unique.starts_with(&format!("solvable: {BOTH}\nfinite-solvable: {BOTH}\n")));
+        // more than one solution, and one
+        assert!(words(&proved("finite-solvable", 40, 1), &Answer::of(&determined)).is_err());
     }
 
     #[test]

@@ -23,4 +23,24 @@ impl Listed {
         let core = self.core.iter().map(|&(v, _)| v);
         core.chain(self.joins.iter().map(|&(v, _)| v))
     }
+
+    /// Whether pairs and bodies that are uniquely determined make it one by the rules of Theorem 4.1;
+    /// `sure` says which of those before are.
+    fn is_determined(&self, sure: &[bool]) -> bool {
+        let joined = |(at, (_, before)): (usize, &(u32, Vec<(u32, Reason)>))| {
+            let mut whys = before.iter().map(|&(_, why)| why as usize);
+            before.len() == at.min(2) && whys.all(|why| why == 0 || sure[why - 1])
+        };
+        self.core.is_empty() && self.joins.len() > 1 && self.joins.iter().enumerate().all(joined)
+    }
+}
+
+/// Whether the last of some bodies is uniquely determined and holds all nodes.
+pub(super) fn determine_all(bodies: &[Listed], nodes: usize) -> bool {
+    let mut sure = Vec::with_capacity(bodies.len());
+    for body in bodies {
+        sure.push(body.is_determined(&sure));
+    }
+    let last = bodies.last().map(Listed::nodes);
+    sure.last() == Some(&true) && last.is_some_and(|last| last.count() == nodes)
 }

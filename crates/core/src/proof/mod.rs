@@ -66,7 +66,8 @@ impl std::error::Error for Unproved {}
 
 impl Verdict {
     /// The explicit proof of this verdict on `graph`, which has to be the graph that was decided: a
-    /// lower and an upper bound for the generic rank. Of a graph that is not finite solvable and
+    /// lower and an upper bound for the generic rank, and that the graph is solvable where the rules of
+    /// Theorem 4.1 say so. Of a graph that is not finite solvable and
     /// has a large core it is the upper bound alone.
     ///
     /// O(size of the record of bodies) and an elimination of the core, which takes O(k^3) for k
@@ -129,6 +130,7 @@ impl Verdict {
             pairs: graph.edges().len(),
             lower,
             upper,
+            solvable: !refuted && listed::determine_all(&record.done, graph.nodes()),
             bodies: record.done,
             blocks,
             components,

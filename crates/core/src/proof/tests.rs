@@ -19,8 +19,9 @@ fn a_triangle_is_three_nodes_joined() {
     assert!(text.starts_with(
         "viewcert proof 1\ngraph 3 3\nclaim 18 18\nbody 3 0 0\nfree 0\none 1 0 0\ntwo 2 "
     ));
-    assert!(text.ends_with("\nend\n"));
-    assert_eq!(text.lines().count(), 8);
+    assert!(text.ends_with("\nsolvable\nend\n"));
+    assert_eq!(text.lines().count(), 9);
+    assert!(proof.is_solvable());
 }
 
 /// 11 * 9 - 15 = 84 is what twelve single edges count; the hub takes one off (theory, Example 5.6). The

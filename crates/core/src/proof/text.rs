@@ -16,6 +16,8 @@ pub struct Proof {
     /// Pairs in none of them are blocks by themselves.
     pub(super) blocks: Blocks,
     pub(super) components: Option<Components>,
+    /// The last body is uniquely determined and holds all nodes.
+    pub(super) solvable: bool,
 }
 
 /// The components, and how they are told apart.
@@ -56,6 +58,12 @@ impl Proof {
     pub fn components(&self) -> Option<usize> {
         let components = self.components.as_ref();
         components.map(|components| components.bodies.len())
+    }
+
+    /// Whether it is proved that fundamental matrices determine the cameras uniquely: where edges,
+    /// common nodes and triangles do (Theorem 4.1).
+    pub fn is_solvable(&self) -> bool {
+        self.solvable
     }
 }
 
@@ -102,6 +110,9 @@ impl fmt::Display for Proof {
         if let Some(Components { bodies, steps }) = &self.components {
             numbers(f, "components", bodies)?;
             steps.iter().try_for_each(|step| write!(f, "{step}"))?;
+        }
+        if self.solvable {
+            writeln!(f, "solvable")?;
         }
         writeln!(f, "end")
     }
