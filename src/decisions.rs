@@ -3,18 +3,21 @@
 use super::certificates::Target;
 use super::plan::{Form, Plan, Products};
 use super::witness;
-use super::{given, input};
-use anyhow::{Context, Result};
+use super::{given, here, input};
+use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
+use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
+use viewcert::here::{Centres, Here};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
 use viewcert_report::graph_picture::{self, Picture};
+use viewcert_report::here::HereReport;
 use viewcert_report::many::Table;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
@@ -38,9 +41,15 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
     let too_many = |what: &str| plan.too_many(what);
     let each = |out: &mut _, input: &NamedGraph, start| {
         plan.request.check_input(input)?;
-        let (input, known) = given::read(plan.given.as_deref(), input)?;
+        let given = plan.given.as_deref();
+        if let Some((input, centres)) = here::read(given, input, plan.draft.model)? {
+            let options = plan.options(Known::default())?.watch(session.shown_watch());
+            let is_determined = work.decide(&options, (&input, Some(&centres)), start, out)?;
+            return Ok(if is_determined { GOOD } else { NOT });
+        }
+        let (input, known) = given::read(given, input)?;
         let options = plan.options(known)?.watch(session.shown_watch());
-        let is_determined = work.decide(&options, &input, start, out)?;
+        let is_determined = work.decide(&options, (&input, None), start, out)?;
         Ok(if is_determined { GOOD } else { NOT })
     };
     let code = input::for_each(session, &plan.read, &plan.graphs, &too_many, &mut out, each)?;
@@ -64,11 +73,11 @@ struct Work<'a> {
 impl Work<'_> {
     /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
     /// determines the cameras, if need be with base lines that frames share; if that is asked for, whether
-    /// it does in the plane.
+    /// it does in the plane; and if cameras are given, whether it does at these.
     fn decide(
         &mut self,
         options: &Options,
-        input: &NamedGraph,
+        (input, centres): (&NamedGraph, Option<&Centres>),
         start: Instant,
         out: &mut impl Write,
     ) -> Result<bool> {
@@ -80,7 +89,17 @@ impl Work<'_> {
         let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
         session.hide();
         let scope = scope.with_context(name)?;
-        let written = self.write(input, &verdict)?;
+        let here = centres.map(|centres| {
+            ensure!(
+                self.table.is_none(),
+                "--table: a row does not say what holds at given cameras"
+            );
+            let decided = here::decide(input, centres, &session.shown_watch());
+            session.hide();
+            Ok((decided?, centres))
+        });
+        let here = here.transpose()?;
+        let written = self.write(input, &verdict, here.as_ref())?;
         let time = start.elapsed();
         let advice = self.advise(input, &verdict);
         session.hide();
@@ -94,6 +113,11 @@ impl Work<'_> {
             advice: &advice,
             scope: &scope,
             proof: written.proof.as_ref(),
+            here: here.as_ref().map(|(here, _)| HereReport {
+                input,
+                verdict: &verdict,
+                here,
+            }),
         };
         draw(session, &plan.products, &report)?;
         match (&mut self.table, &plan.form) {
@@ -108,6 +132,9 @@ impl Work<'_> {
             let name = &input.name;
             writeln!(std::io::stderr(), "verify: {name}: no witness: {why}")?;
         }
+        if let Some((here, _)) = here {
+            return Ok(here.is_determined());
+        }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),
             _ => {
@@ -119,11 +146,22 @@ impl Work<'_> {
     }
 
     /// Writes the certificate, the proof and the witness.
-    fn write(&mut self, input: &NamedGraph, verdict: &Verdict) -> Result<Written> {
+    fn write(
+        &mut self,
+        input: &NamedGraph,
+        verdict: &Verdict,
+        here: Option<&(Here, &Centres)>,
+    ) -> Result<Written> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
-            let path = target.write(outputs, input, verdict)?;
+            let path = match here {
+                Some((here, centres)) => target.write_as(outputs, input, |out, embed| {
+                    let graph = (&input.graph, &*input.name);
+                    here.write_certificate(graph, centres, embed, out)
+                })?,
+                None => target.write(outputs, input, verdict)?,
+            };
             written
                 .lines
                 .push(format!("certificate {}", path.display()));

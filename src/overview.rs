@@ -228,6 +228,7 @@ fn overview(
         advice,
         scope: &any_scope,
         proof: None,
+        here: None,
     };
     let mut found = Overview {
         name: &input.name,

@@ -4,7 +4,7 @@
 It shares no code, language, arithmetic, parser or dependency with the first one, `viewcert-check`. It is meant to be
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
-elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12).
+elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12), here (13).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -13,6 +13,8 @@ import gzip
 import sys
 
 from claim import Claims
+from here import FORMAT as AT_CAMERAS
+from here import HereCheck
 from notation import Reject, TooLarge, Unreadable
 from solutions import WORK_LIMIT
 
@@ -61,6 +63,8 @@ class Check(Claims):
 def check(data, **given):
     """Checks one certificate (with what `Check` takes); gives the check if it is right, else raises why it is not."""
     try:
+        if type(data) is bytes and AT_CAMERAS in data:
+            return check_here(data, **given)
         done = Check(data, **given)
         done.compare_claim()
         return done
@@ -68,6 +72,12 @@ def check(data, **given):
         raise
     except Exception as error:  # whatever is not foreseen is rejected
         raise Reject(f"unexpected {type(error).__name__}: {error}") from error
+
+
+def check_here(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None):
+    if given_data is not None:
+        raise Unreadable("a certificate at given cameras supposes nothing else; leave out --given")
+    return HereCheck(data, graph_data, core_limit)
 
 
 def shown(reason):

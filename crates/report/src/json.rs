@@ -7,6 +7,7 @@ use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
 use crate::assumptions::{BaseLines, Planar};
+use crate::here::HereLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -67,6 +68,8 @@ struct Line<'a> {
     planar: Option<&'a Planar>,
     #[serde(skip_serializing_if = "Option::is_none")]
     base_lines: Option<&'a BaseLines>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_cameras: Option<HereLine>,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -252,6 +255,10 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         conditions: report.scope.conditions(),
         planar: report.scope.planar(),
         base_lines: report.scope.base_lines(),
+        at_cameras: report
+            .here
+            .as_ref()
+            .map(|here| here.line(report.list_components)),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         advice: report.advice,
