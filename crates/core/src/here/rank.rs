@@ -49,8 +49,8 @@ pub(super) struct Ranked {
 
 /// The matrices of a core modulo a prime.
 enum Matrices<'a> {
-    Space(PlaneFlows<'a>, Option<Lambda>),
-    Plane(PlaneDirections<'a>),
+    Space(Box<PlaneFlows<'a>>, Option<Box<Lambda>>),
+    Plane(Box<PlaneDirections<'a>>),
 }
 
 impl<'a> Placed<'a> {
@@ -147,12 +147,12 @@ impl<'a> Placed<'a> {
         let task = self.setting.watch.task(Step::Flows, core.graph.nodes());
         if self.model() == Model::Affine {
             let directions = PlaneDirections::new(field, &core.graph, &points.plane, &task)?;
-            return Ok((4 * directions.rank(), Matrices::Plane(directions)));
+            return Ok((4 * directions.rank(), Matrices::Plane(Box::new(directions))));
         }
         let flows = PlaneFlows::new(field, &core.graph, &points.space, &task)?;
         let rigidity = flows.rigidity_rank();
         if self.model() == Model::Calibrated {
-            return Ok((rigidity, Matrices::Space(flows, None)));
+            return Ok((rigidity, Matrices::Space(Box::new(flows), None)));
         }
         let rank = |lambda: &Lambda| 4 * rigidity + lambda.rank() - core.graph.edges().len();
         let mut lambda = flows.lambda(self.key().flow_weights(field), &task)?;
@@ -160,7 +160,10 @@ impl<'a> Placed<'a> {
             // The rows of some flows do not prove that there are no more.
             lambda = flows.lambda_of_all_flows(&task)?;
         }
-        Ok((rank(&lambda), Matrices::Space(flows, Some(lambda))))
+        Ok((
+            rank(&lambda),
+            Matrices::Space(Box::new(flows), Some(Box::new(lambda))),
+        ))
     }
 
     /// The key of what needs no name in a certificate.

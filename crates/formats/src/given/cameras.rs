@@ -212,7 +212,7 @@ fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
     }
     let note = (strangers > 0).then(|| {
         format!(
-            "{} of the model are not in the graph and say nothing",
+            "not in the graph, and left out: {} of the model",
             counted(strangers, "image")
         )
     });
