@@ -49,6 +49,24 @@ impl Target {
         verdict: &Verdict,
         base_lines: Option<&SharedBaseLines>,
     ) -> Result<PathBuf> {
+        self.write_as(outputs, input, |out, embed| {
+            let certificate = verdict.certificate(&input.graph).named(&input.name);
+            let certificate = match base_lines {
+                Some(found) => certificate.with_base_lines(found),
+                None => certificate,
+            };
+            certificate.embed_graph(embed).write_to(out)
+        })
+    }
+
+    /// Writes the certificate of one graph, as `certificate` does it if it is told whether to embed the
+    /// graph, and returns the path.
+    pub(super) fn write_as(
+        &mut self,
+        outputs: &Outputs,
+        input: &NamedGraph,
+        certificate: impl FnOnce(&mut dyn Write, bool) -> std::io::Result<()>,
+    ) -> Result<PathBuf> {
         let path = if self.folder {
             self.place(&input.name)?
         } else if self.taken.insert(String::new()) {
@@ -56,14 +74,7 @@ impl Target {
         } else {
             bail!("{}", Self::too_many(&self.path, "several graphs"));
         };
-        outputs.write(&path, |out| {
-            let certificate = verdict.certificate(&input.graph).named(&input.name);
-            let certificate = match base_lines {
-                Some(found) => certificate.with_base_lines(found),
-                None => certificate,
-            };
-            certificate.embed_graph(self.embed).write_to(out)
-        })?;
+        outputs.write(&path, |out| certificate(out, self.embed))?;
         Ok(path)
     }
 

@@ -3,19 +3,22 @@
 use super::certificates::Target;
 use super::plan::{Form, Plan, Products};
 use super::witness;
-use super::{given, input, intrinsics};
-use anyhow::{Context, Result};
+use super::{given, here, input, intrinsics};
+use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
+use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
+use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Class, Metric};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
 use viewcert_report::graph_picture::{self, Picture};
+use viewcert_report::here::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
 use viewcert_report::{Report, WrittenProof};
@@ -40,10 +43,23 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
     let too_many = |what: &str| plan.too_many(what);
     let each = |out: &mut _, input: &NamedGraph, start| {
         plan.request.check_input(input)?;
-        let (input, known) = given::read(plan.given.as_deref(), input)?;
+        let given = plan.given.as_deref();
+        if let Some((input, centres)) = here::read(given, input, plan.draft.model)? {
+            let options = plan.options(Known::default())?.watch(session.shown_watch());
+            let is_determined = work.decide(
+                &options,
+                &input,
+                Some(Besides::Cameras(&centres)),
+                start,
+                out,
+            )?;
+            return Ok(if is_determined { GOOD } else { NOT });
+        }
+        let (input, known) = given::read(given, input)?;
         let options = plan.options(known)?.watch(session.shown_watch());
         let (input, classes) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
-        let is_determined = work.decide(&options, &input, classes.as_deref(), start, out)?;
+        let besides = classes.as_deref().map(Besides::Classes);
+        let is_determined = work.decide(&options, &input, besides, start, out)?;
         Ok(if is_determined { GOOD } else { NOT })
     };
     let code = input::for_each(session, &plan.read, &plan.graphs, &too_many, &mut out, each)?;
@@ -52,6 +68,15 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
         out.flush().context("standard output")?;
     }
     Ok(ExitCode::from(code))
+}
+
+/// What is asked about beside the verdict on a graph, on which the exit code rests then.
+#[derive(Clone, Copy)]
+enum Besides<'a> {
+    /// Cameras of its nodes.
+    Cameras(&'a Centres),
+    /// The class of each of its cameras.
+    Classes(&'a [Class]),
 }
 
 /// What is to be done with every graph of a run.
@@ -67,12 +92,12 @@ struct Work<'a> {
 impl Work<'_> {
     /// Decides one graph that has been read since `start`, certifies and reports. Returns whether it
     /// determines the cameras, if need be with base lines that frames share; if that is asked for, whether
-    /// it does in the plane.
+    /// it does in the plane; and if cameras are given, whether it does at these.
     fn decide(
         &mut self,
         options: &Options,
         input: &NamedGraph,
-        classes: Option<&[Class]>,
+        besides: Option<Besides>,
         start: Instant,
         out: &mut impl Write,
     ) -> Result<bool> {
@@ -84,7 +109,7 @@ impl Work<'_> {
         let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
         session.hide();
         let mut scope = scope.with_context(name)?;
-        if let Some(classes) = classes {
+        if let Some(Besides::Classes(classes)) = besides {
             let watch = session.shown_watch();
             let found = Metric::new(&input.graph, &verdict, classes, plan.seed, &watch);
             session.hide();
@@ -92,7 +117,21 @@ impl Work<'_> {
             let listed = plan.list_components;
             scope = scope.with_intrinsics(IntrinsicsLine::new(input, classes, &found, listed));
         }
-        let written = self.write(input, &verdict, &scope)?;
+        let centres = match besides {
+            Some(Besides::Cameras(centres)) => Some(centres),
+            _ => None,
+        };
+        let here = centres.map(|centres| {
+            ensure!(
+                self.table.is_none(),
+                "--table: a row does not say what holds at given cameras"
+            );
+            let decided = here::decide(input, centres, &session.shown_watch());
+            session.hide();
+            Ok((decided?, centres))
+        });
+        let here = here.transpose()?;
+        let written = self.write(input, &verdict, &scope, here.as_ref())?;
         let time = start.elapsed();
         let advice = self.advise(input, &verdict);
         session.hide();
@@ -106,6 +145,11 @@ impl Work<'_> {
             advice: &advice,
             scope: &scope,
             proof: written.proof.as_ref(),
+            here: here.as_ref().map(|(here, _)| HereReport {
+                input,
+                verdict: &verdict,
+                here,
+            }),
         };
         draw(session, &plan.products, &report)?;
         match (&mut self.table, &plan.form) {
@@ -123,6 +167,9 @@ impl Work<'_> {
         if let Some(intrinsics) = scope.intrinsics() {
             return Ok(intrinsics.is_metric());
         }
+        if let Some((here, _)) = here {
+            return Ok(here.is_determined());
+        }
         Ok(match scope.planar() {
             Some(planar) if plan.asked.planar => planar.is_determined(),
             _ => {
@@ -134,11 +181,23 @@ impl Work<'_> {
     }
 
     /// Writes the certificate, the proof and the witness.
-    fn write(&mut self, input: &NamedGraph, verdict: &Verdict, scope: &Scope) -> Result<Written> {
+    fn write(
+        &mut self,
+        input: &NamedGraph,
+        verdict: &Verdict,
+        scope: &Scope,
+        here: Option<&(Here, &Centres)>,
+    ) -> Result<Written> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
-            let path = target.write(outputs, input, verdict, scope.shared_base_lines())?;
+            let path = match here {
+                Some((here, centres)) => target.write_as(outputs, input, |out, embed| {
+                    let graph = (&input.graph, &*input.name);
+                    here.write_certificate(graph, centres, embed, out)
+                })?,
+                None => target.write(outputs, input, verdict, scope.shared_base_lines())?,
+            };
             written
                 .lines
                 .push(format!("certificate {}", path.display()));

@@ -17,7 +17,7 @@ pub(super) const OPTION: &str = "--given";
 #[derive(Args)]
 pub(super) struct GivenArguments {
     /// What is known besides the pairs; see `verify help given`.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", visible_alias = "cameras")]
     given: Option<PathBuf>,
 }
 
@@ -34,7 +34,12 @@ What --given FILE holds: what is known besides the pairs, one thing on each line
   position A                 The position of a calibrated camera is known (GPS).
   position A X Y Z           It is this one.
 
-A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
+  camera A P11 P12 .. P34    The matrix of a camera, row by row; or
+  pose A QW QX QY QZ X Y Z   its rotation and translation, as in COLMAP's images.txt; or
+  centre A X Y Z             its centre (affine: its viewing direction). One for each camera of the graph: what
+                             is determined at these very cameras is answered besides.
+A COLMAP model (a folder) as FILE gives the poses of its images, an array (n, 3, 4) or (n, 3) of NumPy the matrices or
+centres of cameras that are called by numbers. A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
 Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
 on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
 without them about vectors in general position. Parts and displacements do not go together.

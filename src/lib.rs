@@ -20,6 +20,7 @@ mod export;
 mod foreseen;
 mod given;
 mod help;
+mod here;
 mod input;
 mod intrinsics;
 mod limits;

@@ -256,6 +256,7 @@ fn overview(
         advice,
         scope: &any_scope,
         proof: None,
+        here: None,
     };
     let mut found = Overview {
         name: &input.name,

@@ -88,6 +88,7 @@ pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitC
         advice: &joints,
         scope: &scope,
         proof: None,
+        here: None,
     };
     session.doing(format!("writing {}", arguments.folder.display()));
     let (outputs, folder) = (session.outputs(), &arguments.folder);

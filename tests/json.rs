@@ -65,6 +65,23 @@ fn of_graphs() {
 }
 
 #[test]
+fn of_given_cameras() {
+    let folder = tempfile::tempdir().unwrap();
+    let cameras = folder.path().join("cameras.txt");
+    let places = ["0 0 0", "1 0 0", "3 0 0", "0 1 2"];
+    let lines = (0..)
+        .zip(places)
+        .map(|(v, place)| format!("centre {v} {place}\n"));
+    std::fs::write(&cameras, lines.collect::<String>()).unwrap();
+    let given = ["--json", "-", "--given", cameras.to_str().unwrap()];
+    for more in [&[][..], &["--components"], &["--model", "calibrated"]] {
+        let run = verify_with(SQUARE, &[&given[..], more].concat());
+        let line = keeps_to("report", &run, &["verdict"]).remove(0);
+        assert_eq!(line["at_cameras"]["special"][0]["kind"], "collinear");
+    }
+}
+
+#[test]
 fn of_audits() {
     let run = verify_with(SQUARE, &["audit", "--json", "-"]);
     let line = keeps_to("audit", &run, &["program", "graph", "exact", "float"]).remove(0);

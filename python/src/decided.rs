@@ -426,6 +426,7 @@ impl Decided {
                 advice: &advice,
                 scope: &scope,
                 proof: None,
+                here: None,
             };
             let mut text = Vec::new();
             match &kind[..] {

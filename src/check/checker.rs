@@ -118,7 +118,7 @@ pub(super) fn check_for(
         Ok(certificate) => certificate,
         Err(failure) => return Ok(Err(failure)),
     };
-    let graph = graph_at(&certificate, path, given, options)?;
+    let graph = graph_at(certificate.graph_sha256(), path, given, options)?;
     let checked = certificate.check(Some(&graph));
     Ok(checked.map(|verified| Proved::new(&verified)))
 }
@@ -127,13 +127,13 @@ pub(super) fn check_for(
 ///
 /// # Errors
 /// If there is no such graph, or nothing of the kind is known.
-fn graph_at(
-    certificate: &Certificate,
+pub(super) fn graph_at(
+    hash: &str,
     path: &Path,
     given: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Graph> {
-    let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == certificate.graph_sha256();
+    let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == hash;
     let found = read_meant(path, options, is_meant)?;
     let name = || path.display().to_string();
     let no_graph = || format!("{}: the file holds no graph", name());

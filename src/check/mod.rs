@@ -2,6 +2,7 @@
 
 pub(crate) mod checker;
 mod folder;
+mod here;
 mod names;
 mod proved;
 
@@ -20,8 +21,8 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_catalog::manifest::Contents;
-use viewcert_check::Failure;
 use viewcert_check::program::{is_certificate, no_certificate};
+use viewcert_check::{Failure, is_here};
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 
@@ -104,28 +105,47 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         standard.count() < 2,
         "only one of certificate, graph and what is given can be standard input"
     );
+    let options = || match arguments.tracks {
+        true => Ok(arguments.input.of_tracks()),
+        false => arguments.input.of_pairs(),
+    };
+    if is_here(&text) {
+        ensure!(
+            given.is_none() && arguments.proved.is_none(),
+            "this certificate is about given cameras, which it holds: leave out --given and --proved, and compare \
+             the hash of the centres with that of `verify GRAPH --given FILE`"
+        );
+        let checked = here::check(&text, arguments.graph.as_deref(), &options()?)?;
+        return say(checked, String::clone, |_, _| Ok(GOOD));
+    }
     let outcome = match (&arguments.graph, given) {
         (None, None) => checker::check(&text),
         (None, Some(given)) => checker::check_given(&text, given)?,
-        (Some(graph), given) => {
-            let options = if arguments.tracks {
-                arguments.input.of_tracks()
-            } else {
-                arguments.input.of_pairs()?
-            };
-            checker::check_for(&text, graph, given, &options)?
-        }
+        (Some(graph), given) => checker::check_for(&text, graph, given, &options()?)?,
     };
+    let text = |proved: &checker::Proved| proved.text.clone();
+    say(outcome, text, |out, proved| {
+        match (&arguments.proved, &arguments.graph) {
+            (Some(proof), Some(graph)) => say_vouched(out, proved, graph, proof),
+            _ => Ok(GOOD),
+        }
+    })
+}
+
+/// Says what was verified in words, or not, and returns the exit code; what else there is to say of what was
+/// verified follows.
+fn say<T>(
+    outcome: Result<T, Failure>,
+    text: impl Fn(&T) -> String,
+    more: impl FnOnce(&mut std::io::StdoutLock, &T) -> Result<u8>,
+) -> Result<ExitCode> {
     let mut out = std::io::stdout().lock();
     let code = match outcome {
         Ok(proved) => {
-            for line in proved.text.lines() {
+            for line in text(&proved).lines() {
                 writeln!(out, "VERIFIED {}", printable(line))?;
             }
-            match (&arguments.proved, &arguments.graph) {
-                (Some(proof), Some(graph)) => say_vouched(&mut out, &proved, graph, proof)?,
-                _ => GOOD,
-            }
+            more(&mut out, &proved)?
         }
         Err(Failure::Rejected(rejection)) => {
             writeln!(out, "REJECTED: {}", printable(&rejection.to_string()))?;

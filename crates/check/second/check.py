@@ -5,7 +5,7 @@ It shares no code, language, arithmetic, parser or dependency with the first one
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
 elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
-oriented (12), base lines (13).
+oriented (12), base lines (13), here (14).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -14,6 +14,8 @@ import gzip
 import sys
 
 from base_lines import BaseLines
+from here import FORMAT as AT_CAMERAS
+from here import HereCheck
 from notation import Reject, TooLarge, Unreadable
 from solutions import WORK_LIMIT
 
@@ -64,6 +66,8 @@ class Check(BaseLines):
 def check(data, **given):
     """Checks one certificate (with what `Check` takes); gives the check if it is right, else raises why it is not."""
     try:
+        if type(data) is bytes and AT_CAMERAS in data:
+            return check_here(data, **given)
         done = Check(data, **given)
         done.compare_claim()
         return done
@@ -77,6 +81,12 @@ def shown_oriented(numbers):
     """How many solutions are real, and how many of these oriented, at places that were found."""
     seen = [f"{oriented} of {real}" for real, oriented in numbers.get("oriented", [])]
     return f", real ones that are oriented, near some cameras: {', '.join(seen)}" * bool(seen)
+
+
+def check_here(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None):
+    if given_data is not None:
+        raise Unreadable("a certificate at given cameras supposes nothing else; leave out --given")
+    return HereCheck(data, graph_data, core_limit)
 
 
 def shown(reason):

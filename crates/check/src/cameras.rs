@@ -26,7 +26,7 @@ impl Stream {
         Stream::from_key(&key.finalize().into())
     }
 
-    fn from_key(key: &[u8; 32]) -> Stream {
+    pub fn from_key(key: &[u8; 32]) -> Stream {
         let word = |k| u32::from_le_bytes(std::array::from_fn(|byte| key[4 * k + byte]));
         Stream {
             key: std::array::from_fn(word),

@@ -128,7 +128,7 @@ fn core_nodes(members: &[Joined]) -> Vec<u32> {
 
 /// SHA-256 of the canonical form of a core (section 4), whose nodes are given by their numbers in
 /// the graph.
-fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
+pub(crate) fn core_sha256(nodes: &[u32], edges: &[(usize, usize)]) -> [u8; 32] {
     let mut hash = Sha256::new();
     hash.update(b"viewcert core 2\n");
     hash.update((nodes.len() as u64).to_le_bytes());

@@ -74,7 +74,12 @@ pub(crate) fn own_centres(
 }
 
 /// The rank of J_P at some centres.
-fn rank(field: &Field, centres: &[[u64; 3]], setting: &Setting, core: &Core) -> Checked<i64> {
+pub(crate) fn rank(
+    field: &Field,
+    centres: &[[u64; 3]],
+    setting: &Setting,
+    core: &Core,
+) -> Checked<i64> {
     let cameras: Vec<_> = centres.iter().map(|c| camera_at(field, c)).collect();
     let mut echelon = Echelon::new(field, 12 * core.nodes, setting.meter);
     let mut rank = 0;

@@ -84,7 +84,7 @@ fn check_plane_kernel(
 }
 
 /// Sees that every class moves as one, and no two classes alike, given how each core edge moves.
-fn check_apart<M: Clone + Ord>(
+pub(crate) fn check_apart<M: Clone + Ord>(
     core: &Core,
     (owner, classes): (&[usize], usize),
     edge_motion: impl Fn(usize) -> Checked<M>,
@@ -156,7 +156,7 @@ fn residues(kernel: &Kernel, width: usize, field: &Field) -> Checked<Vec<u64>> {
 /// How a kernel vector moves an edge: the matrix X, row by row, with dP_i = P_i X and
 /// dP_j = P_j X + lambda P_j, less a multiple of I. In the calibrated model y = s c + t is the only
 /// column of [ I | -c ] X, with X = (t, -s).
-fn edge_motion(
+pub(crate) fn edge_motion(
     field: &Field,
     setting: &Setting,
     core: &Core,
@@ -194,7 +194,7 @@ fn edge_motion(
 
 /// How a kernel vector moves an edge in the plane: (s, t) with y = s p + t at both ends (theory,
 /// (13.1)).
-fn plane_motion(
+pub(crate) fn plane_motion(
     field: &Field,
     core: &Core,
     points: &[[u64; 2]],

@@ -1,6 +1,9 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
-use crate::{Certificate, Failure, Graph, Limits, Model, Strength, Unreadable, Verdict, Verified};
+use crate::{
+    Certificate, Failure, Graph, HereCertificate, Limits, Model, Strength, Unreadable, Verdict,
+    Verified, is_here,
+};
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
 use std::ffi::OsString;
@@ -42,6 +45,7 @@ these no known parts and displacements may be supposed but what is given:
                        `verify convert --to given` writes them
 
   --proofs-only        proofs, no error bounds
+  --centres HEX        the hash of the cameras' centres, for a certificate at given cameras
 
 Limits (beyond them: exit code 3):
   --max-bytes N        size of each file [{MAX_BYTES}]
@@ -90,6 +94,7 @@ struct Expected {
     /// Whether there is a file of what is given.
     given: bool,
     proofs_only: bool,
+    centres: Option<String>,
 }
 
 /// Why there is no answer about the certificate; with the exit code.
@@ -154,6 +159,7 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("edges") => expected.edges = Some(number(&mut parser)?),
             Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
             Long("given") => given = Some(parser.value()?),
+            Long("centres") => expected.centres = Some(parser.value()?.parse_with(hash)?),
             Long("proofs-only") => expected.proofs_only = true,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
             Long("max-core") => limits.core = number(&mut parser)?,
@@ -233,6 +239,9 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
             no_certificate(swapped)
         )));
     }
+    if is_here(&text) {
+        return check_here(&text, file, given.is_some(), arguments);
+    }
     let certificate = LazyLock::new(|| Certificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
@@ -262,15 +271,83 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
     };
     match checked {
         Ok(verified) => answer(&verified, &arguments.expected),
-        Err(Failure::Rejected(rejection)) => {
+        Err(failure) => not_verified(failure),
+    }
+}
+
+fn not_verified(failure: Failure) -> Result<u8, Stop> {
+    match failure {
+        Failure::Rejected(rejection) => {
             explain(&rejection.to_string());
             print("REJECTED\n").map(|()| NOT_VERIFIED)
         }
-        Err(Failure::TooLarge(limit)) => Err(Stop {
+        Failure::TooLarge(limit) => Err(Stop {
             code: TOO_LARGE,
             message: limit.to_string(),
         }),
     }
+}
+
+/// Checks a certificate at given cameras.
+fn check_here(
+    text: &[u8],
+    file: Option<Opened>,
+    given: bool,
+    arguments: &Arguments,
+) -> Result<u8, Stop> {
+    let expected = &arguments.expected;
+    if given || expected.verdict.is_some() {
+        let why =
+            "--given and --expect are about generic cameras; this certificate is about given ones";
+        return Err(Stop::no_answer(why));
+    }
+    let certificate = match HereCertificate::parse(text) {
+        Ok(certificate) => certificate,
+        Err(failure) => return not_verified(failure),
+    };
+    let wanted = || Some(certificate.graph_sha256());
+    let graph = file.map(|(path, file)| Graph::read(&file, wanted).map_err(in_file(&path)));
+    let checked = certificate.check_within(graph.transpose()?.as_ref(), &arguments.limits);
+    let verified = match checked {
+        Ok(verified) => verified,
+        Err(failure) => return not_verified(failure),
+    };
+    let [nodes, edges] = verified.size;
+    let differs = |wanted: &Option<String>, is: &String| wanted.as_ref().is_some_and(|w| w != is);
+    let other = [
+        (
+            expected.model.is_some_and(|model| model != verified.model),
+            "model",
+        ),
+        (
+            expected.nodes.is_some_and(|n| n != nodes),
+            "number of nodes",
+        ),
+        (
+            expected.edges.is_some_and(|m| m != edges),
+            "number of edges",
+        ),
+        (
+            differs(&expected.sha256, &verified.sha256),
+            "hash of the graph",
+        ),
+        (
+            differs(&expected.centres, &verified.centres_sha256),
+            "hash of the centres",
+        ),
+        (
+            expected.proofs_only
+                && [verified.rank.1, verified.components.1] != [Strength::Proof; 2],
+            "strength",
+        ),
+    ];
+    if let Some((_, what)) = other.iter().find(|(differs, _)| *differs) {
+        explain(&format!("not what is expected: another {what}"));
+        return Ok(NOT_VERIFIED);
+    }
+    let lines = verified.to_string();
+    let lines = lines.lines().map(|line| format!("VERIFIED {line}\n"));
+    print(&lines.collect::<String>()).map(|()| VERIFIED)
 }
 
 /// Whether a file may be meant as a certificate: an object in JSON that says it is one, or what it
@@ -329,7 +406,12 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         sha256,
         given,
         proofs_only,
+        centres,
     } = expected;
+    see(
+        centres.is_some(),
+        "it is about generic cameras, and none are given".into(),
+    );
     let verified_verdict = verified.verdict.0;
     see(
         verdict.is_some_and(|verdict| verdict != verified_verdict),

@@ -232,6 +232,11 @@ impl<'a> Structure<'a> {
             .map_or_else(edge, |body| body.as_deref().unwrap_or_default())
     }
 
+    /// Whether a member is a body.
+    pub fn is_body(&self, member: usize) -> bool {
+        member < self.bodies.len()
+    }
+
     /// Whether a part holds a known displacement.
     pub fn is_scaled(&self, part: &[usize]) -> bool {
         let scaled = |&member: &usize| self.scaled.get(member).is_some_and(|&scaled| scaled);
@@ -332,7 +337,7 @@ impl<'a> Structure<'a> {
     pub fn core(&self, part: &Part) -> Checked<Core> {
         let members = part.iter().map(|&member| Joined {
             nodes: self.nodes_of(member),
-            is_body: member < self.bodies.len(),
+            is_body: self.is_body(member),
             is_scaled: self.is_scaled(&[member]),
         });
         let name = |position: usize| self.name(part[position]);

@@ -35,13 +35,15 @@
 //! each piece is decided with exact arithmetic ([`linalg`]) at drawn cameras ([`geometry`]), its
 //! components are found and upper bounds are counted ([`mod@decide`]), or counting alone decides
 //! ([`sparsity`]); the verdict leaves with its
-//! evidence as a [`certificate`]. Nothing here reads a file, prints, or computes in floating point.
+//! evidence as a [`certificate`]. What is determined at cameras that are given is another question
+//! ([`here`](mod@here)). Nothing here reads a file, prints, or computes in floating point.
 
 pub mod certificate;
 pub mod contract;
 pub mod decide;
 pub mod geometry;
 pub mod graph;
+pub mod here;
 pub mod intrinsics;
 pub mod linalg;
 mod named;

@@ -210,6 +210,39 @@ pub enum Problem {
     /// Vectors that have too many digits as multiples of one unit.
     #[error("as multiples of one unit, the vectors have more than 30 digits")]
     LongVectors,
+    /// A line with a camera that has another number of fields.
+    #[error("{found} numbers stand behind the camera, and {expected} are expected")]
+    NoCameraNumbers {
+        /// How many there have to be.
+        expected: usize,
+        /// How many fields.
+        found: usize,
+    },
+    /// What is no number that could be computed with exactly.
+    #[error("`{}` is no decimal number with an exponent up to 400, and no fraction", shown(.0))]
+    NoRational(String),
+    /// Cameras and centres, or something else besides cameras, in one file.
+    #[error("lines with {0} stand beside others")]
+    MixedCameras(&'static str),
+    /// A camera that is given again.
+    #[error("the camera of `{}` is given twice", shown(.0))]
+    CameraTwice(String),
+    /// A camera without a centre, in words.
+    #[error("{0}")]
+    NoCentre(String),
+    /// Nodes without a camera.
+    #[error("no camera is given for {} of the graph; `{}` is the first", viewcert::wording::counted(*.missing, "node"), shown(.first))]
+    MissingCameras {
+        /// The first one.
+        first: String,
+        /// How many there are.
+        missing: usize,
+    },
+    /// An array that is not one of cameras or centres.
+    #[error(
+        "an array of shape {0:?} holds neither cameras (n, 3, 4) nor centres (n, 3) of the {1} nodes"
+    )]
+    NoCameraArray(Vec<u64>, usize),
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -540,6 +573,20 @@ impl Problem {
             }
             Self::NoPair | Self::NoCamera | Self::NoVector { .. } => {
                 "write `displacement` and two cameras, or `position` and one; behind them, on all lines or on none, the vector from the first to the second, or the position, as three numbers"
+            }
+            Self::NoCameraNumbers { .. } | Self::NoRational(_) => {
+                "write `camera`, a name and the 12 entries of its matrix, row by row; or `pose`, a name, a quaternion (real part first) and a translation; or `centre`, a name and three coordinates"
+            }
+            Self::MixedCameras(_) => {
+                "give all cameras as matrices and poses, or all as centres, and what else is known in a run of its own"
+            }
+            Self::CameraTwice(_) => "leave one out",
+            Self::NoCentre(_) => "give cameras of rank 3 that the model knows",
+            Self::MissingCameras { .. } => {
+                "give every node a camera, or leave the pairs of those that have none out of the graph"
+            }
+            Self::NoCameraArray(..) => {
+                "give an array with an entry for each node, in their order; nodes with names take a text file or a COLMAP model"
             }
             Self::SomeVectors => {
                 "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about vectors in general position"

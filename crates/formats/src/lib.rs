@@ -34,6 +34,7 @@ mod variables;
 pub use edge_list::decimal::{Decimal, NoDecimal};
 pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
+pub use given::cameras::{GivenCameras, centre_error, read_cameras};
 pub use given::{Given, NamedParts, given, read_given, with_rigs};
 pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};

@@ -7,6 +7,7 @@ use super::tracks;
 use super::tracks::TrackLine;
 use super::{Report, WrittenProof};
 use crate::assumptions::{BaseLines, Planar};
+use crate::here::HereLine;
 use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -70,6 +71,8 @@ struct Line<'a> {
     base_lines: Option<&'a BaseLines>,
     #[serde(skip_serializing_if = "Option::is_none")]
     intrinsics: Option<&'a IntrinsicsLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_cameras: Option<HereLine>,
     mode: &'static str,
     seconds: f64,
     #[serde(flatten)]
@@ -270,6 +273,10 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         planar: report.scope.planar(),
         base_lines: report.scope.base_lines(),
         intrinsics: report.scope.intrinsics(),
+        at_cameras: report
+            .here
+            .as_ref()
+            .map(|here| here.line(report.list_components)),
         mode: if report.rational { "rational" } else { "prime" },
         seconds: report.time.as_secs_f64(),
         advice: report.advice,

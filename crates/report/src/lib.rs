@@ -13,6 +13,7 @@ pub mod curves;
 pub mod database;
 pub mod force_layout;
 pub mod graph_picture;
+pub mod here;
 pub mod intrinsics;
 pub mod json;
 pub mod lists;
@@ -99,6 +100,8 @@ pub struct Report<'a> {
     pub scope: &'a Scope,
     /// The explicit proof that was written.
     pub proof: Option<&'a WrittenProof>,
+    /// What holds at cameras that are given.
+    pub here: Option<here::HereReport<'a>>,
 }
 
 /// An explicit proof that was written to a file, and what it shows.

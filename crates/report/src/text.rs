@@ -72,6 +72,9 @@ pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
         strength(verdict.rank_claim().strength)
     )?;
     write_components(out, report)?;
+    if let Some(here) = &report.here {
+        here.write_text(out, report.list_components)?;
+    }
     writeln!(out, "  time        {}", seconds(report.time.as_micros()))
 }
 

@@ -1,5 +1,7 @@
 //! The members of the certificate, borrowed from a verdict.
 
+mod here;
+
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, objects};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};

@@ -3,6 +3,7 @@
 
 use super::body::{Body, Seed};
 use super::grow::Growth;
+use super::position::Generic;
 use crate::graph::{Adjacency, Graph, Lists};
 use std::borrow::Cow;
 
@@ -81,7 +82,13 @@ pub(super) fn grow(bodies: &mut Vec<Body>, remaining: &mut Adjacency) {
     let mut growth = Growth::new(remaining.nodes());
     for k in order {
         let part = &mut bodies[k as usize];
-        let grown = growth.grow(std::mem::take(&mut part.nodes), k, None, remaining);
+        let grown = growth.grow(
+            std::mem::take(&mut part.nodes),
+            k,
+            None,
+            remaining,
+            &Generic,
+        );
         if grown.add.is_empty() {
             part.nodes = grown.nodes;
             part.edges += grown.edges;

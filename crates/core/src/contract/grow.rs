@@ -1,6 +1,7 @@
 //! Growing bodies from triangles: a node seen from two nodes of a body joins it.
 
 use super::body::{Body, Seed};
+use super::position::Position;
 use crate::graph::{Adjacency, Lists};
 
 const NONE: u32 = u32::MAX;
@@ -20,13 +21,13 @@ struct Visit {
     edges: u32,
 }
 
-/// Grows bodies until the remaining edges contain no triangle, and removes the
-/// edges of every body from `remaining`.
+/// Grows bodies until the remaining edges contain no triangle, or none that is not on a line, and
+/// removes the edges of every body from `remaining`.
 ///
 /// Nodes are taken by falling degree, and a seed edge is looked for among the
 /// neighbours of lower rank, so that looking costs O(m * arboricity) in all; growth
 /// itself looks at each edge a constant number of times for each body at its ends.
-pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
+pub(super) fn grow(remaining: &mut Adjacency, at: &impl Position) -> Vec<Body> {
     let n = remaining.nodes();
     let (order, rank) = by_falling_degree(remaining);
     let mut state = Growth::new(n);
@@ -37,26 +38,26 @@ pub(super) fn grow(remaining: &mut Adjacency) -> Vec<Body> {
         for &w in remaining.neighbours(v) {
             near[w as usize] = v;
         }
-        let mut at = 0;
-        while let Some(&w) = remaining.neighbours(v).get(at) {
+        let mut next = 0;
+        while let Some(&w) = remaining.neighbours(v).get(next) {
             let closes_triangle = rank[w as usize] > rank[v as usize]
                 && remaining
                     .neighbours(w)
                     .iter()
-                    .any(|&x| near[x as usize] == v);
+                    .any(|&x| near[x as usize] == v && at.spans(v, w, x));
             if !closes_triangle {
                 refused_by[w as usize] = v;
-                at += 1;
+                next += 1;
                 continue;
             }
             let k = bodies.len() as u32;
-            let body = state.body_from_edge(v, w, k, remaining);
+            let body = state.body_from_edge(v, w, k, remaining, at);
             for &u in &body.nodes {
                 near[u as usize] = NONE;
             }
             // Neighbours refused once are refused for good, as edges only go; the
             // body's own have left the list of v.
-            at = remaining
+            next = remaining
                 .neighbours(v)
                 .partition_point(|&x| refused_by[x as usize] == v);
             bodies.push(body);
@@ -124,8 +125,9 @@ impl Growth {
         w: u32,
         k: u32,
         remaining: &mut Adjacency,
+        at: &impl Position,
     ) -> Body {
-        let grown = self.grow(vec![v, w], k, None, remaining);
+        let grown = self.grow(vec![v, w], k, None, remaining, at);
         Body {
             seed: Seed::Edge(v.min(w), v.max(w)),
             add: grown.add,
@@ -136,7 +138,7 @@ impl Growth {
         }
     }
 
-    /// Grows a body from some nodes until no node outside is seen twice, and removes its edges
+    /// Grows a body from some nodes until no node outside is seen twice, but on one line, and removes its edges
     /// from the lists of its nodes in `remaining`, except from that of the marked one, which is
     /// among those it starts from. `k` is a number that no other growth has.
     pub(super) fn grow(
@@ -145,6 +147,7 @@ impl Growth {
         k: u32,
         marked: Option<Marked>,
         remaining: &mut Adjacency,
+        at: &impl Position,
     ) -> Grown {
         let is_marked = |v: u32| marked.is_some_and(|marked| marked.node == v);
         let seen_by_marked = |x: u32| marked.filter(|marked| marked.sees(x));
@@ -168,8 +171,12 @@ impl Growth {
                 if visit.stamp == joined {
                     visit.edges += 1;
                 } else if visit.stamp == reached {
-                    visit.stamp = joined;
+                    // All nodes that it was seen from and did not join by are on one line with it.
                     visit.edges += 1;
+                    if !at.spans(x, visit.from, u) {
+                        continue;
+                    }
+                    visit.stamp = joined;
                     nodes.push(x);
                     add.push([x, visit.from, u]);
                 } else if let Some(marked) = seen_by_marked(x) {

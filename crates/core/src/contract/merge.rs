@@ -1,6 +1,7 @@
 //! Merging bodies: two that share two nodes, three that pairwise share a node.
 
 use super::body::{Body, Merge, Part, Seed};
+use super::position::Position;
 use crate::graph::{Adjacency, Lists};
 use std::collections::{HashMap, VecDeque};
 
@@ -63,7 +64,12 @@ impl Owners {
 /// Bodies are taken by falling size, round after round until nothing changes. Of
 /// three bodies that pairwise share a node the largest finds the other two, so a body
 /// is only ever searched by larger ones that touch it.
-pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize) -> Owners {
+pub(super) fn close(
+    bodies: &mut Vec<Body>,
+    remaining: &Adjacency,
+    nodes: usize,
+    at: &impl Position,
+) -> Owners {
     let mut owners = Owners::new(nodes, bodies);
     let mut inside = vec![u32::MAX; nodes];
     let mut changed = true;
@@ -82,6 +88,7 @@ pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize)
                 bodies,
                 owners: &mut owners,
                 remaining,
+                at,
                 inside: &mut inside,
                 stamp,
                 nodes: Vec::new(),
@@ -104,10 +111,12 @@ pub(super) fn close(bodies: &mut Vec<Body>, remaining: &Adjacency, nodes: usize)
 }
 
 /// One body absorbing whatever the rules allow.
-struct Absorption<'a> {
+struct Absorption<'a, P> {
     bodies: &'a mut Vec<Body>,
     owners: &'a mut Owners,
     remaining: &'a Adjacency,
+    /// Where centres are.
+    at: &'a P,
     /// The stamp of the absorption that the node is inside of.
     inside: &'a mut [u32],
     stamp: u32,
@@ -129,7 +138,7 @@ struct Absorption<'a> {
     brought_in: Vec<u32>,
 }
 
-impl Absorption<'_> {
+impl<P: Position> Absorption<'_, P> {
     /// Runs to the end; if anything was absorbed, appends the new body. Returns
     /// whether it was.
     fn run(&mut self, k: u32) -> bool {
@@ -206,7 +215,7 @@ impl Absorption<'_> {
             }
             let part = Part::Body(k);
             match self.touched.insert(k, a) {
-                Some(before) if before != a => {
+                Some(before) if before != a && self.at.apart(before, a) => {
                     self.merges.push(Merge::Shared {
                         part,
                         at: [before, a],
@@ -236,6 +245,9 @@ impl Absorption<'_> {
                 continue;
             }
             if self.is_inside(x) {
+                if !self.at.apart(a, x) {
+                    continue;
+                }
                 let part = Part::Body(k);
                 self.merges.push(Merge::Shared { part, at: [a, x] });
                 self.absorb(part);
@@ -248,13 +260,17 @@ impl Absorption<'_> {
     /// Node x outside is in `part`, which touches the body at `a`: if another part
     /// reaches x from another node, the three are a triangle of bodies.
     fn reach(&mut self, x: u32, part: Part, a: u32) {
+        // Of what x is reached from and refused with, all is on one line through x.
+        if !self.at.apart(a, x) {
+            return;
+        }
         let Some(&(other, b)) = self.reached.get(&x) else {
             self.reached.insert(x, (part, a));
             return;
         };
         // From the same node: if these are two bodies they share two nodes, which one
         // of them finds when its turn comes.
-        if a == b {
+        if a == b || !self.at.spans(a, b, x) {
             return;
         }
         self.merges.push(Merge::Triangle {

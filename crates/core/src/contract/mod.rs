@@ -17,6 +17,7 @@ mod general;
 mod given;
 mod grow;
 mod merge;
+mod position;
 mod rest;
 mod scaled;
 mod seeds;
@@ -26,12 +27,15 @@ mod tests;
 
 pub use body::{Body, Merge, Part, Seed};
 pub use piece::Members;
+pub(crate) use position::Position;
 
 use crate::geometry::model::Model;
 use crate::geometry::placed::Placed;
 use crate::graph::{Adjacency, Displacements, Graph, KnownParts, Lists};
 use general::General;
 use given::Given;
+use merge::Owners;
+use position::Generic;
 use rest::Rest;
 use std::sync::Arc;
 use sweep::Swept;
@@ -93,7 +97,7 @@ impl Contraction {
         if !bodies.is_empty() {
             given::grow(&mut bodies, &mut remaining);
         }
-        bodies.extend(grow::grow(&mut remaining));
+        bodies.extend(grow::grow(&mut remaining, &Generic));
         Self::closed_by_triangles(graph, model, bodies, &remaining)
     }
 
@@ -162,6 +166,19 @@ impl Contraction {
         self.finals.iter().all(|&k| unique[k as usize])
     }
 
+    /// Contracts a graph at given centres, by the rules 1 to 4 of Theorem 4.1 as far as they hold there
+    /// (Theorem 16.2), in every model.
+    pub(crate) fn at(graph: &Graph, at: &impl Position) -> Self {
+        let mut remaining = Adjacency::new(graph);
+        let mut bodies = grow::grow(&mut remaining, at);
+        let owners = merge::close(&mut bodies, &remaining, graph.nodes(), at);
+        let (owned, loose) = by_owner(&owners, &remaining);
+        for body in owned {
+            bodies[body as usize].edges += 1;
+        }
+        Self::of_closed(bodies, loose)
+    }
+
     /// Closes bodies under the rules that need no cycle of four.
     fn closed_by_triangles(
         graph: &Graph,
@@ -171,15 +188,8 @@ impl Contraction {
     ) -> Self {
         let steps = bicliques::Steps::new(graph);
         loop {
-            let owners = merge::close(&mut bodies, remaining, graph.nodes());
-            let mut owned = Vec::new();
-            let mut loose = Vec::new();
-            for (v, w) in remaining.edges() {
-                match owners.common_body(v, w) {
-                    Some(body) => owned.push(body),
-                    None => loose.push((v, w)),
-                }
-            }
+            let owners = merge::close(&mut bodies, remaining, graph.nodes(), &Generic);
+            let (owned, loose) = by_owner(&owners, remaining);
             // In a plane all planes through two centres are one.
             let bicliques = model == Model::Projective;
             if bicliques && bicliques::merge(&mut bodies, &loose, graph.nodes(), &steps) {
@@ -242,4 +252,16 @@ impl Contraction {
             by_rank: Vec::new(),
         }
     }
+}
+
+/// For each edge that remains and lies in a body this body; and the edges that lie in none.
+fn by_owner(owners: &Owners, remaining: &Adjacency) -> (Vec<u32>, Vec<(u32, u32)>) {
+    let (mut owned, mut loose) = (Vec::new(), Vec::new());
+    for (v, w) in remaining.edges() {
+        match owners.common_body(v, w) {
+            Some(body) => owned.push(body),
+            None => loose.push((v, w)),
+        }
+    }
+    (owned, loose)
 }

@@ -2,6 +2,7 @@
 
 use super::body::{Body, Merge, Part, Seed};
 use super::grow::{Growth, Marked, by_falling_degree};
+use super::position::Generic;
 use crate::graph::Adjacency;
 
 const NONE: u32 = u32::MAX;
@@ -138,7 +139,7 @@ fn body(
             (vec![u, p, opposite, other], vec![cycle])
         }
     };
-    let grown = growth.grow(start, k, Some(marked), remaining);
+    let grown = growth.grow(start, k, Some(marked), remaining, &Generic);
     let seed = Seed::Edge(u.min(p), u.max(p));
     let is_continued = !merge.is_empty() && !grown.add.is_empty();
     let cycle = is_continued.then(|| Body {

@@ -38,7 +38,7 @@ mod counting;
 mod draft;
 mod drawn;
 mod error;
-mod motion_class;
+pub(crate) mod motion_class;
 mod noticed;
 mod one_piece;
 mod options;

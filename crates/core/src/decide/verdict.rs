@@ -47,7 +47,7 @@ pub struct Component {
 
 impl Component {
     /// The component that consists of the given members, which have so many nodes together.
-    pub(super) fn new(members: Members, nodes: usize, contraction: &Arc<Contraction>) -> Self {
+    pub(crate) fn new(members: Members, nodes: usize, contraction: &Arc<Contraction>) -> Self {
         let of_bodies = members.bodies.iter();
         let of_bodies = of_bodies.map(|&body| contraction.bodies[body as usize].edges);
         Self {

@@ -265,12 +265,7 @@ pub(crate) fn centres_mod_drawn_prime(
             ..*key
         };
         let mut generator = key.generator();
-        let field = loop {
-            let candidate = (1 << 61) + 2 * (generator.next_u64() % (1 << 60)) + 1;
-            if let Ok(field) = PrimeField::new(candidate) {
-                break field;
-            }
-        };
+        let field = drawn_prime(&mut generator);
         let centres: Vec<[u64; 3]> = (0..nodes)
             .map(|_| {
                 std::array::from_fn(|_| field.from_u64(uniform(&mut generator, field.modulus())))
@@ -283,6 +278,27 @@ pub(crate) fn centres_mod_drawn_prime(
         }
     }
     Err(DrawError::Degenerate { nodes })
+}
+
+/// Words w of a stream are taken until 2^61 + 2 (w mod 2^60) + 1 is prime.
+fn drawn_prime(generator: &mut ChaCha20Rng) -> PrimeField {
+    loop {
+        let candidate = (1 << 61) + 2 * (generator.next_u64() % (1 << 60)) + 1;
+        if let Ok(field) = PrimeField::new(candidate) {
+            return field;
+        }
+    }
+}
+
+/// Primes for given cameras, one after another, from a stream that the hashes of the graph, the centres
+/// and the core determine (docs/certificate.md, section 14).
+pub(crate) fn primes_here(hashes: [&[u8; 32]; 3]) -> impl FnMut() -> PrimeField + use<> {
+    let key = hashes.iter().fold(
+        Sha256::new().chain_update(b"viewcert here 1\n"),
+        |key, hash| key.chain_update(hash),
+    );
+    let mut generator = ChaCha20Rng::from_seed(key.finalize().into());
+    move || drawn_prime(&mut generator)
 }
 
 /// Cameras of rank 3 with distinct centres modulo p, as elements of `field`, one a node.

@@ -4,6 +4,7 @@ use crate::linalg::integer::Integer;
 use crate::linalg::{Field, Ring};
 use std::cmp::Ordering;
 use std::fmt;
+use std::str::FromStr;
 
 /// A rational number in lowest terms with a positive denominator.
 #[derive(Clone, PartialEq, Eq)]
@@ -37,9 +38,89 @@ impl Rational {
         &self.denominator
     }
 
+    /// `mantissa * base^exponent`, base 2 or 10.
+    pub fn scaled(mantissa: Integer, base: u64, exponent: i64) -> Self {
+        let power = power(Integer::from(base), exponent.unsigned_abs());
+        match exponent {
+            0.. => mantissa.mul(&power).into(),
+            _ => Self::reduced(mantissa, power),
+        }
+    }
+
     fn reduced(numerator: Integer, denominator: Integer) -> Self {
         Self::new(numerator, denominator)
             .unwrap_or_else(|| unreachable!("a product of denominators is not zero"))
+    }
+}
+
+fn power(base: Integer, exponent: u64) -> Integer {
+    let mut power = Integer::one();
+    for bit in (0..u64::BITS - exponent.leading_zeros()).rev() {
+        power = power.mul(&power);
+        if exponent >> bit & 1 == 1 {
+            power = power.mul(&base);
+        }
+    }
+    power
+}
+
+/// The largest exponent of ten that is read: those of doubles are below it.
+const MOST_EXPONENT: i64 = 400;
+
+/// A text that is no rational number: neither decimal nor a fraction of two integers, or with an exponent
+/// beyond 400.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ParseRationalError;
+
+impl fmt::Display for ParseRationalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "no decimal number with an exponent up to {MOST_EXPONENT}, and no fraction"
+        )
+    }
+}
+
+impl std::error::Error for ParseRationalError {}
+
+impl FromStr for Rational {
+    type Err = ParseRationalError;
+
+    /// A decimal number of any length, with an exponent or without, or a fraction of two integers.
+    ///
+    /// ```
+    /// use viewcert::linalg::rational::Rational;
+    ///
+    /// let half: Rational = "0.5".parse()?;
+    /// assert_eq!(half, "50e-2".parse()?);
+    /// assert_eq!(half, "1/2".parse()?);
+    /// assert!("nan".parse::<Rational>().is_err() && "1/0".parse::<Rational>().is_err());
+    /// # Ok::<(), viewcert::linalg::rational::ParseRationalError>(())
+    /// ```
+    fn from_str(text: &str) -> Result<Self, ParseRationalError> {
+        let integer = |text: &str| {
+            let text = text
+                .strip_prefix('+')
+                .filter(|rest| !rest.starts_with('-'))
+                .unwrap_or(text);
+            Integer::from_decimal(text).map_err(|_| ParseRationalError)
+        };
+        if let Some((above, below)) = text.split_once('/') {
+            let below = Some(below).filter(|below| !below.starts_with(['-', '+']));
+            let below = integer(below.ok_or(ParseRationalError)?)?;
+            return Self::new(integer(above)?, below).ok_or(ParseRationalError);
+        }
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+        let exponent: i64 = exponent.parse().map_err(|_| ParseRationalError)?;
+        if exponent.abs() > MOST_EXPONENT {
+            return Err(ParseRationalError);
+        }
+        let (whole, part) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        if !part.bytes().all(|byte| byte.is_ascii_digit()) {
+            return Err(ParseRationalError);
+        }
+        let digits = integer(&format!("{whole}{part}"))?;
+        Ok(Self::scaled(digits, 10, exponent - part.len() as i64))
     }
 }
 

@@ -5,6 +5,7 @@
 //! or says nothing. Each line begins with the word that says what it is: `part`, `displacement` or
 //! `position` (docs/input.md); fields, quotes and comments are those of edge lists.
 
+pub(crate) mod cameras;
 mod displacements;
 mod parts;
 mod priors;

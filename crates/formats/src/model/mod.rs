@@ -14,6 +14,8 @@ use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
+use viewcert::linalg::integer::Integer;
+use viewcert::linalg::rational::Rational;
 
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::tracks::{Frames, ModelEncoding as Encoding};
@@ -258,6 +260,32 @@ impl Model {
         &self.known
     }
 
+    /// Rotation (a quaternion, the real part first) and translation of every image, exactly as they are in
+    /// the file.
+    ///
+    /// # Errors
+    /// The first image with a number that is none, by its name.
+    pub fn poses(&self) -> Result<Vec<[Rational; 7]>, String> {
+        let image = |image: &Image| {
+            let numbers: Option<Vec<Rational>> = match self.encoding {
+                Encoding::Binary => {
+                    let (numbers, _) = image.pose.as_chunks::<8>();
+                    numbers
+                        .iter()
+                        .map(|&bytes| exact(f64::from_le_bytes(bytes)))
+                        .collect()
+                }
+                Encoding::Text => {
+                    let text = std::str::from_utf8(&image.pose).ok();
+                    text.and_then(|text| text.split(' ').map(|word| word.parse().ok()).collect())
+                }
+            };
+            let pose = numbers.and_then(|all| all.first_chunk::<7>().cloned());
+            pose.ok_or_else(|| image.name.to_string())
+        };
+        self.images.iter().map(image).collect()
+    }
+
     /// The names of the files that [`write`](Self::write) makes.
     pub fn files(&self) -> Vec<String> {
         let always = [Some(CAMERAS), Some(IMAGES), Some(POINTS)].into_iter();
@@ -325,6 +353,24 @@ fn within(file: &str, fault: Fault) -> Fault {
         part: format!("{file}{}", fault.place),
         problem: Box::new(fault.problem),
     })
+}
+
+/// A double as the rational number that it is; nothing for infinities and what is no number.
+pub(crate) fn exact(number: f64) -> Option<Rational> {
+    let bits = number.to_bits();
+    let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i64, bits & ((1 << 52) - 1));
+    let (mantissa, exponent) = match exponent {
+        0x7ff => return None,
+        0 => (fraction, -1074),
+        _ => (fraction | 1 << 52, exponent - 1075),
+    };
+    let mantissa = Integer::from(mantissa);
+    let mantissa = if number.is_sign_negative() {
+        mantissa.neg()
+    } else {
+        mantissa
+    };
+    Some(Rational::scaled(mantissa, 2, exponent))
 }
 
 #[cfg(test)]

@@ -49,6 +49,33 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
     read_with(bytes, &ListOptions::default())
 }
 
+/// The shape of an array of real numbers in an `.npy` file, and its numbers, rows first. O(bytes).
+///
+/// # Errors
+/// Something else; integers beyond 2^53.
+pub(crate) fn real_numbers(bytes: &[u8]) -> Result<(Vec<u64>, Vec<f64>), Problem> {
+    let mut input = Cursor::new(bytes);
+    let header = Header::read(&mut input)?;
+    if header.fortran && header.shape.len() > 1 {
+        return Err(malformed(
+            "an array with its columns first (save numpy.ascontiguousarray of it)",
+        ));
+    }
+    let is_long = matches!(header.element, Element::Number(b'i' | b'u', 8, _));
+    let mut numbers = Vec::new();
+    numbers::each(&header, &mut input, |number| {
+        if is_long && number.abs() > 9_007_199_254_740_992.0 {
+            return Err(malformed("an integer beyond 2^53"));
+        }
+        numbers.push(number);
+        Ok(())
+    })?;
+    if (input.position() as usize) < bytes.len() {
+        return Err(malformed("bytes follow the array"));
+    }
+    Ok((header.shape, numbers))
+}
+
 /// The same with the options of whoever asks.
 pub(super) fn read_with(bytes: &[u8], options: &ListOptions) -> Result<Parsed, Fault> {
     let fault = |problem| Place::Input.fault(problem);

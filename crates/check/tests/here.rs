@@ -1,0 +1,280 @@
+//! Certificates at given cameras: what is verified, and each condition of section 14 broken once.
+
+use serde_json::{Value, json};
+use viewcert_check::{Failure, HereCertificate, Limits, Strength, VerifiedHere};
+
+fn named(name: &str) -> Value {
+    let path = format!("{}/tests/here/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn check(document: &Value) -> Result<VerifiedHere, Failure> {
+    let certificate = HereCertificate::parse(document.to_string().as_bytes())?;
+    certificate.check_within(None, &Limits::default())
+}
+
+/// A certificate with another value at the place of a JSON pointer.
+fn changed(name: &str, pointer: &str, value: Value) -> Value {
+    let mut document = named(name);
+    let place = document.pointer_mut(pointer).unwrap();
+    assert_ne!(*place, value);
+    *place = value;
+    document
+}
+
+#[track_caller]
+fn refused(words: &str, document: &Value) {
+    let failure = check(document).unwrap_err().to_string();
+    assert!(failure.contains(words), "{failure}");
+}
+
+#[test]
+fn what_is_verified() {
+    for (name, rank, components) in [
+        ("line", 25, 3),
+        ("line-calibrated", 7, 3),
+        ("line-affine", 16, 3),
+        ("matrices", 25, 3),
+        ("far", 29, 1),
+        ("psi", 105, 15),
+        ("digits", 28, 4),
+        ("square", 8, 1),
+    ] {
+        let verified = check(&named(name)).unwrap();
+        assert_eq!(verified.rank, (rank, Strength::Proof), "{name}");
+        assert_eq!(verified.components, (components, Strength::Proof), "{name}");
+        assert_eq!(verified.is_determined, rank == verified.required);
+    }
+    let merge = json!([{"with": [[0, 3], [2, 3]], "at": [0, 2, 3]}]);
+    let body = json!({"seed": [0, 2], "add": [], "merge": merge});
+    check(&changed("line", "/bodies/0", body)).unwrap();
+}
+
+#[test]
+fn the_document() {
+    refused(
+        "version 2 is unknown",
+        &changed("line", "/version", json!(2)),
+    );
+    refused(
+        "`format` is not",
+        &changed("line", "/format", json!("viewcert certificate")),
+    );
+    refused(
+        "is not a model",
+        &changed("line", "/model", json!("conformal")),
+    );
+    refused(
+        "has another hash",
+        &changed("line", "/graph/sha256", json!("0".repeat(64))),
+    );
+}
+
+#[test]
+fn centres() {
+    let zero = json!(["0", "0", "0", "0"]);
+    refused("3 centres for 4 nodes", &{
+        let mut document = named("line");
+        document["centres"].as_array_mut().unwrap().pop();
+        document
+    });
+    refused(
+        "the centre of node 0 is zero",
+        &changed("line", "/centres/0", zero),
+    );
+    refused(
+        "is none of the model",
+        &changed("line-calibrated", "/centres/0/3", json!("0")).with("/centres/0/0", "1"),
+    );
+    refused(
+        "is none of the model",
+        &changed("line-affine", "/centres/0/3", json!("1")),
+    );
+    let same = named("line")["centres"][0].clone();
+    refused("are not apart", &changed("line", "/centres/1", same));
+    refused(
+        "0 cameras for 4 nodes",
+        &changed("matrices", "/cameras", json!([])),
+    );
+    refused(
+        "11 entries instead of twelve",
+        &changed("matrices", "/cameras/0", json!(vec!["1"; 11])),
+    );
+    refused(
+        "the rank is not 3",
+        &changed("matrices", "/cameras/0", json!(vec!["1"; 12])),
+    );
+    refused(
+        "the matrix times the centre is not zero",
+        &changed("matrices", "/cameras/0/3", json!("5")),
+    );
+}
+
+/// A second change.
+trait With {
+    fn with(self, pointer: &str, text: &str) -> Self;
+}
+
+impl With for Value {
+    fn with(mut self, pointer: &str, text: &str) -> Self {
+        *self.pointer_mut(pointer).unwrap() = text.into();
+        self
+    }
+}
+
+#[test]
+fn bodies() {
+    let body =
+        |seed: Value, add: Value, merge: Value| json!({"seed": seed, "add": add, "merge": merge});
+    let at = |body| changed("line", "/bodies/0", body);
+    refused(
+        "are not independent",
+        &at(body(json!([0, 1]), json!([[2, 0, 1]]), json!([]))),
+    );
+    let merge = json!([{"with": [[0, 1], [1, 2]], "at": [0, 2, 1]}]);
+    refused(
+        "are not independent",
+        &at(body(json!([0, 2]), json!([]), merge)),
+    );
+    let merge = json!([{"with": [[0, 1], [1, 2], [2, 3]], "at": [0, 1, 2, 3]}]);
+    refused(
+        "a merge with 3 others",
+        &at(body(json!([0, 3]), json!([]), merge)),
+    );
+    let seed = json!({"bodies": [], "edges": [[0, 1], [0, 2]], "evidence": []});
+    refused("a body by rank", &at(body(seed, json!([]), json!([]))));
+    refused(
+        "there is no node 9",
+        &at(body(json!([0, 2]), json!([[9, 0, 2]]), json!([]))),
+    );
+    let merge = json!([{"with": [[0, 3], [2, 3]], "at": [0, 2, 9]}]);
+    refused(
+        "there is no node 9",
+        &at(body(json!([0, 2]), json!([]), merge)),
+    );
+}
+
+#[test]
+fn ranks() {
+    refused(
+        "the rank modulo the first prime is 14",
+        &changed("line", "/pieces/0/rank", json!(15)),
+    );
+    refused(
+        "a rigid piece has one prime",
+        &changed("square", "/pieces/0/primes", json!(2)),
+    );
+    refused("no primes", &changed("line", "/pieces/0/primes", json!(0)));
+    refused(
+        "is too large",
+        &changed("digits", "/pieces/0/primes", json!(1)),
+    );
+    refused("fewer than two bodies and edges", &{
+        let mut document = named("line");
+        document["pieces"][0]["bodies"] = json!([]);
+        document["pieces"][0]["edges"] = json!([[0, 1]]);
+        document
+    });
+}
+
+/// Fewer primes than a proof takes are an error bound, which the claim has to state.
+#[test]
+fn an_error_bound() {
+    let mut document = changed("digits", "/pieces/0/primes", json!(3));
+    let failure = check(&document).unwrap_err().to_string();
+    let error = failure
+        .split("2^")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap();
+    let error: i64 = error.parse().unwrap();
+    assert!((-150..=-100).contains(&error), "{failure}");
+    for name in ["verdict", "rank", "components"] {
+        document["claim"][name]["strength"] = json!("error-bound");
+        document["claim"][name]["error_log2"] = json!(error);
+    }
+    let verified = check(&document).unwrap();
+    assert_eq!(verified.rank.1, Strength::ErrorBound(error));
+}
+
+#[test]
+fn classes() {
+    let line = named("line")["pieces"][0].clone();
+    let with = |key: &str, value: Value| changed("line", &format!("/pieces/0/{key}"), value);
+    let shifted = |kernel: &Value| -> Value {
+        let entries = kernel.as_array().unwrap().iter().enumerate();
+        entries
+            .map(|(k, _)| json!((k * k % 97).to_string()))
+            .collect()
+    };
+    refused("is no vector of residues", &with("kernel", json!(["0"])));
+    refused(
+        "not a kernel vector",
+        &with("kernel", shifted(&line["kernel"])),
+    );
+    refused(
+        "fewer than two classes",
+        &with("classes", json!([line["classes"][0]])),
+    );
+    refused(
+        "is left out",
+        &with("classes", json!([line["classes"][0], line["classes"][1]])),
+    );
+    let zero: Value = line["kernel"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|_| json!("0"))
+        .collect();
+    refused("two classes move alike", &with("kernel", zero));
+    let split = json!({"rigid": {"bodies": [], "edges": []}, "pieces": []});
+    refused(
+        "a single member is not split",
+        &changed("line", "/pieces/0/classes/0/split", split),
+    );
+    let psi = named("psi");
+    let classes = psi["pieces"][0]["classes"].as_array().unwrap();
+    let split = classes
+        .iter()
+        .position(|class| !class["split"].is_null())
+        .unwrap();
+    let pointer = format!("/pieces/0/classes/{split}/split");
+    refused(
+        "the class is not rigid",
+        &changed("psi", &pointer, Value::Null),
+    );
+}
+
+#[test]
+fn the_claim() {
+    refused(
+        "the verdict is not-determined",
+        &changed("line", "/claim/verdict/value", json!("determined")),
+    );
+    refused(
+        "the rank is 25 of 29",
+        &changed("line", "/claim/rank/required", json!(30)),
+    );
+    refused(
+        "there are 3 components",
+        &changed("line", "/claim/components/value", json!(4)),
+    );
+    refused(
+        "there are 3 components",
+        &changed("line", "/claim/components/strength", json!("error-bound")),
+    );
+}
+
+/// What is too large for the limits is not rejected.
+#[test]
+fn limits() {
+    let certificate = HereCertificate::parse(named("psi").to_string().as_bytes()).unwrap();
+    let limits = Limits {
+        core: 3,
+        ..Limits::default()
+    };
+    let failure = certificate.check_within(None, &limits).unwrap_err();
+    assert!(matches!(failure, Failure::TooLarge(_)), "{failure}");
+}

@@ -1,0 +1,215 @@
+//! What is determined at cameras that are given, in words and in JSON (docs/theory.md, section 16).
+
+use super::{counted, text};
+use serde::Serialize;
+use std::io::{self, Write};
+use viewcert::certificate::hex;
+use viewcert::decide::Verdict;
+use viewcert::geometry::model::Model;
+use viewcert::graph::UnionFind;
+use viewcert::here::{Here, Special};
+use viewcert_formats::NamedGraph;
+
+/// How many special sets, and cameras of one, the text names.
+const SHOWN: usize = 5;
+/// How many special sets JSON holds.
+const LISTED: usize = 100;
+
+/// What a graph determines at given cameras, beside the verdict on generic ones.
+#[derive(Clone, Copy, Debug)]
+pub struct HereReport<'a> {
+    /// The graph.
+    pub input: &'a NamedGraph,
+    /// The verdict on generic cameras.
+    pub verdict: &'a Verdict,
+    /// The answer here.
+    pub here: &'a Here,
+}
+
+impl HereReport<'_> {
+    /// Whether the cameras have a smaller rank than generic ones.
+    pub fn is_degenerate(&self) -> bool {
+        self.here.rank.value < self.verdict.rank
+    }
+
+    /// What the rank means (Theorem 16.1).
+    fn means(&self) -> &'static str {
+        let is_linear = self.here.model != Model::Projective;
+        let is_planar = self.here.is_planar && self.is_connected();
+        match (self.here.is_determined(), is_linear || is_planar) {
+            (true, true) => "these cameras are the only ones",
+            (true, false) => "these cameras are an isolated solution of multiplicity one",
+            (false, true) => "infinitely many sets of cameras",
+            (false, false) if !self.is_degenerate() || !self.is_connected() => {
+                "infinitely many sets of cameras"
+            }
+            (false, false) => "these cameras have a motion of first order",
+        }
+    }
+
+    fn is_connected(&self) -> bool {
+        let mut sets = UnionFind::new(self.input.graph.nodes());
+        let edges = self.input.graph.edges().iter();
+        let joined = edges.filter(|&&(i, j)| sets.union(i as usize, j as usize));
+        joined.count() + 1 >= self.input.graph.nodes()
+    }
+
+    /// Writes lines behind those of the verdict.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_text(&self, out: &mut impl Write, list_components: bool) -> io::Result<()> {
+        let here = self.here;
+        let is = if here.is_determined() {
+            "determined"
+        } else {
+            "not determined"
+        };
+        let strength = text::strength(here.rank.strength);
+        writeln!(out, "  at cameras  {is}: {} ({strength})", self.means())?;
+        if self.is_degenerate() {
+            let rank = self.verdict.rank;
+            writeln!(
+                out,
+                "  degenerate  the rank is {rank} at cameras in general position"
+            )?;
+        }
+        let motions = match here.motions() {
+            0 => String::new(),
+            some => format!("; motions of dimension {some}"),
+        };
+        let (rank, required) = (here.rank.value, here.required);
+        writeln!(
+            out,
+            "  rank here   {rank} of {required} ({strength}){motions}"
+        )?;
+        let components = &here.components;
+        let strength = text::strength(components.strength);
+        let sizes = components.value.iter().take(SHOWN).map(|component| {
+            let pairs = counted(component.edge_count(), "pair");
+            format!("{} / {pairs}", counted(component.node_count(), "camera"))
+        });
+        let more = components.value.len().saturating_sub(SHOWN);
+        let more = (more > 0).then(|| format!("{more} more"));
+        let sizes: Vec<String> = sizes.chain(more).collect();
+        let (count, sizes) = (components.value.len(), sizes.join(", "));
+        writeln!(out, "  parts here  {count} ({strength}): {sizes}")?;
+        if list_components {
+            for (k, component) in (1..).zip(&components.value) {
+                writeln!(
+                    out,
+                    "  part {k} here: {}",
+                    self.names(&component.nodes(), usize::MAX)
+                )?;
+            }
+        }
+        for special in here.special.iter().take(SHOWN) {
+            let (what, nodes) = (place(special, here.model), special.nodes());
+            let count = counted(nodes.len(), "camera");
+            writeln!(
+                out,
+                "  special     {count} {what}: {}",
+                self.names(nodes, SHOWN)
+            )?;
+        }
+        if here.special.len() > SHOWN {
+            let more = here.special.len() - SHOWN;
+            writeln!(
+                out,
+                "  special     {more} more such sets (--json lists them)"
+            )?;
+        }
+        writeln!(out, "  centres     SHA-256 {}", hex(&here.sha256))
+    }
+
+    fn names(&self, nodes: &[u32], most: usize) -> String {
+        let names = nodes.iter().take(most);
+        let names = names.map(|&v| self.input.labels.display(v).to_string());
+        let more = (nodes.len() > most).then(|| "...".to_owned());
+        names.chain(more).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The member of JSON.
+    pub(super) fn line(&self, list_components: bool) -> HereLine {
+        let here = self.here;
+        let labels = |nodes: &[u32]| -> Vec<String> {
+            let label = |&v: &u32| self.input.labels.label(v).into_owned();
+            nodes.iter().map(label).collect()
+        };
+        let components = here.components.value.iter().map(|component| PartLine {
+            nodes: component.node_count(),
+            edges: component.edge_count(),
+            labels: list_components.then(|| labels(&component.nodes())),
+        });
+        let special = here.special.iter().take(LISTED).map(|special| SpecialLine {
+            kind: match special {
+                Special::Coincident(_) => "coincident",
+                Special::Collinear(_) => "collinear",
+                Special::Coplanar(_) => "coplanar",
+            },
+            labels: labels(special.nodes()),
+        });
+        HereLine {
+            determined: here.is_determined(),
+            means: self.means(),
+            degenerate: self.is_degenerate(),
+            strength: here.rank.strength.name(),
+            error_log2: here.rank.strength.error_log2(),
+            rank: here.rank.value,
+            rank_required: here.required,
+            motions: here.motions(),
+            components: components.collect(),
+            components_strength: here.components.strength.name(),
+            special: special.collect(),
+            special_sets: here.special.len(),
+            centres_sha256: hex(&here.sha256),
+        }
+    }
+}
+
+/// Where a special set is.
+fn place(special: &Special, model: Model) -> &'static str {
+    match (special, model) {
+        (Special::Coincident(_), Model::Affine) => "with one viewing direction",
+        (Special::Coincident(_), _) => "at one place",
+        (Special::Collinear(_), Model::Affine) => "with viewing directions along one plane",
+        (Special::Collinear(_), _) => "on one line",
+        (Special::Coplanar(_), _) => "in one plane",
+    }
+}
+
+/// The answer at given cameras, in JSON.
+#[derive(Serialize)]
+pub(super) struct HereLine {
+    determined: bool,
+    means: &'static str,
+    /// Whether the rank is smaller than that of generic cameras.
+    degenerate: bool,
+    strength: &'static str,
+    error_log2: Option<i64>,
+    rank: usize,
+    rank_required: usize,
+    /// Dimension of the motions that are not trivial.
+    motions: usize,
+    components: Vec<PartLine>,
+    components_strength: &'static str,
+    /// The first hundred sets of cameras in special places.
+    special: Vec<SpecialLine>,
+    /// How many there are.
+    special_sets: usize,
+    centres_sha256: String,
+}
+
+#[derive(Serialize)]
+struct PartLine {
+    nodes: usize,
+    edges: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    labels: Option<Vec<String>>,
+}
+
+#[derive(Serialize)]
+struct SpecialLine {
+    kind: &'static str,
+    labels: Vec<String>,
+}
