@@ -99,6 +99,7 @@ impl Here {
                 },
                 components: Valued::new(self.components.clone(), |all| all.len()),
                 solutions: None,
+                base_lines: None,
             },
             bodies: self
                 .contraction
