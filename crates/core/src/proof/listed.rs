@@ -4,6 +4,9 @@
 /// holds both.
 pub(super) type Reason = u32;
 
+/// A node behind the core, and at most two before it, with why.
+pub(super) type Join = (u32, Vec<(u32, Reason)>);
+
 /// A body, node after node.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listed {
@@ -13,8 +16,8 @@ pub(super) struct Listed {
     pub(super) rows: Vec<(u32, u32, u32, Reason)>,
     /// Flows, each with two weights for every row, if the core has its rank by these.
     pub(super) flows: Vec<Vec<[u32; 2]>>,
-    /// The nodes behind the core, each with at most two before it.
-    pub(super) joins: Vec<(u32, Vec<(u32, Reason)>)>,
+    /// The nodes behind the core.
+    pub(super) joins: Vec<Join>,
 }
 
 impl Listed {
@@ -27,7 +30,7 @@ impl Listed {
     /// Whether pairs and bodies that are uniquely determined make it one by the rules of Theorem 4.1;
     /// `sure` says which of those before are.
     fn is_determined(&self, sure: &[bool]) -> bool {
-        let joined = |(at, (_, before)): (usize, &(u32, Vec<(u32, Reason)>))| {
+        let joined = |(at, (_, before)): (usize, &Join)| {
             let mut whys = before.iter().map(|&(_, why)| why as usize);
             before.len() == at.min(2) && whys.all(|why| why == 0 || sure[why - 1])
         };
