@@ -110,6 +110,21 @@ fn centres() {
     );
 }
 
+/// What is zero modulo both primes that are looked at first, and not zero.
+#[test]
+fn a_chart_that_two_primes_do_not_tell() {
+    let product = ((1_u128 << 61) - 1) * ((1 << 31) - 1);
+    let far = changed("line", "/centres/3/3", json!(product.to_string()));
+    refused("the chart cannot be told", &far);
+}
+
+/// Two bodies that share the nodes 0 and 3 are one (rule 2): listed as two, both have the pair in their
+/// frames.
+#[test]
+fn bodies_that_share_two_nodes() {
+    refused("an edge of the core arises twice", &named("diamonds"));
+}
+
 /// A second change.
 trait With {
     fn with(self, pointer: &str, text: &str) -> Self;
