@@ -503,3 +503,24 @@ fn pictures_show_what_there_is() {
         "the page says nothing of the part"
     );
 }
+
+/// A pipe can be read once only: what it holds is found out in reading it.
+#[cfg(unix)]
+#[test]
+fn parts_through_a_pipe() {
+    let files = Files::new("0 1\n1 2\n2 3\n3 0\n", "0 2\n");
+    let graph = files.name("graph.txt");
+    for name in ["/dev/stdin", "-"] {
+        let run = verify_with(b"part 0 2\n", &[&graph, "--given", name]);
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+        let run = verify_with(b"centre 0 1 2 3\n", &[&graph, "--given", name]);
+        assert_eq!(run.code, 2, "{name}");
+        assert!(
+            run.err.contains("cameras are read from a file"),
+            "{name}: {}",
+            run.err
+        );
+        let run = verify_with(b"default known\n", &[&graph, "--intrinsics", name]);
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+    }
+}

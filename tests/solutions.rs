@@ -10,6 +10,18 @@ fn verify(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// The exit code of a script beside the second checker on a file, and what it says.
+fn said_of(script: &str, file: &str) -> (Option<i32>, String) {
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let script = format!(
+        "{}/crates/check/second/{script}",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let run = Command::new(python).args([&script, file]).output().unwrap();
+    let said = [run.stdout, run.stderr].map(|text| String::from_utf8(text).unwrap());
+    (run.status.code(), said.concat())
+}
+
 /// Writes graph6 to a file in a folder and returns its path.
 fn graph_file(folder: &std::path::Path, graph6: &str) -> String {
     let path = folder.join("graph.g6");
@@ -79,15 +91,7 @@ fn a_second_solution_to_look_at() {
             .unwrap()
             .contains("  witness     ")
     );
-    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let script = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/crates/check/second/witness.py"
-    );
-    let checked = || {
-        let run = Command::new(&python).args([script, path]).output().unwrap();
-        (run.status.code(), String::from_utf8(run.stdout).unwrap())
-    };
+    let checked = || said_of("witness.py", path);
     let (code, said) = checked();
     assert_eq!(code, Some(0), "{said}");
     assert!(said.starts_with("VERIFIED"), "{said}");
@@ -149,16 +153,7 @@ fn a_second_scene_to_look_at() {
     let said = String::from_utf8(run.stdout).unwrap();
     let line = "  oriented    1 of 2 real solutions near some cameras, 2 of 2 near others (proved)";
     assert!(said.lines().any(|other| other == line), "{said}");
-    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
-    let script = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/crates/check/second/second_scene.py"
-    );
-    let checked = || {
-        let run = Command::new(&python).args([script, path]).output().unwrap();
-        let said = [run.stdout, run.stderr].map(|text| String::from_utf8(text).unwrap());
-        (run.status.code(), said.concat())
-    };
+    let checked = || said_of("second_scene.py", path);
     let (code, said) = checked();
     assert_eq!(code, Some(0), "{said}");
     assert!(said.starts_with("12 pairs see the same images"), "{said}");

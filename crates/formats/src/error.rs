@@ -138,6 +138,9 @@ pub enum Problem {
     /// A line of such a file that begins with another word.
     #[error("the line begins with `{}`, not with part, displacement or position", shown(.0))]
     NothingGiven(String),
+    /// A camera where none are read: beside other things, or through a pipe.
+    #[error("`{0}` gives a camera, and cameras are read from a file that holds nothing else")]
+    CamerasBeside(String),
     /// Parts and displacements in one such file.
     #[error("known parts stand beside known displacements, and there is no theorem about both")]
     PartsAndDisplacements,
@@ -552,6 +555,9 @@ impl Problem {
             Self::NoNodes | Self::OnlyHead => "give at least one pair of cameras",
             Self::Empty | Self::NothingGiven(_) => {
                 "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"
+            }
+            Self::CamerasBeside(_) => {
+                "write one camera for each of the graph into a file of their own and name it; standard input and pipes do not do"
             }
             Self::PartsAndDisplacements => "leave out one of the two",
             Self::BesideRigs(_) => "leave the rigs out of account (--no-rigs), or what is given",

@@ -80,8 +80,12 @@ pub(crate) struct FocalLengths {
     pub(crate) known: std::collections::BTreeMap<Box<str>, bool>,
 }
 
-/// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none.
+/// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none. What
+/// comes through a pipe can be read once only, and is left to who reads it.
 pub(crate) fn is_database(path: &Path) -> bool {
+    if !path.is_file() {
+        return false;
+    }
     let mut head = [0; MAGIC.len()];
     let read = File::open(path).and_then(|mut file| file.read_exact(&mut head));
     read.is_ok() && head == MAGIC

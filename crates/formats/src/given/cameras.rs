@@ -29,6 +29,9 @@ const POSE: &str = "pose";
 /// A centre (affine model: a viewing direction).
 const CENTRE: &str = "centre";
 
+/// The first words of lines with cameras.
+pub(super) const WORDS: [&str; 3] = [CAMERA, POSE, CENTRE];
+
 /// A camera for each node of a graph.
 #[derive(Clone, Debug)]
 pub struct GivenCameras {
@@ -96,7 +99,7 @@ pub fn centre_error(error: CentreError, input: &NamedGraph) -> String {
 
 /// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), an `.npy` file with an
 /// array (n, 3, 4) of cameras or (n, 3) of centres, or a text whose first word is `camera`, `pose` or
-/// `centre`. Nothing is read from standard input. O(bytes).
+/// `centre`. Nothing is read from standard input and pipes, which can be read once only. O(bytes).
 ///
 /// # Errors
 /// With file and line: numbers that are none, cameras that the graph does not have, or that are missing.
@@ -108,6 +111,8 @@ pub fn read_cameras(
     let name = path.display().to_string();
     let found = if path.is_dir() {
         of_model(&Model::read(path)?, input).map_err(|problem| Place::Input.fault(problem))
+    } else if path == Path::new("-") || !path.is_file() {
+        return Ok(None);
     } else {
         let mut start = [0; 512];
         let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
@@ -119,7 +124,7 @@ pub fn read_cameras(
                 let array = of_array(&bytes, input);
                 array.map_err(|problem| Place::Input.fault(problem))
             })
-        } else if path != Path::new("-") && is_text_of_cameras(path, &start[..count]) {
+        } else if is_text_of_cameras(path, &start[..count]) {
             let read = |text: &mut dyn io::Read| of_text(text, input)?.finish(model, input);
             return read_file(path, read, |given| &mut given.notes).map(Some);
         } else {
@@ -144,7 +149,7 @@ fn is_text_of_cameras(path: &Path, start: &[u8]) -> bool {
         Some(line.split([' ', '\t', ',']).next()?.to_owned())
     };
     let word = first_word(start).or_else(|| first_word(&std::fs::read(path).ok()?));
-    word.is_some_and(|word| [CAMERA, POSE, CENTRE].contains(&&*word))
+    word.is_some_and(|word| WORDS.contains(&&*word))
 }
 
 /// The cameras of a text.

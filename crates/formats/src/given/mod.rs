@@ -115,6 +115,9 @@ pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Given, Fault> {
             PART => parts.take(number, line, fields, cameras)?,
             DISPLACEMENT => displacements.take_pair(number, line, fields, cameras)?,
             POSITION => displacements.take_position(number, line, fields, cameras)?,
+            other if cameras::WORDS.contains(&other) => {
+                return Err(Problem::CamerasBeside(other.to_owned()));
+            }
             other => return Err(Problem::NothingGiven(other.to_owned())),
         }
         match (parts.is_empty(), displacements.is_empty()) {
