@@ -5,13 +5,12 @@ use super::given::{self, GivenArguments};
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
-use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::graph6;
+use viewcert_formats::plain::{lines_of, pairs};
 use viewcert_formats::{NamedGraph, read_graphs};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, TOO_LARGE};
@@ -141,63 +140,4 @@ fn say_notes(input: &NamedGraph) -> Result<()> {
 fn fits(input: &NamedGraph) -> bool {
     let nodes = input.graph.nodes() as u64;
     nodes * nodes.saturating_sub(1) / 12 < LONGEST
-}
-
-/// A graph as pairs: first what its nodes are called, if not by their numbers.
-fn pairs(input: &NamedGraph) -> String {
-    let (graph, mut text) = (&input.graph, String::new());
-    let mut is_alone = vec![true; graph.nodes()];
-    for (node, number) in (0..).zip(0..graph.nodes()) {
-        let (label, number) = (input.labels.label(node), number.to_string());
-        if label != number {
-            text += &format!("# {number} {}\n", on_one_line(&label));
-        }
-    }
-    for &(i, j) in graph.edges() {
-        is_alone[i as usize] = false;
-        is_alone[j as usize] = false;
-        let _ = writeln!(text, "{i} {j}");
-    }
-    for (node, _) in is_alone.iter().enumerate().filter(|(_, alone)| **alone) {
-        let _ = writeln!(text, "{node}");
-    }
-    text
-}
-
-/// A name of which control characters are spelt out.
-fn on_one_line(name: &str) -> String {
-    let mut safe = String::new();
-    for c in name.chars() {
-        if c.is_control() {
-            safe.extend(c.escape_unicode())
-        } else {
-            safe.push(c)
-        }
-    }
-    safe
-}
-
-/// What is given, as both checkers read it: a part on each line, or the hash of displacements.
-fn lines_of(known: &Known) -> String {
-    let line = |part: &[u32]| {
-        let nodes: Vec<String> = part.iter().map(u32::to_string).collect();
-        format!("part {}\n", nodes.join(" "))
-    };
-    match known {
-        Known::Parts(parts) => parts.iter().map(line).collect(),
-        Known::Displacements(known) => format!("displacements {}\n", hex(&known.sha256())),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_name_reaches_into_another_line() {
-        assert_eq!(
-            on_one_line("left \u{e9}\n0 2\r"),
-            "left \u{e9}\\u{a}0 2\\u{d}"
-        );
-    }
 }

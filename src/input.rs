@@ -160,16 +160,6 @@ impl InputArguments {
         }
     }
 
-    /// The options that say which tracks count, as they are written.
-    pub(super) fn words_of_tracks(&self) -> String {
-        let views = self.min_views.map(|count| format!(" --min-views {count}"));
-        let spread = self
-            .max_spread
-            .map(|pixels| format!(" --max-spread {pixels}"));
-        let rigs = self.no_rigs.then(|| " --no-rigs".to_owned());
-        views.into_iter().chain(spread).chain(rigs).collect()
-    }
-
     /// How pairs are read.
     ///
     /// # Errors

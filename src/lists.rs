@@ -3,7 +3,7 @@
 use super::input::InputArguments;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -100,7 +100,7 @@ fn list(
     input: &mut NamedGraph,
     file: &Path,
 ) -> Result<List> {
-    let (images, again) = names(input, file)?;
+    let (images, again) = lists::images(input, file)?;
     if again > 0 {
         let note = format!(
             "{}: {} given again, and counted once",
@@ -144,35 +144,4 @@ fn decided(session: &Session, graph: &Graph) -> Result<Verdict> {
     let question = Question::without_solutions(Model::Calibrated);
     let options = Options::default().question(question);
     Ok(decide(graph, &options.watch(session.shown_watch()))?)
-}
-
-/// The images of a list, increasing, and how many names come again.
-fn names(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
-    let text = std::fs::read_to_string(file);
-    let text = text.with_context(|| format!("{}: cannot be read", file.display()))?;
-    let all = 0..input.graph.nodes() as u32;
-    let nodes: BTreeMap<String, u32> = all
-        .map(|v| (input.labels.label(v).into_owned(), v))
-        .collect();
-    let (mut images, mut again) = (BTreeSet::new(), 0);
-    for (number, line) in (1..).zip(text.lines()) {
-        let name = line.trim();
-        if name.is_empty() {
-            continue;
-        }
-        let Some(&node) = nodes.get(name) else {
-            bail!(
-                "{}:{number}: no image of {} is called {name}; leave it out, or extract and match it",
-                file.display(),
-                input.name
-            );
-        };
-        again += usize::from(!images.insert(node));
-    }
-    ensure!(
-        !images.is_empty(),
-        "{}: the list is empty; put a name on each line",
-        file.display()
-    );
-    Ok((images.into_iter().collect(), again))
 }

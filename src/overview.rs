@@ -5,9 +5,7 @@
 //! once, for its pairs, its tracks and the geometry of single pairs; nobody who wants to write to it is
 //! kept waiting while something is decided.
 
-use super::foreseen::foreseen;
 use super::input::{self, Input, InputArguments, Inputs};
-use super::next::next;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::cell::OnceCell;
@@ -18,13 +16,14 @@ use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
 use viewcert::geometry::model::Model;
-use viewcert::wording::counted;
-use viewcert_advice::{Advice, Request, Shapes};
-use viewcert_formats::colmap::{Database, DatabaseError, DatabaseFacts, Pipeline};
+use viewcert_advice::{Advice, Request, Shapes, foreseen};
+use viewcert_formats::colmap::{Database, DatabaseError};
 use viewcert_formats::error::{Problem, ReadError};
 use viewcert_formats::{NamedGraph, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{Asked, BaseLines, Scope};
+use viewcert_report::database::other_mapper;
+use viewcert_report::next::next;
 use viewcert_report::overview::{Overview, Wanted};
 use viewcert_report::overview_page;
 use viewcert_session::Session;
@@ -282,7 +281,7 @@ fn overview(
         next: Vec::new(),
         time: Duration::ZERO,
     };
-    found.next = next(&arguments.input, path, &found);
+    found.next = next(&arguments.input.of_tracks(), path, &found);
     found.time = start.elapsed();
     if let Some(file) = &arguments.html {
         write_page(session, file, &found)?;
@@ -325,28 +324,4 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }
     notes
-}
-
-/// What the mapper that was not named does otherwise with some of the pairs.
-fn other_mapper(facts: &DatabaseFacts) -> Option<String> {
-    let others = facts.configs.iter();
-    let others = others.filter(|count| !(2..=6).contains(&count.config));
-    match facts.pipeline {
-        Pipeline::Incremental => match others.map(|count| count.used).sum() {
-            0 => None,
-            used => Some(format!(
-                "{} of another configuration than 2 to 6: global mapping takes these only with a \
-                 stored relative pose (--pipeline global)",
-                counted(used, "used pair")
-            )),
-        },
-        Pipeline::Global => match others.map(|count| count.pairs - count.used).sum() {
-            0 => None,
-            unused => Some(format!(
-                "{} of another configuration than 2 to 6: incremental mapping takes those that have \
-                 enough inliers (--pipeline incremental)",
-                counted(unused, "unused pair")
-            )),
-        },
-    }
 }

@@ -26,6 +26,7 @@ pub mod weak;
 
 mod condensation;
 mod folder;
+mod foreseen;
 mod frames;
 #[cfg(test)]
 mod samples;
@@ -33,6 +34,7 @@ mod task;
 mod words;
 
 pub use explain::{Explanation, explain};
+pub use foreseen::foreseen;
 pub use joints::{How, Joint, Joints, Shapes, joints};
 pub use margin::{Margin, Thinning, margin};
 pub use named::Advice;

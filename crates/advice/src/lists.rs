@@ -9,13 +9,15 @@
 //! of that graph have one scale.
 
 use crate::condensation::chain;
-use anyhow::Result;
+use anyhow::{Context, Result, bail, ensure};
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use viewcert::Graph;
 use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
 use viewcert::watch::Watch;
+use viewcert_formats::NamedGraph;
 
 /// A list, and what it determines by itself.
 pub struct List {
@@ -47,6 +49,40 @@ impl List {
     pub fn is_whole(&self) -> bool {
         self.bodies.first() == Some(&self.images)
     }
+}
+
+/// Reads a list of names, one on each line: its images, increasing, and how many names come again.
+///
+/// # Errors
+/// A file that cannot be read or is empty; a name of no image, with its line.
+pub fn images(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
+    let text = std::fs::read_to_string(file);
+    let text = text.with_context(|| format!("{}: cannot be read", file.display()))?;
+    let all = 0..input.graph.nodes() as u32;
+    let nodes: BTreeMap<String, u32> = all
+        .map(|v| (input.labels.label(v).into_owned(), v))
+        .collect();
+    let (mut images, mut again) = (BTreeSet::new(), 0);
+    for (number, line) in (1..).zip(text.lines()) {
+        let name = line.trim();
+        if name.is_empty() {
+            continue;
+        }
+        let Some(&node) = nodes.get(name) else {
+            bail!(
+                "{}:{number}: no image of {} is called {name}; leave it out, or extract and match it",
+                file.display(),
+                input.name
+            );
+        };
+        again += usize::from(!images.insert(node));
+    }
+    ensure!(
+        !images.is_empty(),
+        "{}: the list is empty; put a name on each line",
+        file.display()
+    );
+    Ok((images.into_iter().collect(), again))
 }
 
 /// What lists determine, each by itself and together.

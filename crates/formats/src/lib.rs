@@ -23,6 +23,7 @@ pub mod model;
 pub mod numpy;
 mod own;
 pub mod pairs;
+pub mod plain;
 pub mod read;
 mod read_as;
 mod recognise;

@@ -3,7 +3,7 @@
 use super::counted;
 use serde::Serialize;
 use std::io::{self, Write};
-use viewcert_formats::colmap::{Bin, DatabaseFacts, config_name};
+use viewcert_formats::colmap::{Bin, DatabaseFacts, Pipeline, config_name};
 
 /// How many connected parts are shown with their sizes.
 const SHOWN: usize = 8;
@@ -139,4 +139,28 @@ fn list(out: &mut impl Write, title: &str, items: impl Iterator<Item = String>) 
         return Ok(());
     }
     writeln!(out, "  {title:<12}{}", items.join(", "))
+}
+
+/// What the mapper that was not named does otherwise with some of the pairs.
+pub fn other_mapper(facts: &DatabaseFacts) -> Option<String> {
+    let others = facts.configs.iter();
+    let others = others.filter(|count| !(2..=6).contains(&count.config));
+    match facts.pipeline {
+        Pipeline::Incremental => match others.map(|count| count.used).sum() {
+            0 => None,
+            used => Some(format!(
+                "{} of another configuration than 2 to 6: global mapping takes these only with a \
+                 stored relative pose (--pipeline global)",
+                counted(used, "used pair")
+            )),
+        },
+        Pipeline::Global => match others.map(|count| count.pairs - count.used).sum() {
+            0 => None,
+            unused => Some(format!(
+                "{} of another configuration than 2 to 6: incremental mapping takes those that have \
+                 enough inliers (--pipeline incremental)",
+                counted(unused, "unused pair")
+            )),
+        },
+    }
 }

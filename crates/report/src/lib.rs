@@ -22,6 +22,7 @@ mod mappers;
 pub mod merge;
 pub mod models;
 mod narrow;
+pub mod next;
 mod noticed;
 pub mod overview;
 pub mod overview_page;

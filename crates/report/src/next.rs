@@ -1,20 +1,18 @@
 //! The commands that lead on from an overview.
 
-use super::input::InputArguments;
+use crate::overview::{Next, Overview};
 use std::path::Path;
 use viewcert_advice::export::shell;
-use viewcert_formats::ReadOptions;
-use viewcert_report::overview::{Next, Overview};
+use viewcert_formats::{ReadOptions, TrackOptions};
 
-/// Commands that lead on from here.
-pub(super) fn next(arguments: &InputArguments, path: &Path, found: &Overview) -> Vec<Next> {
+/// Commands that lead on from here, about a file that was read in this way.
+pub fn next(options: &ReadOptions, path: &Path, found: &Overview) -> Vec<Next> {
     let with_tracks = found.tracks.is_some();
-    let (graph, tracks) = if with_tracks {
-        (" --tracks", arguments.words_of_tracks())
-    } else {
-        (" --model calibrated", String::new())
+    let (graph, tracks) = match options.tracks {
+        Some(tracks) if with_tracks => (" --tracks", words_of_tracks(tracks)),
+        _ => (" --model calibrated", String::new()),
     };
-    let read = options_of(&arguments.read_options());
+    let read = options_of(options);
     let file = shell(&path.display().to_string());
     let command = |verb: &str, graph: &str, what: &str, purpose: &'static str| Next {
         command: format!("verify {verb} {file}{graph}{read}{what}"),
@@ -67,6 +65,21 @@ pub(super) fn next(arguments: &InputArguments, path: &Path, found: &Overview) ->
     }
     next.extend(margin);
     next
+}
+
+/// The options that say which tracks count, as they are written.
+fn words_of_tracks(read: TrackOptions) -> String {
+    let (default, mut text) = (TrackOptions::default(), String::new());
+    if read.min_views != default.min_views {
+        text += &format!(" --min-views {}", read.min_views);
+    }
+    if read.max_spread != default.max_spread {
+        text += &format!(" --max-spread {}", read.max_spread);
+    }
+    if !read.rigs {
+        text += " --no-rigs";
+    }
+    text
 }
 
 /// The options by which graphs were read, as they are written.

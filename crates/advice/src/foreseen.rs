@@ -1,9 +1,9 @@
 //! What mappers will probably do with a database: the simulation, and its geometry read on demand.
 
+use crate::mapper::{Estimate, Foreseen, Geometry, estimate, foresee};
+use crate::special::{Narrow, narrow};
 use anyhow::{Context, Result};
 use viewcert::Verdict;
-use viewcert_advice::mapper::{Estimate, Foreseen, Geometry, estimate, foresee};
-use viewcert_advice::special::{Narrow, narrow};
 use viewcert_formats::NamedGraph;
 use viewcert_formats::colmap::{Database, Views};
 
@@ -13,7 +13,7 @@ use viewcert_formats::colmap::{Database, Views};
 ///
 /// # Errors
 /// A database that cannot be read, or was written to meanwhile.
-pub(super) fn foreseen(
+pub fn foreseen(
     database: Option<&Database>,
     pairs: &NamedGraph,
     tracks: Option<(&NamedGraph, &Verdict)>,
