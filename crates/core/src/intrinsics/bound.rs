@@ -1,14 +1,14 @@
-//! What moves alike in one motion, and what counting says of it (docs/theory.md, Theorems 17.7 and
-//! 17.8).
+//! What moves alike in one motion, and what counting says of it (docs/theory.md, Theorems 17.7,
+//! 17.8 and 17.14).
 //!
 //! In: members and a motion. Out: blocks and groups, the bound that they give, metric components and
 //! the nodes whose intrinsics are determined.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::members::Members;
 use super::system::Moved;
-use super::{Class, MetricComponent};
+use super::{Class, MetricComponent, Sensors};
 use crate::graph::Graph;
 
 /// Members and nodes that move alike in a motion.
@@ -46,37 +46,54 @@ impl Alike {
         }
     }
 
-    /// The bound of Theorem 17.7.
-    pub(super) fn bound(&self, members: &Members, classes: &[Class]) -> usize {
-        let mut of_groups = vec![0; self.groups];
-        for (class, group) in classes.iter().zip(&self.group) {
-            if let Some(group) = *group {
-                of_groups[group] += 3 + class.unknowns();
-            }
+    /// The bound of Theorems 17.7 and 17.14.
+    pub(super) fn bound(&self, members: &Members, sensors: &Sensors) -> usize {
+        let is_determined = self.determined_sensors(sensors);
+        let mut sizes = vec![0; self.groups];
+        for &group in self.group.iter().flatten() {
+            sizes[group] += 1;
         }
-        let of_groups = of_groups.iter().map(|sum| sum - 3);
+        let of_groups = sizes.iter().map(|size| 3 * (size - 1));
         let of_blocks = self.blocks.iter().map(|block| {
             let nodes = nodes_of(members, block);
             let mut met: BTreeMap<usize, usize> = BTreeMap::new();
+            let mut others = BTreeSet::new();
             let mut sum = 0;
             for &v in &nodes {
                 match self.group[v as usize] {
                     Some(group) => *met.entry(group).or_default() += 1,
-                    None => sum += 6 + classes[v as usize].unknowns(),
+                    None => {
+                        others.insert(sensors.of_node(v as usize));
+                        sum += 6;
+                    }
                 }
             }
+            let others = others.into_iter().filter(|&s| !is_determined[s]);
+            sum += others.map(|s| sensors.class(s).unknowns()).sum::<usize>();
             sum += met.values().map(|count| 3 * (count + 1)).sum::<usize>();
             (sum - 7).min(11 * nodes.len() - 15)
         });
-        of_groups.chain(of_blocks).sum()
+        let of_sensors = sensors.intrinsics_where(|sensor| is_determined[sensor]);
+        of_sensors + of_groups.chain(of_blocks).sum::<usize>()
+    }
+
+    /// For each sensor whether a node of it is in a group: then its intrinsics do not move.
+    fn determined_sensors(&self, sensors: &Sensors) -> Vec<bool> {
+        let mut is_determined = vec![false; sensors.count()];
+        for (v, group) in self.group.iter().enumerate() {
+            is_determined[sensors.of_node(v)] |= group.is_some();
+        }
+        is_determined
     }
 
     /// For each node whether its intrinsics are determined; those of known cameras are.
-    pub(super) fn determined(&self, classes: &[Class]) -> Vec<bool> {
-        let nodes = classes.iter().zip(&self.group);
-        nodes
-            .map(|(&class, group)| class == Class::Known || group.is_some())
-            .collect()
+    pub(super) fn determined(&self, sensors: &Sensors) -> Vec<bool> {
+        let is_determined = self.determined_sensors(sensors);
+        let of_node = |v: usize| {
+            let sensor = sensors.of_node(v);
+            is_determined[sensor] || sensors.class(sensor) == Class::Known
+        };
+        (0..sensors.nodes()).map(of_node).collect()
     }
 
     /// The blocks that are metric, the largest first.

@@ -1,9 +1,9 @@
 //! Rigid bodies that become metric and grow (docs/theory.md, Theorems 17.3 and 17.5).
 //!
-//! In: a projective verdict and classes. Out: the members, bodies and loose edges, whether they are
+//! In: a projective verdict and sensors with their classes. Out: the members, bodies and loose edges, whether they are
 //! metric, and the clusters of metric ones that hang together, which turn alike.
 
-use super::Class;
+use super::Sensors;
 use crate::contract::Contraction;
 use crate::decide::Verdict;
 use crate::geometry::model::Model;
@@ -29,12 +29,12 @@ pub(super) struct Members {
 }
 
 impl Members {
-    pub(super) fn new(graph: &Graph, verdict: &Verdict, classes: &[Class]) -> Self {
+    pub(super) fn new(graph: &Graph, verdict: &Verdict, sensors: &Sensors) -> Self {
         let rigid = verdict.components.iter().map(|found| found.nodes());
         let mut bodies: Vec<Vec<u32>> = rigid.filter(|nodes| nodes.len() > 2).collect();
         loop {
             let members = contracted(graph, bodies, Model::Projective);
-            let metric = metric(&members, classes);
+            let metric = metric(&members, sensors);
             let (of_metric, others): (Vec<_>, Vec<_>) =
                 members.into_iter().zip(metric).partition(|&(_, is)| is);
             let (of_metric, others) = (nodes(of_metric), nodes(others));
@@ -109,22 +109,17 @@ fn joined(count: u32, metric: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     contracted(&graph, bodies, Model::Calibrated)
 }
 
-/// Which members are metric, where nodes of metric ones are as good as known cameras (Theorem 17.3).
-fn metric(members: &[Vec<u32>], classes: &[Class]) -> Vec<bool> {
-    let mut of_node = vec![Vec::new(); classes.len()];
+/// Which members are metric, where the sensors of metric ones are known (Theorems 17.3 and 17.12).
+fn metric(members: &[Vec<u32>], sensors: &Sensors) -> Vec<bool> {
+    let mut of_sensor = vec![Vec::new(); sensors.count()];
+    let mut sums = Vec::with_capacity(members.len());
     for (k, nodes) in members.iter().enumerate() {
-        for &v in nodes {
-            of_node[v as usize].push(k);
+        let (conditions, of_member) = sensors.conditions(nodes);
+        sums.push(conditions);
+        for sensor in of_member {
+            of_sensor[sensor].push(k);
         }
     }
-    let mut conditions: Vec<usize> = classes.iter().map(|class| class.conditions()).collect();
-    let sum = |nodes: &[u32], conditions: &[usize]| -> usize {
-        nodes.iter().map(|&v| conditions[v as usize]).sum()
-    };
-    let mut sums: Vec<usize> = members
-        .iter()
-        .map(|nodes| sum(nodes, &conditions))
-        .collect();
     let mut next: Vec<usize> = (0..members.len()).filter(|&k| sums[k] >= ENOUGH).collect();
     let mut is_metric = vec![false; members.len()];
     while let Some(k) = next.pop() {
@@ -132,12 +127,10 @@ fn metric(members: &[Vec<u32>], classes: &[Class]) -> Vec<bool> {
             continue;
         }
         for &v in &members[k] {
-            let more = Class::Known.conditions() - conditions[v as usize];
-            if more == 0 {
-                continue;
-            }
-            conditions[v as usize] += more;
-            for &other in &of_node[v as usize] {
+            let sensor = sensors.of_node(v as usize);
+            let more = sensors.class(sensor).unknowns();
+            // Only once: a sensor that is known then is in no list any more.
+            for other in std::mem::take(&mut of_sensor[sensor]) {
                 sums[other] += more;
                 if sums[other] >= ENOUGH {
                     next.push(other);

@@ -8,14 +8,18 @@
 //!
 //! ```text
 //! metric(graph, classes)
-//!   members    rigid bodies grow, become metric, and grow again      theory 17.3, 17.5
-//!   system     what they share, at drawn centres and axes            17.6, 17.9
-//!   bound      what moves alike in one motion, counted               17.7, 17.8
+//!   sensors    which images have the same intrinsics                 theory 17.11
+//!   members    rigid bodies grow, become metric, and grow again      17.3, 17.5, 17.12
+//!   system     what they share, at drawn centres and axes            17.6, 17.9, 17.13
+//!   bound      what moves alike in one motion, counted               17.7, 17.8, 17.14
 //! ```
 
 mod bound;
 mod members;
+mod sensors;
 mod system;
+
+pub use sensors::Sensors;
 
 use crate::decide::Verdict;
 use crate::geometry::draw::DrawKey;
@@ -103,6 +107,8 @@ pub struct Metric {
     pub conditions: usize,
     /// How many unknowns the system has that was eliminated.
     pub unknowns: usize,
+    /// What the degree of its entries, as polynomials in what is drawn, is not above.
+    pub degree: usize,
 }
 
 impl Metric {
@@ -118,16 +124,15 @@ impl Metric {
     }
 
     /// An upper bound for the probability, over the draws, that the rank is larger than said, as its
-    /// negative logarithm to the base 2; `None` if it is proved. A minor of the system has the degree 2
-    /// for each unknown at most (Theorem 17.6), and the prime is 2^61 - 1 (Schwartz 1980).
+    /// negative logarithm to the base 2; `None` if it is proved. A minor of the system has the degree of
+    /// an entry for each unknown at most (Theorems 17.6 and 17.13), and the prime is 2^61 - 1 (Schwartz 1980).
     pub fn error_bits(&self) -> Option<u32> {
-        let degree = 2 * self.unknowns.max(1) as u64;
+        let degree = (self.degree * self.unknowns.max(1)) as u64;
         (!self.is_proved()).then(|| 60_u32.saturating_sub(degree.ilog2()))
     }
 
-    /// Asks what classes of cameras add to the verdict of the projective model on a graph. The cost is
-    /// that of a few contractions, and of an elimination with 15 columns for each member that is not
-    /// metric and 4 for each other.
+    /// Asks what classes of cameras add to the verdict of the projective model on a graph, where each
+    /// node has a sensor of its own; otherwise as [`Metric::with_sensors`].
     ///
     /// # Errors
     /// If the work was stopped.
@@ -141,17 +146,36 @@ impl Metric {
         seed: u64,
         watch: &Watch,
     ) -> Result<Self, Stopped> {
-        assert_eq!(classes.len(), graph.nodes(), "a class for each node");
+        Self::with_sensors(graph, verdict, &Sensors::own(classes), seed, watch)
+    }
+
+    /// Asks what the intrinsics of sensors add to the verdict of the projective model on a graph. The
+    /// cost is that of a few contractions, and of an elimination with 15 columns for each member that is
+    /// not metric and 4 for each other.
+    ///
+    /// # Errors
+    /// If the work was stopped.
+    ///
+    /// # Panics
+    /// If there is not one sensor for each node, or the verdict is of another model or graph.
+    pub fn with_sensors(
+        graph: &Graph,
+        verdict: &Verdict,
+        sensors: &Sensors,
+        seed: u64,
+        watch: &Watch,
+    ) -> Result<Self, Stopped> {
+        assert_eq!(sensors.nodes(), graph.nodes(), "a sensor for each node");
         assert_eq!(verdict.model, Model::Projective, "the projective verdict");
-        let members = Members::new(graph, verdict, classes);
-        let all: usize = classes.iter().map(|class| 6 + class.unknowns()).sum();
-        let held = |v: usize| !members.of_node[v].is_empty();
-        let alone = (0..graph.nodes()).filter(|&v| !held(v));
-        let alone: usize = alone.map(|v| 6 + classes[v].unknowns()).sum();
+        let members = Members::new(graph, verdict, sensors);
+        let nodes = 0..graph.nodes();
+        let all = sensors.unknowns(nodes.clone());
+        let held = nodes.filter(|&v| !members.of_node[v].is_empty());
+        let of_held = sensors.unknowns(held);
         let required = all.saturating_sub(7);
-        let conditions = classes.iter().map(|class| class.conditions()).sum();
+        let every: Vec<u32> = (0..graph.nodes() as u32).collect();
         let mut found: Option<(usize, usize, Alike)> = None;
-        let mut unknowns = 0;
+        let (mut unknowns, mut degree) = (0, 0);
         for draw in 0..DRAWS {
             let key = DrawKey {
                 graph_sha256: verdict.sha256,
@@ -159,11 +183,12 @@ impl Metric {
                 seed,
                 draw,
             };
-            let moved = System::new(&members, classes, &key).motion(watch)?;
-            unknowns = moved.columns;
-            let rank = all - alone - moved.dimension;
+            let system = System::new(&members, sensors, &key);
+            let moved = system.motion(watch)?;
+            (unknowns, degree) = (moved.columns, system.degree());
+            let rank = of_held - moved.dimension;
             let alike = Alike::new(&members, &moved);
-            let bound = alike.bound(&members, classes).min(required);
+            let bound = alike.bound(&members, sensors).min(required);
             // A larger rank is nearer to the generic one, and its motions are those that there are.
             found = Some(match found {
                 Some((before, at_most, alike)) if before >= rank => {
@@ -185,9 +210,10 @@ impl Metric {
             required,
             other_pairs: graph.edges().len() - in_components,
             components,
-            determined: alike.determined(classes),
-            conditions,
+            determined: alike.determined(sensors),
+            conditions: sensors.conditions(&every).0,
             unknowns,
+            degree,
         })
     }
 }

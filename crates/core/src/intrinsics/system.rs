@@ -1,11 +1,12 @@
-//! What members share at drawn centres and axes, modulo a prime (docs/theory.md, Theorem 17.6).
+//! What members share at drawn centres and axes, modulo a prime (docs/theory.md, Theorems 17.6
+//! and 17.13).
 //!
-//! In: members, classes, the key of a draw. Out: the dimension of the motions, and one of them.
+//! In: members, sensors, the key of a draw. Out: the dimension of the motions, and one of them.
 
 use std::collections::BTreeMap;
 
-use super::Class;
 use super::members::Members;
+use super::{Class, Sensors};
 use crate::geometry::draw::DrawKey;
 use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
@@ -22,20 +23,32 @@ const OF_MEMBER: usize = 15;
 /// The entries of a matrix that are not on its diagonal, as `(a, b)` with a < b.
 const OFF_DIAGONAL: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
+/// The entries of d(log K) of a sensor, modulo skew matrices and multiples of I: the first 1, 3 or 5.
+const VELOCITIES: [(usize, usize); 5] = [(2, 2), (0, 2), (1, 2), (0, 0), (0, 1)];
+
+/// Rows or columns.
+type Square = [[u64; 3]; 3];
+
 /// A linear form, by columns.
 type Form = BTreeMap<usize, u64>;
 
 /// Members at drawn centres and axes.
 pub(super) struct System<'a> {
     members: &'a Members,
-    classes: &'a [Class],
+    sensors: &'a Sensors,
     field: PrimeField,
     key: DrawKey,
     centres: Vec<[u64; 3]>,
     axes: Vec<[u64; 3]>,
+    /// How each node is turned: the vector part of a quaternion, whose real part is 1.
+    turned: Vec<[u64; 3]>,
+    /// Of which sensors two images or more are in members.
+    is_shared: Vec<bool>,
+    /// Which sensors have an image in a metric member.
+    is_known: Vec<bool>,
     /// The first column of each member, behind those of the clusters.
     first: Vec<usize>,
-    /// The first column of what is not known of the intrinsics of a node.
+    /// The first column of what is not known of the intrinsics of a sensor.
     intrinsics: Vec<usize>,
     columns: usize,
 }
@@ -53,12 +66,23 @@ pub(super) struct Moved {
 }
 
 impl<'a> System<'a> {
-    pub(super) fn new(members: &'a Members, classes: &'a [Class], key: &DrawKey) -> Self {
+    pub(super) fn new(members: &'a Members, sensors: &'a Sensors, key: &DrawKey) -> Self {
         let field = PrimeField::mersenne61();
         let mut random = key.residues(&field);
-        let mut vector = || -> [u64; 3] { [random(), random(), random()] };
-        let centres = classes.iter().map(|_| vector()).collect();
-        let axes = classes.iter().map(|_| vector()).collect();
+        let mut vectors = || -> Vec<[u64; 3]> {
+            let vectors = (0..sensors.nodes()).map(|_| [random(), random(), random()]);
+            vectors.collect()
+        };
+        let (centres, axes) = (vectors(), vectors());
+        let mut images = vec![0; sensors.count()];
+        let mut is_known = vec![false; sensors.count()];
+        for (v, held) in members.of_node.iter().enumerate() {
+            if let Some(&first) = held.first() {
+                images[sensors.of_node(v)] += 1;
+                is_known[sensors.of_node(v)] |= members.all[first].cluster.is_some();
+            }
+        }
+        let is_shared: Vec<bool> = images.iter().map(|&count| count > 1).collect();
         let mut columns = OF_CLUSTER * members.clusters;
         let mut next = |count: usize| {
             columns += count;
@@ -69,35 +93,42 @@ impl<'a> System<'a> {
             None => OF_MEMBER,
         });
         let first = widths.map(&mut next).collect();
-        let mut system = Self {
+        let widths = (0..sensors.count()).map(|sensor| match sensors.class(sensor) {
+            _ if is_known[sensor] || images[sensor] == 0 => 0,
+            Class::Unknown if !is_shared[sensor] => 0,
+            class => class.unknowns(),
+        });
+        let intrinsics = widths.map(&mut next).collect();
+        Self {
             members,
-            classes,
+            sensors,
             field,
             key: *key,
             centres,
             axes,
+            turned: vectors(),
+            is_shared,
+            is_known,
             first,
-            intrinsics: Vec::new(),
-            columns: 0,
-        };
-        let nodes = 0..classes.len();
-        let widths = nodes.map(|v| {
-            if system.is_bound(v) {
-                classes[v].unknowns()
-            } else {
-                0
-            }
-        });
-        system.intrinsics = widths.map(&mut next).collect();
-        system.columns = columns;
-        system
+            intrinsics,
+            columns,
+        }
+    }
+
+    /// What the degree of an entry in the drawn numbers is not above.
+    pub(super) fn degree(&self) -> usize {
+        if self.is_shared.contains(&true) { 5 } else { 2 }
     }
 
     /// Whether the class of a node says something that its members do not.
     fn is_bound(&self, v: usize) -> bool {
+        let sensor = self.sensors.of_node(v);
+        let says = self.sensors.class(sensor) != Class::Unknown
+            || self.is_shared[sensor]
+            || self.is_known[sensor];
         let first = self.members.of_node[v].first();
         let is_metric = |&member: &usize| self.members.all[member].cluster.is_some();
-        self.classes[v] != Class::Unknown && first.is_some_and(|first| !is_metric(first))
+        says && first.is_some_and(|first| !is_metric(first))
     }
 
     /// The motions.
@@ -123,7 +154,7 @@ impl<'a> System<'a> {
                 _ => value(self.w(k, at - 12)),
             })
         });
-        let turns = (0..self.classes.len()).map(|v| {
+        let turns = (0..self.sensors.nodes()).map(|v| {
             let &member = self.members.of_node[v].first()?;
             let m = |a: usize, b: usize| value(self.m(member, v, a, b));
             let stays = OFF_DIAGONAL
@@ -182,37 +213,82 @@ impl<'a> System<'a> {
         }
     }
 
-    /// sym_0 of M is r u^T + u r^T, with u a multiple of the axis r if the focal length alone is
-    /// unknown, and 0 if nothing is (17.1).
+    /// sym_0 of M is a combination of the velocities of its intrinsics (17.1), (17.4).
     fn in_class(&self, v: usize, member: usize, rows: &mut Vec<SparseRow>) {
         let f = &self.field;
-        let r = &self.axes[v];
-        let column = self.intrinsics[v];
-        // x u_a.
-        let u = |a: usize, x: u64| -> Option<(usize, u64)> {
-            match self.classes[v] {
-                Class::Known | Class::Unknown => None,
-                Class::Focal => Some((column, f.times(x, r[a]))),
-                Class::FocalAndPoint => Some((column + a, x)),
+        let (factor, velocities) = self.velocities(v);
+        let mut of = |form: Form, entry: &dyn Fn(&Square) -> u64| {
+            let mut sum = Form::new();
+            self.add(&mut sum, factor, &form);
+            for (column, velocity) in &velocities {
+                let term = [(*column, f.negate(entry(velocity)))].into();
+                self.add(&mut sum, f.one(), &term);
             }
-        };
-        let mut of = |mut form: Form, terms: [(usize, u64); 2]| {
-            for (a, x) in terms {
-                let term = u(a, x).into_iter().collect();
-                self.add(&mut form, f.one(), &term);
-            }
-            rows.push(row(form));
+            rows.push(row(sum));
         };
         for (a, b) in OFF_DIAGONAL {
             let mut form = self.m(member, v, a, b);
             self.add(&mut form, f.one(), &self.m(member, v, b, a));
-            of(form, [(b, f.negate(r[a])), (a, f.negate(r[b]))]);
+            of(form, &|s| f.plus(s[a][b], s[b][a]));
         }
         for a in 1..3 {
             let mut form = self.m(member, v, 0, 0);
             self.add(&mut form, f.from_i64(-1), &self.m(member, v, a, a));
-            of(form, [(0, f.negate(r[0])), (a, r[a])]);
+            of(form, &|s| f.plus(s[0][0], f.negate(s[a][a])));
         }
+    }
+
+    /// How sym_0 of M may move, by columns, and a factor of M: r u^T + u r^T for the axis r, with u a
+    /// multiple of r if the focal length alone is unknown; what is shared is turned to the axes of its
+    /// image, where the factor makes up for rows that are not of length 1.
+    fn velocities(&self, v: usize) -> (u64, Vec<(usize, Square)>) {
+        let f = &self.field;
+        let sensor = self.sensors.of_node(v);
+        let column = self.intrinsics[sensor];
+        let class = match self.is_known[sensor] {
+            true => Class::Known,
+            false => self.sensors.class(sensor),
+        };
+        let symmetric = |r: &[u64; 3], u: &[u64; 3]| -> Square {
+            let entry = |a: usize, b: usize| f.plus(f.times(r[a], u[b]), f.times(u[a], r[b]));
+            std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+        };
+        if self.is_shared[sensor] {
+            let (length, rows) = self.rotation(v);
+            let of = VELOCITIES.map(|(i, j)| symmetric(&rows[i], &rows[j]));
+            let of = (column..).zip(of).take(class.unknowns());
+            return (f.times(length, length), of.collect());
+        }
+        let r = &self.axes[v];
+        let unit = |a: usize| std::array::from_fn(|b| u64::from(a == b));
+        let of = match class {
+            Class::Known | Class::Unknown => Vec::new(),
+            Class::Focal => vec![(column, symmetric(r, r))],
+            Class::FocalAndPoint => (0..3)
+                .map(|a| (column + a, symmetric(r, &unit(a))))
+                .collect(),
+        };
+        (f.one(), of)
+    }
+
+    /// The square of the length of the quaternion (1, q), and the matrix of its rotation times that
+    /// (Cayley).
+    fn rotation(&self, v: usize) -> (u64, Square) {
+        let f = &self.field;
+        let q = &self.turned[v];
+        let two = |x: u64| f.plus(x, x);
+        let square = q.iter().fold(0, |sum, &x| f.plus(sum, f.times(x, x)));
+        // (1 - |q|^2) I + 2 q q^T + 2 [q]_x.
+        let entry = |a: usize, b: usize| {
+            let both = two(f.times(q[a], q[b]));
+            match (b + 3 - a) % 3 {
+                0 => f.plus(both, f.plus(f.one(), f.negate(square))),
+                1 => f.plus(both, f.negate(two(q[3 - a - b]))),
+                _ => f.plus(both, two(q[3 - a - b])),
+            }
+        };
+        let rows = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
+        (f.plus(f.one(), square), rows)
     }
 
     /// Entry (a, b) of A - c_v w^T of a member.

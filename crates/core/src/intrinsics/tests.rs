@@ -11,6 +11,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::ops::{Add, Mul, Sub};
 
+mod sensors;
+
 const P: u64 = 2_147_483_629;
 
 /// A number and its derivative, modulo P.
@@ -151,18 +153,46 @@ fn fundamental(one: &[[Dual; 4]; 3], other: &[[Dual; 4]; 3]) -> [Dual; 9] {
 
 /// The rank of the differential of all F up to scale.
 fn rank_of_differential(pairs: &[(u32, u32)], classes: &[Class], seed: u64) -> usize {
+    rank_with_sensors(pairs, &Sensors::own(classes), seed)
+}
+
+/// The same where images of one sensor have one K.
+fn rank_with_sensors(pairs: &[(u32, u32)], sensors: &Sensors, seed: u64) -> usize {
+    rank_where(pairs, sensors, seed, |_| ())
+}
+
+/// The same where something of the drawn cameras is set.
+fn rank_where(
+    pairs: &[(u32, u32)],
+    sensors: &Sensors,
+    seed: u64,
+    set: impl Fn(&mut Parameters),
+) -> usize {
     let mut draw = ChaCha8Rng::seed_from_u64(seed);
     let mut random = || draw.random_range(1..P);
-    let cameras: Vec<Parameters> = classes
-        .iter()
-        .map(|&class| Parameters::draw(class, &mut random))
+    let mut cameras: Vec<Parameters> = (0..sensors.nodes())
+        .map(|v| Parameters::draw(sensors.class_of_node(v), &mut random))
         .collect();
-    let mut first = vec![0];
-    for camera in &cameras {
-        first.push(first.last().unwrap() + camera.count());
+    let mut columns = 0;
+    let mut next = |count: usize| {
+        columns += count;
+        columns - count
+    };
+    let mut first_of_sensor = vec![None; sensors.count()];
+    // The column of each parameter of each node.
+    let mut place: Vec<Vec<usize>> = Vec::new();
+    for v in 0..sensors.nodes() {
+        let inner = sensors.class_of_node(v).unknowns();
+        let (column, same) =
+            *first_of_sensor[sensors.of_node(v)].get_or_insert_with(|| (next(inner), v));
+        cameras[v].intrinsics = cameras[same].intrinsics.clone();
+        cameras[v].constant = cameras[same].constant;
+        set(&mut cameras[v]);
+        let pose = next(6);
+        place.push((column..column + inner).chain(pose..pose + 6).collect());
     }
+    let first_scale = next(pairs.len());
     let field = PrimeField::new(P).unwrap();
-    let columns = first[cameras.len()] + pairs.len();
     let mut matrix = Matrix::new(
         9 * pairs.len(),
         columns,
@@ -171,28 +201,33 @@ fn rank_of_differential(pairs: &[(u32, u32)], classes: &[Class], seed: u64) -> u
     for (e, &(i, j)) in pairs.iter().enumerate() {
         let (i, j) = (i as usize, j as usize);
         let (pi, pj) = (cameras[i].camera(None), cameras[j].camera(None));
-        let mut store = |column: usize, values: [u64; 9]| {
+        let mut add = |column: usize, values: [u64; 9]| {
             for (r, value) in values.into_iter().enumerate() {
-                matrix[(9 * e + r, column)] = field.from_u64(value);
+                let entry = &mut matrix[(9 * e + r, column)];
+                *entry = field.plus(*entry, field.from_u64(value));
             }
         };
-        store(first[cameras.len()] + e, fundamental(&pi, &pj).map(|x| x.0));
+        add(first_scale + e, fundamental(&pi, &pj).map(|x| x.0));
         for k in 0..cameras[i].count() {
             let moved = cameras[i].camera(Some(k));
-            store(first[i] + k, fundamental(&moved, &pj).map(|x| x.1));
+            add(place[i][k], fundamental(&moved, &pj).map(|x| x.1));
         }
         for k in 0..cameras[j].count() {
             let moved = cameras[j].camera(Some(k));
-            store(first[j] + k, fundamental(&pi, &moved).map(|x| x.1));
+            add(place[j][k], fundamental(&pi, &moved).map(|x| x.1));
         }
     }
     textbook::eliminate(&field, &matrix).rank() - pairs.len()
 }
 
 fn metric_of(graph: &Graph, classes: &[Class]) -> Metric {
+    with_sensors(graph, &Sensors::own(classes))
+}
+
+fn with_sensors(graph: &Graph, sensors: &Sensors) -> Metric {
     let question = Question::from(Projective::with_solutions(CountSolutions::Off));
     let verdict = decide(graph, &Options::default().question(question)).unwrap();
-    Metric::new(graph, &verdict, classes, 1, &Watch::default()).unwrap()
+    Metric::with_sensors(graph, &verdict, sensors, 1, &Watch::default()).unwrap()
 }
 
 fn random_pairs(draw: &mut ChaCha8Rng, nodes: u32, most: usize) -> Vec<(u32, u32)> {
