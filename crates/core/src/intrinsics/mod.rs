@@ -12,13 +12,16 @@
 //!   members    rigid bodies grow, become metric, and grow again      17.3, 17.5, 17.12
 //!   system     what they share, at drawn centres and axes            17.6, 17.9, 17.13
 //!   bound      what moves alike in one motion, counted               17.7, 17.8, 17.14
+//!   priors     what is determined if one sensor more is known        17.18
 //! ```
 
 mod bound;
 mod members;
+mod priors;
 mod sensors;
 mod system;
 
+pub use priors::Prior;
 pub use sensors::Sensors;
 
 use crate::decide::Verdict;
@@ -184,10 +187,10 @@ impl Metric {
                 draw,
             };
             let system = System::new(&members, sensors, &key);
-            let moved = system.motion(watch)?;
-            (unknowns, degree) = (moved.columns, system.degree());
-            let rank = of_held - moved.dimension;
-            let alike = Alike::new(&members, &moved);
+            let motions = system.motions(1, watch)?;
+            (unknowns, degree) = (motions.columns, system.degree());
+            let rank = of_held - motions.dimension;
+            let alike = Alike::new(&members, &motions.first());
             let bound = alike.bound(&members, sensors).min(required);
             // A larger rank is nearer to the generic one, and its motions are those that there are.
             found = Some(match found {

@@ -224,9 +224,13 @@ fn metric_of(graph: &Graph, classes: &[Class]) -> Metric {
     with_sensors(graph, &Sensors::own(classes))
 }
 
-fn with_sensors(graph: &Graph, sensors: &Sensors) -> Metric {
+fn projective(graph: &Graph) -> Verdict {
     let question = Question::from(Projective::with_solutions(CountSolutions::Off));
-    let verdict = decide(graph, &Options::default().question(question)).unwrap();
+    decide(graph, &Options::default().question(question)).unwrap()
+}
+
+fn with_sensors(graph: &Graph, sensors: &Sensors) -> Metric {
+    let verdict = projective(graph);
     Metric::with_sensors(graph, &verdict, sensors, 1, &Watch::default()).unwrap()
 }
 

@@ -148,7 +148,7 @@ fn a_few_pairs_determine_one_sensor() {
 fn sensors_are_determined_iff_to_know_them_changes_nothing() {
     let mut draw = ChaCha8Rng::seed_from_u64(11);
     let mut seen = [0; 2];
-    for case in 0..150 {
+    for case in 0..400 {
         let nodes = draw.random_range(3..=8);
         let pairs = random_pairs(&mut draw, nodes, 2 * nodes as usize);
         let sensors = random_sensors(&mut draw, nodes);
@@ -232,4 +232,57 @@ fn bounds_meet_near_the_threshold_of_sensors() {
     println!("{metric} metric, {} gaps", gaps.len());
     assert!(metric > NEAR / 20, "{metric}");
     assert!(100 * gaps.len() <= NEAR, "{gaps:?}");
+}
+
+#[test]
+fn a_prior_does_what_a_known_sensor_does() {
+    let mut draw = ChaCha8Rng::seed_from_u64(18);
+    let (mut helpful, mut made_metric) = (0, 0);
+    for case in 0..400 {
+        let nodes = draw.random_range(3..=10);
+        let pairs = random_pairs(&mut draw, nodes, 2 * nodes as usize + 2);
+        let sensors = random_sensors(&mut draw, nodes);
+        let graph = Graph::new(nodes, pairs.iter().copied()).unwrap();
+        let (verdict, watch) = (projective(&graph), Watch::default());
+        let found = Metric::with_sensors(&graph, &verdict, &sensors, case, &watch).unwrap();
+        let priors = found.priors(&graph, &verdict, &sensors, case, &watch);
+        let priors = priors.unwrap();
+        let open = (0..nodes as usize).filter(|&v| {
+            let is_paired = pairs
+                .iter()
+                .any(|&(i, j)| i as usize == v || j as usize == v);
+            !found.determined[v] && is_paired
+        });
+        let mut open: Vec<usize> = open.map(|v| sensors.of_node(v)).collect();
+        open.sort_unstable();
+        open.dedup();
+        let mut of: Vec<usize> = priors.iter().map(|prior| prior.sensor).collect();
+        of.sort_unstable();
+        assert_eq!(of, open, "{pairs:?} {sensors:?}");
+        for prior in &priors {
+            let known = sensors.with_class(prior.sensor, Class::Known);
+            let then = Metric::with_sensors(&graph, &verdict, &known, case, &watch).unwrap();
+            assert_eq!(
+                (prior.rank, prior.required),
+                (then.rank, then.required),
+                "{pairs:?} {sensors:?} {prior:?}"
+            );
+            assert!(prior.at_most >= prior.rank);
+            let determined = then.determined.iter().filter(|&&is| is).count();
+            assert_eq!(prior.determined, determined, "{pairs:?} {sensors:?}");
+            let largest = then.components.first().map_or(0, |part| part.nodes.len());
+            assert_eq!(prior.largest, largest, "{pairs:?} {sensors:?}");
+            assert!(
+                prior.is_proved() || !then.is_proved(),
+                "{pairs:?} {sensors:?}"
+            );
+            let before = found.determined.iter().filter(|&&is| is).count();
+            helpful += usize::from(determined > before + prior.nodes.len());
+            made_metric += usize::from(prior.is_metric());
+        }
+        let best = priors.iter().map(|prior| prior.determined).max();
+        let first = priors.first().map(|prior| prior.determined);
+        assert!(first == best || priors[0].is_metric());
+    }
+    assert!(helpful > 40 && made_metric > 10, "{helpful} {made_metric}");
 }
