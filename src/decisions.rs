@@ -13,7 +13,7 @@ use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert::here::{Centres, Here};
-use viewcert::intrinsics::{Class, Metric};
+use viewcert::intrinsics::{Metric, Sensors};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
@@ -57,8 +57,8 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
         }
         let (input, known) = given::read(given, input)?;
         let options = plan.options(known)?.watch(session.shown_watch());
-        let (input, classes) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
-        let besides = classes.as_deref().map(Besides::Classes);
+        let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
+        let besides = sensors.as_ref().map(Besides::Sensors);
         let is_determined = work.decide(&options, &input, besides, start, out)?;
         Ok(if is_determined { GOOD } else { NOT })
     };
@@ -75,8 +75,8 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
 enum Besides<'a> {
     /// Cameras of its nodes.
     Cameras(&'a Centres),
-    /// The class of each of its cameras.
-    Classes(&'a [Class]),
+    /// The sensors of its nodes, with their classes.
+    Sensors(&'a Sensors),
 }
 
 /// What is to be done with every graph of a run.
@@ -109,13 +109,13 @@ impl Work<'_> {
         let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
         session.hide();
         let mut scope = scope.with_context(name)?;
-        if let Some(Besides::Classes(classes)) = besides {
+        if let Some(Besides::Sensors(sensors)) = besides {
             let watch = session.shown_watch();
-            let found = Metric::new(&input.graph, &verdict, classes, plan.seed, &watch);
+            let found = Metric::with_sensors(&input.graph, &verdict, sensors, plan.seed, &watch);
             session.hide();
             let found = found.with_context(name)?;
             let listed = plan.list_components;
-            scope = scope.with_intrinsics(IntrinsicsLine::new(input, classes, &found, listed));
+            scope = scope.with_intrinsics(IntrinsicsLine::new(input, sensors, &found, listed));
         }
         let centres = match besides {
             Some(Besides::Cameras(centres)) => Some(centres),

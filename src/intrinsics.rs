@@ -1,22 +1,22 @@
 //! `--intrinsics`: what is not known of the intrinsics of each camera (docs/theory.md, section 17).
 //!
-//! In: a graph as it was read. Out: the graph with what was noted in reading the classes, and these.
+//! In: a graph as it was read. Out: the graph with what was noted in reading, and the sensors.
 
 use super::plan::{INTRINSICS, IntrinsicsFrom};
 use anyhow::{Context, Result};
 use std::borrow::Cow;
 use std::path::Path;
-use viewcert::intrinsics::Class;
+use viewcert::intrinsics::Sensors;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
 
-/// The graph with the notes on its classes, and the class of each node if that is asked.
+/// The graph with the notes on its classes, and the sensor of each node if that is asked.
 ///
 /// # Errors
 /// Those of the file.
 pub(super) fn read<'a>(
     from: Option<&IntrinsicsFrom>,
     input: Cow<'a, NamedGraph>,
-) -> Result<(Cow<'a, NamedGraph>, Option<Vec<Class>>)> {
+) -> Result<(Cow<'a, NamedGraph>, Option<Sensors>)> {
     let found = match from {
         None => return Ok((input, None)),
         Some(IntrinsicsFrom::File(path)) => read_intrinsics(path, &input),
@@ -30,5 +30,5 @@ pub(super) fn read<'a>(
     let found = found.context(INTRINSICS)?;
     let mut input = input.into_owned();
     input.notes.extend(found.notes);
-    Ok((Cow::Owned(input), Some(found.classes)))
+    Ok((Cow::Owned(input), Some(found.sensors)))
 }

@@ -41,8 +41,9 @@ pub(super) struct VerifyArguments {
     #[arg(long, conflicts_with = "tracks")]
     planar: bool,
     /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
-    /// `focal+point D`, `unknown E`, `default focal`. Does the graph determine cameras and intrinsics?
-    /// Without FILE: by the prior focal lengths of the graph's own COLMAP database; `free`: by none.
+    /// `focal+point D`, `unknown E`, `default focal`, and `shared focal F G` for images of one sensor.
+    /// Does the graph determine cameras and intrinsics? Without FILE: by the prior focal lengths and
+    /// `camera_id` of the graph's own COLMAP database; `free`: without prior ones.
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     intrinsics: Option<Option<PathBuf>>,
     /// Count the solutions of graphs that are finite solvable.

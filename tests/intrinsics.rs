@@ -113,6 +113,73 @@ fn what_does_not_go_with_classes_is_refused() {
 }
 
 #[test]
+fn images_of_one_sensor_calibrate_it() {
+    // Three images with all five unknown; each with its own says nothing about a projective triangle.
+    let run = with(TRIANGLE, "shared unknown a b c\n", &["--components"]);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    for line in [
+        "  intrinsics  3 unknown: metric: all cameras and intrinsics",
+        "  shared      1 sensor: 3 unknown (determined)",
+        "  metric rank 16 of 16 (proved)",
+        "  sensor 1: a b c",
+        "images of one sensor have the same intrinsics",
+    ] {
+        assert!(run.out.contains(line), "{line}: {}", run.out);
+    }
+    assert_eq!(with(TRIANGLE, "default unknown\n", &[]).code, 1);
+    // Two images put 5 of 8 conditions: 18 + 10 - 7 less the 3 that are left.
+    let run = with(TRIANGLE, "shared unknown a b\n", &["--json"]);
+    assert_eq!(run.code, 1);
+    let found = intrinsics(&run);
+    assert_eq!(
+        (&found["rank"], &found["conditions"]),
+        (&18.into(), &5.into())
+    );
+    assert_eq!(
+        found["shared"],
+        serde_json::json!([{"class": "unknown", "cameras": 2, "determined": false}])
+    );
+    let run = with(TRIANGLE, "shared unknown a b\n", &[]);
+    assert!(
+        run.out
+            .contains("known and shared intrinsics put 5 conditions on the 8 numbers"),
+        "{}",
+        run.out
+    );
+    // A path of four: K is determined by three pairs, the scales are not.
+    let run = with("a b\nb c\nc d\n", "default shared unknown\n", &["--json"]);
+    assert_eq!(run.code, 1);
+    let found = intrinsics(&run);
+    assert_eq!(found["determined"], 4);
+    assert_eq!(found["shared"][0]["determined"], true);
+    assert_eq!(found["components"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn databases_know_which_camera_took_an_image() {
+    let Some(data) = common::data() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("banana.db");
+    fs::copy(data.join("colmap/photos_banana.db"), &copy).unwrap();
+    let run = verify(&[copy.to_str().unwrap(), "--json", "--intrinsics", "free"]);
+    let found = intrinsics(&run);
+    // 16 images with one camera_id.
+    assert_eq!(found["shared"][0]["cameras"], 16);
+    assert_eq!(found["shared"][0]["determined"], true);
+    assert_eq!(found["rank_required"], 6 * 16 + 1 - 7);
+    assert!(
+        run.out
+            .contains("images with one camera_id have the same intrinsics (1 shared sensor)"),
+        "{}",
+        run.out
+    );
+    let run = verify(&[copy.to_str().unwrap(), "--json", "--intrinsics"]);
+    assert!(intrinsics(&run).get("shared").is_none());
+}
+
+#[test]
 fn databases_know_their_focal_lengths() {
     let Some(data) = common::data() else {
         return;

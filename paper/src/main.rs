@@ -7,6 +7,7 @@ mod catalog_page;
 mod census;
 mod command;
 mod layout;
+mod mixtures;
 mod oriented;
 mod plot;
 mod solutions;
@@ -36,6 +37,8 @@ enum Command {
     Publish(command::publish::Arguments),
     /// Count how many graphs of a list each camera model determines.
     Census(command::census::Arguments),
+    /// Count for which classes of cameras, and for which sensors, the graphs of a list are metric.
+    Intrinsics(command::mixtures::Arguments),
     /// Decide connected random graphs (the paper's Table 2).
     Random(command::random::Arguments),
     /// Count the solutions of the finite solvable graphs with the fewest pairs, or of the Laman
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         match &arguments.command {
             Command::Publish(arguments) => command::publish::run(session, arguments),
             Command::Census(arguments) => command::census::run(session, arguments),
+            Command::Intrinsics(arguments) => command::mixtures::run(session, arguments),
             Command::Random(arguments) => command::random::run(session, arguments),
             Command::Solutions(arguments) => command::solutions::run(session, arguments),
             Command::Oriented(arguments) => command::oriented::run(session, arguments),

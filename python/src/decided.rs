@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use viewcert::decide::Draft;
 use viewcert::graph::{Coordinate, Displacements};
-use viewcert::intrinsics::{Class, Metric};
+use viewcert::intrinsics::{Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
@@ -37,7 +37,7 @@ pub(crate) struct Decided {
 }
 
 impl Decided {
-    /// The classes of the nodes, by their words.
+    /// Classes, by their words.
     fn classes(&self, words: &[String]) -> PyResult<Vec<Class>> {
         if self.verdict.model != Model::Projective {
             return Err(InputError::new_err(
@@ -353,7 +353,7 @@ impl Decided {
     #[pyo3(signature = (
         kind, *, list_components=false, weak=None, suggest=None, explain=None, sweep=vec![],
         margin=None, export=None, surplus=false,
-        redundant=None, implied=None, intrinsics=None
+        redundant=None, implied=None, intrinsics=None, sensors=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn report<'py>(
@@ -371,8 +371,14 @@ impl Decided {
         redundant: Option<&str>,
         implied: Option<u32>,
         intrinsics: Option<Vec<String>>,
+        sensors: Option<Vec<usize>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let classes = intrinsics.map(|words| self.classes(&words)).transpose()?;
+        let sensors = classes.map(|classes| match sensors {
+            // A number for each node, and a class for each number.
+            Some(of_node) => Sensors::new(of_node, classes),
+            None => Sensors::own(&classes),
+        });
         let weak = match weak {
             None => None,
             Some("pairs") => Some(Weak::Pairs),
@@ -409,9 +415,9 @@ impl Decided {
             request.check(&[], &[])?;
             request.check_input(&input)?;
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
-            if let Some(classes) = classes {
-                let found = Metric::new(&input.graph, &verdict, &classes, seed, &stop)?;
-                let line = IntrinsicsLine::new(&input, &classes, &found, list_components);
+            if let Some(sensors) = sensors {
+                let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
+                let line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
                 scope = scope.with_intrinsics(line);
             }
             let outputs = Outputs::default();

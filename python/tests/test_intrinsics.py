@@ -51,3 +51,26 @@ def test_what_is_refused() -> None:
         viewcert.intrinsics(triangle, {"x": "known"})
     with pytest.raises(viewcert.InputError, match="projective model"):
         viewcert.intrinsics(viewcert.verify(triangle, model="affine"), {"a": "known"})
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1))
+def test_one_sensor_is_the_calibrated_model(edges: set[tuple[int, int]]) -> None:
+    # Corollary 17.16: three pairs determine all five, and then it is the calibrated model.
+    graph = nx.Graph(sorted(edges))
+    calibrated = viewcert.verify(graph, model="calibrated")
+    for word, pairs in (("focal", 1), ("focal+point", 2), ("unknown", 3)):
+        found = viewcert.intrinsics(graph, {}, default=word, sensors=dict.fromkeys(graph, 7))
+        assert found.proved
+        assert set(found.determined.values()) == {len(edges) >= pairs}
+        assert found.metric == (len(edges) >= pairs and calibrated.value == "solvable")
+        own = viewcert.intrinsics(graph, {}, default=word, sensors={node: node for node in graph})
+        assert own == viewcert.intrinsics(graph, {}, default=word)
+
+
+def test_what_is_refused_of_sensors() -> None:
+    triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+    with pytest.raises(viewcert.InputError, match="'phone' has images of two classes, 'known' and 'focal'"):
+        viewcert.intrinsics(triangle, {"a": "known"}, "focal", sensors={"a": "phone", "c": "phone"})
+    with pytest.raises(viewcert.InputError, match="no node 'x'"):
+        viewcert.intrinsics(triangle, {}, sensors={"x": 1})

@@ -161,8 +161,8 @@ pub enum Problem {
     /// More than one default class, or none behind the word.
     #[error("there is one default, and one class")]
     OneDefault,
-    /// A camera in two classes: what it is called, and the line before.
-    #[error("`{0}` is of another class in line {1}")]
+    /// A camera in two classes or sensors: what it is called, and the line before.
+    #[error("`{0}` is of another class or sensor in line {1}")]
     TwoClasses(String, u64),
     /// Intrinsics are asked of what is no COLMAP database.
     #[error("this is no COLMAP database, which would say what is known of intrinsics")]
@@ -568,7 +568,7 @@ impl Problem {
                 "import positions into the database, or write the cameras whose position is known into a file, `position` before each"
             }
             Self::NoClasses | Self::NoClass(_) | Self::OneDefault => {
-                "write on each line `known`, `focal`, `focal+point` or `unknown`, for what is not known of their intrinsics, and cameras; and on one line `default` and a class for the others"
+                "write on each line `known`, `focal`, `focal+point` or `unknown`, for what is not known of their intrinsics, and cameras (`shared` before the class if they are images of one sensor); and on one line `default` and a class for the others"
             }
             Self::TwoClasses(..) => "name each camera once",
             Self::NoDatabase | Self::UnknownImage(_) => {

@@ -95,8 +95,12 @@ const BASE_LINES: &str = "base lines: a sensor is at one place in its rig in all
                           frames are in general position, rotations known";
 
 /// What is supposed where cameras have classes.
-const INTRINSICS: &str = "intrinsics: what is known of them is known exactly, each image has its own, and optical axes \
+const INTRINSICS: &str = "intrinsics: what is known of them is known exactly, and optical axes \
                           are in general position (cameras that all look at one point are not)";
+
+/// What is supposed where several images are of one sensor with unknown intrinsics.
+const SENSORS: &str = "sensors: images of one sensor have the same intrinsics, and rotations are in general position (a \
+                       camera that is moved and not turned, or turned about one direction only, is not)";
 
 /// What unknown base lines that are the same in all frames determine.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -318,6 +322,9 @@ impl Scope {
     /// With what classes of cameras determine.
     pub fn with_intrinsics(mut self, found: IntrinsicsLine) -> Self {
         self.conditions.push(INTRINSICS.to_owned());
+        if found.is_shared() {
+            self.conditions.push(SENSORS.to_owned());
+        }
         self.intrinsics = Some(found);
         self
     }

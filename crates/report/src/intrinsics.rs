@@ -1,11 +1,11 @@
 //! What a graph determines whose cameras have classes of their own, in words and JSON (docs/theory.md,
 //! section 17).
 //!
-//! In: classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
+//! In: sensors with their classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
 
 use serde::Serialize;
 use std::io::{self, Write};
-use viewcert::intrinsics::{Class, Metric, MetricComponent};
+use viewcert::intrinsics::{Class, Metric, MetricComponent, Sensors};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
@@ -14,6 +14,9 @@ use viewcert_formats::NamedGraph;
 pub struct IntrinsicsLine {
     /// How many cameras are of each class.
     classes: Vec<ClassLine>,
+    /// The sensors that several cameras share, the one with most cameras first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shared: Vec<SensorLine>,
     verdict: &'static str,
     /// Whether bounds meet: then all that is said is proved.
     proved: bool,
@@ -40,6 +43,16 @@ struct ClassLine {
     cameras: usize,
 }
 
+/// Images with the same unknown intrinsics.
+#[derive(Clone, Debug, Serialize)]
+struct SensorLine {
+    class: &'static str,
+    cameras: usize,
+    determined: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    labels: Option<Vec<String>>,
+}
+
 /// Pairs that are metric against each other.
 #[derive(Clone, Debug, Serialize)]
 struct MetricLine {
@@ -50,15 +63,26 @@ struct MetricLine {
 }
 
 impl IntrinsicsLine {
-    /// What was found for the classes of a graph; with the members of each component if they are
-    /// listed. O(n).
-    pub fn new(input: &NamedGraph, classes: &[Class], found: &Metric, listed: bool) -> Self {
+    /// What was found for the sensors of a graph; with the members of each component and of each shared
+    /// sensor if they are listed. O(n log n).
+    pub fn new(input: &NamedGraph, sensors: &Sensors, found: &Metric, listed: bool) -> Self {
         let label = |node: u32| input.labels.label(node).into_owned();
         let line = |component: &MetricComponent| MetricLine {
             nodes: component.nodes.len(),
             edges: component.pairs,
             labels: listed.then(|| component.nodes.iter().map(|&v| label(v)).collect()),
         };
+        let shared = |(sensor, nodes): (usize, Vec<u32>)| SensorLine {
+            class: word(sensors.class(sensor)),
+            cameras: nodes.len(),
+            determined: found.determined[nodes[0] as usize],
+            labels: listed.then(|| nodes.iter().map(|&v| label(v)).collect()),
+        };
+        let mut shared: Vec<SensorLine> = sensors.shared().into_iter().map(shared).collect();
+        shared.sort_by_key(|line| std::cmp::Reverse(line.cameras));
+        let classes: Vec<Class> = (0..sensors.nodes())
+            .map(|v| sensors.class_of_node(v))
+            .collect();
         let of_class = Class::ALL.map(|(class, word)| ClassLine {
             class: word,
             cameras: classes.iter().filter(|&&of| of == class).count(),
@@ -70,6 +94,7 @@ impl IntrinsicsLine {
             .collect();
         Self {
             classes: of_class.into(),
+            shared,
             verdict: if found.is_metric() {
                 "metric"
             } else if found.at_most < found.required {
@@ -88,6 +113,11 @@ impl IntrinsicsLine {
             determined: found.determined.len() - not_determined.len(),
             not_determined,
         }
+    }
+
+    /// Whether several cameras share unknown intrinsics.
+    pub(crate) fn is_shared(&self) -> bool {
+        !self.shared.is_empty()
     }
 
     /// Whether all cameras are determined, with their intrinsics; it is proved.
@@ -113,13 +143,15 @@ impl IntrinsicsLine {
         let answer = match self.verdict {
             "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
             "not-metric" if self.conditions < 8 => format!(
-                "not metric: known intrinsics put {} on the 8 numbers between a projective and a metric scene (proved)",
+                "not metric: {} intrinsics put {} on the 8 numbers between a projective and a metric scene (proved)",
+                if self.is_shared() { "known and shared" } else { "known" },
                 counted(self.conditions, "condition")
             ),
             "not-metric" => "not metric: infinitely many sets of cameras (proved)".into(),
             _ => "not metric at drawn cameras, and counting gives no proof".to_owned(),
         };
         writeln!(out, "  intrinsics  {}: {answer}", classes.join(", "))?;
+        self.write_shared(out)?;
         writeln!(
             out,
             "  metric rank {} of {} ({strength})",
@@ -159,9 +191,39 @@ impl IntrinsicsLine {
                 writeln!(out, "  metric component {k}: {}", labels.join(" "))?;
             }
         }
+        for (k, line) in (1..).zip(&self.shared) {
+            if let Some(labels) = &line.labels {
+                writeln!(out, "  sensor {k}: {}", labels.join(" "))?;
+            }
+        }
         Ok(())
+    }
+
+    fn write_shared(&self, out: &mut impl Write) -> io::Result<()> {
+        if self.shared.is_empty() {
+            return Ok(());
+        }
+        let lines = self.shared.iter().take(LISTED);
+        let mut lines: Vec<String> = lines
+            .map(|line| {
+                let not = if line.determined { "" } else { "not " };
+                format!("{} {} ({not}determined)", line.cameras, line.class)
+            })
+            .collect();
+        if self.shared.len() > LISTED {
+            lines.push("..".into());
+        }
+        let count = counted(self.shared.len(), "sensor");
+        writeln!(out, "  shared      {count}: {}", lines.join(", "))
     }
 }
 
-/// So many sizes of components are printed.
+/// The word for a class.
+fn word(class: Class) -> &'static str {
+    let mut all = Class::ALL.into_iter();
+    let found = all.find(|&(of, _)| of == class);
+    found.expect("all classes have words").1
+}
+
+/// So many sizes of components, and so many sensors, are printed.
 const LISTED: usize = 8;

@@ -2,6 +2,7 @@
 
 pub mod census;
 pub mod man;
+pub mod mixtures;
 pub mod oriented;
 pub mod publish;
 pub mod random;

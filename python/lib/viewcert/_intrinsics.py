@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Hashable, List, Mapping, Optional, Tuple
 
 from ._act import _asked, _decided
 from ._errors import InputError
@@ -45,7 +45,10 @@ class Intrinsics:
 
 
 def intrinsics(
-    verdict: Any, classes: Mapping[Node, str], default: str = "unknown"
+    verdict: Any,
+    classes: Mapping[Node, str],
+    default: str = "unknown",
+    sensors: Optional[Mapping[Node, Hashable]] = None,
 ) -> Intrinsics:
     """Which cameras, and which of their intrinsics, a graph determines.
 
@@ -58,6 +61,9 @@ def intrinsics(
         focal length), ``'focal+point'`` (and the principal point) or ``'unknown'`` (all five).
     default : str
         The class of all other nodes.
+    sensors : mapping, optional
+        What took the image, as COLMAP's ``camera_id``: nodes with the same value have the same
+        intrinsics, and so must be of one class. A node that is not named has intrinsics of its own.
 
     Examples
     --------
@@ -67,14 +73,19 @@ def intrinsics(
     True
     >>> viewcert.intrinsics(triangle, {"a": "known"}).determined
     {'a': True, 'b': False, 'c': False}
+    >>> one = dict.fromkeys("abc", "phone")
+    >>> viewcert.intrinsics(triangle, {}, sensors=one).metric
+    True
     """
     verdict = _decided(verdict)
     nodes = verdict.graph.nodes
-    strangers = set(classes) - set(nodes)
+    strangers = (set(classes) | set(sensors or {})) - set(nodes)
     if strangers:
         raise InputError(f"the graph has no node {next(iter(strangers))!r}")
-    words = [classes.get(node, default) for node in nodes]
-    found = _asked(verdict, "intrinsics", list_components=True, intrinsics=words)
+    words, numbers = _sensors(nodes, classes, default, sensors or {})
+    found = _asked(
+        verdict, "intrinsics", list_components=True, intrinsics=words, sensors=numbers
+    )
     by_text = verdict.graph._by_text()
     free = {by_text[text] for text in found["not_determined"]}
     return Intrinsics(
@@ -91,3 +102,29 @@ def intrinsics(
         other_pairs=found["other_pairs"],
         determined={node: node not in free for node in nodes},
     )
+
+
+def _sensors(
+    nodes: Any,
+    classes: Mapping[Node, str],
+    default: str,
+    sensors: Mapping[Node, Hashable],
+) -> Tuple[List[str], List[int]]:
+    """A class for each sensor, and the number of the sensor of each node."""
+    words: List[str] = []
+    numbers: List[int] = []
+    of_sensor: Dict[Hashable, int] = {}
+    for node in nodes:
+        word = classes.get(node, default)
+        number = len(words)
+        if node in sensors:
+            number = of_sensor.setdefault(sensors[node], number)
+        if number == len(words):
+            words.append(word)
+        elif words[number] != word:
+            raise InputError(
+                f"the sensor {sensors[node]!r} has images of two classes, "
+                f"{words[number]!r} and {word!r}"
+            )
+        numbers.append(number)
+    return words, numbers

@@ -104,6 +104,7 @@ class Decided:
         redundant: str | None = None,
         implied: int | None = None,
         intrinsics: list[str] | None = None,
+        sensors: list[int] | None = None,
     ) -> bytes: ...
     def picture(self) -> str: ...
     @staticmethod

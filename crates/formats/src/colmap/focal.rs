@@ -1,4 +1,4 @@
-//! Which images have a prior focal length, by the cameras of a database.
+//! Which camera took each image of a database, and which cameras have a prior focal length.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
@@ -9,7 +9,7 @@ use super::open::Opened;
 use super::tables::{columns, images};
 use super::{DatabaseError, FocalLengths};
 
-/// Reads `prior_focal_length` of the camera of each image. O(n log n) for n images.
+/// Reads the camera of each image, and `prior_focal_length` of each camera. O(n log n) for n images.
 ///
 /// # Errors
 /// A database that cannot be read, or without cameras; an image whose camera is not there.
@@ -26,31 +26,30 @@ pub(crate) fn focal_lengths(path: &Path) -> Result<FocalLengths, DatabaseError> 
             )));
         }
     }
-    let known = known(connection)?;
+    let lengths = read(connection)?;
     opened.finish()?;
-    Ok(FocalLengths { known })
+    Ok(lengths)
 }
 
-/// By the name of each image, whether its camera has a prior focal length.
-fn known(connection: &Connection) -> Result<BTreeMap<Box<str>, bool>, DatabaseError> {
+fn read(connection: &Connection) -> Result<FocalLengths, DatabaseError> {
     let (names, nodes) = images(connection)?;
     let mut statement = connection.prepare("select camera_id, prior_focal_length from cameras")?;
-    let cameras = statement.query_map([], |row| Ok((row.get(0)?, row.get::<_, i64>(1)? != 0)))?;
-    let cameras: HashMap<i64, bool> = cameras.collect::<Result<_, _>>()?;
+    let known = statement.query_map([], |row| Ok((row.get(0)?, row.get::<_, i64>(1)? != 0)))?;
+    let known: HashMap<i64, bool> = known.collect::<Result<_, _>>()?;
     let mut statement = connection.prepare("select image_id, camera_id from images")?;
     let of_images = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
     let of_images: Vec<(i64, i64)> = of_images.collect::<Result<_, _>>()?;
-    let mut known = BTreeMap::new();
+    let mut cameras = BTreeMap::new();
     for (image, camera) in of_images {
         let name = nodes.get(&image).map(|&node| &names[node as usize]);
         let name = name.ok_or(DatabaseError::Changed)?;
-        let Some(&is_known) = cameras.get(&camera) else {
+        if !known.contains_key(&camera) {
             return Err(DatabaseError::NoCamera {
                 image: name.to_string(),
                 camera,
             });
-        };
-        known.insert(name.clone(), is_known);
+        }
+        cameras.insert(name.clone(), camera);
     }
-    Ok(known)
+    Ok(FocalLengths { cameras, known })
 }

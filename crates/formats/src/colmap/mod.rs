@@ -76,8 +76,10 @@ pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, DatabaseError> {
 
 /// What a database knows of focal lengths.
 pub(crate) struct FocalLengths {
-    /// By the name of an image, whether its camera has a prior one.
-    pub(crate) known: std::collections::BTreeMap<Box<str>, bool>,
+    /// By the name of an image, the `camera_id` of what took it.
+    pub(crate) cameras: std::collections::BTreeMap<Box<str>, i64>,
+    /// By its id, whether a camera has a prior focal length.
+    pub(crate) known: std::collections::HashMap<i64, bool>,
 }
 
 /// Whether a file is an SQLite database, by what it begins with; one that cannot be read is none. What

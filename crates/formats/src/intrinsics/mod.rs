@@ -1,10 +1,11 @@
 //! What is not known of the intrinsics of each camera, from a file or from a COLMAP database.
 //!
-//! In: a text or a database, and the graph whose cameras it names. Out: a class for each node
-//! ([`Intrinsics`]), with notes about what was taken for granted. Each line of a text begins with a
-//! class, or with `default` and one (docs/input.md); fields, quotes and comments are those of edge
-//! lists.
+//! In: a text or a database, and the graph whose cameras it names. Out: a sensor for each node and its
+//! class ([`Intrinsics`]), with notes about what was taken for granted. Each line of a text begins with
+//! a class, or with `default` and one, or `shared` stands before the class (docs/input.md); fields,
+//! quotes and comments are those of edge lists.
 
+use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -13,28 +14,30 @@ use crate::cameras::{for_each_line, read_file};
 use crate::colmap::{self, FocalLengths};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
-use viewcert::intrinsics::Class;
+use viewcert::intrinsics::{Class, Sensors};
 use viewcert::wording::counted;
 
 /// The first word of a line with the class of all cameras that no line names.
 const DEFAULT: &str = "default";
+/// The word before a class whose unknown intrinsics are the same in all images that the line is about.
+const SHARED: &str = "shared";
 
-/// Classes of cameras, as they were read.
+/// Intrinsics of cameras, as they were read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Intrinsics {
-    /// The class of each node.
-    pub classes: Vec<Class>,
+    /// The sensor of each node, and their classes.
+    pub sensors: Sensors,
     /// What was taken for granted, merged or left out.
     pub notes: Vec<String>,
 }
 
-/// Reads classes from a file (`-` is standard input); those of a COLMAP database are *known* for images
-/// whose camera has a prior focal length and *focal* for the others. Notes begin with its name.
-/// O(n log n).
+/// Reads classes from a file (`-` is standard input). In a COLMAP database the images with one
+/// `camera_id` are of one sensor, *known* if it has a prior focal length and *focal* if not. Notes begin
+/// with its name. O(n log n).
 ///
 /// # Errors
 /// With file and line: a word that is no class, a camera that the graph does not have or that two
-/// lines put into different classes, two defaults; a file that cannot be read or says nothing.
+/// lines put into different classes or sensors, two defaults; a file that cannot be read or says nothing.
 pub fn read_intrinsics(
     path: impl AsRef<Path>,
     input: &NamedGraph,
@@ -47,7 +50,7 @@ pub fn read_intrinsics(
     read_file(path, read, |found| &mut found.notes)
 }
 
-/// The classes of the images of a COLMAP database; without `priors` all are *focal*.
+/// The sensors of the images of a COLMAP database; without `priors` all are *focal*.
 ///
 /// # Errors
 /// A file that is no database, or cannot be read; a graph with cameras that it does not have.
@@ -58,17 +61,23 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
         return Err(fault(Problem::NoDatabase));
     }
     let lengths = colmap::focal_lengths(path).map_err(|error| fault(error.into()))?;
-    let FocalLengths { known } = lengths;
+    let FocalLengths { cameras, known } = lengths;
+    let mut sensor_of: HashMap<i64, usize> = HashMap::new();
     let mut counts = [0; 2];
-    let mut classes = Vec::with_capacity(input.graph.nodes());
+    let mut classes = Vec::new();
+    let mut of_node = Vec::with_capacity(input.graph.nodes());
     for node in 0..input.graph.nodes() as u32 {
         let label = input.labels.label(node);
-        let Some(&is_known) = known.get(&*label) else {
+        let Some(camera) = cameras.get(&*label) else {
             return Err(fault(Problem::UnknownImage(label.into_owned())));
         };
-        let is_known = is_known && priors;
+        let is_known = priors && known[camera];
         counts[usize::from(!is_known)] += 1;
-        classes.push(if is_known { Class::Known } else { Class::Focal });
+        let sensor = *sensor_of.entry(*camera).or_insert(classes.len());
+        if sensor == classes.len() {
+            classes.push(if is_known { Class::Known } else { Class::Focal });
+        }
+        of_node.push(sensor);
     }
     let [known, focal] = counts;
     let why = if priors {
@@ -76,12 +85,20 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
     } else {
         "prior focal lengths are left out of account".into()
     };
+    let sensors = Sensors::new(of_node, classes);
+    let shared = match sensors.shared().len() {
+        0 => String::new(),
+        count => format!(
+            "; images with one camera_id have the same intrinsics ({})",
+            counted(count, "shared sensor")
+        ),
+    };
     let note = format!(
-        "{name}: intrinsics of {}: {why}; principal points, aspects and distortions are taken for known",
-        counted(classes.len(), "camera")
+        "{name}: intrinsics of {}: {why}; principal points, aspects and distortions are taken for known{shared}",
+        counted(input.graph.nodes(), "camera")
     );
     Ok(Intrinsics {
-        classes,
+        sensors,
         notes: vec![note],
     })
 }
@@ -91,77 +108,161 @@ pub fn of_database(path: &Path, input: &NamedGraph, priors: bool) -> Result<Intr
 /// # Errors
 /// As there, but for the name of the file.
 pub fn read(input: impl Read, graph: &NamedGraph) -> Result<Intrinsics, Fault> {
-    let mut found: Vec<Option<(Class, u64)>> = vec![None; graph.graph.nodes()];
-    let mut default: Option<Class> = None;
-    let mut repeated = (0, 0);
+    let mut found = Found {
+        of_node: vec![None; graph.graph.nodes()],
+        ..Found::default()
+    };
     let mut fields = Vec::new();
     let mut is_empty = true;
     for_each_line(input, graph, |number, line, cameras| {
         split(line, &mut fields)?;
-        let Some((word, rest)) = fields.split_first() else {
+        if fields.is_empty() {
             return Ok(());
-        };
+        }
         is_empty = false;
-        let class_of =
-            |word: &str| Class::of_word(word).ok_or_else(|| Problem::NoClass(word.to_owned()));
-        let word = word.text(line);
-        if word == DEFAULT {
-            let [only] = rest else {
-                return Err(Problem::OneDefault);
-            };
-            let class = class_of(&only.text(line))?;
-            return match default.replace(class) {
-                Some(before) if before != class => Err(Problem::OneDefault),
-                _ => Ok(()),
+        let mut rest = &fields[..];
+        let mut next = || {
+            let (word, others) = rest.split_first()?;
+            let word = word.text(line);
+            rest = others;
+            Some(word)
+        };
+        let mut word = next();
+        let is_default = word.as_deref() == Some(DEFAULT);
+        if is_default {
+            word = next();
+        }
+        let is_shared = word.as_deref() == Some(SHARED);
+        if is_shared {
+            word = next();
+        }
+        let word = word.ok_or(if is_default {
+            Problem::OneDefault
+        } else {
+            Problem::NoClass(SHARED.to_owned())
+        })?;
+        let class = Class::of_word(&word).ok_or_else(|| Problem::NoClass(word.into_owned()))?;
+        if is_default {
+            let default = (class, is_shared);
+            let is_other = |before| before != default;
+            return match rest.is_empty() && !found.default.replace(default).is_some_and(is_other) {
+                true => Ok(()),
+                false => Err(Problem::OneDefault),
             };
         }
-        let class = class_of(&word)?;
         if rest.is_empty() {
             return Err(Problem::NoCamera);
         }
-        for &field in rest {
-            let node = cameras.named(field, line)?;
-            match &mut found[node as usize] {
-                Some((before, _)) if *before == class => {
-                    repeated.0 += 1;
-                    if repeated.0 == 1 {
-                        repeated.1 = number;
-                    }
-                }
-                Some((_, before)) => {
-                    let camera = field.text(line).into_owned();
-                    return Err(Problem::TwoClasses(camera, *before));
-                }
-                none => *none = Some((class, number)),
-            }
-        }
-        Ok(())
+        let nodes = rest.iter().map(|&field| cameras.named(field, line));
+        let nodes: Vec<u32> = nodes.collect::<Result<_, _>>()?;
+        found
+            .line(number, &nodes, class, is_shared)
+            .map_err(|(at, before)| Problem::TwoClasses(rest[at].text(line).into_owned(), before))
     })?;
     if is_empty {
         return Err(Place::Input.fault(Problem::NoClasses));
     }
-    let others = found.iter().filter(|class| class.is_none()).count();
-    let class_of_others = default.unwrap_or(Class::Unknown);
-    let mut notes = Vec::new();
-    if default.is_none() && others > 0 {
-        let them = counted(others, "camera");
-        notes.push(format!(
-            "{them} of no class: taken for unknown (a line `default known` or the like says otherwise)"
-        ));
+    Ok(found.intrinsics())
+}
+
+/// What lines said so far.
+#[derive(Default)]
+struct Found {
+    /// The class of each sensor, and the line that shares it.
+    sensors: Vec<(Class, Option<u64>)>,
+    /// The sensor of each node, and the line that named it.
+    of_node: Vec<Option<(usize, u64)>>,
+    /// The class of all others, and whether they share a sensor.
+    default: Option<(Class, bool)>,
+    /// How many cameras were named again, and the first line that did.
+    repeated: (usize, u64),
+    /// How many lines share a sensor among one camera, and the first of them.
+    alone: (usize, u64),
+}
+
+impl Found {
+    /// A line with a class and cameras; those that it shares are of one sensor.
+    ///
+    /// # Errors
+    /// Which of the cameras has another class or sensor, and the line that gave it.
+    fn line(
+        &mut self,
+        number: u64,
+        nodes: &[u32],
+        class: Class,
+        is_shared: bool,
+    ) -> Result<(), (usize, u64)> {
+        let shared = (class, is_shared.then_some(number));
+        let mut own = 0;
+        for (at, &node) in nodes.iter().enumerate() {
+            let place = &mut self.of_node[node as usize];
+            match *place {
+                Some((before, _)) if self.sensors[before] == shared => {
+                    first_of(&mut self.repeated, number);
+                }
+                Some((_, before)) => return Err((at, before)),
+                None => {
+                    if own == 0 || !is_shared {
+                        self.sensors.push(shared);
+                    }
+                    own += 1;
+                    *place = Some((self.sensors.len() - 1, number));
+                }
+            }
+        }
+        if is_shared && own == 1 {
+            first_of(&mut self.alone, number);
+        }
+        Ok(())
     }
-    if repeated.0 > 0 {
-        let (count, line) = repeated;
-        notes.push(format!(
-            "{} named again in its class (first in line {line})",
-            counted(count, "camera")
-        ));
+
+    fn intrinsics(mut self) -> Intrinsics {
+        let others = self.of_node.iter().filter(|of| of.is_none()).count();
+        let (class, is_shared) = self.default.unwrap_or((Class::Unknown, false));
+        let mut notes = Vec::new();
+        if self.default.is_none() && others > 0 {
+            let them = counted(others, "camera");
+            notes.push(format!(
+                "{them} of no class: taken for unknown (a line `default known` or the like says otherwise)"
+            ));
+        }
+        if let (count @ 1.., line) = self.repeated {
+            notes.push(format!(
+                "{} named again in its class (first in line {line})",
+                counted(count, "camera")
+            ));
+        }
+        if let (count @ 1.., line) = self.alone {
+            notes.push(format!(
+                "{} of a single camera, with which nothing is shared (first in line {line})",
+                counted(count, "sensor")
+            ));
+        }
+        let mut of_node = Vec::with_capacity(self.of_node.len());
+        let mut others = None;
+        for sensor in self.of_node {
+            let sensor = sensor.map(|(sensor, _)| sensor).or(others);
+            of_node.push(sensor.unwrap_or_else(|| {
+                self.sensors.push((class, None));
+                let new = self.sensors.len() - 1;
+                others = is_shared.then_some(new);
+                new
+            }));
+        }
+        let classes = self.sensors.into_iter().map(|(class, _)| class);
+        Intrinsics {
+            sensors: Sensors::new(of_node, classes.collect()),
+            notes,
+        }
     }
-    let classes = found.into_iter();
-    let classes = classes.map(|class| class.map_or(class_of_others, |(class, _)| class));
-    Ok(Intrinsics {
-        classes: classes.collect(),
-        notes,
-    })
+}
+
+/// Counts one more, and keeps the line of the first.
+fn first_of(count: &mut (usize, u64), line: u64) {
+    if count.0 == 0 {
+        count.1 = line;
+    }
+    count.0 += 1;
 }
 
 #[cfg(test)]

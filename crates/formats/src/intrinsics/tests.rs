@@ -11,7 +11,41 @@ fn graph() -> NamedGraph {
 fn classes(text: &str) -> Result<(Vec<Class>, Vec<String>), String> {
     let found = read(text.as_bytes(), &graph());
     let found = found.map_err(|fault| fault.in_file("classes.txt").to_string())?;
-    Ok((found.classes, found.notes))
+    let classes = (0..4).map(|v| found.sensors.class_of_node(v)).collect();
+    Ok((classes, found.notes))
+}
+
+/// The sensors that are shared: class, nodes.
+fn shared(text: &str) -> (Vec<(Class, Vec<u32>)>, Vec<String>) {
+    let found = read(text.as_bytes(), &graph()).unwrap();
+    let sensors = found.sensors.shared().into_iter();
+    let sensors = sensors.map(|(sensor, nodes)| (found.sensors.class(sensor), nodes));
+    (sensors.collect(), found.notes)
+}
+
+#[test]
+fn lines_that_share_a_sensor() {
+    use Class::{Focal, FocalAndPoint, Unknown};
+    let (found, notes) = shared("shared focal a d a\nshared focal \"b c\" e\n");
+    assert_eq!(found, [(Focal, vec![0, 2]), (Focal, vec![1, 3])]);
+    assert_eq!(
+        notes,
+        ["1 camera named again in its class (first in line 1)"]
+    );
+    let (found, notes) = shared("known a\ndefault shared unknown\n");
+    assert_eq!((found, notes), (vec![(Unknown, vec![1, 2, 3])], vec![]));
+    let (found, notes) = shared("shared focal+point a\nfocal+point d e\ndefault focal\n");
+    assert_eq!(found, []);
+    assert_eq!(
+        notes,
+        ["1 sensor of a single camera, with which nothing is shared (first in line 1)"]
+    );
+    // What is known needs no sharing.
+    assert_eq!(shared("shared known a d\ndefault shared known\n").0, []);
+    assert_eq!(
+        shared("default shared focal+point\n").0,
+        [(FocalAndPoint, vec![0, 1, 2, 3])]
+    );
 }
 
 #[test]
@@ -54,7 +88,25 @@ fn what_is_no_class_is_refused_with_its_line() {
         (
             "known a\nfocal d a\n",
             "classes.txt:2:",
-            "`a` is of another class in line 1",
+            "`a` is of another class or sensor in line 1",
+        ),
+        (
+            "shared focal a d\nshared focal a e\n",
+            "classes.txt:2:",
+            "`a` is of another class or sensor in line 1",
+        ),
+        (
+            "shared focal a d\nfocal d\n",
+            "classes.txt:2:",
+            "`d` is of another class or sensor in line 1",
+        ),
+        ("shared\n", "classes.txt:1:", "`shared` is no class"),
+        ("shared a d\n", "classes.txt:1:", "`a` is no class"),
+        ("shared focal\n", "classes.txt:1:", "names no camera"),
+        (
+            "default shared focal\ndefault focal\n",
+            "classes.txt:2:",
+            "one default",
         ),
     ] {
         let said = classes(text).unwrap_err();

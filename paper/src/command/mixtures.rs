@@ -1,0 +1,154 @@
+//! `viewcert-paper intrinsics`: for which classes of cameras, and for which sensors, the graphs of a
+//! list are metric.
+
+use crate::mixtures::{Asked, Cases, KINDS, Kind, MOST_NODES};
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use viewcert::decide::{Options, VerdictError};
+use viewcert::graph::graph6;
+use viewcert_formats::csv;
+use viewcert_formats::{Format, ReadOptions, read_graphs};
+use viewcert_session::Session;
+use viewcert_session::exit::GOOD;
+
+/// What to count.
+#[derive(Args)]
+pub struct Arguments {
+    /// Connected graphs of graph6, a graph a line, as nauty's `geng -c` writes them; `-` is standard
+    /// input.
+    #[arg(value_name = "FILE")]
+    from: PathBuf,
+    /// Print a row for each graph and question, with the least assignments that are metric, instead of
+    /// the sums.
+    #[arg(long)]
+    graphs: bool,
+    /// Also write every assignment and its rank to a file.
+    #[arg(long, value_name = "LIST")]
+    list: Option<PathBuf>,
+}
+
+/// The sums of one question.
+#[derive(Default)]
+struct Sums {
+    graphs: usize,
+    cases: usize,
+    metric: usize,
+    open: usize,
+}
+
+/// Decides all assignments, and prints what was found.
+pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+    let options = Options::default().watch(session.watch());
+    let read = ReadOptions {
+        format: Some(Format::Graph6),
+        ..ReadOptions::default()
+    };
+    let mut graphs = Vec::new();
+    for input in read_graphs(&arguments.from, &read) {
+        let input = input?;
+        let nodes = input.graph.nodes();
+        ensure!(
+            (2..=MOST_NODES).contains(&nodes),
+            "{}: {nodes} nodes; all symmetries are tried, of graphs with 2 to {MOST_NODES} nodes",
+            input.name
+        );
+        graphs.push(input.graph);
+    }
+    let found: Vec<Vec<Cases>> = graphs
+        .par_iter()
+        .map(|graph| {
+            let asked = Asked::new(graph, &options)?;
+            KINDS
+                .iter()
+                .map(|&kind| asked.cases(kind, &options))
+                .collect()
+        })
+        .collect::<Result<_, VerdictError>>()?;
+    let rows = || {
+        let graphs = graphs.iter().zip(&found);
+        graphs.flat_map(|(graph, found)| KINDS.into_iter().zip(found).map(move |row| (graph, row)))
+    };
+    if let Some(path) = &arguments.list {
+        let file = File::create(path).with_context(|| path.display().to_string())?;
+        let mut list = csv::Writer::tabs(BufWriter::new(file));
+        list.row(["graph6", "question", "nodes", "rank", "at_most", "required"])?;
+        for (graph, (kind, cases)) in rows() {
+            for case in &cases.all {
+                let numbers = [case.rank, case.at_most, case.required];
+                let words = [
+                    graph6::encode(graph),
+                    kind.name(),
+                    kind.letters(&case.of_node),
+                ];
+                list.row(words.into_iter().chain(numbers.map(|x| x.to_string())))?;
+            }
+        }
+        list.finish()?;
+    }
+    let mut out = std::io::stdout().lock();
+    if arguments.graphs {
+        let mut table = csv::Writer::tabs(&mut out);
+        table.row(["graph6", "question", "cases", "metric", "open", "least"])?;
+        for (graph, (kind, cases)) in rows() {
+            let sums = Sums::of(cases);
+            let least = cases.least.iter().map(|of_node| kind.letters(of_node));
+            let words = [graph6::encode(graph), kind.name()];
+            let numbers = [sums.cases, sums.metric, sums.open];
+            let numbers = numbers.map(|x| x.to_string());
+            let least = least.collect::<Vec<String>>().join(" ");
+            table.row(words.into_iter().chain(numbers).chain([least]))?;
+        }
+        table.finish()?;
+        return Ok(ExitCode::from(GOOD));
+    }
+    let mut sums: BTreeMap<(Kind, usize), Sums> = BTreeMap::new();
+    for (graph, (kind, cases)) in rows() {
+        sums.entry((kind, graph.nodes()))
+            .or_default()
+            .add(&Sums::of(cases));
+    }
+    writeln!(
+        out,
+        "| what is assigned | n | graphs | assignments | metric | open |"
+    )?;
+    writeln!(out, "|---|---:|---:|---:|---:|---:|")?;
+    for ((kind, nodes), sums) in &sums {
+        writeln!(
+            out,
+            "| {} | {nodes} | {} | {} | {} | {} |",
+            kind.name(),
+            sums.graphs,
+            sums.cases,
+            sums.metric,
+            sums.open
+        )?;
+    }
+    Ok(ExitCode::from(GOOD))
+}
+
+impl Sums {
+    fn of(cases: &Cases) -> Self {
+        let count = |is: fn(&crate::mixtures::Case) -> bool| {
+            cases.all.iter().filter(|case| is(case)).count()
+        };
+        Self {
+            graphs: 1,
+            cases: cases.all.len(),
+            metric: count(|case| case.is_metric()),
+            open: count(|case| case.rank != case.at_most),
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.graphs += other.graphs;
+        self.cases += other.cases;
+        self.metric += other.metric;
+        self.open += other.open;
+    }
+}
