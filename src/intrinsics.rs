@@ -2,11 +2,13 @@
 //!
 //! In: a graph as it was read. Out: the graph with what was noted in reading the classes, and these.
 
-use super::plan::{INTRINSICS, IntrinsicsFrom};
+use super::plan::{CERTIFICATE, INTRINSICS, IntrinsicsFrom};
 use anyhow::{Context, Result};
 use std::borrow::Cow;
 use std::path::Path;
-use viewcert::intrinsics::Class;
+use viewcert::decide::Verdict;
+use viewcert::intrinsics::{Certified, Class, Metric};
+use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
 
 /// The graph with the notes on its classes, and the class of each node if that is asked.
@@ -31,4 +33,26 @@ pub(super) fn read<'a>(
     let mut input = input.into_owned();
     input.notes.extend(found.notes);
     Ok((Cow::Owned(input), Some(found.classes)))
+}
+
+/// What the graph determines, and with what shows it if it is to be certified.
+///
+/// # Errors
+/// If the work was stopped; a graph without pairs that is to be certified.
+pub(super) fn decide(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    classes: &[Class],
+    (seed, certify): (u64, bool),
+    watch: &Watch,
+) -> Result<(Metric, Option<Certified>)> {
+    let graph = &input.graph;
+    if !certify {
+        return Ok((Metric::new(graph, verdict, classes, seed, watch)?, None));
+    }
+    let found = Certified::new(graph, verdict, classes, seed, watch)?;
+    let found = found.with_context(|| {
+        format!("{INTRINSICS}: a graph without pairs has no certificate; leave out {CERTIFICATE}")
+    })?;
+    Ok((found.metric.clone(), Some(found)))
 }

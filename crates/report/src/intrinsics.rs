@@ -5,7 +5,8 @@
 
 use serde::Serialize;
 use std::io::{self, Write};
-use viewcert::intrinsics::{Class, Metric, MetricComponent};
+use viewcert::certificate::hex;
+use viewcert::intrinsics::{Class, Metric, MetricComponent, classes_sha256};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
 
@@ -14,6 +15,8 @@ use viewcert_formats::NamedGraph;
 pub struct IntrinsicsLine {
     /// How many cameras are of each class.
     classes: Vec<ClassLine>,
+    /// What a certificate and its checkers call them by.
+    classes_sha256: String,
     verdict: &'static str,
     /// Whether bounds meet: then all that is said is proved.
     proved: bool,
@@ -70,13 +73,8 @@ impl IntrinsicsLine {
             .collect();
         Self {
             classes: of_class.into(),
-            verdict: if found.is_metric() {
-                "metric"
-            } else if found.at_most < found.required {
-                "not-metric"
-            } else {
-                "open"
-            },
+            classes_sha256: hex(&classes_sha256(classes)),
+            verdict: found.verdict(),
             proved: found.is_proved(),
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -154,6 +152,7 @@ impl IntrinsicsLine {
             counted(self.components.len(), "component"),
             counted(self.other_pairs, "pair")
         )?;
+        writeln!(out, "  classes     SHA-256 {}", self.classes_sha256)?;
         for (k, line) in (1..).zip(&self.components) {
             if let Some(labels) = &line.labels {
                 writeln!(out, "  metric component {k}: {}", labels.join(" "))?;

@@ -11,9 +11,13 @@
 //!   members    rigid bodies grow, become metric, and grow again      theory 17.3, 17.5
 //!   system     what they share, at drawn centres and axes            17.6, 17.9
 //!   bound      what moves alike in one motion, counted               17.7, 17.8
+//!
+//! certified(graph, classes)
+//!   certified  the same on the members of a certificate, with what shows it
 //! ```
 
 mod bound;
+mod certified;
 mod members;
 mod system;
 
@@ -23,8 +27,9 @@ use crate::geometry::model::Model;
 use crate::graph::Graph;
 use crate::watch::{Stopped, Watch};
 use bound::Alike;
+pub use certified::{Certified, classes_sha256};
 use members::Members;
-use system::System;
+use system::{Moved, System};
 
 /// How many draws are tried while the bounds do not meet.
 const DRAWS: u64 = 3;
@@ -56,6 +61,13 @@ impl Class {
         let mut all = Self::ALL.into_iter();
         all.find(|(_, of_class)| *of_class == word)
             .map(|(class, _)| class)
+    }
+
+    /// The word that stands for it.
+    pub fn word(self) -> &'static str {
+        let mut all = Self::ALL.into_iter();
+        let found = all.find(|&(class, _)| class == self);
+        found.expect("one of all").1
     }
 
     /// How many intrinsics are unknown, d_v.
@@ -105,11 +117,31 @@ pub struct Metric {
     pub unknowns: usize,
 }
 
+/// What one draw shows.
+struct Shown {
+    rank: usize,
+    at_most: usize,
+    alike: Alike,
+    draw: u64,
+    moved: Moved,
+}
+
 impl Metric {
     /// Whether all cameras are determined, with their intrinsics, up to similarities and finitely many
     /// choices. It is proved.
     pub fn is_metric(&self) -> bool {
         self.rank == self.required
+    }
+
+    /// `metric`, `not-metric`, or `open` if the bounds do not tell: as certificates and JSON have it.
+    pub fn verdict(&self) -> &'static str {
+        if self.is_metric() {
+            "metric"
+        } else if self.at_most < self.required {
+            "not-metric"
+        } else {
+            "open"
+        }
     }
 
     /// Whether the rank is known, by bounds from both sides, and with it all that is said.
@@ -144,51 +176,68 @@ impl Metric {
         assert_eq!(classes.len(), graph.nodes(), "a class for each node");
         assert_eq!(verdict.model, Model::Projective, "the projective verdict");
         let members = Members::new(graph, verdict, classes);
+        let of = (graph, verdict.sha256);
+        Ok(Self::of_members(of, &members, classes, seed, watch)?.0)
+    }
+
+    /// What is found with these members, and the draw that shows it.
+    fn of_members(
+        (graph, graph_sha256): (&Graph, [u8; 32]),
+        members: &Members,
+        classes: &[Class],
+        seed: u64,
+        watch: &Watch,
+    ) -> Result<(Self, Shown), Stopped> {
         let all: usize = classes.iter().map(|class| 6 + class.unknowns()).sum();
         let held = |v: usize| !members.of_node[v].is_empty();
         let alone = (0..graph.nodes()).filter(|&v| !held(v));
         let alone: usize = alone.map(|v| 6 + classes[v].unknowns()).sum();
         let required = all.saturating_sub(7);
         let conditions = classes.iter().map(|class| class.conditions()).sum();
-        let mut found: Option<(usize, usize, Alike)> = None;
-        let mut unknowns = 0;
+        let core_sha256 = Some(classes_sha256(classes));
+        let mut best: Option<Shown> = None;
         for draw in 0..DRAWS {
             let key = DrawKey {
-                graph_sha256: verdict.sha256,
-                core_sha256: None,
+                graph_sha256,
+                core_sha256,
                 seed,
                 draw,
             };
-            let moved = System::new(&members, classes, &key).motion(watch)?;
-            unknowns = moved.columns;
+            let moved = System::new(members, classes, &key).motion(watch)?;
             let rank = all - alone - moved.dimension;
-            let alike = Alike::new(&members, &moved);
-            let bound = alike.bound(&members, classes).min(required);
+            let alike = Alike::new(members, &moved);
+            let at_most = alike.bound(members, classes).min(required);
             // A larger rank is nearer to the generic one, and its motions are those that there are.
-            found = Some(match found {
-                Some((before, at_most, alike)) if before >= rank => {
-                    (before, at_most.min(bound), alike)
-                }
-                Some((_, at_most, _)) => (rank, at_most.min(bound), alike),
-                None => (rank, bound, alike),
-            });
-            if found.as_ref().is_some_and(|found| found.0 == found.1) {
+            let is_better = best
+                .as_ref()
+                .is_none_or(|best| rank > best.rank || rank == best.rank && at_most < best.at_most);
+            if is_better {
+                best = Some(Shown {
+                    rank,
+                    at_most,
+                    alike,
+                    draw,
+                    moved,
+                });
+            }
+            if rank == at_most {
                 break;
             }
         }
-        let (rank, at_most, alike) = found.expect("a draw at least");
-        let components = alike.components(graph, &members);
+        let shown = best.expect("a draw at least");
+        let components = shown.alike.components(graph, members);
         let in_components: usize = components.iter().map(|component| component.pairs).sum();
-        Ok(Self {
-            rank,
-            at_most,
+        let found = Self {
+            rank: shown.rank,
+            at_most: shown.at_most,
             required,
             other_pairs: graph.edges().len() - in_components,
             components,
-            determined: alike.determined(classes),
+            determined: shown.alike.determined(classes),
             conditions,
-            unknowns,
-        })
+            unknowns: shown.moved.motion.len(),
+        };
+        Ok((found, shown))
     }
 }
 

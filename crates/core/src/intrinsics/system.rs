@@ -10,6 +10,7 @@ use crate::geometry::draw::DrawKey;
 use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::sparse_lu::{Factorisation, SparseRow};
+use crate::linalg::textbook::Pivots;
 use crate::watch::{Step, Stopped, Watch};
 
 /// The unknowns of a cluster: how it turns.
@@ -44,8 +45,10 @@ pub(super) struct System<'a> {
 pub(super) struct Moved {
     /// The dimension of all motions, scales of cameras left out.
     pub(super) dimension: usize,
-    /// How many unknowns the system has.
-    pub(super) columns: usize,
+    /// Which rows and columns show that it is no larger.
+    pub(super) pivots: Pivots,
+    /// The motion in the unknowns of the system.
+    pub(super) motion: Vec<u64>,
     /// For each member A, b and w of its X, whose lower right entry is 0.
     pub(super) members: Vec<[u64; OF_MEMBER]>,
     /// For each node how it turns, if its intrinsics do not move; `None` for nodes in no member.
@@ -55,7 +58,7 @@ pub(super) struct Moved {
 impl<'a> System<'a> {
     pub(super) fn new(members: &'a Members, classes: &'a [Class], key: &DrawKey) -> Self {
         let field = PrimeField::mersenne61();
-        let mut random = key.residues(&field);
+        let mut random = key.coordinates(&field);
         let mut vector = || -> [u64; 3] { [random(), random(), random()] };
         let centres = classes.iter().map(|_| vector()).collect();
         let axes = classes.iter().map(|_| vector()).collect();
@@ -134,12 +137,14 @@ impl<'a> System<'a> {
         });
         Ok(Moved {
             dimension: done.free_cols().len(),
-            columns: self.columns,
             members: members.collect(),
             turns: turns.collect(),
+            pivots: done.pivots(),
+            motion: y,
         })
     }
 
+    /// All rows in the order of docs/certificate.md, section 15, those that are zero too.
     fn rows(&self) -> Vec<SparseRow> {
         let mut rows = Vec::new();
         for (v, held) in self.members.of_node.iter().enumerate() {
@@ -153,7 +158,6 @@ impl<'a> System<'a> {
                 self.in_class(v, first, &mut rows);
             }
         }
-        rows.retain(|row| !row.is_empty());
         rows
     }
 
