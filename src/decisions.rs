@@ -13,7 +13,7 @@ use viewcert::Known;
 use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert::here::{Centres, Here};
-use viewcert::intrinsics::{Metric, Sensors};
+use viewcert::intrinsics::{Certified, Sensors};
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
@@ -79,6 +79,12 @@ enum Besides<'a> {
     Sensors(&'a Sensors),
 }
 
+/// What has a certificate of its own kind.
+enum OwnCertificate<'a> {
+    Here(&'a Here, &'a Centres),
+    Intrinsics(&'a Certified),
+}
+
 /// What is to be done with every graph of a run.
 struct Work<'a> {
     session: &'a Session,
@@ -109,13 +115,16 @@ impl Work<'_> {
         let scope = Scope::new(input, &verdict, plan.asked, &session.shown_watch());
         session.hide();
         let mut scope = scope.with_context(name)?;
+        let mut certified = None;
         if let Some(Besides::Sensors(sensors)) = besides {
+            let certify = self.target.is_some();
             let watch = session.shown_watch();
-            let found = Metric::with_sensors(&input.graph, &verdict, sensors, plan.seed, &watch);
+            let found = intrinsics::decide(input, &verdict, sensors, (plan.seed, certify), &watch);
             session.hide();
-            let found = found.with_context(name)?;
+            let (metric, evidence) = found.with_context(name)?;
             let listed = plan.list_components;
-            scope = scope.with_intrinsics(IntrinsicsLine::new(input, sensors, &found, listed));
+            scope = scope.with_intrinsics(IntrinsicsLine::new(input, sensors, &metric, listed));
+            certified = evidence;
         }
         let centres = match besides {
             Some(Besides::Cameras(centres)) => Some(centres),
@@ -131,7 +140,12 @@ impl Work<'_> {
             Ok((decided?, centres))
         });
         let here = here.transpose()?;
-        let written = self.write(input, &verdict, &scope, here.as_ref())?;
+        let own = match (&here, &certified) {
+            (Some((here, centres)), _) => Some(OwnCertificate::Here(here, centres)),
+            (_, Some(certified)) => Some(OwnCertificate::Intrinsics(certified)),
+            _ => None,
+        };
+        let written = self.write(input, &verdict, &scope, own)?;
         let time = start.elapsed();
         let advice = self.advise(input, &verdict);
         session.hide();
@@ -186,15 +200,22 @@ impl Work<'_> {
         input: &NamedGraph,
         verdict: &Verdict,
         scope: &Scope,
-        here: Option<&(Here, &Centres)>,
+        own: Option<OwnCertificate>,
     ) -> Result<Written> {
         let (outputs, products) = (self.session.outputs(), &self.plan.products);
         let mut written = Written::default();
         if let Some(target) = &mut self.target {
-            let path = match here {
-                Some((here, centres)) => target.write_as(outputs, input, |out, embed| {
+            let path = match own {
+                Some(own) => target.write_as(outputs, input, |out, embed| {
                     let graph = (&input.graph, &*input.name);
-                    here.write_certificate(graph, centres, embed, out)
+                    match own {
+                        OwnCertificate::Here(here, centres) => {
+                            here.write_certificate(graph, centres, embed, out)
+                        }
+                        OwnCertificate::Intrinsics(found) => {
+                            found.write_certificate(graph, verdict, embed, out)
+                        }
+                    }
                 })?,
                 None => target.write(outputs, input, verdict, scope.shared_base_lines())?,
             };

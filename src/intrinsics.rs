@@ -2,11 +2,13 @@
 //!
 //! In: a graph as it was read. Out: the graph with what was noted in reading, and the sensors.
 
-use super::plan::{INTRINSICS, IntrinsicsFrom};
-use anyhow::{Context, Result};
+use super::plan::{CERTIFICATE, INTRINSICS, IntrinsicsFrom};
+use anyhow::{Context, Result, ensure};
 use std::borrow::Cow;
 use std::path::Path;
-use viewcert::intrinsics::Sensors;
+use viewcert::decide::Verdict;
+use viewcert::intrinsics::{Certified, Metric, Sensors};
+use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
 
 /// The graph with the notes on its classes, and the sensor of each node if that is asked.
@@ -31,4 +33,33 @@ pub(super) fn read<'a>(
     let mut input = input.into_owned();
     input.notes.extend(found.notes);
     Ok((Cow::Owned(input), Some(found.sensors)))
+}
+
+/// What the graph determines, and with what shows it if it is to be certified.
+///
+/// # Errors
+/// If the work was stopped; a graph without pairs, or with shared intrinsics, that is to be certified.
+pub(super) fn decide(
+    input: &NamedGraph,
+    verdict: &Verdict,
+    sensors: &Sensors,
+    (seed, certify): (u64, bool),
+    watch: &Watch,
+) -> Result<(Metric, Option<Certified>)> {
+    let graph = &input.graph;
+    if !certify {
+        return Ok((
+            Metric::with_sensors(graph, verdict, sensors, seed, watch)?,
+            None,
+        ));
+    }
+    ensure!(
+        sensors.shared().is_empty(),
+        "{INTRINSICS}: certificates do not state shared intrinsics yet; leave out {CERTIFICATE}"
+    );
+    let found = Certified::new(graph, verdict, sensors, seed, watch)?;
+    let found = found.with_context(|| {
+        format!("{INTRINSICS}: a graph without pairs has no certificate; leave out {CERTIFICATE}")
+    })?;
+    Ok((found.metric.clone(), Some(found)))
 }

@@ -56,6 +56,17 @@ pub(super) enum IntrinsicsFrom {
     Free,
 }
 
+impl From<Option<PathBuf>> for IntrinsicsFrom {
+    /// What stands behind the option.
+    fn from(file: Option<PathBuf>) -> Self {
+        match file {
+            None => Self::Input,
+            Some(word) if word == Path::new("free") => Self::Free,
+            Some(file) => Self::File(file),
+        }
+    }
+}
+
 /// Files that are written for a graph, each whole or not at all.
 #[derive(Default)]
 pub(super) struct Products {
@@ -187,10 +198,6 @@ impl Plan {
         ensure!(
             !self.draft.whole_graph,
             "{INTRINSICS}: is decided between bodies; leave out --method matrix"
-        );
-        ensure!(
-            self.products.certificate.is_none(),
-            "{INTRINSICS}: certificates do not state classes of cameras yet; leave out {CERTIFICATE}"
         );
         ensure!(
             self.products.proof.is_none(),

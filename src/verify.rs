@@ -6,7 +6,7 @@ use super::plan::{Form, IntrinsicsFrom, Plan};
 use super::question::{GRAPHS, QuestionArguments};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use viewcert::decide::{Arithmetic, CountSolutions, Prime};
 use viewcert::linalg::prime::PrimeField;
 use viewcert_report::many::Format;
@@ -124,11 +124,7 @@ impl VerifyArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.given = self.given.path().map(Into::into);
-        plan.intrinsics = self.intrinsics.as_ref().map(|file| match file {
-            None => IntrinsicsFrom::Input,
-            Some(word) if word == Path::new("free") => IntrinsicsFrom::Free,
-            Some(file) => IntrinsicsFrom::File(file.clone()),
-        });
+        plan.intrinsics = self.intrinsics.clone().map(IntrinsicsFrom::from);
         plan.draft.whole_graph = matches!(self.method, MethodName::Matrix);
         plan.draft.counting = !matches!(self.method, MethodName::Ranks);
         if let Some(Bounds {

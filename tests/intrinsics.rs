@@ -39,6 +39,7 @@ fn two_known_cameras_make_a_triangle_metric() {
         "metric rank 16 of 16 (proved)",
         "determined  the intrinsics of 3 of 3",
         "metric component 1: a b c",
+        "classes     SHA-256 ",
         "1 camera of no class: taken for unknown",
     ] {
         assert!(run.out.contains(line), "{line}: {}", run.out);
@@ -86,10 +87,6 @@ fn what_does_not_go_with_classes_is_refused() {
         (&["--given", "parts.txt"], "leave out --given"),
         (&["--planar"], "in a plane"),
         (&["--method", "matrix"], "leave out --method matrix"),
-        (
-            &["--certificate", "c.json"],
-            "certificates do not state classes",
-        ),
         (
             &["--proof", "p.txt"],
             "explicit proofs do not state classes",

@@ -5,7 +5,10 @@ use std::path::Path;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert_check::{Certificate, Failure, Graph, Model, Verdict, Verified};
+use viewcert_check::{
+    Certificate, Failure, Graph, IntrinsicsCertificate, Limits, Model, Verdict, Verified,
+    VerifiedIntrinsics, is_of_intrinsics,
+};
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
 /// What a certificate proves.
@@ -43,6 +46,19 @@ impl Proved {
             components: verified.components.0,
         }
     }
+
+    fn of_intrinsics(verified: &VerifiedIntrinsics) -> Self {
+        Self {
+            sha256: verified.sha256.clone(),
+            verdict: verified.verdict.into(),
+            solutions: None,
+            text: verified.to_string(),
+            is_projective: false,
+            rank: verified.rank[0],
+            required: verified.required,
+            components: verified.components.as_ref().map_or(0, Vec::len),
+        }
+    }
 }
 
 /// What is proved of the number of solutions; a number is proved by `solvable` as well.
@@ -61,6 +77,11 @@ fn solutions(verified: &Verified) -> Option<String> {
 
 /// What a certificate proves about the graph that it holds; otherwise why it is rejected.
 pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
+    if is_of_intrinsics(text) {
+        let certificate = IntrinsicsCertificate::parse(text)?;
+        let verified = certificate.check_within(None, None, &Limits::default())?;
+        return Ok(Proved::of_intrinsics(&verified));
+    }
     viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }
 
@@ -133,12 +154,26 @@ pub(super) fn graph_at(
     given: Option<&Path>,
     options: &ReadOptions,
 ) -> Result<Graph> {
+    let input = named_at(hash, path, options)?;
+    with_given(graph_of(&input)?, given, &input)
+}
+
+/// The same as it was read.
+///
+/// # Errors
+/// If there is no such graph.
+pub(super) fn named_at(hash: &str, path: &Path, options: &ReadOptions) -> Result<NamedGraph> {
     let is_meant = |input: &NamedGraph| hex(&sha256(&input.graph)) == hash;
     let found = read_meant(path, options, is_meant)?;
-    let name = || path.display().to_string();
-    let no_graph = || format!("{}: the file holds no graph", name());
-    let input = found.with_context(no_graph)?;
+    found.with_context(|| format!("{}: the file holds no graph", path.display()))
+}
+
+/// The checker's graph.
+///
+/// # Errors
+/// If it is too large.
+pub(super) fn graph_of(input: &NamedGraph) -> Result<Graph> {
     let pairs = input.graph.edges().iter().copied();
-    let graph = Graph::new(input.graph.nodes(), pairs).with_context(name)?;
-    with_given(graph, given, &input)
+    let graph = Graph::new(input.graph.nodes(), pairs);
+    graph.with_context(|| input.name.clone())
 }

@@ -3,6 +3,7 @@
 pub(crate) mod checker;
 mod folder;
 mod here;
+mod intrinsics;
 mod names;
 mod proved;
 
@@ -10,6 +11,7 @@ use self::folder::{Listing, name};
 use self::names::{is_list, printable};
 use super::given::GivenArguments;
 use super::input::InputArguments;
+use super::plan::{INTRINSICS, IntrinsicsFrom};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use flate2::read::MultiGzDecoder;
@@ -22,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
-use viewcert_check::{Failure, is_here};
+use viewcert_check::{Failure, is_here, is_of_intrinsics};
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 
@@ -57,6 +59,9 @@ pub(super) struct CheckArguments {
     /// else is a rejection. With GRAPH and without this option: nothing.
     #[command(flatten)]
     given: GivenArguments,
+    /// For a certificate of intrinsics: the classes it has to suppose, as for `verify GRAPH`.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, requires = "graph")]
+    intrinsics: Option<Option<PathBuf>>,
 }
 
 /// Checks one certificate, or all of a file or folder.
@@ -96,7 +101,8 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
     let text = read(path)?;
     ensure_certificate(path, &text, arguments.graph.as_deref())?;
     let given = arguments.given.path();
-    let inputs = [Some(&**path), arguments.graph.as_deref(), given];
+    let classes = arguments.intrinsics.as_ref().and_then(Option::as_deref);
+    let inputs = [Some(&**path), arguments.graph.as_deref(), given, classes];
     let standard = inputs
         .into_iter()
         .flatten()
@@ -118,6 +124,20 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         let checked = here::check(&text, arguments.graph.as_deref(), &options()?)?;
         return say(checked, String::clone, |_, _| Ok(GOOD));
     }
+    let classes = arguments.intrinsics.clone().map(IntrinsicsFrom::from);
+    if is_of_intrinsics(&text) {
+        ensure!(
+            given.is_none() && arguments.proved.is_none(),
+            "this certificate is about classes of cameras and nothing else: leave out --given and --proved"
+        );
+        let graph = arguments.graph.as_deref();
+        let checked = intrinsics::check(&text, graph, classes.as_ref(), &options()?)?;
+        return say(checked, String::clone, |_, _| Ok(GOOD));
+    }
+    ensure!(
+        classes.is_none(),
+        "{INTRINSICS}: this certificate is about no classes of cameras; leave it out"
+    );
     let outcome = match (&arguments.graph, given) {
         (None, None) => checker::check(&text),
         (None, Some(given)) => checker::check_given(&text, given)?,

@@ -21,6 +21,7 @@ import time
 import check
 import frames_by_force
 import graphs
+import intrinsics_by_force
 import make
 import notation
 from claim import stated
@@ -266,6 +267,9 @@ TRUTHS = {}
 def contradiction(document):
     """What is wrong with an accepted certificate."""
     graph = graphs.read_graph6(document["graph"]["graph6"])
+    if "motion" in document:
+        of = graph.n, list(graph.edges), document["classes"], document["claim"]
+        return intrinsics_by_force.contradiction(*of, random.Random(graph.n))
     n, edges, model = graph.n, set(map(tuple, graph.edges)), document["model"]
     # A known part is as good as all its pairs (theory, Theorem 4.14).
     for part in document.get("parts", []):
@@ -709,6 +713,11 @@ def change_frames(document, rng):
     frames_by_force.change(document["base_lines"], document["graph"]["nodes"], rng)
 
 
+def change_intrinsics(document, rng):
+    """Other classes, pivots and motions."""
+    intrinsics_by_force.change(document, rng)
+
+
 def remake(document, rng):
     """All evidence is made anew, honestly, for other bodies, pieces and primes, which may be bad ones."""
     graph = graphs.read_graph6(document["graph"]["graph6"])
@@ -746,6 +755,7 @@ MUTATIONS = (
     *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
     *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
     *(change_frames, change_frames, change_frames),
+    *(change_intrinsics, change_intrinsics, change_intrinsics, change_intrinsics),
     *(into_factors, change_factor, change_factor),
 )
 
@@ -756,6 +766,9 @@ INCREASING = ("edges", "bodies", "split", "added", "freed", "plus", "minus", "ab
 
 def repair(document, rng):
     """Makes what a checker computes agree with what is stated: order, counting, hubs, then the claim."""
+    if "motion" in document:
+        repair_intrinsics(document)
+        return
     try:
         put_in_order(document)
     except (LookupError, TypeError, AttributeError, ValueError):
@@ -769,6 +782,18 @@ def repair(document, rng):
                 return
         except Exception:
             return
+
+
+def repair_intrinsics(document):
+    """The claim that the evidence gives."""
+    try:
+        done = check.IntrinsicsCheck.__new__(check.IntrinsicsCheck)
+        done.compare = lambda: None
+        done.__init__(copy_of(document))
+        done.claim = done.found_claim()
+        document["claim"] = done.claim
+    except Exception:
+        return
 
 
 def put_in_order(document):

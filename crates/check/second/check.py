@@ -5,7 +5,7 @@ It shares no code, language, arithmetic, parser or dependency with the first one
 read: a file is a section of that page, each function the list of conditions of one part of it, in the page's order,
 and names the section. Each file builds on those before it: notation (1), graphs (2), document (3), draws (4),
 elimination and matrices (7), cores (6), lower (7), bodies (5), upper (7), pieces (6, 7, 9), claim (8), solutions (12),
-oriented (12), base lines (13), here (14).
+oriented (12), base lines (13), here (14), intrinsics (15).
 Whatever is not shown to be right is rejected: an exception that nobody foresaw is a rejection as well.
 """
 
@@ -16,6 +16,8 @@ import sys
 from base_lines import BaseLines
 from here import FORMAT as AT_CAMERAS
 from here import HereCheck
+from intrinsics import FORMAT as OF_INTRINSICS
+from intrinsics import IntrinsicsCheck
 from notation import Reject, TooLarge, Unreadable
 from solutions import WORK_LIMIT
 
@@ -68,6 +70,10 @@ def check(data, **given):
     try:
         if type(data) is bytes and AT_CAMERAS in data:
             return check_here(data, **given)
+        if type(data) is bytes and OF_INTRINSICS in data:
+            return check_intrinsics(data, **given)
+        if given.pop("classes_hash", None) is not None:
+            raise Reject("it is about no classes, and some are expected")
         done = Check(data, **given)
         done.compare_claim()
         return done
@@ -83,10 +89,18 @@ def shown_oriented(numbers):
     return f", real ones that are oriented, near some cameras: {', '.join(seen)}" * bool(seen)
 
 
-def check_here(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None):
+def check_here(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None, classes_hash=None):
     if given_data is not None:
         raise Unreadable("a certificate at given cameras supposes nothing else; leave out --given")
+    if classes_hash is not None:
+        raise Reject("it is about no classes, and some are expected")
     return HereCheck(data, graph_data, core_limit)
+
+
+def check_intrinsics(data, graph_data=None, core_limit=CORE_LIMIT, given_data=None, work_limit=None, classes_hash=None):
+    if given_data is not None:
+        raise Unreadable("a certificate of intrinsics supposes nothing but classes; leave out --given")
+    return IntrinsicsCheck(data, graph_data, core_limit, classes_hash)
 
 
 def shown(reason):
@@ -155,13 +169,14 @@ def main(arguments=None):
     parser.add_argument("certificate", nargs="?", help="a certificate, one JSON text (- is standard input)")
     parser.add_argument("graph", nargs="?", help="the graph that it has to be about")
     parser.add_argument("--given", metavar="FILE", help="what it has to suppose besides the graph; with GRAPH, default nothing")
+    parser.add_argument("--classes", metavar="HEX", help="the hash of the classes, for a certificate of intrinsics")
     parser.add_argument("--list", nargs="+", metavar="FILE", help="many certificates: .json, .jsonl, .jsonl.gz")
     parser.add_argument("--max-core-nodes", type=int, default=CORE_LIMIT, metavar="N", help=f"default {CORE_LIMIT}")
     parser.add_argument("--max-operations", type=int, default=WORK_LIMIT, metavar="N", help=f"of section 12, default {WORK_LIMIT}")
     options = parser.parse_args(arguments)
     if bool(options.list) == bool(options.certificate):
         parser.error("give one certificate, or --list with files")
-    if options.list and options.given:
+    if options.list and (options.given or options.classes):
         parser.error("what is given is that of one certificate, not of a --list")
     limits = {"core_limit": options.max_core_nodes, "work_limit": options.max_operations}
     try:
@@ -171,7 +186,7 @@ def main(arguments=None):
         given_data = read_file(options.given) if options.given else None
         text = read_file(options.certificate)
         need_certificate(options.certificate, text, graph_data)
-        done = check(text, graph_data=graph_data, given_data=given_data, **limits)
+        done = check(text, graph_data=graph_data, given_data=given_data, classes_hash=options.classes, **limits)
     except Reject as error:
         print("REJECTED")
         print(shown(error), file=sys.stderr)

@@ -29,7 +29,8 @@
 //! | motions tell classes apart | 7, 9 | 6.4, 6.7, 6.8, 13.13, 13.19 | `kernel` |
 //! | unknown base lines | 13 | 13.26, 13.27 | `base_lines`, with `frames` and `matrix` |
 //! | the number of solutions | 12 | 10.2 to 10.17 | `solutions`, a file for each kind |
-//! | what is determined at given cameras | 13 | 16.1 to 16.4 | `here`, all of it |
+//! | what is determined at given cameras | 14 | 16.1 to 16.4 | `here`, all of it |
+//! | what is determined of intrinsics | 15 | 17.3, 17.6 to 17.9 | `intrinsics`, all of it |
 //! | the claim is what follows | 8 | 1.3, 4.2, 4.6, 4.8, 4.12, 13.2, 13.17, 13.20 | `claim` |
 //!
 //! `setting` has what all evidence refers to, `pivots` what a minor is. `cameras` draws (section
@@ -54,6 +55,7 @@ mod forest;
 mod graph;
 mod here;
 mod integer_minor;
+mod intrinsics;
 mod json;
 mod kernel;
 mod limits;
@@ -79,6 +81,7 @@ pub use document::Model;
 pub use document::Number;
 pub use graph::Graph;
 pub use here::{HereCertificate, VerifiedHere, is_here};
+pub use intrinsics::{IntrinsicsCertificate, VerifiedIntrinsics, is_of_intrinsics};
 pub use limits::Limits;
 pub use rejection::{Failure, Rejection, TooLarge, Unreadable};
 pub use solutions::Count;

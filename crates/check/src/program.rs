@@ -1,8 +1,8 @@
 //! `viewcert-check CERTIFICATE [GRAPH]`: arguments and files in, what was verified out.
 
 use crate::{
-    Certificate, Failure, Graph, HereCertificate, Limits, Model, Strength, Unreadable, Verdict,
-    Verified, is_here,
+    Certificate, Failure, Graph, HereCertificate, IntrinsicsCertificate, Limits, Model, Strength,
+    Unreadable, Verdict, Verified, is_here, is_of_intrinsics,
 };
 use lexopt::Arg::{Long, Short, Value};
 use lexopt::ValueExt;
@@ -46,6 +46,7 @@ these no known parts and displacements may be supposed but what is given:
 
   --proofs-only        proofs, no error bounds
   --centres HEX        the hash of the cameras' centres, for a certificate at given cameras
+  --classes HEX        the hash of the cameras' classes, for a certificate of intrinsics
 
 Limits (beyond them: exit code 3):
   --max-bytes N        size of each file [{MAX_BYTES}]
@@ -95,6 +96,7 @@ struct Expected {
     given: bool,
     proofs_only: bool,
     centres: Option<String>,
+    classes: Option<String>,
 }
 
 /// Why there is no answer about the certificate; with the exit code.
@@ -160,6 +162,7 @@ fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {
             Long("sha256") => expected.sha256 = Some(parser.value()?.parse_with(hash)?),
             Long("given") => given = Some(parser.value()?),
             Long("centres") => expected.centres = Some(parser.value()?.parse_with(hash)?),
+            Long("classes") => expected.classes = Some(parser.value()?.parse_with(hash)?),
             Long("proofs-only") => expected.proofs_only = true,
             Long("max-bytes") => max_bytes = number(&mut parser)?,
             Long("max-core") => limits.core = number(&mut parser)?,
@@ -242,6 +245,9 @@ fn check(arguments: &Arguments) -> Result<u8, Stop> {
     if is_here(&text) {
         return check_here(&text, file, given.is_some(), arguments);
     }
+    if is_of_intrinsics(&text) {
+        return check_intrinsics(&text, file, given.is_some(), arguments);
+    }
     let certificate = LazyLock::new(|| Certificate::parse(&text));
     // Large files are read side by side; whoever needs the certificate waits for it.
     let graph = std::thread::scope(|scope| {
@@ -312,36 +318,80 @@ fn check_here(
         Ok(verified) => verified,
         Err(failure) => return not_verified(failure),
     };
-    let [nodes, edges] = verified.size;
-    let differs = |wanted: &Option<String>, is: &String| wanted.as_ref().is_some_and(|w| w != is);
+    let proved = [verified.rank.1, verified.components.1] == [Strength::Proof; 2];
     let other = [
         (
             expected.model.is_some_and(|model| model != verified.model),
             "model",
         ),
         (
-            expected.nodes.is_some_and(|n| n != nodes),
-            "number of nodes",
-        ),
-        (
-            expected.edges.is_some_and(|m| m != edges),
-            "number of edges",
-        ),
-        (
-            differs(&expected.sha256, &verified.sha256),
-            "hash of the graph",
-        ),
-        (
             differs(&expected.centres, &verified.centres_sha256),
             "hash of the centres",
         ),
-        (
-            expected.proofs_only
-                && [verified.rank.1, verified.components.1] != [Strength::Proof; 2],
-            "strength",
-        ),
+        (expected.classes.is_some(), "kind of certificate"),
+        (expected.proofs_only && !proved, "strength"),
     ];
-    if let Some((_, what)) = other.iter().find(|(differs, _)| *differs) {
+    let others = other
+        .into_iter()
+        .filter_map(|(is, what)| is.then_some(what));
+    let others = others.chain(expected.of_graph(verified.size, &verified.sha256));
+    say_if_expected(&verified, others)
+}
+
+/// Checks a certificate of intrinsics; all of it is proved.
+fn check_intrinsics(
+    text: &[u8],
+    file: Option<Opened>,
+    given: bool,
+    arguments: &Arguments,
+) -> Result<u8, Stop> {
+    let expected = &arguments.expected;
+    if given || expected.verdict.is_some() || expected.model.is_some() {
+        let why = "--given, --expect and --model do not go with a certificate of intrinsics";
+        return Err(Stop::no_answer(why));
+    }
+    let certificate = match IntrinsicsCertificate::parse(text) {
+        Ok(certificate) => certificate,
+        Err(failure) => return not_verified(failure),
+    };
+    let wanted = || Some(certificate.graph_sha256());
+    let graph = file.map(|(path, file)| Graph::read(&file, wanted).map_err(in_file(&path)));
+    let graph = graph.transpose()?;
+    let classes = expected.classes.as_deref();
+    let checked = certificate.check_within(graph.as_ref(), classes, &arguments.limits);
+    let verified = match checked {
+        Ok(verified) => verified,
+        Err(failure) => return not_verified(failure),
+    };
+    let other = expected.centres.is_some().then_some("kind of certificate");
+    let others = expected.of_graph(verified.size, &verified.sha256);
+    let others = other.into_iter().chain(others);
+    say_if_expected(&verified, others)
+}
+
+fn differs(wanted: &Option<String>, is: &String) -> bool {
+    wanted.as_ref().is_some_and(|wanted| wanted != is)
+}
+
+impl Expected {
+    /// What is expected of the graph and is not so.
+    fn of_graph(&self, [nodes, edges]: [usize; 2], sha256: &String) -> Option<&'static str> {
+        let other = [
+            (self.nodes.is_some_and(|n| n != nodes), "number of nodes"),
+            (self.edges.is_some_and(|m| m != edges), "number of edges"),
+            (differs(&self.sha256, sha256), "hash of the graph"),
+        ];
+        let mut other = other.into_iter();
+        other.find(|&(is, _)| is).map(|(_, what)| what)
+    }
+}
+
+/// Says what was verified, if nothing of it is other than expected.
+fn say_if_expected(
+    verified: &dyn std::fmt::Display,
+    mut others: impl Iterator<Item = &'static str>,
+) -> Result<u8, Stop> {
+    if let Some(what) = others.next() {
         explain(&format!("not what is expected: another {what}"));
         return Ok(NOT_VERIFIED);
     }
@@ -407,11 +457,13 @@ fn differences(verified: &Verified, expected: &Expected) -> Vec<String> {
         given,
         proofs_only,
         centres,
+        classes,
     } = expected;
     see(
         centres.is_some(),
         "it is about generic cameras, and none are given".into(),
     );
+    see(classes.is_some(), "it is about no classes".into());
     let verified_verdict = verified.verdict.0;
     see(
         verdict.is_some_and(|verdict| verdict != verified_verdict),

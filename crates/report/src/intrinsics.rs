@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 use std::io::{self, Write};
+use viewcert::certificate::hex;
 use viewcert::intrinsics::{Class, Metric, MetricComponent, Sensors};
 use viewcert::wording::counted;
 use viewcert_formats::NamedGraph;
@@ -17,6 +18,8 @@ pub struct IntrinsicsLine {
     /// The sensors that several cameras share, the one with most cameras first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     shared: Vec<SensorLine>,
+    /// What a certificate and its checkers call them by.
+    classes_sha256: String,
     verdict: &'static str,
     /// Whether bounds meet: then all that is said is proved.
     proved: bool,
@@ -95,13 +98,8 @@ impl IntrinsicsLine {
         Self {
             classes: of_class.into(),
             shared,
-            verdict: if found.is_metric() {
-                "metric"
-            } else if found.at_most < found.required {
-                "not-metric"
-            } else {
-                "open"
-            },
+            classes_sha256: hex(&sensors.sha256()),
+            verdict: found.verdict(),
             proved: found.is_proved(),
             rank: found.rank,
             rank_at_most: found.at_most,
@@ -186,6 +184,7 @@ impl IntrinsicsLine {
             counted(self.components.len(), "component"),
             counted(self.other_pairs, "pair")
         )?;
+        writeln!(out, "  classes     SHA-256 {}", self.classes_sha256)?;
         for (k, line) in (1..).zip(&self.components) {
             if let Some(labels) = &line.labels {
                 writeln!(out, "  metric component {k}: {}", labels.join(" "))?;

@@ -1,6 +1,7 @@
 //! The members of the certificate, borrowed from a verdict.
 
 mod here;
+mod intrinsics;
 
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, objects};

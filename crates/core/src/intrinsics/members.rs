@@ -48,6 +48,14 @@ impl Members {
         }
     }
 
+    /// Members that are there, metric ones first, otherwise in their order.
+    pub(super) fn listed(list: Vec<Vec<u32>>, sensors: &Sensors) -> Self {
+        let metric = metric(&list, sensors);
+        let (of_metric, others): (Vec<_>, Vec<_>) =
+            list.into_iter().zip(metric).partition(|&(_, is)| is);
+        Self::of(sensors.nodes(), nodes(of_metric), nodes(others))
+    }
+
     fn of(count: usize, metric: Vec<Vec<u32>>, others: Vec<Vec<u32>>) -> Self {
         let mut of_node = vec![Vec::new(); count];
         for (k, nodes) in metric.iter().chain(&others).enumerate() {

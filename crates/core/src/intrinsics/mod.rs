@@ -13,14 +13,19 @@
 //!   system     what they share, at drawn centres and axes            17.6, 17.9, 17.13
 //!   bound      what moves alike in one motion, counted               17.7, 17.8, 17.14
 //!   priors     what is determined if one sensor more is known        17.18
+//!
+//! certified(graph, classes)
+//!   certified  the same on the members of a certificate, with what shows it
 //! ```
 
 mod bound;
+mod certified;
 mod members;
 mod priors;
 mod sensors;
 mod system;
 
+pub use certified::Certified;
 pub use priors::Prior;
 pub use sensors::Sensors;
 
@@ -31,7 +36,7 @@ use crate::graph::Graph;
 use crate::watch::{Stopped, Watch};
 use bound::Alike;
 use members::Members;
-use system::System;
+use system::{Motions, System};
 
 /// How many draws are tried while the bounds do not meet.
 const DRAWS: u64 = 3;
@@ -63,6 +68,13 @@ impl Class {
         let mut all = Self::ALL.into_iter();
         all.find(|(_, of_class)| *of_class == word)
             .map(|(class, _)| class)
+    }
+
+    /// The word that stands for it.
+    pub fn word(self) -> &'static str {
+        let mut all = Self::ALL.into_iter();
+        let found = all.find(|&(class, _)| class == self);
+        found.expect("one of all").1
     }
 
     /// How many intrinsics are unknown, d_v.
@@ -114,11 +126,31 @@ pub struct Metric {
     pub degree: usize,
 }
 
+/// What one draw shows.
+struct Shown {
+    rank: usize,
+    at_most: usize,
+    alike: Alike,
+    draw: u64,
+    motions: Motions,
+}
+
 impl Metric {
     /// Whether all cameras are determined, with their intrinsics, up to similarities and finitely many
     /// choices. It is proved.
     pub fn is_metric(&self) -> bool {
         self.rank == self.required
+    }
+
+    /// `metric`, `not-metric`, or `open` if the bounds do not tell: as certificates and JSON have it.
+    pub fn verdict(&self) -> &'static str {
+        if self.is_metric() {
+            "metric"
+        } else if self.at_most < self.required {
+            "not-metric"
+        } else {
+            "open"
+        }
     }
 
     /// Whether the rank is known, by bounds from both sides, and with it all that is said.
@@ -171,53 +203,75 @@ impl Metric {
         assert_eq!(sensors.nodes(), graph.nodes(), "a sensor for each node");
         assert_eq!(verdict.model, Model::Projective, "the projective verdict");
         let members = Members::new(graph, verdict, sensors);
+        let of = (graph, verdict.sha256);
+        Ok(Self::of_members(of, &members, sensors, seed, watch)?.0)
+    }
+
+    /// What is found with these members, and the draw that shows it.
+    fn of_members(
+        (graph, graph_sha256): (&Graph, [u8; 32]),
+        members: &Members,
+        sensors: &Sensors,
+        seed: u64,
+        watch: &Watch,
+    ) -> Result<(Self, Shown), Stopped> {
         let nodes = 0..graph.nodes();
         let all = sensors.unknowns(nodes.clone());
         let held = nodes.filter(|&v| !members.of_node[v].is_empty());
         let of_held = sensors.unknowns(held);
         let required = all.saturating_sub(7);
         let every: Vec<u32> = (0..graph.nodes() as u32).collect();
-        let mut found: Option<(usize, usize, Alike)> = None;
-        let (mut unknowns, mut degree) = (0, 0);
+        let mut best: Option<Shown> = None;
+        let mut degree = 0;
         for draw in 0..DRAWS {
-            let key = DrawKey {
-                graph_sha256: verdict.sha256,
-                core_sha256: None,
-                seed,
-                draw,
-            };
-            let system = System::new(&members, sensors, &key);
+            let system = System::new(members, sensors, &key(graph_sha256, sensors, seed, draw));
             let motions = system.motions(1, watch)?;
-            (unknowns, degree) = (motions.columns, system.degree());
+            degree = system.degree();
             let rank = of_held - motions.dimension;
-            let alike = Alike::new(&members, &motions.first());
-            let bound = alike.bound(&members, sensors).min(required);
+            let alike = Alike::new(members, &motions.first());
+            let at_most = alike.bound(members, sensors).min(required);
             // A larger rank is nearer to the generic one, and its motions are those that there are.
-            found = Some(match found {
-                Some((before, at_most, alike)) if before >= rank => {
-                    (before, at_most.min(bound), alike)
-                }
-                Some((_, at_most, _)) => (rank, at_most.min(bound), alike),
-                None => (rank, bound, alike),
-            });
-            if found.as_ref().is_some_and(|found| found.0 == found.1) {
+            let is_better = best
+                .as_ref()
+                .is_none_or(|best| rank > best.rank || rank == best.rank && at_most < best.at_most);
+            if is_better {
+                best = Some(Shown {
+                    rank,
+                    at_most,
+                    alike,
+                    draw,
+                    motions,
+                });
+            }
+            if rank == at_most {
                 break;
             }
         }
-        let (rank, at_most, alike) = found.expect("a draw at least");
-        let components = alike.components(graph, &members);
+        let shown = best.expect("a draw at least");
+        let components = shown.alike.components(graph, members);
         let in_components: usize = components.iter().map(|component| component.pairs).sum();
-        Ok(Self {
-            rank,
-            at_most,
+        let found = Self {
+            rank: shown.rank,
+            at_most: shown.at_most,
             required,
             other_pairs: graph.edges().len() - in_components,
             components,
-            determined: alike.determined(sensors),
+            determined: shown.alike.determined(sensors),
             conditions: sensors.conditions(&every).0,
-            unknowns,
+            unknowns: shown.motions.motion.len(),
             degree,
-        })
+        };
+        Ok((found, shown))
+    }
+}
+
+/// The draws of centres, axes and rotations.
+fn key(graph_sha256: [u8; 32], sensors: &Sensors, seed: u64, draw: u64) -> DrawKey {
+    DrawKey {
+        graph_sha256,
+        core_sha256: Some(sensors.sha256()),
+        seed,
+        draw,
     }
 }
 

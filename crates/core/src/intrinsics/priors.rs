@@ -6,9 +6,8 @@
 use super::bound::Alike;
 use super::members::Members;
 use super::system::{Motions, Moved, System};
-use super::{Class, DRAWS, Metric, Sensors};
+use super::{Class, DRAWS, Metric, Sensors, key};
 use crate::decide::Verdict;
-use crate::geometry::draw::DrawKey;
 use crate::graph::Graph;
 use crate::linalg::sparse_lu::{Factorisation, SparseRow};
 use crate::watch::{Step, Stopped, Task, Watch};
@@ -128,12 +127,7 @@ impl Metric {
         let held = (0..sensors.nodes()).filter(|&v| !members.of_node[v].is_empty());
         let of_held = sensors.unknowns(held);
         for draw in 0..DRAWS {
-            let key = DrawKey {
-                graph_sha256: verdict.sha256,
-                core_sha256: None,
-                seed,
-                draw,
-            };
+            let key = key(verdict.sha256, sensors, seed, draw);
             let motions = System::new(members, sensors, &key).motions(MOTIONS, watch)?;
             if of_held - motions.dimension == self.rank {
                 return Ok(motions);

@@ -1,6 +1,7 @@
 //! Images of one sensor share what is not known of their intrinsics (docs/theory.md, 17.11 to 17.17).
 
 use super::Class;
+use sha2::{Digest, Sha256};
 
 /// A sensor for each node, that is, the physical camera that took the image, and a class for each
 /// sensor. Images of one sensor have the same intrinsics.
@@ -69,6 +70,32 @@ impl Sensors {
         let all = nodes.into_iter().enumerate();
         all.filter(|(sensor, nodes)| nodes.len() > 1 && self.classes[*sensor].unknowns() > 0)
             .collect()
+    }
+
+    /// The hash of the class of each node, and, if unknown intrinsics are shared, of which nodes share them
+    /// (docs/certificate.md, section 15). O(n).
+    pub fn sha256(&self) -> [u8; 32] {
+        let mut hash = Sha256::new();
+        hash.update(b"viewcert classes 1\n");
+        hash.update((self.nodes() as u64).to_le_bytes());
+        for node in 0..self.nodes() {
+            hash.update(self.class_of_node(node).word());
+            hash.update(b"\n");
+        }
+        let shared = self.shared();
+        if !shared.is_empty() {
+            let mut least: Vec<u32> = (0..self.nodes() as u32).collect();
+            for (_, nodes) in shared {
+                for &node in &nodes {
+                    least[node as usize] = nodes[0];
+                }
+            }
+            hash.update(b"shared\n");
+            for node in least {
+                hash.update(u64::from(node).to_le_bytes());
+            }
+        }
+        hash.finalize().into()
     }
 
     /// How many numbers are unknown: 6 for each node that is named, d for each of their sensors.

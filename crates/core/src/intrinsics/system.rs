@@ -11,6 +11,7 @@ use crate::geometry::draw::DrawKey;
 use crate::linalg::Ring;
 use crate::linalg::prime::PrimeField;
 use crate::linalg::sparse_lu::{Factorisation, SparseRow};
+use crate::linalg::textbook::Pivots;
 use crate::watch::{Step, Stopped, Watch};
 
 /// The unknowns of a cluster: how it turns.
@@ -57,8 +58,10 @@ pub(super) struct System<'a> {
 pub(super) struct Motions {
     /// The dimension of all motions, scales of cameras left out.
     pub(super) dimension: usize,
-    /// How many unknowns the system has.
-    pub(super) columns: usize,
+    /// Which rows and columns show that it is no larger.
+    pub(super) pivots: Pivots,
+    /// The first motion in the unknowns of the system.
+    pub(super) motion: Vec<u64>,
     field: PrimeField,
     drawn: Vec<Values>,
 }
@@ -148,7 +151,7 @@ fn sum<'a, const N: usize>(
 impl<'a> System<'a> {
     pub(super) fn new(members: &'a Members, sensors: &'a Sensors, key: &DrawKey) -> Self {
         let field = PrimeField::mersenne61();
-        let mut random = key.residues(&field);
+        let mut random = key.coordinates(&field);
         let mut vectors = || -> Vec<[u64; 3]> {
             let vectors = (0..sensors.nodes()).map(|_| [random(), random(), random()]);
             vectors.collect()
@@ -225,12 +228,14 @@ impl<'a> System<'a> {
             ..self.key
         }
         .residues(f);
-        let drawn = (0..count).map(|_| self.values(&done.kernel_vector(&rows, &mut random)));
+        let motions = (0..count).map(|_| done.kernel_vector(&rows, &mut random));
+        let motions: Vec<Vec<u64>> = motions.collect();
         Ok(Motions {
-            drawn: drawn.collect(),
+            drawn: motions.iter().map(|y| self.values(y)).collect(),
+            motion: motions.into_iter().next().unwrap_or_default(),
             dimension: done.free_cols().len(),
-            columns: self.columns,
-            field: self.field.clone(),
+            pivots: done.pivots(),
+            field: self.field,
         })
     }
 
@@ -260,6 +265,7 @@ impl<'a> System<'a> {
         }
     }
 
+    /// All rows in the order of docs/certificate.md, section 15, those that are zero too.
     fn rows(&self) -> Vec<SparseRow> {
         let mut rows = Vec::new();
         for (v, held) in self.members.of_node.iter().enumerate() {
@@ -273,7 +279,6 @@ impl<'a> System<'a> {
                 self.in_class(v, first, &mut rows);
             }
         }
-        rows.retain(|row| !row.is_empty());
         rows
     }
 
@@ -327,7 +332,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// How sym_0 of M may move, by columns, and a factor of M: r u^T + u r^T for the axis r, with u a
+    /// How M may move, by columns and up to sym_0, and a factor of M: r u^T for the axis r, with u a
     /// multiple of r if the focal length alone is unknown; what is shared is turned to the axes of its
     /// image, where the factor makes up for rows that are not of length 1.
     fn velocities(&self, v: usize) -> (u64, Vec<(usize, Square)>) {
@@ -338,13 +343,11 @@ impl<'a> System<'a> {
             true => Class::Known,
             false => self.sensors.class(sensor),
         };
-        let symmetric = |r: &[u64; 3], u: &[u64; 3]| -> Square {
-            let entry = |a: usize, b: usize| f.plus(f.times(r[a], u[b]), f.times(u[a], r[b]));
-            std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
-        };
+        let product =
+            |r: &[u64; 3], u: &[u64; 3]| -> Square { r.map(|x| u.map(|y| f.times(x, y))) };
         if self.is_shared[sensor] {
             let (length, rows) = self.rotation(v);
-            let of = VELOCITIES.map(|(i, j)| symmetric(&rows[i], &rows[j]));
+            let of = VELOCITIES.map(|(i, j)| product(&rows[i], &rows[j]));
             let of = (column..).zip(of).take(class.unknowns());
             return (f.times(length, length), of.collect());
         }
@@ -352,10 +355,8 @@ impl<'a> System<'a> {
         let unit = |a: usize| std::array::from_fn(|b| u64::from(a == b));
         let of = match class {
             Class::Known | Class::Unknown => Vec::new(),
-            Class::Focal => vec![(column, symmetric(r, r))],
-            Class::FocalAndPoint => (0..3)
-                .map(|a| (column + a, symmetric(r, &unit(a))))
-                .collect(),
+            Class::Focal => vec![(column, product(r, r))],
+            Class::FocalAndPoint => (0..3).map(|a| (column + a, product(r, &unit(a)))).collect(),
         };
         (f.one(), of)
     }

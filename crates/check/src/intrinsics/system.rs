@@ -1,0 +1,178 @@
+//! The system of section 15 at drawn centres and axes, and a motion in it (theory, Theorem 17.6).
+
+use super::Class;
+use super::members::Members;
+use crate::algebra::{Field, Ring};
+use crate::cameras::Stream;
+use std::collections::BTreeMap;
+
+/// A linear form, by columns.
+type Form = BTreeMap<usize, u64>;
+type Vector = [u64; 3];
+
+/// The places above the diagonal.
+const OFF: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
+
+/// The members at a draw.
+pub(super) struct System<'a> {
+    members: &'a Members<'a>,
+    classes: &'a [Class],
+    field: &'a Field,
+    centres: Vec<Vector>,
+    axes: Vec<Vector>,
+}
+
+impl<'a> System<'a> {
+    pub fn new(
+        members: &'a Members,
+        classes: &'a [Class],
+        field: &'a Field,
+        stream: &mut Stream,
+    ) -> Self {
+        let mut vectors = || -> Vec<Vector> {
+            let vector = |_| [(); 3].map(|()| field.element(stream.below(field.p)));
+            classes.iter().map(vector).collect()
+        };
+        let (centres, axes) = (vectors(), vectors());
+        System {
+            members,
+            classes,
+            field,
+            centres,
+            axes,
+        }
+    }
+
+    /// All rows, in their order.
+    pub fn rows(&self) -> Vec<Form> {
+        let mut rows = Vec::new();
+        for (v, held) in self.members.of_node.iter().enumerate() {
+            let Some((&first, others)) = held.split_first() else {
+                continue;
+            };
+            for &other in others {
+                self.agree(v, first, other, &mut rows);
+            }
+            if let Some(column) = self.members.bound[v] {
+                self.in_class(v, first, column, &mut rows);
+            }
+        }
+        for row in &mut rows {
+            row.retain(|_, entry| *entry != 0);
+        }
+        rows
+    }
+
+    /// Eleven rows: two members move a node alike.
+    fn agree(&self, v: usize, first: usize, other: usize, rows: &mut Vec<Form>) {
+        let (one, minus) = (self.field.one, self.field.neg(self.field.one));
+        let d = |i: usize, j: usize| {
+            self.sum([
+                (one, self.m(first, v, i, j)),
+                (minus, self.m(other, v, i, j)),
+            ])
+        };
+        for (i, j) in OFF {
+            rows.extend([d(i, j), d(j, i)]);
+        }
+        for i in 1..3 {
+            rows.push(self.sum([(one, d(i, i)), (minus, d(0, 0))]));
+        }
+        for i in 0..3 {
+            let (b, other) = (self.b(first) + i, self.b(other) + i);
+            let b = Form::from([(b, one), (other, minus)]);
+            rows.push(self.sum([(one, b), (self.centres[v][i], d(0, 0))]));
+        }
+    }
+
+    /// Five rows: the intrinsics of a bound node move as its class allows.
+    fn in_class(&self, v: usize, first: usize, column: usize, rows: &mut Vec<Form>) {
+        let (one, r) = (self.field.one, self.axes[v]);
+        let minus = |x: u64| self.field.neg(x);
+        let u = |i: usize| match self.classes[v] {
+            Class::Known | Class::Unknown => Form::new(),
+            Class::Focal => Form::from([(column, r[i])]),
+            Class::FocalAndPoint => Form::from([(column + i, one)]),
+        };
+        let m = |i: usize, j: usize| self.m(first, v, i, j);
+        for (i, j) in OFF {
+            let (a, b) = ((minus(r[i]), u(j)), (minus(r[j]), u(i)));
+            rows.push(self.sum([(one, m(i, j)), (one, m(j, i)), a, b]));
+        }
+        for i in 1..3 {
+            let (a, b) = ((minus(r[0]), u(0)), (r[i], u(i)));
+            rows.push(self.sum([(one, m(0, 0)), (minus(one), m(i, i)), a, b]));
+        }
+    }
+
+    /// M_ij of a member at a node.
+    fn m(&self, member: usize, v: usize, i: usize, j: usize) -> Form {
+        let mut form = self.a(member, i, j);
+        let factor = self.field.neg(self.centres[v][i]);
+        form.extend(self.w(member).map(|w| (w + j, factor)));
+        form
+    }
+
+    fn a(&self, member: usize, i: usize, j: usize) -> Form {
+        let (first, one) = (self.members.first[member], self.field.one);
+        let Some(&turn) = self.members.turn.get(member) else {
+            return Form::from([(first + 3 * i + j, one)]);
+        };
+        let above = |i, j| OFF.iter().position(|&place| place == (i, j));
+        Form::from([match (above(i, j), above(j, i)) {
+            (Some(at), _) => (turn + at, one),
+            (_, Some(at)) => (turn + at, self.field.neg(one)),
+            _ => (first, one),
+        }])
+    }
+
+    /// The first column of b.
+    fn b(&self, member: usize) -> usize {
+        let is_metric = member < self.members.turn.len();
+        self.members.first[member] + if is_metric { 1 } else { 9 }
+    }
+
+    /// The first column of w, which is zero in a metric member.
+    fn w(&self, member: usize) -> Option<usize> {
+        (member >= self.members.turn.len()).then(|| self.members.first[member] + 12)
+    }
+
+    fn sum<const N: usize>(&self, terms: [(u64, Form); N]) -> Form {
+        let mut sum = Form::new();
+        for (factor, form) in terms {
+            for (column, x) in form {
+                let entry = sum.entry(column).or_insert(0);
+                *entry = self.field.add(*entry, self.field.mul(factor, x));
+            }
+        }
+        sum
+    }
+
+    /// The value of a form at a vector.
+    pub fn value(&self, form: &Form, y: &[u64]) -> u64 {
+        let terms = form.iter();
+        terms.fold(0, |sum, (&column, &x)| {
+            self.field.add(sum, self.field.mul(x, y[column]))
+        })
+    }
+
+    /// How a member moves: A, b and w.
+    pub fn moved(&self, member: usize, y: &[u64]) -> [u64; 15] {
+        std::array::from_fn(|at| match at {
+            0..9 => self.value(&self.a(member, at / 3, at % 3), y),
+            9..12 => y[self.b(member) + at - 9],
+            _ => self.w(member).map_or(0, |w| y[w + at - 12]),
+        })
+    }
+
+    /// How a node turns, if it is in a member and stays.
+    pub fn turn(&self, v: usize, y: &[u64]) -> Option<Vector> {
+        let first = *self.members.of_node[v].first()?;
+        let m = |i: usize, j: usize| self.value(&self.m(first, v, i, j), y);
+        let is_skew = OFF
+            .iter()
+            .all(|&(i, j)| self.field.add(m(i, j), m(j, i)) == 0);
+        let stays = is_skew && m(0, 0) == m(1, 1) && m(0, 0) == m(2, 2);
+        stays.then(|| OFF.map(|(i, j)| m(i, j)))
+    }
+}

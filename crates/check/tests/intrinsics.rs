@@ -1,0 +1,247 @@
+//! Certificates of intrinsics: what is verified, and each condition of section 15 broken once.
+
+use serde_json::{Value, json};
+use viewcert_check::{Failure, IntrinsicsCertificate, Limits, VerifiedIntrinsics};
+
+fn named(name: &str) -> Value {
+    let path = format!(
+        "{}/tests/intrinsics/{name}.json",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn check_for(document: &Value, classes: Option<&str>) -> Result<VerifiedIntrinsics, Failure> {
+    let certificate = IntrinsicsCertificate::parse(document.to_string().as_bytes())?;
+    certificate.check_within(None, classes, &Limits::default())
+}
+
+fn check(document: &Value) -> Result<VerifiedIntrinsics, Failure> {
+    check_for(document, None)
+}
+
+/// A certificate with another value at the place of a JSON pointer.
+fn changed(name: &str, pointer: &str, value: Value) -> Value {
+    let mut document = named(name);
+    let place = document.pointer_mut(pointer).unwrap();
+    assert_ne!(*place, value);
+    *place = value;
+    document
+}
+
+#[track_caller]
+fn refused(words: &str, document: &Value) {
+    let failure = check(document).unwrap_err().to_string();
+    assert!(failure.contains(words), "{failure}");
+}
+
+/// Ranks, components and nodes are those of the differential of K [R | -R c], by
+/// `second/intrinsics_by_force.py`.
+#[test]
+fn what_is_verified() {
+    let pairs = vec![vec![0, 1], vec![0, 4], vec![1, 2], vec![2, 3], vec![3, 4]];
+    for (name, numbers, components, free) in [
+        ("pair", [7, 7, 10], vec![], vec![1]),
+        ("pentagon", [22, 22, 23], pairs, vec![]),
+        ("pendant", [23, 23, 27], vec![vec![0, 1, 2]], vec![3]),
+        ("core", [88, 88, 90], vec![(0..9).collect()], vec![9]),
+        (
+            "mixed",
+            [36, 36, 37],
+            vec![vec![0, 1, 2, 3], vec![3, 4]],
+            vec![],
+        ),
+    ] {
+        let verified = check(&named(name)).unwrap();
+        let [least, most] = verified.rank;
+        assert_eq!([least, most, verified.required], numbers, "{name}");
+        assert_eq!(verified.verdict, "not-metric");
+        assert_eq!(verified.components, Some(components), "{name}");
+        assert_eq!(verified.not_determined, Some(free), "{name}");
+    }
+    let text = check(&named("pair")).unwrap().to_string();
+    assert!(text.contains("intrinsics determined of 1 of 2"), "{text}");
+    assert!(text.contains("(1 known, 1 unknown)"), "{text}");
+}
+
+/// The example of the page: two known cameras and their edge.
+#[test]
+fn by_hand() {
+    let mut document = named("pair");
+    document["classes"] = json!(["known", "known"]);
+    document["rows"] = json!([]);
+    document["cols"] = json!([]);
+    document["motion"] = json!(vec!["0"; 7]);
+    document["claim"] = json!({
+        "verdict": "metric", "at_least": 5, "at_most": 5, "required": 5,
+        "components": [[0, 1]], "not_determined": [],
+    });
+    let verified = check(&document).unwrap();
+    assert_eq!(verified.verdict, "metric");
+}
+
+/// Without a motion that tells something bounds leave a gap; with fewer pivots too. Then no more may be
+/// claimed.
+#[test]
+fn less_evidence() {
+    let length = named("mixed")["motion"].as_array().unwrap().len();
+    let mut document = changed("mixed", "/motion", json!(vec!["0"; length]));
+    refused("the verdict is open", &document);
+    document["claim"] = json!({
+        "verdict": "open", "at_least": 36, "at_most": 37, "required": 37,
+        "components": null, "not_determined": null,
+    });
+    let verified = check(&document).unwrap();
+    assert!(verified.components.is_none() && verified.to_string().contains("nothing"));
+    for (name, words) in [
+        ("components", "the metric components are others"),
+        ("not_determined", "intrinsics are not determined are others"),
+    ] {
+        let mut more = document.clone();
+        more["claim"][name] = json!([]);
+        refused(words, &more);
+    }
+    let mut document = named("mixed");
+    document["rows"].as_array_mut().unwrap().pop();
+    document["cols"].as_array_mut().unwrap().pop();
+    refused("the rank is 35 to 36 of 37", &document);
+}
+
+#[test]
+fn the_document() {
+    refused(
+        "version 2 is unknown",
+        &changed("pair", "/version", json!(2)),
+    );
+    refused(
+        "`format` is not",
+        &changed("pair", "/format", json!("viewcert certificate")),
+    );
+    refused(
+        "has another hash",
+        &changed("pair", "/graph/sha256", json!("0".repeat(64))),
+    );
+    let mut more = named("pair");
+    more["model"] = json!("projective");
+    refused("`model` does not belong there", &more);
+}
+
+#[test]
+fn classes() {
+    refused(
+        "1 classes for 2 nodes",
+        &changed("pair", "/classes", json!(["known"])),
+    );
+    refused(
+        "\"zoom\" is no class",
+        &changed("pair", "/classes/1", json!("zoom")),
+    );
+    let hash = "bba58959e4a4a6ee8ab3e16ed4ab73a4bfec8bd0a1fbb2e8ae6f1a2e0ee5f1a5";
+    let failure = check_for(&named("pair"), Some(hash)).unwrap_err();
+    assert!(
+        failure.to_string().contains("expected have another hash"),
+        "{failure}"
+    );
+    let own = check(&named("pair")).unwrap().classes_sha256;
+    check_for(&named("pair"), Some(&own)).unwrap();
+    // Other classes are another draw.
+    assert!(check(&changed("mixed", "/classes/0", json!("known"))).is_err());
+}
+
+#[test]
+fn a_graph_without_edges() {
+    let graph = json!({"name": "", "nodes": 2, "edges": 0, "graph6": "A?", "sha256": EDGELESS});
+    refused("the graph has no edge", &changed("pair", "/graph", graph));
+}
+
+/// The hash of two nodes without an edge.
+const EDGELESS: &str = "fde8a7127cd10792b491c6e35516309602caf1bbc94418372b6549a2d2337e87";
+
+#[test]
+fn members() {
+    // A cycle of four is no body, whether or not its edges are metric.
+    let merge = json!([{"with": [[1, 2], [2, 3], [3, 4]], "at": [1, 2, 3, 4]}]);
+    let body = json!({"seed": [0, 1], "add": [], "merge": merge});
+    assert!(check(&changed("pentagon", "/bodies", json!([body]))).is_err());
+    let mut twice = named("pendant");
+    let second = json!({"seed": [0, 2], "add": [], "merge": []});
+    twice["bodies"].as_array_mut().unwrap().push(second);
+    refused("is covered by two bodies", &twice);
+}
+
+#[test]
+fn pivots() {
+    refused(
+        "is not a prime",
+        &changed("mixed", "/prime", json!("2305843009213693953")),
+    );
+    assert!(check(&changed("mixed", "/draw", json!(7))).is_err());
+    let rows = named("mixed")["rows"].clone();
+    refused(
+        "different indices",
+        &changed("mixed", "/rows/0", rows[1].clone()),
+    );
+    refused(
+        "different indices",
+        &changed("mixed", "/cols/0", json!(1_000_000)),
+    );
+    let mut document = named("mixed");
+    document["rows"].as_array_mut().unwrap().pop();
+    refused("pivot columns", &document);
+    let mut document = named("pentagon");
+    document["cols"].as_array_mut().unwrap().rotate_left(1);
+    refused("vanishes", &document);
+}
+
+#[test]
+fn the_motion() {
+    let mut document = named("mixed");
+    document["motion"].as_array_mut().unwrap().pop();
+    refused("is no vector of", &document);
+    refused(
+        "is no vector of",
+        &changed("mixed", "/motion/0", json!("2305843009213693951")),
+    );
+    refused(
+        "is no kernel vector",
+        &changed("mixed", "/motion/0", json!("5")),
+    );
+}
+
+#[test]
+fn the_claim() {
+    for (pointer, value, words) in [
+        ("verdict", json!("metric"), "the verdict is not-metric"),
+        ("at_least", json!(35), "the rank is 36 to 36 of 37"),
+        ("at_most", json!(37), "the rank is 36 to 36 of 37"),
+        ("required", json!(36), "the rank is 36 to 36 of 37"),
+        (
+            "components",
+            json!([[0, 1, 2, 3]]),
+            "the metric components are others",
+        ),
+        ("components", Value::Null, "components are others"),
+        (
+            "not_determined",
+            json!([4]),
+            "intrinsics are not determined are others",
+        ),
+    ] {
+        refused(
+            words,
+            &changed("mixed", &format!("/claim/{pointer}"), value),
+        );
+    }
+}
+
+/// What is too large for the limits is not rejected.
+#[test]
+fn limits() {
+    let certificate = IntrinsicsCertificate::parse(named("mixed").to_string().as_bytes()).unwrap();
+    let limits = Limits {
+        core: 1,
+        ..Limits::default()
+    };
+    let failure = certificate.check_within(None, None, &limits).unwrap_err();
+    assert!(matches!(failure, Failure::TooLarge(_)), "{failure}");
+}

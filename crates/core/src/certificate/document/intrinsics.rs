@@ -1,0 +1,106 @@
+//! The certificate of what is determined of cameras that have classes: docs/certificate.md, section 15.
+
+use super::{Big, BodyView, GraphView, List, MergeView, PieceView, SeedView, bigs, hex, objects};
+use crate::certificate::{EMBED_NODES, lines};
+use crate::decide::Verdict;
+use crate::graph::{Graph, graph6};
+use crate::intrinsics::Certified;
+use serde::Serialize;
+use std::io::{self, Write};
+
+objects! {
+    IntrinsicsDocument<'a> {
+        format: &'static str,
+        version: u32,
+        program: &'static str,
+        graph: GraphView<'a>,
+        classes: Vec<&'static str>,
+        claim: IntrinsicsClaim<'a>,
+        bodies: Vec<BodyView<'a>>,
+        prime: Big<u64>,
+        seed: Big<u64>,
+        draw: u64,
+        rows: &'a [usize],
+        cols: &'a [usize],
+        motion: Vec<Big<&'a u64>>,
+    }
+
+    IntrinsicsClaim<'a> {
+        verdict: &'static str,
+        at_least: usize,
+        at_most: usize,
+        required: usize,
+        components: Option<Vec<&'a [u32]>>,
+        not_determined: Option<Vec<u32>>,
+    }
+}
+
+impl Certified {
+    /// Writes the certificate, of the graph and the verdict that were asked about. The graph is part of it
+    /// if it has at most [`EMBED_NODES`] nodes, or as `embed` says.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_certificate(
+        &self,
+        (graph, name): (&Graph, &str),
+        verdict: &Verdict,
+        embed: bool,
+        mut out: impl Write,
+    ) -> io::Result<()> {
+        let embed = embed || graph.nodes() <= EMBED_NODES;
+        let of_rules = verdict.contraction.bodies.iter();
+        let of_rules = of_rules.filter_map(|body| BodyView::new(body, verdict));
+        let by_rank = self.by_rank.iter().map(|body| BodyView {
+            seed: SeedView::Rank(PieceView {
+                bodies: &body.members.bodies,
+                edges: &body.members.edges,
+                evidence: List(&body.evidence),
+            }),
+            add: &[],
+            merge: body.merge.iter().map(MergeView::new).collect(),
+        });
+        let document = IntrinsicsDocument {
+            format: "viewcert certificate of intrinsics",
+            version: 1,
+            program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
+            graph: GraphView {
+                name,
+                nodes: graph.nodes(),
+                edges: graph.edges().len(),
+                sha256: hex(&verdict.sha256),
+                graph6: embed.then(|| graph6::encode(graph)),
+            },
+            classes: self.classes.iter().map(|class| class.word()).collect(),
+            claim: self.claim(),
+            bodies: of_rules.chain(by_rank).collect(),
+            prime: Big(self.draw.prime),
+            seed: Big(self.draw.seed),
+            draw: self.draw.draw,
+            rows: &self.pivots.rows,
+            cols: &self.pivots.cols,
+            motion: bigs(&self.motion),
+        };
+        let mut serializer =
+            serde_json::Serializer::with_formatter(&mut out, lines::Outer::default());
+        document.serialize(&mut serializer)?;
+        out.write_all(b"\n")
+    }
+
+    fn claim(&self) -> IntrinsicsClaim<'_> {
+        let found = &self.metric;
+        let components = found.components.iter();
+        let mut components: Vec<&[u32]> = components.map(|part| &*part.nodes).collect();
+        components.sort_unstable();
+        let nodes = (0..).zip(&found.determined);
+        let not_determined = nodes.filter(|&(_, &is)| !is).map(|(node, _)| node);
+        IntrinsicsClaim {
+            verdict: found.verdict(),
+            at_least: found.rank,
+            at_most: found.at_most,
+            required: found.required,
+            components: found.is_proved().then_some(components),
+            not_determined: found.is_proved().then(|| not_determined.collect()),
+        }
+    }
+}
