@@ -1,6 +1,6 @@
 //! The independent checker.
 
-use crate::decided::known_displacements;
+use crate::decided::{known_displacements, of_words};
 use crate::errors::{InputError, of_any, of_checking};
 use crate::graph::Graph;
 use crate::work;
@@ -11,8 +11,11 @@ use std::sync::Arc;
 use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
+use viewcert::intrinsics::Sensors;
 use viewcert::watch::Watch;
-use viewcert_check::{BaseLines, Certificate, Failure, Limits, Strength, Unreadable};
+use viewcert_check::{
+    BaseLines, Certificate, Failure, IntrinsicsCertificate, Limits, Strength, Unreadable,
+};
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant, with_rigs};
 
 /// What a certificate proves.
@@ -179,5 +182,87 @@ pub(crate) fn check(
         Err(Problem::Failure(failure)) => Err(of_checking(failure)),
         Err(Problem::Graph(error)) => Err(InputError::new_err(error.to_string())),
         Err(Problem::File(error)) => Err(of_any(&error)),
+    }
+}
+
+/// What a certificate of intrinsics proves.
+#[pyclass(frozen, get_all, module = "viewcert._native")]
+pub(crate) struct VerifiedIntrinsics {
+    /// `metric`, `not-metric` or `open`.
+    value: &'static str,
+    /// What the generic rank is not below.
+    rank: i64,
+    /// What it is not above.
+    rank_at_most: i64,
+    /// The rank of a metric graph.
+    required: i64,
+    /// The numbers of the nodes of each metric component, if the bounds meet.
+    components: Option<Vec<Vec<u32>>>,
+    /// Those of the nodes whose intrinsics are not determined, if the bounds meet.
+    not_determined: Option<Vec<u32>>,
+    /// How many cameras are of which class.
+    classes: Vec<(usize, &'static str)>,
+    /// Their hash.
+    classes_sha256: String,
+    /// Nodes of the graph.
+    nodes: usize,
+    /// Its pairs.
+    edges: usize,
+    /// Its hash.
+    sha256: String,
+    /// All of it in words.
+    text: String,
+}
+
+/// Verifies a certificate of intrinsics, for a graph and its classes if they are given.
+#[pyfunction]
+#[pyo3(signature = (certificate, *, graph=None, classes=None, max_operations=None))]
+pub(crate) fn check_intrinsics(
+    py: Python<'_>,
+    certificate: Vec<u8>,
+    graph: Option<&Graph>,
+    classes: Option<Vec<String>>,
+    max_operations: Option<u64>,
+) -> PyResult<VerifiedIntrinsics> {
+    let classes = classes.map(|words| of_words(&words)).transpose()?;
+    let hash = classes.map(|classes| hex(&Sensors::own(&classes).sha256()));
+    let input = graph.map(|graph| Arc::clone(&graph.0));
+    let mut limits = Limits::default();
+    limits.operations = max_operations.unwrap_or(limits.operations);
+    let threads = work::threads()?;
+    let checked = work::run(py, &Watch::default(), None, move || {
+        let certificate = IntrinsicsCertificate::parse(&certificate).map_err(Problem::Failure)?;
+        let graph = input.map(|input| {
+            let edges = input.graph.edges().iter().copied();
+            viewcert_check::Graph::new(input.graph.nodes(), edges).map_err(Problem::Graph)
+        });
+        let graph = graph.transpose()?;
+        let checked = || certificate.check_within(graph.as_ref(), hash.as_deref(), &limits);
+        threads.install(checked).map_err(Problem::Failure)
+    })?;
+    match checked {
+        Ok(verified) => Ok(verified.into()),
+        Err(Problem::Failure(failure)) => Err(of_checking(failure)),
+        Err(Problem::Graph(error)) => Err(InputError::new_err(error.to_string())),
+        Err(Problem::File(error)) => Err(of_any(&error)),
+    }
+}
+
+impl From<viewcert_check::VerifiedIntrinsics> for VerifiedIntrinsics {
+    fn from(verified: viewcert_check::VerifiedIntrinsics) -> Self {
+        Self {
+            text: verified.to_string(),
+            value: verified.verdict,
+            rank: verified.rank[0],
+            rank_at_most: verified.rank[1],
+            required: verified.required,
+            components: verified.components,
+            not_determined: verified.not_determined,
+            classes: verified.classes,
+            classes_sha256: verified.classes_sha256,
+            nodes: verified.size[0],
+            edges: verified.size[1],
+            sha256: verified.sha256,
+        }
     }
 }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use viewcert::decide::Draft;
 use viewcert::graph::{Coordinate, Displacements};
-use viewcert::intrinsics::{Class, Metric, Sensors};
+use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
@@ -49,15 +49,20 @@ impl Decided {
                 "nothing is proved yet about intrinsics beside known parts",
             ));
         }
-        let of_word = |word: &String| {
-            let class = Class::of_word(word);
-            class.ok_or_else(|| {
-                let words = Class::ALL.map(|(_, word)| word).join(", ");
-                InputError::new_err(format!("{word:?} is no class of cameras: {words}"))
-            })
-        };
-        words.iter().map(of_word).collect()
+        of_words(words)
     }
+}
+
+/// The classes that words stand for.
+pub(crate) fn of_words(words: &[String]) -> PyResult<Vec<Class>> {
+    let of_word = |word: &String| {
+        let class = Class::of_word(word);
+        class.ok_or_else(|| {
+            let words = Class::ALL.map(|(_, word)| word).join(", ");
+            InputError::new_err(format!("{word:?} is no class of cameras: {words}"))
+        })
+    };
+    words.iter().map(of_word).collect()
 }
 
 /// The displacements that sets of nodes know, of a graph with so many, with the vectors if they are
@@ -347,6 +352,29 @@ impl Decided {
             Ok(bytes)
         });
         Ok(PyBytes::new(py, &written?))
+    }
+
+    /// The certificate of what is determined if cameras have classes.
+    #[pyo3(signature = (classes, *, embed_graph=false))]
+    fn certificate_of_intrinsics<'py>(
+        &self,
+        py: Python<'py>,
+        classes: Vec<String>,
+        embed_graph: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let sensors = Sensors::own(&self.classes(&classes)?);
+        let watch = work::watch(None, None)?;
+        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
+        let (threads, stop, seed) = (work::threads()?, watch.clone(), self.seed);
+        let asked = move || Certified::new(&input.graph, &verdict, &sensors, seed, &stop);
+        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let found = found.map_err(|stopped| of_any(&stopped.into()))?;
+        let none = || InputError::new_err("a graph without pairs has no certificate of intrinsics");
+        let found = found.ok_or_else(none)?;
+        let graph = (&self.input.graph, &*self.input.name);
+        let mut bytes = Vec::new();
+        found.write_certificate(graph, &self.verdict, embed_graph, &mut bytes)?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// What the program says: `kind` is `json`, `text` or `html`.

@@ -20,7 +20,7 @@ mod _native {
     #[pymodule_export]
     use super::catalog::{Candidates, catalog_merge, catalog_shard};
     #[pymodule_export]
-    use super::check::{Verified, check};
+    use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]
     use super::decided::{Decided, decide};
     #[pymodule_export]

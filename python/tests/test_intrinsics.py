@@ -43,6 +43,27 @@ def test_the_two_ends(edges: set[tuple[int, int]]) -> None:
     assert found.rank == viewcert.verify(edges).rank and not found.metric
 
 
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1), st.lists(st.sampled_from(CLASSES), min_size=7, max_size=7))
+def test_certificates(edges: set[tuple[int, int]], drawn: list[str]) -> None:
+    graph = nx.Graph(sorted(edges))
+    classes = {node: drawn[node] for node in graph}
+    found = viewcert.intrinsics(graph, classes)
+    verified = viewcert.check_intrinsics(found, graph, classes)
+    assert (verified.value == "metric") == found.metric
+    assert (verified.rank, verified.rank_at_most) == (found.rank, found.rank_at_most)
+    nodes = viewcert.verify(graph).graph.nodes
+    assert verified.components is not None and verified.not_determined is not None
+    components = {frozenset(nodes[k] for k in part) for part in verified.components}
+    assert components == set(found.components)
+    assert {nodes[k] for k in verified.not_determined} == {v for v, is_so in found.determined.items() if not is_so}
+    certificate = found.certificate()
+    assert viewcert.check_intrinsics(certificate).classes_sha256 == verified.classes_sha256
+    other = {**classes, nodes[0]: "known" if classes[nodes[0]] != "known" else "focal"}
+    with pytest.raises(viewcert.Rejected, match="another hash"):
+        viewcert.check_intrinsics(certificate, graph, other)
+
+
 def test_what_is_refused() -> None:
     triangle = [("a", "b"), ("a", "c"), ("b", "c")]
     with pytest.raises(viewcert.InputError, match="no class of cameras: known, focal, focal\\+point, unknown"):
@@ -51,6 +72,19 @@ def test_what_is_refused() -> None:
         viewcert.intrinsics(triangle, {"x": "known"})
     with pytest.raises(viewcert.InputError, match="projective model"):
         viewcert.intrinsics(viewcert.verify(triangle, model="affine"), {"a": "known"})
+    certificate = viewcert.intrinsics(triangle, {"a": "known"}).certificate()
+    with pytest.raises(viewcert.InputError, match="give the graph as well"):
+        viewcert.check_intrinsics(certificate, classes={"a": "known"})
+    with pytest.raises(viewcert.InputError, match="no node 'x'"):
+        viewcert.check_intrinsics(certificate, triangle, {"x": "known"})
+    with pytest.raises(viewcert.Rejected, match="does not belong there"):
+        viewcert.check_intrinsics(viewcert.verify(triangle).certificate())
+    with pytest.raises(viewcert.Rejected):
+        viewcert.check(certificate)
+    alone = nx.Graph()
+    alone.add_nodes_from("ab")
+    with pytest.raises(viewcert.InputError, match="without pairs"):
+        viewcert.intrinsics(alone, {}).certificate()
 
 
 @settings(deadline=None, max_examples=60)
@@ -74,3 +108,5 @@ def test_what_is_refused_of_sensors() -> None:
         viewcert.intrinsics(triangle, {"a": "known"}, "focal", sensors={"a": "phone", "c": "phone"})
     with pytest.raises(viewcert.InputError, match="no node 'x'"):
         viewcert.intrinsics(triangle, {}, sensors={"x": 1})
+    with pytest.raises(viewcert.InputError, match="shared intrinsics"):
+        viewcert.intrinsics(triangle, {}, sensors=dict.fromkeys("abc", 1)).certificate()

@@ -84,7 +84,7 @@ def build():
     messages = [json.loads(line) for line in run.stdout.splitlines() if line.startswith("{")]
     binaries = {message["target"]["name"]: message["executable"] for message in messages
                 if message.get("executable") and message["profile"]["test"] and message["target"]["kind"] != ["bin"]}
-    order = ("viewcert_check", "added", "affine", "base_lines", "conditions", "displacements", "here", "oriented", "overlap", "parts", "program", "solutions", "tampering")
+    order = ("viewcert_check", "added", "affine", "base_lines", "conditions", "displacements", "here", "intrinsics", "oriented", "overlap", "parts", "program", "solutions", "tampering")
     assert sorted(order) == sorted(binaries), binaries
     return [binaries[name] for name in order]
 

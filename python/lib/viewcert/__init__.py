@@ -48,8 +48,8 @@ from ._graph import (
     tracks_from_database,
     tracks_from_reconstruction,
 )
-from ._intrinsics import Intrinsics, intrinsics
-from ._native import Verified, __version__
+from ._intrinsics import Intrinsics, check_intrinsics, intrinsics
+from ._native import Verified, VerifiedIntrinsics, __version__
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
@@ -77,12 +77,14 @@ __all__ = [
     "Unused",
     "Verdict",
     "Verified",
+    "VerifiedIntrinsics",
     "Weak",
     "__version__",
     "catalog",
     "catalog_merge",
     "catalog_shards",
     "check",
+    "check_intrinsics",
     "explain",
     "export",
     "from_database",

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, Dict, Hashable, List, Mapping, Optional, Tuple
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple, Union
 
+from . import _native
 from ._act import _asked, _decided
 from ._errors import InputError
-from ._graph import Node
+from ._graph import Node, Path, as_graph
+from ._native import VerifiedIntrinsics
+from ._verdict import Verdict
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,31 @@ class Intrinsics:
     components: Tuple[frozenset[Node], ...]
     other_pairs: int
     determined: Dict[Node, bool]
+    _verdict: Verdict = field(repr=False, compare=False)
+    _classes: Tuple[str, ...] = field(repr=False, compare=False)
+    _sensors: Tuple[int, ...] = field(repr=False, compare=False)
+
+    def certificate(self, *, embed_graph: bool = False) -> bytes:
+        """The certificate, which :func:`check_intrinsics` and two independent programs verify.
+
+        It states the classes, and all of it is proved. Components and what is determined it claims
+        only if bounds meet.
+
+        Parameters
+        ----------
+        embed_graph : bool
+            Whether a graph of more than 100 nodes is part of it; smaller ones always are.
+
+        Raises
+        ------
+        InputError
+            If the graph has no pairs, or nodes share unknown intrinsics.
+        """
+        of_sensor = Counter(self._sensors)
+        if any(of_sensor[k] > 1 and word != "known" for k, word in enumerate(self._classes)):
+            raise InputError("certificates do not state shared intrinsics yet; leave out sensors")
+        words = [self._classes[sensor] for sensor in self._sensors]
+        return self._verdict._native.certificate_of_intrinsics(words, embed_graph=embed_graph)
 
 
 def intrinsics(
@@ -79,9 +108,7 @@ def intrinsics(
     """
     verdict = _decided(verdict)
     nodes = verdict.graph.nodes
-    strangers = (set(classes) | set(sensors or {})) - set(nodes)
-    if strangers:
-        raise InputError(f"the graph has no node {next(iter(strangers))!r}")
+    _ensure_nodes(nodes, classes, sensors or {})
     words, numbers = _sensors(nodes, classes, default, sensors or {})
     found = _asked(
         verdict, "intrinsics", list_components=True, intrinsics=words, sensors=numbers
@@ -101,6 +128,9 @@ def intrinsics(
         ),
         other_pairs=found["other_pairs"],
         determined={node: node not in free for node in nodes},
+        _verdict=verdict,
+        _classes=tuple(words),
+        _sensors=tuple(numbers),
     )
 
 
@@ -128,3 +158,86 @@ def _sensors(
             )
         numbers.append(number)
     return words, numbers
+
+
+def check_intrinsics(
+    certificate: Union[bytes, bytearray, memoryview, Path, Intrinsics],
+    graph: Any = None,
+    classes: Optional[Mapping[Node, str]] = None,
+    default: str = "unknown",
+    *,
+    max_operations: Optional[int] = None,
+) -> VerifiedIntrinsics:
+    """Verifies a certificate of intrinsics with the independent checker.
+
+    Parameters
+    ----------
+    certificate : bytes, path or Intrinsics
+        The certificate: its bytes, its file, or an answer whose certificate is made first.
+    graph : optional
+        The graph it is about; not needed if the certificate holds it.
+    classes : mapping, optional
+        The classes that it has to suppose, with `default` for all other nodes, if a graph is given.
+        Without it compare `classes_sha256`.
+    max_operations : int, optional
+        What checking may cost, in elementary operations; by default 2 * 10^12.
+
+    Returns
+    -------
+    VerifiedIntrinsics
+        What the certificate proves: `value` (``'metric'``, ``'not-metric'`` or ``'open'``), bounds
+        `rank` and `rank_at_most`, the `required` rank; `components`, as lists of positions in the
+        `graph.nodes` of a verdict, and those of the nodes that are `not_determined`, both None if
+        bounds do not meet; how many cameras are of which of the `classes`, their hash
+        `classes_sha256`; of the graph `nodes`, `edges`, `sha256`; all of it in words as `text`.
+
+    Raises
+    ------
+    Rejected
+        If anything in it does not hold, or it is about other classes.
+    TooLarge
+        If checking would cost more than the limits allow.
+    InputError
+        If `graph` is no graph, or `classes` does not go with it.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+    >>> classes = {"a": "known", "b": "focal"}
+    >>> certificate = viewcert.intrinsics(triangle, classes).certificate()
+    >>> viewcert.check_intrinsics(certificate, triangle, classes).value
+    'metric'
+    >>> viewcert.check_intrinsics(certificate, triangle, {"a": "known"})
+    Traceback (most recent call last):
+    ...
+    viewcert.Rejected: the classes that are expected have another hash
+    """
+    if isinstance(certificate, Intrinsics):
+        text = certificate.certificate()
+    elif isinstance(certificate, (bytes, bytearray, memoryview)):
+        text = bytes(certificate)
+    else:
+        with open(certificate, "rb") as file:
+            text = file.read()
+    if graph is None and classes is not None:
+        raise InputError("classes: their nodes are those of a graph; give the graph as well")
+    given = None if graph is None else as_graph(graph)
+    words = None
+    if given is not None and classes is not None:
+        words = _words(given.nodes, classes, default)
+    native = None if given is None else given._native
+    return _native.check_intrinsics(text, graph=native, classes=words, max_operations=max_operations)
+
+
+def _words(nodes: Sequence[Node], classes: Mapping[Node, str], default: str) -> List[str]:
+    """The class of each node."""
+    _ensure_nodes(nodes, classes)
+    return [classes.get(node, default) for node in nodes]
+
+
+def _ensure_nodes(nodes: Sequence[Node], *named: Mapping[Node, Any]) -> None:
+    """Refuses names of nodes that are not there."""
+    strangers = set().union(*named) - set(nodes)
+    if strangers:
+        raise InputError(f"the graph has no node {next(iter(strangers))!r}")

@@ -12,10 +12,12 @@ __all__ = [
     "Decided",
     "Graph",
     "Verified",
+    "VerifiedIntrinsics",
     "__version__",
     "catalog_merge",
     "catalog_shard",
     "check",
+    "check_intrinsics",
     "decide",
     "graph_of_integers",
     "graph_of_nodes",
@@ -89,6 +91,7 @@ class Decided:
     def component_count(self) -> int: ...
     def component_pairs(self, component: int) -> NDArray[np.uint32]: ...
     def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes: ...
+    def certificate_of_intrinsics(self, classes: list[str], *, embed_graph: bool = False) -> bytes: ...
     def report(
         self,
         kind: str,
@@ -169,6 +172,40 @@ def check(
     file: str | os.PathLike[str] | None = None,
     max_operations: int | None = None,
 ) -> Verified: ...
+@final
+class VerifiedIntrinsics:
+    @property
+    def value(self) -> str: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def rank_at_most(self) -> int: ...
+    @property
+    def required(self) -> int: ...
+    @property
+    def components(self) -> list[list[int]] | None: ...
+    @property
+    def not_determined(self) -> list[int] | None: ...
+    @property
+    def classes(self) -> list[tuple[int, str]]: ...
+    @property
+    def classes_sha256(self) -> str: ...
+    @property
+    def nodes(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def sha256(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+
+def check_intrinsics(
+    certificate: bytes,
+    *,
+    graph: Graph | None = None,
+    classes: list[str] | None = None,
+    max_operations: int | None = None,
+) -> VerifiedIntrinsics: ...
 @final
 class Candidates:
     def __new__(
