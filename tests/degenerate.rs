@@ -1,5 +1,5 @@
 //! examples/degenerate: known configurations at which a graph fails, through the real binary. Expected ranks are by hand
-//! (examples/degenerate/README.md says from what).
+//! (docs/models.md says from what).
 
 mod common;
 
