@@ -45,6 +45,10 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
         plan.request.check_input(input)?;
         let given = plan.given.as_deref();
         if let Some((input, centres)) = here::read(given, input, plan.draft.model)? {
+            ensure!(
+                !matches!(plan.form, Form::Table(_)),
+                "--table: a row does not say what holds at given cameras; leave out one of the two"
+            );
             let options = plan.options(Known::default())?.watch(session.shown_watch());
             let is_determined = work.decide(
                 &options,
@@ -131,13 +135,9 @@ impl Work<'_> {
             _ => None,
         };
         let here = centres.map(|centres| {
-            ensure!(
-                self.table.is_none(),
-                "--table: a row does not say what holds at given cameras"
-            );
             let decided = here::decide(input, centres, &session.shown_watch());
             session.hide();
-            Ok((decided?, centres))
+            Ok::<_, anyhow::Error>((decided?, centres))
         });
         let here = here.transpose()?;
         let own = match (&here, &certified) {

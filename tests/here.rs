@@ -6,6 +6,7 @@ use common::{Run, first_checker, root, second_checker, verify};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 use viewcert_check::{HereCertificate, Limits};
@@ -291,13 +292,52 @@ fn collect(value: &Value, path: &mut Vec<(Option<String>, usize)>, places: &mut 
     }
 }
 
+/// The rank at the centres of a certificate, of the graph that it holds, by plain elimination of fractions.
+fn rank_by_fractions(certificate: &Value) -> i64 {
+    let text = certificate["graph"]["graph6"].as_str().unwrap().as_bytes();
+    let bits = text[1..]
+        .iter()
+        .flat_map(|byte| (0..6).rev().map(move |k| (byte - 63) >> k & 1));
+    let nodes = u32::from(text[0] - 63);
+    let all = (1..nodes).flat_map(|j| (0..j).map(move |i| (i, j)));
+    let edges = all.zip(bits).filter(|&(_, bit)| bit == 1);
+    let pairs: String = edges.map(|((i, j), _)| format!("n{i} n{j}\n")).collect();
+    let mut cameras = String::new();
+    for (v, centre) in certificate["centres"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .enumerate()
+    {
+        let [x, y, z, w] = [0, 1, 2, 3].map(|k| centre[k].as_str().unwrap());
+        assert_ne!(w, "0", "a centre at infinity");
+        let minus = |x: &str| x.strip_prefix('-').map_or(format!("-{x}"), str::to_owned);
+        let [x, y, z] = [x, y, z].map(minus);
+        cameras += &format!("camera n{v} {w} 0 0 {x} 0 {w} 0 {y} 0 0 {w} {z}\n");
+    }
+    let scene = Scene::new(&pairs, &cameras);
+    let model = certificate["model"].as_str().unwrap();
+    let script = root().join("tests/here.py").display().to_string();
+    let words = [
+        script,
+        scene.file("pairs.txt"),
+        scene.file("cameras.txt"),
+        model.into(),
+    ];
+    let run = Command::new("python3").args(words).output().unwrap();
+    let found = String::from_utf8(run.stdout).unwrap();
+    found.trim().parse().unwrap()
+}
+
 #[test]
 fn the_checkers_agree_on_mutants() {
     let mut random = ChaCha8Rng::seed_from_u64(61);
     let folder = tempfile::tempdir().unwrap();
     let list = folder.path().join("mutants.jsonl");
     let (mut all, mut lines) = (Vec::new(), String::new());
-    while all.len() < 1500 {
+    // MUTANTS=10000 for more.
+    let wanted = std::env::var("MUTANTS").map_or(1500, |count| count.parse().unwrap());
+    while all.len() < wanted {
         let nodes = random.random_range(4..7);
         let scene = random_scene(&mut random, nodes);
         let model = ["projective", "calibrated"][all.len() / 100 % 2];
@@ -314,7 +354,7 @@ fn the_checkers_agree_on_mutants() {
     std::fs::write(&list, lines).unwrap();
     let second = second_checker(&["--list", list.to_str().unwrap()]);
     let answers: Vec<&str> = second.out.lines().collect();
-    let mut kept = 0;
+    let (mut kept, mut ranks) = (0, BTreeMap::new());
     for (mutant, answer) in all.iter().zip(&answers) {
         let first = HereCertificate::parse(mutant.to_string().as_bytes());
         let first =
@@ -325,7 +365,29 @@ fn the_checkers_agree_on_mutants() {
             "{answer}\n{first:?}\n{mutant}"
         );
         kept += usize::from(first.is_ok());
+        // What is accepted is true, by fractions.
+        if first.is_ok() {
+            let about = format!(
+                "{} {} {}",
+                mutant["graph"]["graph6"], mutant["centres"], mutant["model"]
+            );
+            let rank = *ranks
+                .entry(about)
+                .or_insert_with(|| rank_by_fractions(mutant));
+            assert_eq!(mutant["claim"]["rank"]["value"], rank, "{mutant}");
+            let is_full = mutant["claim"]["rank"]["required"] == rank;
+            assert_eq!(
+                mutant["claim"]["verdict"]["value"] == "determined",
+                is_full,
+                "{mutant}"
+            );
+        }
     }
+    println!(
+        "{} mutants, {kept} accepted, of {} graphs with centres",
+        all.len(),
+        ranks.len()
+    );
     // What is for people may change, and an order of steps.
     assert!(kept < all.len() / 5, "{kept}");
     assert!(

@@ -96,6 +96,16 @@ fn of_audits() {
     let rulings: Vec<&Value> = lines.iter().map(|line| &line["ruling"]).collect();
     assert_eq!(rulings, ["confirmed", "refuted"]);
     assert_eq!(lines[1]["graph"]["nodes"], 4);
+    let [cameras, float] = ["cameras.txt", "float.csv"].map(|name| folder.path().join(name));
+    let poses = (0..4).map(|v| format!("pose {v} 1 0.{v} 0 0 {v} {} {}\n", v * v, v * v * v));
+    std::fs::write(&cameras, poses.collect::<String>()).unwrap();
+    std::fs::write(&float, "name,sigma\nmine,1.0\n,0.0\n").unwrap();
+    let [cameras, float] = [&cameras, &float].map(|path| path.to_str().unwrap());
+    let words = ["audit", "--json", "-", "--cameras", cameras];
+    for more in [&["--float", float][..], &[]] {
+        let run = verify_with(SQUARE, &[&words[..], more].concat());
+        keeps_to("float_ruling", &run, &["program", "verdict", "sigma"]);
+    }
 }
 
 /// The words of the text, and no identifiers.

@@ -1,6 +1,7 @@
-//! `verify audit GRAPH...`: exact and float side by side; `--claims`: other people's
-//! results.
+//! `verify audit GRAPH...`: exact and float side by side; `--claims`: other people's results;
+//! `--cameras`: results at given cameras.
 
+mod cameras;
 mod claims;
 mod report;
 mod rulings;
@@ -42,6 +43,15 @@ pub(super) struct AuditArguments {
     /// a row.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["graphs", "format", "variable"])]
     claims: Option<PathBuf>,
+    /// What is so at the cameras of this file (see `verify help given`), with the smallest singular value
+    /// of the Jacobian there, enclosed by integers.
+    #[arg(long, value_name = "FILE")]
+    #[arg(conflicts_with_all = ["claims", "sweep_tolerance", "certificate", "tolerance", "method", "draws"])]
+    cameras: Option<PathBuf>,
+    /// Rule on floating-point results at these cameras: CSV with the columns verdict, rank,
+    /// components, sigma (docs/audit.md).
+    #[arg(long, value_name = "CSV", requires = "cameras")]
+    float: Option<PathBuf>,
     /// The folder of the graphs that claims name.
     #[arg(
         long = "graphs",
@@ -149,6 +159,9 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitC
     );
     if let Some(path) = &arguments.claims {
         return claims::run(session, arguments, path);
+    }
+    if let Some(path) = &arguments.cameras {
+        return cameras::run(session, arguments, path);
     }
     if arguments.sweep_tolerance {
         return sweep::run(session, arguments);

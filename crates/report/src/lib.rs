@@ -3,6 +3,8 @@
 pub mod advice;
 pub mod assumptions;
 #[cfg(feature = "studies")]
+pub mod at_cameras;
+#[cfg(feature = "studies")]
 pub mod bars;
 #[cfg(feature = "studies")]
 pub mod comparison;

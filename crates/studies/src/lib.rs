@@ -3,5 +3,6 @@
 
 pub mod audit;
 pub mod conditions;
+pub mod enclosure;
 pub mod formulation;
 pub mod paper_components;

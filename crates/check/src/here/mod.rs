@@ -2,12 +2,15 @@
 //! section 16). Nothing here is needed for a certificate about generic cameras.
 
 mod centres;
+mod claim;
 mod cores;
 mod document;
+mod primes;
+
+pub use claim::VerifiedHere;
 
 use crate::algebra::Field;
 use crate::bodies::Known;
-use crate::cameras::{Stream, prime};
 use crate::core::Core;
 use crate::document::{Members, Model};
 use crate::draws;
@@ -18,57 +21,11 @@ use crate::matrices::{bearings, plane_direction};
 use crate::rejection::{Checked, Failure, Within, ensure};
 use crate::setting::Setting;
 use crate::structure::{Part, Structure};
-use crate::{Graph, Limits, Strength};
+use crate::{Graph, Limits};
 use centres::Centres;
+use claim::claim;
 use document::{Class, Document, Piece, Split};
-use std::fmt;
-
-/// What a certificate at given cameras proves. There is no way to come by one but a check that passed.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct VerifiedHere {
-    /// The number of nodes of the graph, and of its edges.
-    pub size: [usize; 2],
-    /// The SHA-256 of the graph, in lower-case hexadecimal digits.
-    pub sha256: String,
-    /// That of the centres.
-    pub centres_sha256: String,
-    /// The question.
-    pub model: Model,
-    /// Whether the cameras are determined.
-    pub is_determined: bool,
-    /// The rank at these cameras.
-    pub rank: (i64, Strength),
-    /// The rank that determines.
-    pub required: i64,
-    /// The number of components at these cameras.
-    pub components: (i64, Strength),
-}
-
-impl fmt::Display for VerifiedHere {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let is = if self.is_determined {
-            "determined"
-        } else {
-            "not-determined"
-        };
-        let [nodes, edges] = self.size;
-        writeln!(f, "graph {} ({nodes} nodes, {edges} edges)", self.sha256)?;
-        writeln!(f, "at cameras with centres {}", self.centres_sha256)?;
-        writeln!(f, "model {}", self.model)?;
-        writeln!(f, "verdict at these cameras {is} ({})", self.rank.1)?;
-        writeln!(
-            f,
-            "rank there {} of {} ({})",
-            self.rank.0, self.required, self.rank.1
-        )?;
-        write!(
-            f,
-            "components there {} ({})",
-            self.components.0, self.components.1
-        )
-    }
-}
+use primes::{Primes, error};
 
 /// Whether a text says that it is such a certificate.
 pub fn is_here(text: &[u8]) -> bool {
@@ -121,7 +78,7 @@ impl HereCertificate {
         let structure = &Structure::new(&graph, setting, (known, &document.bodies))?;
         let checker = Checker { structure, centres };
         let found = checker.section(&document.rigid, &document.pieces, &structure.everything)?;
-        claim(document, found, &graph, centres).within(|| "claim".into())
+        claim(document, &found, &graph, centres).within(|| "claim".into())
     }
 }
 
@@ -281,18 +238,7 @@ impl Checker<'_> {
     }
 
     fn primes<'p>(&'p self, core: &'p Core, nodes: &'p [u32]) -> Primes<'p> {
-        let hashes = [
-            &self.structure.setting.sha256,
-            &self.centres.sha256,
-            &core.sha256,
-        ];
-        Primes {
-            stream: centres::primes(hashes),
-            centres: self.centres,
-            core,
-            nodes,
-            seen: Vec::new(),
-        }
+        Primes::new(self.structure, self.centres, (core, nodes))
     }
 
     /// The rank of a core at its points.
@@ -319,121 +265,4 @@ impl Checker<'_> {
         }
         Ok(rank)
     }
-}
-
-/// The primes of a core that are not left out.
-struct Primes<'a> {
-    stream: Stream,
-    centres: &'a Centres<'a>,
-    core: &'a Core,
-    nodes: &'a [u32],
-    seen: Vec<u64>,
-}
-
-impl Primes<'_> {
-    fn next(&mut self) -> Checked<(Field, Vec<[u64; 3]>)> {
-        // Those that are left out divide some number of the certificate: they are few.
-        for _ in 0..1000 {
-            let field = prime(&mut self.stream)?;
-            if self.seen.contains(&field.p) {
-                continue;
-            }
-            if let Some(points) = self.centres.points(&field, self.nodes, self.core) {
-                self.seen.push(field.p);
-                return Ok((field, points));
-            }
-        }
-        Err(Failure::rejected("no prime is left for the core"))
-    }
-}
-
-/// The exponent of the error of an upper bound, or nothing if it is a proof (H8; theory, 16.3).
-fn error(model: Model, rank: i64, primes: u64, core: &Core, bits: u64) -> Checked<Option<i64>> {
-    let (rank, edges) = (rank as u64, core.edges.len() as u64);
-    let bound = match model {
-        Model::Projective => (rank + edges + 1) * (3 * bits + 3),
-        Model::Calibrated => (rank + 1) * (2 * bits + 2),
-        Model::Affine => (rank / 4 + 1) * (2 * bits + 2),
-    };
-    if primes.saturating_mul(61) >= bound {
-        return Ok(None);
-    }
-    let size = i64::from(64 - (bound / 61).leading_zeros());
-    let error = -((primes as i64).saturating_mul(53 - size));
-    ensure!(
-        size < 53 && error <= -100,
-        "the error 2^{error} is too large"
-    );
-    Ok(Some(error))
-}
-
-/// The strength of what rests on several errors (section 8).
-fn strength(errors: &[i64]) -> Checked<Strength> {
-    let Some(&worst) = errors.iter().max() else {
-        return Ok(Strength::Proof);
-    };
-    let more = i64::from(64 - (errors.len() as u64 - 1).leading_zeros());
-    ensure!(
-        worst + more <= -100,
-        "the errors add up to 2^{}",
-        worst + more
-    );
-    Ok(Strength::ErrorBound(worst + more))
-}
-
-/// The claim is what was found (H11).
-fn claim(
-    document: &Document,
-    found: Found,
-    graph: &Graph,
-    centres: &Centres,
-) -> Checked<VerifiedHere> {
-    let claims = &document.claim;
-    let (of_rank, of_components) = (strength(&found.errors)?, strength(&found.inner)?);
-    let required = document.model.required(graph.nodes());
-    let is_determined = found.rank == required;
-    let verdict = if is_determined {
-        "determined"
-    } else {
-        "not-determined"
-    };
-    let same = |name: &str, error: Option<i64>, strength: Strength| match strength {
-        Strength::Proof => name == "proof" && error.is_none(),
-        Strength::ErrorBound(e) => name == "error-bound" && error == Some(e),
-    };
-    ensure!(
-        claims.verdict.value == verdict
-            && same(&claims.verdict.strength, claims.verdict.error_log2, of_rank),
-        "the verdict is {verdict} ({of_rank})"
-    );
-    ensure!(
-        (claims.rank.value, claims.rank.required) == (found.rank, required)
-            && same(&claims.rank.strength, claims.rank.error_log2, of_rank),
-        "the rank is {} of {required} ({of_rank})",
-        found.rank
-    );
-    ensure!(
-        claims.components.value == found.components
-            && same(
-                &claims.components.strength,
-                claims.components.error_log2,
-                of_components
-            ),
-        "there are {} components ({of_components})",
-        found.components
-    );
-    Ok(VerifiedHere {
-        size: [graph.nodes(), graph.pairs.len()],
-        sha256: document.graph.sha256.clone(),
-        centres_sha256: centres
-            .sha256
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect(),
-        model: document.model,
-        is_determined,
-        rank: (found.rank, of_rank),
-        required,
-        components: (found.components, of_components),
-    })
 }

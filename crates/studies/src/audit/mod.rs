@@ -13,6 +13,7 @@
 //! or certificate.
 
 pub mod affine;
+pub mod at_cameras;
 pub mod cameras;
 pub mod claims;
 pub mod components;

@@ -1,0 +1,188 @@
+//! `--cameras`: what is so at cameras that somebody brings, and whether floating point found it there.
+
+use super::AuditArguments;
+use crate::given::too_many;
+use crate::here;
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use viewcert::Model;
+use viewcert::here::{Centres, Here};
+use viewcert_formats::NamedGraph;
+use viewcert_report::at_cameras::AtCameras;
+use viewcert_report::{counted, size};
+use viewcert_session::exit::{GOOD, NOT, TooLarge};
+use viewcert_session::{Session, outputs};
+use viewcert_studies::audit::at_cameras::{FloatClaim, read_table, rule};
+use viewcert_studies::audit::claims::Ruling;
+use viewcert_studies::enclosure::{Enclosure, Matrix, enclose};
+
+/// The exact answer in one model, and the cameras as they were read.
+struct Exact {
+    input: NamedGraph,
+    centres: Centres,
+    here: Here,
+}
+
+/// Rules on all rows, or says what is so where there are none.
+pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
+    let name = "--cameras";
+    let reason = |what: &str| Some(too_many(name, path, what));
+    let count = arguments.graphs.len();
+    ensure!(count == 1, too_many(name, path, &format!("{count} graphs")));
+    crate::given::ensure_one_standard_input(name, Some(path), &arguments.graphs)?;
+    let claims = match &arguments.float {
+        None => None,
+        Some(table) => {
+            let text =
+                std::fs::read_to_string(table).with_context(|| table.display().to_string())?;
+            let at = |line: usize| format!("{}:{line}", table.display());
+            Some(read_table(&text).map_err(|error| anyhow!("{}: {error}", at(error.line)))?)
+        }
+    };
+    let mut out = outputs::text(&[]);
+    let each = |out: &mut _, input: &NamedGraph, _| {
+        one(
+            session,
+            arguments.json,
+            (input, path),
+            claims.as_deref(),
+            out,
+        )
+    };
+    let (input, graphs) = (&arguments.input, &arguments.graphs);
+    let code = input.for_each(session, graphs, &reason, &mut out, each)?;
+    Ok(ExitCode::from(code))
+}
+
+fn one(
+    session: &Session,
+    json: bool,
+    (input, path): (&NamedGraph, &Path),
+    claims: Option<&[FloatClaim]>,
+    out: &mut impl Write,
+) -> Result<u8> {
+    let models = claims.map_or(vec![Model::Projective], |claims| {
+        claims.iter().map(|claim| claim.model).collect()
+    });
+    let mut answers: BTreeMap<&str, Exact> = BTreeMap::new();
+    for model in models {
+        if !answers.contains_key(model.name()) {
+            answers.insert(model.name(), exact(session, input, path, model)?);
+        }
+    }
+    if !json && let Some(first) = answers.values().next() {
+        writeln!(out, "{}", input.name)?;
+        writeln!(out, "  read as     {}", input.read)?;
+        writeln!(out, "  graph       {}", size(&input.graph))?;
+        for note in &first.input.notes {
+            writeln!(out, "  note        {note}")?;
+        }
+    }
+    let Some(claims) = claims else {
+        let answer = &answers[Model::Projective.name()];
+        let matrix = Matrix::Plain;
+        let found = answer
+            .centres
+            .cameras()
+            .map(|_| sigma(session, answer, matrix, None));
+        let found = found.transpose()?;
+        let report = AtCameras {
+            input: &answer.input,
+            here: &answer.here,
+            sigma: found.as_ref().map(|found| (matrix, found)),
+            ruled: None,
+        };
+        match json {
+            true => report.write_json(out)?,
+            false => report.write_text(out)?,
+        }
+        return Ok(GOOD);
+    };
+    let mut counts = [0; 3];
+    for (row, claim) in (1..).zip(claims) {
+        let answer = &answers[claim.model.name()];
+        let asked = claim.sigma.as_ref().and(claim.matrix);
+        let found = asked.map(|matrix| sigma(session, answer, matrix, Some(claim)));
+        let found = found.transpose()?;
+        let ruling = rule(claim, &answer.here, found.as_ref());
+        counts[match ruling {
+            Ruling::Confirmed => 0,
+            Ruling::Refuted(_) => 1,
+            Ruling::NotDecidable(_) => 2,
+        }] += 1;
+        let report = AtCameras {
+            input: &answer.input,
+            here: &answer.here,
+            sigma: asked.zip(found.as_ref()),
+            ruled: Some((row, claim, &ruling)),
+        };
+        match json {
+            true => report.write_json(out)?,
+            false => report.write_text(out)?,
+        }
+        out.flush().context("standard output")?;
+    }
+    let [confirmed, refuted, open] = counts;
+    if !json {
+        writeln!(
+            out,
+            "{confirmed} confirmed, {refuted} refuted, {open} not decidable"
+        )?;
+    }
+    Ok(if refuted > 0 { NOT } else { GOOD })
+}
+
+fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
+    let read = here::read(Some(path), input, model)?;
+    let Some((input, centres)) = read else {
+        bail!(
+            "{}: no cameras: it takes lines `camera`, `pose` or `centre`, a COLMAP model or an array (verify help given)",
+            path.display()
+        );
+    };
+    let here = here::decide(&input, &centres, &session.shown_watch())?;
+    session.hide();
+    Ok(Exact {
+        input,
+        centres,
+        here,
+    })
+}
+
+/// The singular value, as near as a claim asks for, and to nine digits at least where rounding allows it.
+fn sigma(
+    session: &Session,
+    answer: &Exact,
+    matrix: Matrix,
+    claim: Option<&FloatClaim>,
+) -> Result<Enclosure> {
+    if !answer.here.is_determined() {
+        return Ok(Enclosure::zero());
+    }
+    let graph = &answer.input.graph;
+    if let Some(most) = matrix.too_large(graph) {
+        let size = counted(graph.nodes(), "camera");
+        return Err(TooLarge(format!(
+            "sigma: {size}, and it is enclosed for up to {most}"
+        ))
+        .into());
+    }
+    let bounds = claim.and_then(FloatClaim::bounds);
+    let is_enough = |found: &Enclosure| {
+        let settled =
+            |[least, most]: &[_; 2]| found.is_within(least, most) || found.is_apart(least, most);
+        found.is_narrow() && bounds.as_ref().is_none_or(settled)
+    };
+    let norm = claim.and_then(|claim| claim.norm.as_ref());
+    let watch = session.shown_watch();
+    let found = enclose(matrix, graph, &answer.centres, norm, is_enough, &watch);
+    session.hide();
+    found?.with_context(|| {
+        let line = claim.map_or(0, |claim| claim.line);
+        let name = matrix.name();
+        format!("line {line} of the table: sigma: {name} takes whole cameras, and the file gives centres alone; give `camera` or `pose`")
+    })
+}
