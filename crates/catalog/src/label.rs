@@ -67,7 +67,10 @@ impl fmt::Display for LabelError {
                 )
             }
             Self::NotGreatest { label } => {
-                write!(f, "no graph has this label: k is the place of a line that is not the greatest of its graph, {label}")
+                write!(
+                    f,
+                    "no graph has this label: k is the place of a line that is not the greatest of its graph, {label}"
+                )
             }
         }
     }
