@@ -13,7 +13,6 @@ import time
 
 from atlas import assets, documentation, records, sequences
 from atlas.graph_page import graph_page
-from atlas.graphs import kernel_form
 from atlas.other_pages import check_page, counted, search_page, start_page, your_page
 from atlas.program import ROOT, Program
 
