@@ -22,6 +22,7 @@ mod help;
 mod here;
 mod input;
 mod intrinsics;
+mod label;
 mod limits;
 mod lists;
 mod merge;
@@ -67,6 +68,7 @@ const LITERATURE: &[&str] = &[
     "  compare     Compare the formulations of the literature: sizes, ranks, time",
     #[cfg(feature = "studies")]
     "  audit       Hold floating point, or claims of others, against the exact verdict",
+    "  label       Name a small graph: a label that is the same for all its relabellings, and stays",
     "  catalog     Enumerate candidates and decide them all",
 ];
 
@@ -115,6 +117,9 @@ enum Command {
     /// Write what both checkers read: a graph as pairs of node numbers or as graph6, or what is given
     /// besides.
     Convert(convert::ConvertArguments),
+    /// Name a small graph: a label that is the same for all its relabellings, and stays.
+    #[command(hide = true)]
+    Label(label::LabelArguments),
     /// Enumerate candidates and decide them all.
     #[command(hide = true)]
     Catalog(Box<catalog::Arguments>),
@@ -162,6 +167,7 @@ fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
         Some(Command::Help(arguments)) => help::run(CommandLine::command(), arguments),
         Some(Command::Check(arguments)) => check::run(arguments),
         Some(Command::Convert(arguments)) => convert::run(session, arguments),
+        Some(Command::Label(arguments)) => label::run(session, arguments),
         Some(Command::Catalog(arguments)) => catalog::run(session, arguments),
         #[cfg(feature = "studies")]
         Some(Command::Audit(arguments)) => audit::run(session, arguments),

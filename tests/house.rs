@@ -223,6 +223,7 @@ fn there_is_one_version() {
         );
     }
     assert!(read("CITATION.cff").contains(&format!("\nversion: {version}\n")));
+    assert!(read(".zenodo.json").contains(&format!("\"version\": \"{version}\"")));
     let changes = read("CHANGELOG.md");
     let newest = changes.lines().find(|line| line.starts_with("## "));
     assert!(

@@ -14,7 +14,7 @@ const SQUARE: &[u8] = b"0 1\n1 2\n2 3\n0 3\n";
 
 #[test]
 fn of_graphs() {
-    let commands: [(&str, &str, &[&str], &[&str]); 5] = [
+    let commands: [(&str, &str, &[&str], &[&str]); 6] = [
         (
             "report",
             "",
@@ -28,6 +28,7 @@ fn of_graphs() {
             &["program", "graph", "follows"],
         ),
         ("models", "models", &[], &["program", "graph", "models"]),
+        ("label", "label", &[], &["program", "graph", "label"]),
         (
             "comparison",
             "compare",

@@ -1,6 +1,6 @@
 //! The catalog: certified entries one by one, and shards.
 
-use crate::errors::{of_any, of_deciding};
+use crate::errors::{InputError, of_any, of_deciding};
 use crate::work;
 use crate::work::Told;
 use anyhow::{Context, bail};
@@ -11,9 +11,11 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use viewcert::graph::graph6;
 use viewcert::linalg::prime::DEFAULT_PRIME;
 use viewcert::watch::{Limits, Watch};
 use viewcert::{Graph, Options, VerdictError};
+use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
 use viewcert_catalog::work::Listener;
 use viewcert_catalog::{Files, Settings, Shard, Source, Work, merged};
@@ -267,6 +269,24 @@ pub(crate) fn catalog_shard(
         },
     )?;
     done.map_err(|error| of_any(&error))
+}
+
+/// The label of a graph, and the greatest line of graph6 of its relabellings; nothing if it has too many nodes.
+#[pyfunction]
+pub(crate) fn label(py: Python<'_>, graph: &crate::graph::Graph) -> Option<(String, String)> {
+    let graph = graph.0.clone();
+    py.detach(|| {
+        let line = graph6::encode(&greatest(&graph.graph)?);
+        Some((Label::of(&graph.graph)?.to_string(), line))
+    })
+}
+
+/// The graph of a label, as a line of graph6.
+#[pyfunction]
+pub(crate) fn label_graph6(label: &str) -> PyResult<String> {
+    let parsed: Result<Label, _> = label.parse();
+    let parsed = parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))?;
+    Ok(graph6::encode(&parsed.graph()))
 }
 
 /// The table of all shards in a folder.

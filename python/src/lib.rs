@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::catalog::{Candidates, catalog_merge, catalog_shard};
+    use super::catalog::{Candidates, catalog_merge, catalog_shard, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pathlib
 import pickle
+import random
 import re
 
 import networkx as nx
@@ -185,3 +186,22 @@ def test_the_array_script_of_slurm(program: Program, tmp_path: pathlib.Path) -> 
     single.run()
     merged = viewcert.catalog_merge(tmp_path / "shards")
     assert merged == viewcert.catalog_merge(tmp_path / "single")
+
+
+def test_labels_are_those_of_the_program(program: Program) -> None:
+    """Relabelled graphs have one label, that of `verify label`, and it gives the graph back."""
+    for graph in [nx.petersen_graph(), nx.heawood_graph(), nx.house_graph()]:
+        label = viewcert.label(graph)
+        for seed in range(5):
+            nodes = list(graph)
+            random.Random(seed).shuffle(nodes)
+            assert viewcert.label(nx.relabel_nodes(graph, dict(zip(graph, nodes)))) == label
+        line = viewcert.from_label(label)
+        again = nx.from_graph6_bytes(line.encode())
+        assert nx.is_isomorphic(graph, again)
+        (answer,) = program.json("label", "-", input=nx.to_graph6_bytes(graph, header=False).decode())
+        assert (answer["label"], answer["graph6"]) == (label, line)
+    with pytest.raises(viewcert.TooLarge, match="17 nodes"):
+        viewcert.label(nx.cycle_graph(17))
+    with pytest.raises(viewcert.InputError, match=r"vg\.5\.6\.14"):
+        viewcert.from_label("vg.5.6.56")

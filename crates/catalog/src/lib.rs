@@ -5,7 +5,8 @@
 //! ([`grow`]) where there are many edges. [`mine`] decides them one by one; [`verdicts`] decides the
 //! subdivisions of one kernel together ([`siblings`]) and keeps counts and a [`set_digest`]; [`minimal`] finds the
 //! graphs that are finite solvable and not so without any one edge; [`laman`] grows the Laman
-//! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found.
+//! graphs; [`random`] samples connected random graphs; [`invariants`] describes what was found, and a
+//! [`label`] names it.
 //!
 //! A [`work`] is a shard of a [`source`] of candidates, counted or written to files: entries to
 //! [`shard_files`], counts of verdicts to [`verdict_files`]; [`merge`] puts the shards together. A
@@ -17,6 +18,7 @@ pub mod counts;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;
+pub mod label;
 pub mod laman;
 pub mod manifest;
 pub mod merge;

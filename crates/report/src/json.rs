@@ -97,7 +97,6 @@ impl<'a> GraphLine<'a> {
     }
 
     /// Where there is no verdict. O(n + m) for the hash.
-    #[cfg(feature = "studies")]
     pub(super) fn of(input: &'a NamedGraph) -> Self {
         Self::with_hash(input, &viewcert::graph::sha256(&input.graph))
     }

@@ -18,6 +18,7 @@ pub mod graph_picture;
 pub mod here;
 pub mod intrinsics;
 pub mod json;
+pub mod label;
 pub mod lists;
 pub mod many;
 mod mappers;

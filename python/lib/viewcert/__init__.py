@@ -38,7 +38,7 @@ from ._act import (
     sweep,
     weak,
 )
-from ._catalog import Entry, Shard, catalog, catalog_merge, catalog_shards
+from ._catalog import Entry, Shard, catalog, catalog_merge, catalog_shards, from_label, label
 from ._check import check
 from ._errors import Error, InputError, Rejected, TooLarge, Undecided
 from ._graph import (
@@ -88,8 +88,10 @@ __all__ = [
     "explain",
     "export",
     "from_database",
+    "from_label",
     "implied",
     "intrinsics",
+    "label",
     "margin",
     "read",
     "redundant",

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
-from typing import Iterator, List, Optional
+from typing import Any, Iterator, List, Optional
 
 from . import _native
-from ._errors import InputError
-from ._graph import Path
+from ._errors import InputError, TooLarge
+from ._graph import Path, as_graph
 from ._progress import Progress, shown
 
 
@@ -248,3 +248,49 @@ def catalog_merge(folder: Path) -> str:
         Shards that are missing, unfinished, or of different runs.
     """
     return _native.catalog_merge(os.fspath(folder))
+
+
+def label(graph: Any) -> str:
+    """The name of a graph with up to 16 nodes: the same for all its relabellings, and for no other graph.
+
+    ``vg.<nodes>.<pairs>.<k>``, where k is the place of its greatest graph6 line among those of all graphs on so
+    many nodes with so many pairs (docs/catalog.md, Labels). It depends on nothing but the graph.
+
+    Parameters
+    ----------
+    graph
+        As of :func:`verify`.
+
+    Raises
+    ------
+    TooLarge
+        More than 16 nodes.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> viewcert.label([("a", "x"), ("a", "y"), ("a", "z"), ("b", "x"), ("b", "y"), ("b", "z")])
+    'vg.5.6.55'
+    """
+    graph = as_graph(graph)
+    found = _native.label(graph._native)
+    if found is None:
+        raise TooLarge(f"{graph.name}: {graph._native.nodes} nodes, and graphs with up to 16 have labels")
+    return found[0]
+
+
+def from_label(label: str) -> str:
+    """The graph of a label, as a line of graph6; the greatest one of its relabellings.
+
+    Raises
+    ------
+    InputError
+        No label of a graph.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> viewcert.from_label("vg.5.6.55")
+    'Ds['
+    """
+    return _native.label_graph6(label)

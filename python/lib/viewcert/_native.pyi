@@ -21,6 +21,8 @@ __all__ = [
     "decide",
     "graph_of_integers",
     "graph_of_nodes",
+    "label",
+    "label_graph6",
     "read",
 ]
 
@@ -69,6 +71,8 @@ def read(
     min_weight: str | None = None,
     skip_loops: bool = False,
 ) -> list[Graph]: ...
+def label(graph: Graph) -> tuple[str, str] | None: ...
+def label_graph6(label: str) -> str: ...
 @final
 class Decided:
     @property

@@ -1,0 +1,1 @@
+"""The atlas: a page for every small graph, made of what `verify` prints."""

@@ -1,0 +1,90 @@
+"""Scripts of the site that are made: the checkers, the words of the glossary, the rows of the search."""
+
+import base64
+import hashlib
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+
+from .program import ROOT
+
+# The packages of npm that the site carries, and what they are taken to be: Python in WebAssembly, formulas.
+PYODIDE = ("pyodide", "314.0.7")
+KATEX = ("katex", "0.19.1")
+
+# What the second checker needs: all of its modules but tests and tools.
+TOOLS = {"agree.py", "conditions.py", "grow.py", "make.py", "path.py", "frames_by_force.py", "second_scene.py"}
+
+
+def package(name, version, cache):
+    """The folder of a package of npm, unpacked; None where it cannot be had."""
+    folder = pathlib.Path(cache) / f"{name}-{version}"
+    if not (folder / "package").exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        done = subprocess.run(["npm", "pack", "--silent", f"{name}@{version}"], cwd=folder, capture_output=True, text=True)
+        if done.returncode:
+            return None
+        subprocess.run(["tar", "-xzf", next(folder.glob("*.tgz")), "-C", folder], check=True)
+    return folder / "package"
+
+
+def script(path, **values):
+    """A script that sets values of the window."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(f"window.{name} = {json.dumps(value, separators=(',', ':'))};\n" for name, value in values.items()))
+
+
+def checkers(static, cache, page):
+    """The second checker with Python, and the proved one out of its page. Says which are there."""
+    sources = {p.name: p.read_text() for p in sorted((ROOT / "crates/check/second").glob("*.py")) if p.name not in TOOLS and not p.name.startswith("test_")}
+    script(static / "checker.js", CHECKER=sources)
+    there = []
+    folder = package(*PYODIDE, cache)
+    if folder:
+        target = static / "pyodide"
+        target.mkdir(parents=True, exist_ok=True)
+        shutil.copy(folder / "pyodide.js", target / "loader.js")
+        encoded = {name: base64.b64encode((folder / name).read_bytes()).decode() for name in ("pyodide.asm.wasm", "python_stdlib.zip")}
+        script(target / "module.js", PYODIDE_MODULE=(folder / "pyodide.asm.mjs").read_text(), PYODIDE_LOCK=json.loads((folder / "pyodide-lock.json").read_text()) | {"packages": {}})
+        script(target / "wasm.js", PYODIDE_WASM=encoded["pyodide.asm.wasm"])
+        script(target / "library.js", PYODIDE_LIBRARY=encoded["python_stdlib.zip"])
+        there.append("second")
+    if page.exists():
+        text = page.read_text()
+        found = re.search(r'<script type="text/plain" id="program">(.*?)</script>', text, re.S)
+        script(static / "proved.js", PROVED=found.group(1))
+        there.append("proved")
+    return there
+
+
+def plain(markdown):
+    """The words of a line of Markdown."""
+    text = re.sub(r"!\[[^]]*\]\([^)]*\)", "", markdown)
+    text = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text)
+    return re.sub(r"[*`$\\]", "", text).strip()
+
+
+def terms():
+    """The glossary: the first paragraph of each entry, by its anchor."""
+    text = (ROOT / "docs/glossary.md").read_text()
+    found = {}
+    for title, entry in re.findall(r"^### ([^\n]+)\n\n(.*?)(?=^#|\Z)", text, re.S | re.M):
+        first = entry.strip().split("\n\n")[0]
+        if first.startswith("!"):
+            raise SystemExit(f"docs/glossary.md: {title} begins with a picture")
+        anchor = re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-")
+        found[anchor] = plain(" ".join(first.split()))
+    return found
+
+
+def data_package(target, files):
+    """The published folder and the licence, with a manifest of SHA-256 sums."""
+    target.mkdir(parents=True, exist_ok=True)
+    entries = []
+    for source in files:
+        shutil.copy(source, target / source.name)
+        entries.append({"file": source.name, "bytes": source.stat().st_size, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()})
+    manifest = {"name": "viewcert-atlas", "title": "All small finite-solvable viewing graphs, with certificates", "licenses": ["MIT", "Apache-2.0"], "files": entries}
+    (target / "package.json").write_text(json.dumps(manifest, indent=1) + "\n")

@@ -1,0 +1,118 @@
+"""The documentation as pages: docs/ and the READMEs by Sphinx with MyST, formulas by KaTeX as MathML, at build time."""
+
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import venv
+
+from . import assets, statements
+from .program import ROOT
+
+HERE = pathlib.Path(__file__).resolve().parents[1]
+
+# Pages that are not in docs/, by their names on the site.
+BESIDE = {
+    "README.md": "index.md", "proofs/README.md": "proofs.md", "python/README.md": "python.md", "certificates/README.md": "certificates.md",
+    "benches/README.md": "benches.md", "CHANGELOG.md": "changelog.md", "crates/check/second/README.md": "second.md", "site/README.md": "site.md",
+}
+ORDER = {
+    "Begin": ["symptoms", "glossary", "input", "databases", "models", "reconstruction", "python"],
+    "Atlas": ["catalog", "The published folder <certificates>", "paper", "audit"],
+    "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
+    "The project": ["benches", "site", "house", "changelog"],
+}
+
+
+def interpreter(cache, given):
+    """A Python that has what site/requirements.txt names; None where it cannot be had."""
+    if given:
+        return pathlib.Path(given)
+    folder = cache / "docs-python"
+    python = folder / "bin/python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+    done = subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], capture_output=True, text=True)
+    if done.returncode:
+        print(f"SKIPPED: the documentation: {done.stderr.strip()[-300:]}", file=sys.stderr)
+        return None
+    return python
+
+
+def put(path, text):
+    """Writes what has changed: Sphinx goes by times."""
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
+
+
+class Sources:
+    """The pages as Sphinx reads them: links lead to pages of the site, or are words."""
+
+    def __init__(self):
+        pages = {path: path.name for path in sorted((ROOT / "docs").glob("*.md"))}
+        pages.update({ROOT / path: name for path, name in BESIDE.items()})
+        self.pages = pages
+
+    def link(self, source, text, target):
+        path, _, anchor = target.partition("#")
+        anchor = statements.anchor(anchor) if re.fullmatch(r"\d+\.\d+", anchor) else anchor
+        if re.match(r"[a-z]+:", target):
+            return f"[{text}]({target})"
+        if not path:
+            return f"[{text}](#{anchor})"
+        place = (source.parent / path).resolve()
+        anchor = f"#{anchor}" if anchor else ""
+        if place in self.pages:
+            return f"[{text}]({self.pages[place]}{anchor})"
+        if (ROOT / "docs/pictures") in place.parents:
+            return f"[{text}](pictures/{place.relative_to(ROOT / 'docs/pictures')})"
+        if place.parent == ROOT / "certificates" and place.is_file():
+            return f"<a href=\"../data/{place.name}\">{text}</a>"
+        # What is no page of the site is named as the file that it is.
+        return text if "`" in text or not place.exists() else f"{text} (`{place.relative_to(ROOT)}`)" if text != path else f"`{path}`"
+
+    def text(self, source):
+        text = source.read_text()
+        definitions = dict(re.findall(r"^\[([^]]+)\]: (\S+)$", text, re.M))
+        text = re.sub(r"^\[[^]]+\]: \S+\n", "", text, flags=re.M)
+        parts = re.split(r"(^```.*?^```$)", text, flags=re.S | re.M)
+        for k in range(0, len(parts), 2):
+            part = re.sub(r"\[([^][]+)\]\[([^][]+)\]", lambda m: f"[{m[1]}]({definitions[m[2]]})" if m[2] in definitions else m[0], parts[k])
+            part = re.sub(r"(?<![`!\]])\[([^][`(]+)\](?![([:])", lambda m: f"[{m[1]}]({definitions[m[1]]})" if m[1] in definitions else m[0], part)
+            parts[k] = re.sub(r"\[([^][]*(?:\[[^][]*\][^][]*)*)\]\(([^()\s]+)\)", lambda m: self.link(source, m[1], m[2]), part)
+        text = "".join(parts)
+        if source.name == "theory.md":
+            text = re.sub(r'^<a id="[^"]*"></a>\n', "", text, flags=re.M)
+            text = statements.START.sub(lambda m: f"({statements.anchor(m[2])})=\n{m[0]}", text)
+        return text
+
+    def write(self, folder):
+        for source, name in self.pages.items():
+            text = self.text(source)
+            if name == "index.md":
+                text += "\n" + "".join(f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(pages) + "\n```\n\n" for caption, pages in ORDER.items())
+            put(folder / name, text)
+        put(folder / "statements.md", statements.markdown())
+        shutil.copytree(ROOT / "docs/pictures", folder / "pictures", dirs_exist_ok=True)
+
+
+def build(target, cache, given):
+    """Builds the pages into a folder. False where the generator or the formulas cannot be had."""
+    cache = pathlib.Path(cache).resolve()
+    python, katex = interpreter(cache, given), assets.package(*assets.KATEX, cache)
+    if not python or not katex:
+        return False
+    folder = cache / "docs"
+    folder.mkdir(parents=True, exist_ok=True)
+    Sources().write(folder)
+    for name in ("conf.py", "formulas.js", "docs.css", "docs.js"):
+        put(folder / name, (HERE / "docs" / name).read_text())
+    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "terms": assets.terms()}))
+    words = [python, "-m", "sphinx", "-b", "html", "-q", "-j", "2", "-d", cache / "doctrees", folder, target]
+    done = subprocess.run(words, capture_output=True, text=True)
+    print(done.stderr, file=sys.stderr, end="")
+    if done.returncode:
+        raise SystemExit("the documentation could not be built")
+    return True

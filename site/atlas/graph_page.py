@@ -1,0 +1,181 @@
+"""The page of one graph."""
+
+import json
+from html import escape
+
+from .graphs import kernel, kernel_form
+from .pictures import inline, places
+from .records import solutions_word
+from .story import Story
+from .words import VERDICTS, badge, facts, page, term
+
+MODELS = [("affine", "affine cameras"), ("projective", "uncalibrated cameras"), ("calibrated", "known intrinsics")]
+
+
+def script_json(name, value):
+    """JSON inside a page."""
+    text = json.dumps(value, ensure_ascii=True).replace("<", "\\u003c")
+    return f'<script type="application/json" id="{name}">{text}</script>'
+
+
+def heading(record):
+    label = record.label or record.slug
+    title = record.title or label
+    sub = f'<p class="label"><code>{escape(label)}</code></p>' if record.title else ""
+    about = f"<p>{escape(record.about)}</p>" if record.about else ""
+    return f"<h1>{escape(title)}</h1>\n{sub}{about}"
+
+
+def strength(line, name="strength"):
+    return "proved" if line[name] == "proof" else f"error at most 2^{line['error_log2']}"
+
+
+def solutions_fact(report):
+    solutions = report.get("solutions")
+    if not solutions:
+        return "infinitely many"
+    word = solutions_word(solutions)
+    if "exactly" in solutions and solutions["exactly"]:
+        return f"exactly {word}, proved"
+    if word.endswith("-"):
+        return f"at least {solutions['at_least']}; no upper bound is known"
+    return f"{solutions['at_least']} to {solutions['at_most']}"
+
+
+def slack(report):
+    nodes, pairs = report["graph"]["nodes"], report["graph"]["edges"]
+    return 7 * pairs - (11 * nodes - 15)
+
+
+def facts_of(record):
+    report, name = record.report, record.name
+    nodes, pairs = record.size
+    found = [
+        ("cameras", nodes, "/graph/nodes", nodes),
+        ("pairs", pairs, "/graph/edges", pairs),
+        (term("rank"), f"{report['rank']} of {report['rank_required']}, {strength(report, 'rank_strength')}", "/rank", report["rank"]),
+        (term("slack", "counting"), f"7·{pairs} − (11·{nodes} − 15) = {slack(report)}"),
+        ("solutions", solutions_fact(report)),
+        ("components", len(report["components"])),
+    ]
+    if name:
+        girth = name["girth"] or "no cycle"
+        found += [
+            ("degrees", ", ".join(map(str, name["degrees"]))),
+            ("girth", girth, "label:/girth", name["girth"]),
+            ("automorphisms", name["automorphisms"], "label:/automorphisms", name["automorphisms"]),
+            ("triangles", name["triangles"], "label:/triangles", name["triangles"]),
+            ("graph6, greatest", f"<code>{escape(name['graph6'])}</code>", "label:/graph6", name["graph6"]),
+        ]
+    found.append(("graph6, as numbered here", f"<code>{escape(record.graph6)}</code>"))
+    return facts(found)
+
+
+def models_table(record):
+    rows = []
+    lines = {line["model"]: line for line in record.models["models"]}
+    for model, words in MODELS:
+        line = lines[model]
+        cells = [words, badge(line["verdict"]), f"{line['rank']} of {line['rank_required']}", len(line["components"]), strength(line), escape(line["because"])]
+        rows.append(f'<tr data-model="{model}" data-verdict="{line["verdict"]}" data-rank="{line["rank"]}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
+    planar = record.report.get("planar")
+    if planar:
+        rows.append(f'<tr><td>uncalibrated, all centres in one plane</td><td>{badge(planar["verdict"])}</td><td>{planar["rank"]} of {planar["rank_required"]}</td><td></td><td></td><td></td></tr>')
+    head = "".join(f"<th scope=col>{name}</th>" for name in ("cameras", "verdict", "rank", "components", "strength", "because"))
+    return f'<div class="wide" tabindex="0" role="region" aria-label="Every camera model"><table><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
+
+
+def kernel_section(record, siblings, up):
+    nodes, _ = record.size
+    found = kernel(nodes, record.pairs)
+    if not found:
+        return ""
+    kept, paths = found
+    words = ", ".join(f"{p[0]}–{p[-1]}" + (f" (over {', '.join(map(str, p[1:-1]))})" if len(p) > 2 else "") for p in paths)
+    form = kernel_form(nodes, record.pairs)
+    count = siblings.get(form, 1)
+    link = f'<a href="{up}search.html#kernel={form}">all {count} graphs of the atlas with this kernel</a>' if count > 1 else "no other graph of the atlas has it"
+    return f"<p>Without its nodes of degree 2 the graph is a multigraph with {len(kept)} nodes and {len(paths)} edges, its kernel: {words}; {link}.</p>"
+
+
+def story_section(record):
+    if not record.certificate or len(places(record.picture)) > 16:
+        return ""
+    steps = Story(json.loads(record.certificate), record.pairs, places(record.picture)).tell()
+    items = "".join(f"<li><figure>{picture}<figcaption>{escape(words)}</figcaption></figure></li>" for words, picture in steps)
+    return f'<section><h2>Contraction, step by step</h2><ol class="story">{items}</ol></section>'
+
+
+def solutions_section(record):
+    if not record.witness:
+        return ""
+    oriented = (record.report["solutions"].get("oriented")) or []
+    seen = "; ".join(f"{o['oriented']} of {o['real']} real solutions are oriented" for o in oriented)
+    scene = ""
+    if record.second_scene:
+        picture = record.second_scene.replace("<svg ", '<svg class="scene" role="img" aria-label="Two scenes with the same images" ', 1)
+        scene = f"<figure class=wide tabindex=0>{picture}<figcaption>A real second scene, found at integer centres and exact there: both have the same images on every pair.</figcaption></figure>"
+    seen = f"<p>Near cameras that were found: {seen}.</p>" if seen else ""
+    return f"""<section><h2>More than one solution</h2>
+<p>Two sets of cameras with the same fundamental matrices on all pairs, modulo a prime: <button type="button" data-save="witness">save the witness</button> (<code>verify witness</code>).</p>
+{seen}{scene}{script_json("witness", record.witness)}</section>"""
+
+
+def checks_section():
+    return """<section id="check"><h2>Check it now</h2>
+<p>The checkers run in this page, on the very text below; nothing leaves this machine. Change anything in the text and check again.</p>
+<label for="certificate-text">The certificate</label>
+<textarea id="certificate-text" spellcheck="false" rows="8"></textarea>
+<p class="buttons"><button type="button" id="check-now">Check now</button> <button type="button" id="tamper">Check a tampered copy</button> <button type="button" id="restore">Restore</button> <button type="button" data-save="certificate">Save the certificate</button> <button type="button" data-save="proof">Save the proof</button></p>
+<div id="answers" aria-live="polite"></div></section>"""
+
+
+def linked_data(record):
+    label = record.label or record.slug
+    value = {
+        "@context": "https://schema.org",
+        "@type": "Dataset",
+        "name": f"Viewing graph {label}",
+        "identifier": label,
+        "description": f"{record.size[0]} cameras, {record.size[1]} pairs: {VERDICTS[record.report['verdict']][0]}, with a certificate.",
+        "license": ["https://spdx.org/licenses/MIT", "https://spdx.org/licenses/Apache-2.0"],
+        "isPartOf": {"@type": "Dataset", "name": "The atlas of viewing graphs"},
+        "variableMeasured": [
+            {"@type": "PropertyValue", "name": "graph6", "value": record.graph6},
+            {"@type": "PropertyValue", "name": "rank", "value": record.report["rank"]},
+            {"@type": "PropertyValue", "name": "solutions", "value": solutions_fact(record.report)},
+        ],
+        "creator": {"@type": "Organization", "name": "The viewcert developers"},
+    }
+    return f'<script type="application/ld+json">{json.dumps(value).replace("<", chr(92) + "u003c")}</script>\n'
+
+
+def graph_page(record, siblings, before, after):
+    report = record.report
+    nodes, pairs = record.size
+    word, meaning, _ = VERDICTS[report["verdict"]]
+    words = f"The graph: {nodes} cameras, {pairs} pairs"
+    near = [f'<a rel={rel} href="{other.slug}.html">{arrow}</a>' for rel, other, arrow in (("prev", before, "← before"), ("next", after, "next →")) if other]
+    text_of_pairs = "".join(f"{i} {j}\n" for i, j in record.pairs)
+    conditions = "".join(f"<li>{escape(text)}</li>" for text in report.get("conditions", []))
+    body = f"""<p class="trail"><a href="../index.html">Atlas</a> › {f'<a href="../search.html#nodes={nodes}">{nodes} cameras</a>' if record.name else f"{nodes} cameras"} <span class="near">{" ".join(near)}</span></p>
+{heading(record)}
+<div class="top">
+<figure>{inline(record.picture, words)}</figure>
+<div>
+<p class="verdict">{badge(report["verdict"])} <span data-from="/verdict" data-value="{report["verdict"]}">{meaning}, {strength(report)}</span></p>
+<p>{escape(report["because"][0].upper() + report["because"][1:])}.</p>
+{facts_of(record)}
+{f'<ul class="conditions">{conditions}</ul>' if conditions else ""}
+</div></div>
+{checks_section()}
+{story_section(record)}
+<section><h2>Every camera model</h2>{models_table(record)}</section>
+{solutions_section(record)}
+<section><h2>Where it comes from</h2>{kernel_section(record, siblings, "../")}
+<p>To cite this graph: <code>{escape(record.label or record.slug)}</code>{", a label that stays and gives the graph back" if record.label else ""} (<a href="../docs/catalog.html#labels">what labels are</a>). To decide it yourself: <code>echo '{escape(record.graph6)}' | verify -</code>; pairs: <button type="button" data-save="pairs">save as a list</button></p></section>
+{script_json("certificate", record.certificate)}{script_json("proof", record.proof)}{script_json("pairs", text_of_pairs)}
+"""
+    about = f"{nodes} cameras, {pairs} pairs: {word}; picture, certificate, and a check in your browser"
+    scripts = ("terms.js", "site.js", "check.js")
+    return page(record.title or record.label or record.slug, body, depth=1, scripts=scripts, data=linked_data(record), about=about)

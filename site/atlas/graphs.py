@@ -1,0 +1,73 @@
+"""Small graphs in plain Python: graph6, the greatest relabelling of a multigraph, kernels."""
+
+
+def of_graph6(line):
+    """The number of nodes and the pairs of a line of graph6 with at most 62 nodes."""
+    nodes = ord(line[0]) - 63
+    bits = "".join(format(ord(c) - 63, "06b") for c in line[1:])
+    places = [(i, j) for j in range(nodes) for i in range(j)]
+    return nodes, [place for place, bit in zip(places, bits) if bit == "1"]
+
+
+def to_graph6(nodes, pairs):
+    present = {(min(pair), max(pair)) for pair in pairs}
+    bits = "".join("01"[(i, j) in present] for j in range(nodes) for i in range(j))
+    bits += "0" * (-len(bits) % 6)
+    return chr(nodes + 63) + "".join(chr(int(bits[k : k + 6], 2) + 63) for k in range(0, len(bits), 6))
+
+
+def greatest(nodes, weights):
+    """The greatest sequence of columns of all relabellings of a graph with weights (a dict of frozensets); equal for
+    two graphs iff they are isomorphic. As `greatest` of crates/catalog/src/label.rs, without its shortcut for twins."""
+    rows = [[weights.get(frozenset((u, v)), 0) for v in range(nodes)] for u in range(nodes)]
+    orders, columns = [()], []
+    for _ in range(nodes):
+        best, following = None, []
+        for order in orders:
+            for v in set(range(nodes)) - set(order):
+                column = tuple(rows[v][u] for u in order)
+                if best is None or column > best:
+                    best, following = column, []
+                if column == best:
+                    following.append((*order, v))
+        orders = following
+        columns.append(best)
+    return tuple(columns)
+
+
+def kernel(nodes, pairs):
+    """What is left when nodes of degree 2 are undone: the nodes of degree 3 at least, and for each edge between them
+    the path of nodes that it was. None where a cycle alone is left, or an edge would be a loop."""
+    neighbours = {v: set() for v in range(nodes)}
+    for i, j in pairs:
+        neighbours[i].add(j)
+        neighbours[j].add(i)
+    kept = [v for v in range(nodes) if len(neighbours[v]) >= 3]
+    if not kept or any(len(near) < 2 for near in neighbours.values()):
+        return None
+    paths = []
+    for start in kept:
+        for step in neighbours[start]:
+            path = [start, step]
+            while len(neighbours[path[-1]]) == 2:
+                (following,) = neighbours[path[-1]] - {path[-2]}
+                path.append(following)
+            if path[0] == path[-1]:
+                return None
+            if path <= path[::-1]:
+                paths.append(path)
+    return kept, sorted(paths)
+
+
+def kernel_form(nodes, pairs):
+    """A text that is the same for graphs with isomorphic kernels: nodes, edges, and columns of multiplicities."""
+    found = kernel(nodes, pairs)
+    if found is None:
+        return None
+    kept, paths = found
+    weights = {}
+    for path in paths:
+        ends = frozenset((kept.index(path[0]), kept.index(path[-1])))
+        weights[ends] = weights.get(ends, 0) + 1
+    columns = greatest(len(kept), weights)
+    return f"{len(kept)}.{len(paths)}." + "".join(str(x) for column in columns for x in column)

@@ -1,0 +1,77 @@
+"""Runs `verify`. What it printed is kept under target/site-cache by the program's own bytes and what it was asked, so
+that a second build takes seconds."""
+
+import hashlib
+import json
+import pathlib
+import subprocess
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Graphs that one run of the program is given.
+BATCH = 2000
+
+
+class Program:
+    """`verify`, with a folder for what it has said before."""
+
+    def __init__(self, path, cache):
+        self.path = pathlib.Path(path).resolve()
+        if not self.path.is_file():
+            raise SystemExit(f"{path}: the program is not there; build it with `cargo build --bin verify`, or name it with --verify")
+        digest = hashlib.sha256(self.path.read_bytes()).hexdigest()[:16]
+        self.cache = pathlib.Path(cache) / digest
+        self.cache.mkdir(parents=True, exist_ok=True)
+        self.workers = ThreadPoolExecutor(2)
+
+    def kept(self, key, make):
+        """The bytes that `make` gives, or gave for this key and this program before."""
+        place = self.cache / hashlib.sha256(repr(key).encode()).hexdigest()[:32]
+        if place.exists():
+            return place.read_bytes()
+        found = make()
+        half = place.with_suffix(f".{id(found)}")
+        half.write_bytes(found)
+        half.replace(place)
+        return found
+
+    def run(self, words, text="", codes=(0, 1)):
+        """Standard output of a run with this standard input; `codes` are the exit codes that are answers."""
+
+        def make():
+            done = subprocess.run([self.path, *words], input=text.encode(), capture_output=True)
+            if done.returncode not in codes:
+                raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+            return done.stdout
+
+        return self.kept(("run", words, text), make).decode()
+
+    def lines(self, words, lines):
+        """A JSON object for each line of graph6."""
+        batches = [lines[k : k + BATCH] for k in range(0, len(lines), BATCH)]
+        texts = self.workers.map(lambda batch: self.run([*words, "--json", "-"], "\n".join(batch) + "\n"), batches)
+        found = [json.loads(line) for text in texts for line in text.splitlines()]
+        if len(found) != len(lines):
+            raise SystemExit(f"verify {' '.join(words)}: {len(found)} answers for {len(lines)} graphs")
+        return found
+
+    def file(self, words, text, codes=(0, 1)):
+        """What a run writes to the file that stands in its words as FILE; b"" if it writes none."""
+
+        def make():
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "graph"
+                path.write_text(text)
+                named = {"GRAPH": "graph", "FILE": "file", "PICTURE": "file.svg"}
+                done = subprocess.run([self.path, *[named.get(w, w) for w in words]], cwd=folder, capture_output=True)
+                if done.returncode not in codes:
+                    raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+                made = [path.with_name(name) for name in ("file", "file.svg") if path.with_name(name).exists()]
+                return made[0].read_bytes() if made else b""
+
+        return self.kept(("file", words, text), make).decode()
+
+    def files(self, words, texts, codes=(0, 1)):
+        return list(self.workers.map(lambda text: self.file(words, text, codes), texts))

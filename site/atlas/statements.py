@@ -1,0 +1,101 @@
+"""The statements of docs/theory.md: where each is in the code, what names it, and what the Coq development has of it."""
+
+import re
+from html import escape
+
+from .program import ROOT
+
+START = re.compile(r"^\*\*((?:Theorem|Lemma|Proposition|Corollary|Example|Remark|Definition)) (\d+\.\d+)", re.M)
+
+
+def statements():
+    """Number to kind and text, by number."""
+    text = (ROOT / "docs/theory.md").read_text().split("\n## References")[0]
+    starts = list(START.finditer(text))
+    ends = [m.start() for m in starts[1:]] + [len(text)]
+    found = {}
+    for start, end in zip(starts, ends):
+        body = re.split(r"^## ", text[start.start() : end], flags=re.M)[0]
+        found[start.group(2)] = (start.group(1), body)
+    return dict(sorted(found.items(), key=lambda item: key(item[0])))
+
+
+def mentions(found):
+    """For each statement those that it or its proof names. A number alone in parentheses is an equation."""
+    uses = {}
+    for number, (_, body) in found.items():
+        body = re.sub(r"\(\d+\.\d+\)", "", body)
+        named = re.findall(r"(?<![\d.])\d+\.\d+(?![\d.]*\d)", body)
+        uses[number] = sorted({n for n in named if n in found and n != number}, key=key)
+    return uses
+
+
+def anchor(number):
+    """The id of a statement on the page of the theory: it begins with a letter."""
+    return "s" + number.replace(".", "-")
+
+
+def key(number):
+    return tuple(map(int, number.split(".")))
+
+
+def places():
+    """For each statement the cells of docs/formulas.md: what it says, code, checkers, tests."""
+    text = (ROOT / "docs/formulas.md").read_text().split("## theory.md: statements")[1].split("\n## ")[0]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("| ")]
+    return {cells[0].split()[-1]: cells[1:] for cells in rows[1:] if len(cells) == 5}
+
+
+def proved():
+    """The chapters of the Coq development, by the numbers that proofs/README.md names for them."""
+    text = (ROOT / "proofs/README.md").read_text().split("## The chapters")[1].split("\n## ")[0]
+    found = {}
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if len(cells) == 2:
+            for number in re.findall(r"(?<![\d.])\d+\.\d+", cells[1]):
+                found.setdefault(number, []).append((cells[0], cells[1]))
+    return found
+
+
+def picture(found, uses, in_coq):
+    """A column for each section; what names what, as arcs. The page's script lights up a statement's own arcs."""
+    sections = {}
+    for number in found:
+        sections.setdefault(key(number)[0], []).append(number)
+    at = {n: (50 + 66 * k, 40 + 24 * row) for k, section in enumerate(sorted(sections)) for row, n in enumerate(sections[section])}
+    height = 60 + 24 * max(map(len, sections.values()))
+    arcs = []
+    for number, named in uses.items():
+        for other in named:
+            (x1, y1), (x2, y2) = at[number], at[other]
+            bend = 18 if x1 == x2 else 0
+            arcs.append(f'<path data-from="{number}" data-to="{other}" d="M{x1} {y1}C{(x1 + x2) / 2 - bend} {y1} {(x1 + x2) / 2 - bend} {y2} {x2} {y2}"/>')
+    boxes = [
+        f'<a href="theory.html#{anchor(n)}" data-number="{n}"><title>{found[n][0]} {n}</title><rect class="{"coq" if n in in_coq else ""}" x="{x - 21}" y="{y - 9}" width="42" height="18" rx="5"/><text x="{x}" y="{y}">{n}</text></a>'
+        for n, (x, y) in at.items()
+    ]
+    heads = [f'<text class="head" x="{50 + 66 * k}" y="16">§{section}</text>' for k, section in enumerate(sorted(sections))]
+    width = 70 + 66 * len(sections)
+    return f'<div class="statements" tabindex="0" role="region" aria-label="What names what"><svg viewBox="0 0 {width} {height}" width="{width}" role="group" aria-label="Statements by section, and which name which">{"".join(arcs)}{"".join(heads)}{"".join(boxes)}</svg></div>'
+
+
+def markdown():
+    """The page, as Markdown."""
+    found = statements()
+    uses, where, in_coq = mentions(found), places(), proved()
+    used = {n: sorted((m for m in uses if n in uses[m]), key=key) for n in found}
+    link = lambda n: f"[{n}](theory.md#{anchor(n)})"
+    code = lambda cell: re.sub(r"\[(`[^`]+`)\]\[[^]]*\]", r"\1", cell)
+    lines = [
+        "# Statements", "",
+        f"The {len(found)} numbered statements of the [theory](theory.md). An arc, and *names*: the statement or its proof names the other. Code and tests are those of [formulas](formulas.md), the chapters of the Coq development those that [proofs](proofs.md) lists; a chapter may have part of a statement. Green: there is one.",
+        "", picture(found, uses, in_coq), "",
+        "| | says | names | named by | code | tests | Coq |", "|---|---|---|---|---|---|---|",
+    ]
+    for number, (kind, _) in found.items():
+        says, program, _, tests = where.get(number, ["", "", "", ""])
+        chapters = ", ".join(name for name, _ in in_coq.get(number, []))
+        cells = [link(number).replace("[", f"[{kind} ", 1), says, " ".join(map(link, uses[number])), " ".join(map(link, used[number])), code(program), code(tests), escape(chapters)]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,77 @@
+"""Sphinx: CommonMark by MyST, formulas as MathML."""
+
+import json
+import pathlib
+import subprocess
+
+HERE = pathlib.Path(__file__).parent
+PLACE = json.loads((HERE / "place.json").read_text())
+
+project = "viewcert"
+author = copyright = "The viewcert developers"
+extensions = ["myst_parser"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+myst_dmath_double_inline = True
+html_theme = "furo"
+html_title = "viewcert"
+html_theme_options = {"announcement": '<a href="../index.html">Atlas</a> · <a href="../search.html">Search</a> · <a href="../graph.html">Your graph</a> · <a href="../check.html">Check</a> · Documentation'}
+html_static_path = ["docs.css", "docs.js"]
+html_css_files = ["docs.css"]
+html_js_files = ["docs.js"]
+html_copy_source = False
+html_show_sphinx = False
+html_math_renderer = "mathml"
+highlight_language = "none"
+pygments_style = "default"
+# Sections of pages that are read elsewhere too: their first heading may be of any level.
+suppress_warnings = ["myst.header", "misc.highlighting_failure"]
+
+
+class Formulas:
+    """One process of Node that answers a formula a line."""
+
+    def __init__(self):
+        self.process, self.known = None, {}
+
+    def mathml(self, formula, display):
+        if (formula, display) not in self.known:
+            if self.process is None:
+                words = ["node", str(HERE / "formulas.js"), PLACE["katex"]]
+                self.process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            self.process.stdin.write(json.dumps({"formula": formula, "display": display}) + "\n")
+            self.process.stdin.flush()
+            answer = json.loads(self.process.stdout.readline())
+            if "error" in answer:
+                raise ValueError(f"{formula}: {answer['error']}")
+            self.known[formula, display] = answer["mathml"]
+        return self.known[formula, display]
+
+
+FORMULAS = Formulas()
+
+
+def inline(translator, node):
+    from docutils import nodes
+
+    translator.body.append(FORMULAS.mathml(node.astext(), False))
+    raise nodes.SkipNode
+
+
+def block(translator, node):
+    from docutils import nodes
+
+    translator.body.append(f'<div class="formula" tabindex="0">{FORMULAS.mathml(node.astext(), True)}</div>')
+    raise nodes.SkipNode
+
+
+def glossary(app, page, template, context, doctree):
+    """The words of the glossary, for the pop-ups."""
+    terms = json.dumps(PLACE["terms"]).replace("<", "\\u003c")
+    context["body"] = context.get("body", "") + f'<script type="application/json" id="terms">{terms}</script>'
+
+
+def setup(app):
+    app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
+    app.connect("html-page-context", glossary)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,136 @@
+"use strict";
+// The checkers in the page: the proved one, made by js_of_ocaml from what Coq extracts, and the second one in Python, by
+// pyodide. Both are loaded from scripts beside the page, since a page from a file may not fetch anything.
+const up = document.body.dataset.up;
+const loaded = {};
+
+function load(name) {
+  loaded[name] ??= new Promise((done, failed) => {
+    const script = document.createElement("script");
+    script.src = `${up}static/${name}`;
+    script.onload = done;
+    script.onerror = () => failed(new Error(`${name} is not there`));
+    document.head.append(script);
+  });
+  return loaded[name];
+}
+
+const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+
+// The proved checker, once: its exit code and what it printed. It takes strings of bytes.
+async function proved(graph, proof) {
+  await load("proved.js");
+  let code = null, out = "";
+  const write = (more) => { out += more; };
+  window.caml_fs_tmp = [{ name: "/static/graph", content: graph }, { name: "/static/proof", content: proof }];
+  window.process = {
+    argv: ["", "viewcert-proved", "/static/graph", "/static/proof"],
+    stdout: { write }, stderr: { write },
+    exit(status) { code = status; throw { exit: status }; },
+  };
+  try {
+    Function(window.PROVED)();
+  } catch (thrown) {
+    if (code === null) out += String(thrown);
+  }
+  delete window.process;
+  return { code, out: out.replaceAll("/static/graph", "graph").replaceAll("/static/proof", "proof") };
+}
+
+let python = null;
+function interpreter() {
+  python ??= (async () => {
+    for (const name of ["pyodide/loader.js", "pyodide/module.js", "pyodide/wasm.js", "pyodide/library.js", "checker.js"]) await load(name);
+    const url = URL.createObjectURL(new Blob([window.PYODIDE_MODULE], { type: "text/javascript" }));
+    const module = (await import(url)).default;
+    const files = {
+      "pyodide.asm.wasm": [window.PYODIDE_WASM, "application/wasm"],
+      "python_stdlib.zip": [window.PYODIDE_LIBRARY, "application/zip"],
+    };
+    const fetched = window.fetch;
+    window.fetch = async (place, ...more) => {
+      const name = String(place?.url ?? place).split("/").pop();
+      if (!files[name]) return fetched(place, ...more);
+      return new Response(bytes(files[name][0]), { headers: { "Content-Type": files[name][1] } });
+    };
+    const found = await loadPyodide({ indexURL: "pyodide/", createPyodideModule: module, lockFileContents: window.PYODIDE_LOCK });
+    window.fetch = fetched;
+    found.FS.mkdirTree("/checker");
+    for (const [name, source] of Object.entries(window.CHECKER)) found.FS.writeFile(`/checker/${name}`, source);
+    found.runPython("import sys; sys.path.insert(0, '/checker'); sys.dont_write_bytecode = True");
+    return found;
+  })();
+  return python;
+}
+
+// The second checker, once, on a certificate and the pairs of its graph (or ""): its exit code and what it printed.
+async function second(certificate, graph) {
+  const found = await interpreter();
+  found.FS.writeFile("/checker/certificate.json", certificate);
+  if (graph) found.FS.writeFile("/checker/graph.txt", graph);
+  found.globals.set("with_graph", Boolean(graph));
+  const [code, out] = found.runPython(`
+import contextlib, io
+import check as second_checker
+words = ["/checker/certificate.json"] + ["/checker/graph.txt"] * with_graph
+shown = io.StringIO()
+with contextlib.redirect_stdout(shown), contextlib.redirect_stderr(shown):
+    try:
+        code = second_checker.main(words)
+    except SystemExit as end:
+        code = end.code
+[code, shown.getvalue().replace("/checker/", "")]
+`).toJs();
+  return { code, out };
+}
+
+function answer(place, who, { code, out }) {
+  const div = document.createElement("div");
+  div.className = `answer ${code === 0 ? "verified" : "rejected"}`;
+  div.dataset.code = code;
+  const head = document.createElement("h3"), pre = document.createElement("pre");
+  head.textContent = who;
+  pre.textContent = out.trim();
+  div.append(head, pre);
+  place.append(div);
+}
+
+const SECOND = "The second checker, Python in this page (crates/check/second)";
+const PROVED = "The checker that is proved correct in Coq (proofs/), on its own proof";
+
+async function checkAll(certificate, pairs, proof) {
+  const place = document.getElementById("answers");
+  place.replaceChildren("Python is starting; the first time takes some seconds …");
+  try {
+    const found = await second(certificate, pairs);
+    const verified = proof ? await proved(pairs, proof) : null;
+    place.replaceChildren();
+    answer(place, SECOND, found);
+    if (verified) answer(place, PROVED, verified);
+  } catch (error) {
+    place.replaceChildren();
+    answer(place, "No checker could run", { code: 2, out: String(error) });
+  }
+}
+
+// A copy that claims another rank, and a proof that does: what the copy says is false, and both have to notice.
+function tampered(certificate, proof) {
+  const value = JSON.parse(certificate);
+  value.claim.rank.value -= 1;
+  const other = proof.replace(/^claim (\d+) (\d+)$/m, (_, least, most) => `claim ${least - 1} ${most - 1}`);
+  return [JSON.stringify(value), other];
+}
+
+const box = document.getElementById("certificate-text");
+if (box && document.getElementById("certificate")) {
+  let proof = text("proof");
+  const shown = () => { box.value = text("certificate"); proof = text("proof"); };
+  shown();
+  const check = () => checkAll(box.value, text("pairs"), proof);
+  document.getElementById("check-now").addEventListener("click", check);
+  document.getElementById("restore").addEventListener("click", () => { shown(); document.getElementById("answers").replaceChildren(); });
+  document.getElementById("tamper").addEventListener("click", () => {
+    [box.value, proof] = tampered(text("certificate"), text("proof"));
+    check();
+  });
+}

@@ -1,0 +1,237 @@
+#!/usr/bin/env python3
+"""Tests the site that build.py has made, in Chromium and against `verify`: python3 site/test.py [--site target/site].
+
+Links lead somewhere; no page asks for anything from elsewhere; a certificate is accepted and a tampered one rejected by both
+checkers in the page; the search finds what the published lists say, in time; the page's own label is the program's; numbers on
+pages drawn at random are those of `verify --json`; pages fit 390 and 1600 pixels; axe-core has no serious finding."""
+
+import argparse
+import html
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+from atlas import assets
+from atlas.program import ROOT
+from chromium import Chromium
+
+AXE = ("axe-core", "4.14.1")
+PAGES = ["index.html", "search.html", "graph.html", "check.html", "graphs/vg.5.6.55.html", "graphs/courtyard.html", "docs/index.html", "docs/symptoms.html", "docs/glossary.html", "docs/statements.html"]
+passed = 0
+
+
+def right(condition, what):
+    global passed
+    if not condition:
+        sys.exit(f"FAILED: {what}")
+    passed += 1
+
+
+def pages(site):
+    return sorted(site.rglob("*.html"))
+
+
+def links(site):
+    """Every link of every page leads to a file of the site, and a fragment to an id there."""
+    ids = {}
+
+    def ids_of(path):
+        if path not in ids:
+            ids[path] = set(re.findall(r'\bid="([^"]+)"', path.read_text()))
+        return ids[path]
+
+    count = 0
+    for page in pages(site):
+        text = re.sub(r"<script.*?</script>", "", page.read_text(), flags=re.S)
+        for target in re.findall(r'\b(?:href|src)="([^"]*)"', text):
+            parts = urllib.parse.urlsplit(html.unescape(target))
+            if parts.scheme or not (parts.path or parts.fragment):
+                continue
+            place = (page.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else page
+            right(place.is_file(), f"{page}: {target} leads nowhere")
+            if parts.fragment and place.suffix == ".html" and place.name != "search.html" and place.name != "graph.html":
+                right(urllib.parse.unquote(parts.fragment) in ids_of(place), f"{page}: {target}: no such place")
+            count += 1
+    print(f"links: {count}")
+
+
+def quiet(browser, where):
+    """Nothing was asked for from elsewhere, and the console is silent."""
+    foreign = [url for url in browser.requests if not url.startswith(("file:", "data:", "blob:"))]
+    right(not foreign, f"{where} asks for {foreign}")
+    right(not browser.complaints, f"{where}: {browser.complaints}")
+
+
+def checks(browser, site, slugs):
+    for slug in slugs:
+        browser.open(site / f"graphs/{slug}.html")
+        for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED"), ("restore", None, None), ("check-now", "0", "VERIFIED")):
+            browser.run(f"document.getElementById('{button}').click()")
+            if code is None:
+                continue
+            browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
+            answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
+            right(len(answers) == 2, f"{slug}: {answers}")
+            for said, text in answers:
+                right(said == code and word in text, f"{slug}, {button}: {answers}")
+        quiet(browser, slug)
+    print(f"checked in the page: {len(slugs)} graphs, each accepted and its tampered copy rejected by two checkers")
+
+
+def search(browser, site, largest):
+    time = browser.open(site / "search.html")
+    count = lambda: int(browser.run("document.getElementById('count').dataset.count"))
+    lists = {n: sum(1 for _ in open(ROOT / f"certificates/n{n}-finite-solvable.g6")) for n in range(11, largest + 1)}
+    least = 829 + sum(lists.values())
+    right(least <= count() <= least + 10, f"{count()} rows, and {least} in the lists")
+    slowest = 0
+    questions = [("nodes=10&solutions=3", 8), ("nodes=10&solutions=2", 153), ("nodes=9&solutions=2", 10), ("nodes=8", 36), *((f"nodes={n}&pairs={-(-(11 * n - 15) // 7)}", k) for n, k in lists.items())]
+    for view, expected in questions:
+        browser.run(f"location.hash = '{view}'")
+        browser.wait(f"document.getElementById('count').dataset.count === '{expected}'", 10)
+        slowest = max(slowest, float(browser.run("document.getElementById('count').dataset.milliseconds")))
+    browser.run("document.querySelector('[data-sort=automorphisms]').click()")
+    column = browser.run("[...document.querySelectorAll('#rows tr')].map((row) => +row.cells[6].textContent)")
+    right(column == sorted(column), "sorted by automorphisms")
+    quiet(browser, "search.html")
+    print(f"search: {least} rows, loaded in {time:.2f} s, slowest answer {slowest:.0f} ms")
+    return slowest
+
+
+def own_graphs(browser, site, verify):
+    """Labels of the page are the program's; a pasted list and a drawing are found."""
+    draw = random.Random(5)
+    inputs = ["a x\na y\na z\nb x\nb y\nb z", "vg.9.12.55603339", "DFw"]
+    for _ in range(12):
+        nodes = draw.randrange(3, 14)
+        pairs = [(i, j) for j in range(nodes) for i in range(j) if draw.random() < 0.35 or i + 1 == j]
+        inputs.append("".join(f"{i} {j}\n" for i, j in pairs))
+    for text in inputs:
+        browser.open(site / "graph.html", "#" + urllib.parse.quote(text))
+        label = browser.run("document.querySelector('#found dl')?.dataset.label")
+        given = [text] if text.startswith("vg.") else ["-"]
+        answer = json.loads(subprocess.run([verify, "label", "--json", *given], input=text, capture_output=True, text=True, check=True).stdout)
+        right(label == answer["label"], f"{text!r}: {label} on the page, {answer['label']} by the program")
+        shown = browser.run("document.getElementById('found').innerText")
+        right(f"automorphisms\n{answer['automorphisms']}" in shown and f"girth\n{answer['girth'] or 'no cycle'}" in shown, f"{text!r}: {shown}")
+    browser.open(site / "graph.html", "#DFw")
+    right(browser.run("document.querySelector('#found a').getAttribute('href')") == "graphs/vg.5.6.55.html", "K2,3 has its page")
+    browser.run("document.getElementById('empty').click()")
+    for x, y in ((100, 100), (200, 100), (150, 200)):
+        browser.run(f"document.getElementById('canvas').dispatchEvent(new MouseEvent('click', {{clientX: (r = document.getElementById('canvas').getBoundingClientRect()).x + {x}, clientY: r.y + {y}}}))")
+    for a, b in ((0, 1), (1, 2), (2, 0)):
+        for v in (a, b):
+            browser.run(f"document.querySelector('#canvas [data-node=\"{v}\"]').dispatchEvent(new MouseEvent('click', {{bubbles: true}}))")
+    right(browser.run("document.querySelector('#found dl').dataset.label") == "vg.3.3.1", "a triangle that was drawn")
+    for bad, word in (("vg.5.6.56", "vg.5.6.14"), ("a a", "itself"), ("D", "graph6")):
+        browser.open(site / "graph.html", "#" + urllib.parse.quote(bad))
+        right(word in browser.run("document.getElementById('message').textContent"), f"{bad} is refused")
+    print(f"own graphs: {len(inputs)} labels are those of the program")
+
+
+def numbers(site, verify, seed):
+    """50 pages: what is marked as a number of the JSON is that number; both checkers accept the certificate."""
+    draw = random.Random(seed)
+    chosen = draw.sample([p for p in sorted((site / "graphs").glob("vg.*.html"))], 50)
+    facts = 0
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        certificates = []
+        for page in chosen:
+            text = page.read_text()
+            embedded = {name: json.loads(value) for name, value in re.findall(r'<script type="application/json" id="(\w+)">(.*?)</script>', text, re.S)}
+            run = lambda *words: json.loads(subprocess.run([verify, *words, "--json", "-"], input=embedded["pairs"], capture_output=True, text=True).stdout)
+            lines = {"": run("--solutions=full"), "label:": run("label")}
+            for source, value in re.findall(r'data-from="([^"]+)" data-value="([^"]*)"', text):
+                kind, pointer = ("label:", source[6:]) if source.startswith("label:") else ("", source)
+                found = lines[kind]
+                for word in pointer[1:].split("/"):
+                    found = found[word]
+                right(html.unescape(value) == str(found), f"{page.name}: {source} is {value}, and verify says {found}")
+                facts += 1
+            models = {m["model"]: m for m in run("models")["models"]}
+            rows = re.findall(r'data-model="(\w+)" data-verdict="([\w-]+)" data-rank="(\d+)"', text)
+            right(sorted(m for m, _, _ in rows) == sorted(models), f"{page.name}: all models")
+            for model, verdict, rank in rows:
+                right((models[model]["verdict"], str(models[model]["rank"])) == (verdict, rank), f"{page.name}: {model}")
+            exactly = lines[""]["solutions"]["exactly"]
+            right(f"exactly {exactly}, proved" in text, f"{page.name}: number of solutions")
+            right(lines["label:"]["label"] == page.stem, f"{page.name}: label")
+            certificates.append(embedded["certificate"])
+        (folder / "all.jsonl").write_text("\n".join(certificates) + "\n")
+        second = subprocess.run([sys.executable, ROOT / "crates/check/second/check.py", "--list", folder / "all.jsonl"], capture_output=True, text=True)
+        right("50 verified, 0 rejected" in second.stdout, second.stdout + second.stderr)
+        first = subprocess.run([verify, "check", folder / "all.jsonl"], capture_output=True, text=True)
+        right(first.returncode == 0, first.stdout + first.stderr)
+    print(f"numbers: {facts} on 50 pages are those of verify --json; both checkers accept the certificates (seed {seed})")
+
+
+def terms(browser, site):
+    """Words of the glossary explain themselves when they are pointed at, by mouse or keyboard."""
+    known = assets.terms()
+    right(len(known) >= 40 and all(20 < len(text) < 700 for text in known.values()), f"the glossary has {len(known)} entries")
+    for page, least in (("graphs/vg.5.6.55.html", 2), ("docs/databases.html", 3)):
+        browser.open(site / page)
+        right(browser.run("document.querySelectorAll('a.term[href]').length") >= least, f"{page}: words of the glossary")
+        browser.run("document.querySelector('a.term[href]').focus()")
+        anchor = browser.run("document.querySelector('a.term[href]').href").split("#")[1]
+        right(browser.run("document.querySelector('.tip')?.textContent") == known[anchor], f"{page}: {anchor} explains itself")
+    print(f"glossary: {len(known)} words")
+
+
+def looks(browser, site, cache):
+    """Pages fit narrow and wide windows; axe-core finds nothing serious; nothing is asked for from elsewhere."""
+    folder = assets.package(*AXE, cache)
+    right(folder, "axe-core cannot be had")
+    axe = (folder / "axe.min.js").read_text()
+    for page in PAGES:
+        if not (site / page).exists():
+            continue
+        for width in (390, 1600):
+            browser.width(width)
+            browser.open(site / page)
+            wide = browser.run("document.documentElement.scrollWidth - innerWidth")
+            right(wide <= 0, f"{page} is {wide} pixels wider than {width}")
+            quiet(browser, page)
+        browser.run(axe + "; true")
+        serious = browser.run("axe.run(document, { resultTypes: ['violations'] }).then((r) => r.violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => [v.id, v.nodes.length, v.nodes[0].html.slice(0, 160)]))")
+        right(not serious, f"{page}: {serious}")
+    print(f"looks: {len(PAGES)} pages at 390 and 1600 pixels, axe-core: nothing serious")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--site", type=pathlib.Path, default=ROOT / "target/site")
+    parser.add_argument("--cache", type=pathlib.Path, default=ROOT / "target/site-cache")
+    parser.add_argument("--verify", type=pathlib.Path, default=ROOT / "target/debug/verify")
+    parser.add_argument("--largest", type=int, default=12)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--most-milliseconds", type=float, default=100, help="for a search")
+    asked = parser.parse_args()
+    site, verify = asked.site.resolve(), asked.verify.resolve()
+    size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file() and "pyodide" not in p.parts)
+    right(size < 60e6, f"the site has {size} bytes without pyodide")
+    right(len(list((site / "graphs").glob("vg.*.html"))) >= 829, "829 pages")
+    print(f"{len(pages(site))} pages, {size / 1e6:.0f} MB without pyodide")
+    links(site)
+    numbers(site, verify, asked.seed)
+    browser = Chromium()
+    try:
+        own_graphs(browser, site, verify)
+        slowest = search(browser, site, asked.largest)
+        checks(browser, site, ["vg.5.6.55", "vg.8.11.219482", "psi"])
+        terms(browser, site)
+        looks(browser, site, asked.cache)
+    finally:
+        browser.close()
+    right(slowest <= asked.most_milliseconds, f"a search took {slowest} ms")
+    print(f"{passed} passed, 0 failed")
+
+
+if __name__ == "__main__":
+    main()
