@@ -154,6 +154,7 @@ def text_of(pairs):
 
 TRIANGLE = [(0, 1), (0, 2), (1, 2)]
 UNIQUE_BY_RULES = 2  # of the published graphs: the triangle, and two triangles that share a pair
+UNIQUE = UNIQUE_BY_RULES + 8 + 458  # and by Theorem 10.3, and by Theorem 10.6 (docs/proof.md)
 TRIANGLE_PROOF = "viewcert proof 1\ngraph 3 3\nclaim 18 18\nbody 3 0 0\nfree 0\none 1 0 0\ntwo 2 0 0 1 0\nend\n"
 CYCLE = [(0, 1), (0, 3), (1, 2), (2, 3)]
 CYCLE_PROOF = """viewcert proof 1
@@ -274,6 +275,25 @@ body 3 3 3
 1 2 3 0
 flows 1
 41441 29186 45428 28767 57380 1
+end
+"""
+
+# Theorem 10.6: nodes 3 and 4 are between 0 and 1, and one of their two links is settled
+SETTLED = "settle 2 middle 0 1 3 0 0 middle 0 1 4 0 0\n"
+K23_PROOF = f"""viewcert proof 1
+graph 5 6
+claim 0 40
+unique 5 3 2 1
+0 47658 55560 54360
+2 63796 60163 49194
+1 64119 1151 14969
+3 31981 23705 28284
+4 39819 54105 26513
+pair 0 2 0 0
+pair 2 1 0 0
+{SETTLED}two 3 0 0 1 0
+two 4 0 0 1 0
+solvable
 end
 """
 
@@ -456,6 +476,20 @@ def by_hand(program):
     case("solvable, a body that is not used", 0, four, glued.replace(first, first + "body 2 0 0\nfree 0\nfree 3\n"), "solvable: ")
     case("solvable, a node outside of the body", 2, four, glued.replace("two 0 1 1 2 1", "two 0 3 1 2 1"), "are not both in body 0")
     case("solvable, the last body alone counts", 1, four, glued.replace("solvable", first + "solvable"))
+    # K_{2,3}: a core of three nodes, and two more between the first and the last
+    k23 = text_of([(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)])
+    scales = K23_PROOF
+    case("scales", 0, k23, scales, "solvable: ")
+    case("scales, nothing settled", 1, k23, scales.replace("5 3 2 1", "5 3 2 0").replace(SETTLED, ""))
+    case("scales, one link freed", 1, k23, scales.replace(SETTLED, "settle 1 middle 0 1 3 0 0\n"))
+    case("scales, the same link twice", 1, k23, scales.replace("middle 0 1 4 0 0\n", "middle 0 1 3 0 0\n"))
+    case("scales, equal centres", 1, k23, scales.replace("4 39819 54105 26513", "4 31981 23705 28284"))
+    case("scales, a plane that is none", 1, k23, scales.replace("pair 0 2 0 0", "pair 0 2 4 0"))
+    case("scales, a node that hangs on a later one", 1, k23, scales.replace("pair 0 2 0 0\npair 2 1 0 0", "pair 2 1 0 0\npair 0 2 0 0"))
+    case("scales, no pair", 2, k23, scales.replace("pair 2 1 0 0", "pair 0 1 0 0"), "is no pair")
+    case("scales, a corner without ties", 2, k23, scales.replace(SETTLED, "corner 0 2 1 0\n"), "is no pair")
+    case("scales, and no claim", 2, k23, scales.replace("solvable\n", ""), "solvable expected")
+    case("scales, 10^9 steps", 2, k23, scales.replace("5 3 2 1", "5 3 2 1000000000"), "sizes out of range")
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -513,7 +547,7 @@ def catalog(program, prove, required, draw):
     code, out, err = program.list(folder / "list")
     seconds = time.time() - start
     assert code == 0, (code, err)
-    seen = tried = unique = 0
+    seen = tried = unique = by_rules = 0
     for verdict in out.split(str(folder) + "/")[1:]:
         number = int(verdict.split(".")[0])
         n, value, parts = ranks[number]
@@ -523,7 +557,8 @@ def catalog(program, prove, required, draw):
             unique += 1
             assert verdicts_claimed[number] == "solvable", verdict
         pairs = [tuple(map(int, line.split())) for line in (folder / f"{number}.txt").read_text().splitlines()]
-        assert ("  solvable: " in verdict) == determined_by_rules(n, pairs), verdict
+        by_rules += determined_by_rules(n, pairs)
+        assert not determined_by_rules(n, pairs) or "  solvable: " in verdict, verdict
         found = listed(verdict)
         assert (found is None) == (value == 11 * n - 15) and (found is None or len(found) == parts), verdict
         if found and (n < 7 or (n == 7 and number % 4 == 0)):
@@ -535,9 +570,10 @@ def catalog(program, prove, required, draw):
     assert seen == len(ranks) == required + len(larger), seen
     hubs = [k for k in range(seen) if "\nhub " in (folder / f"{k}.proof").read_text()]
     assert len(hubs) == 10 + len(larger), hubs
-    assert unique == UNIQUE_BY_RULES
+    assert by_rules == UNIQUE_BY_RULES and unique == UNIQUE
     print(f"catalog: {seen} graphs, rank, verdict and components, {seconds:.1f} s; {unique} solvable")
-    return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in [*range(400), *hubs * 4]]
+    scales = [k for k in range(seen) if "\nunique " in (folder / f"{k}.proof").read_text()]
+    return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in [*range(400), *hubs * 4, *scales]]
 
 
 def published(program, verify, data):
@@ -668,7 +704,9 @@ def mutants(program, base, count, draw, checkers):
             low, high = bounds(out)
             assert (low or 0) <= true and (high is None or true <= high), (graph, proof, out, true)
             if "  solvable: " in out:
-                assert determined_by_rules(n, [pair for pair in pairs if len(pair) == 2]), (graph, proof, out)
+                # that it is solvable say the other two checkers as well, below
+                assert true == 11 * n - 15, (graph, proof, out)
+                assert checkers or determined_by_rules(n, [pair for pair in pairs if len(pair) == 2]) or "\nunique " in proof
                 unique += 1
             if checkers:
                 others_agree(program, checkers, graph, out)

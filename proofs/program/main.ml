@@ -28,6 +28,9 @@ let components bodies =
       say "\n")
     bodies
 
+(* of bodies without a core nothing is asked *)
+let no_scales = { Checker.centre_at = (fun _ _ -> 0); tree = (fun _ -> raise Not_found); steps = [] }
+
 let check graph_path proof_path =
   let graph = Graph.read graph_path in
   let n = graph.nodes and m = Array.length graph.first in
@@ -47,7 +50,11 @@ let check graph_path proof_path =
          (fun c -> bound.blocks.(c)) bound.half bound.shared (Array.length bound.blocks) place proof.upper
     &&
     (not proof.solvable
-    || (Array.length proof.bodies > 0 && Checker.solvable_ok n m first second (fun b -> proof.bodies.(b)) proof.sure last))
+    ||
+    let count = Array.length proof.bodies in
+    let all = Array.append proof.bodies (Array.map fst proof.uniques) in
+    let scales b = if b < count then no_scales else snd proof.uniques.(b - count) in
+    Array.length all > 0 && Checker.solvable_ok n m first second (fun b -> all.(b)) proof.sure scales (Array.length all - 1))
     &&
     match proof.components with
     | None -> true

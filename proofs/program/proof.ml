@@ -26,6 +26,7 @@ type t = {
   bound : bound;
   components : components option;
   sure : int -> bool;  (** which bodies are uniquely determined *)
+  uniques : (Checker.body * Checker.scales) array;  (** sets that are uniquely determined, and their scales *)
   solvable : bool;
 }
 
@@ -91,13 +92,35 @@ type reader = {
 
 let key reader k v = Natural.add (Natural.mul k reader.nodes) v
 
-let body { word; passed; number; node; fail; nodes = n } reason =
+(* nodes behind a core, each joined to two before it at most *)
+let joined { word; node; number; fail; _ } reason position add core_size size =
+  let joins = Array.make (size - core_size) [] in
+  for s = core_size to size - 1 do
+    let kind = word () in
+    let v = node () in
+    let join () =
+      let a = node () in
+      let why = number () in
+      (position a, reason v a why)
+    in
+    joins.(s - core_size) <-
+      (match kind with
+      | "free" -> []
+      | "one" -> [ join () ]
+      | "two" ->
+          let first = join () in
+          [ first; join () ]
+      | _ -> fail "free, one or two expected");
+    add s v
+  done;
+  joins
+
+let body ({ passed; number; node; fail; nodes = n; _ } as reader) reason =
   let size = number () in
   let core_size = number () in
   let rows = number () in
   if size > n || core_size > size || rows > 1 lsl 24 then fail "sizes out of range";
   let nodes = Array.make size 0 and centres = Array.make core_size (0, 0, 0) in
-  let joins = Array.make (size - core_size) [] in
   let here = Table.create (2 * size) in
   let position v = match Table.find_opt here v with Some s -> s | None -> fail "a node that is not in the body yet" in
   let add s v = nodes.(s) <- v; Table.replace here v s in
@@ -127,24 +150,7 @@ let body { word; passed; number; node; fail; nodes = n } reason =
       let count = number () in
       if rows = 0 || count > 1 lsl 24 then fail "sizes out of range" else List.init count flow
   in
-  for s = core_size to size - 1 do
-    let kind = word () in
-    let v = node () in
-    let join () =
-      let a = node () in
-      let why = number () in
-      (position a, reason v a why)
-    in
-    joins.(s - core_size) <-
-      (match kind with
-      | "free" -> []
-      | "one" -> [ join () ]
-      | "two" ->
-          let first = join () in
-          [ first; join () ]
-      | _ -> fail "free, one or two expected");
-    add s v
-  done;
+  let joins = joined reader reason position add core_size size in
   let order = by_key size (fun s -> nodes.(s)) in
   {
     Checker.body_size = size;
@@ -160,6 +166,66 @@ let body { word; passed; number; node; fail; nodes = n } reason =
 let nothing =
   { Checker.body_size = 0; node = Fun.id; by_node = Fun.id; core_size = 0; core = []; centre = (fun _ _ -> 0);
     flows = []; joins = (fun _ -> []) }
+
+(* a set that is uniquely determined, and why the scales of its core are one *)
+let unique ({ word; number; node; fail; nodes = n; _ } as reader) reason =
+  let size = number () in
+  let core_size = number () in
+  let middle = number () in
+  let count = number () in
+  if size > n || core_size > size || middle > n || count > 1 lsl 24 then fail "sizes out of range";
+  let nodes = Array.make size 0 and centres = Table.create 64 and here = Table.create (2 * size) in
+  let position v = match Table.find_opt here v with Some s -> s | None -> fail "a node that is not in the set yet" in
+  let add s v = nodes.(s) <- v; Table.replace here v s in
+  let centre () =
+    let v = node () in
+    let x = number () in
+    let y = number () in
+    let z = number () in
+    Table.replace centres v (x, y, z);
+    v
+  in
+  for s = 0 to core_size - 1 do add s (centre ()) done;
+  for _ = 1 to middle do ignore (centre ()) done;
+  let link () =
+    let kind = word () in
+    let i = node () in
+    let j = node () in
+    let k = number () in
+    let why = number () in
+    let by_ =
+      match kind with
+      | "pair" -> Checker.Direct (k, reason i j why)
+      | "middle" ->
+          if not (Table.mem centres k) then fail "a node without centre";
+          let first = reason i k why in
+          Checker.Middle (k, first, reason k j (number ()))
+      | _ -> fail "pair or middle expected"
+    in
+    { Checker.from = position i; to0 = position j; by_ }
+  in
+  let tree = Array.init (max 0 (core_size - 1)) (fun _ -> link ()) in
+  let step _ =
+    match word () with
+    | "settle" ->
+        let links = number () in
+        if links < 1 || links > 4 then fail "one to four links expected";
+        let first = link () in
+        Checker.Settle (first, List.init (links - 1) (fun _ -> link ()))
+    | "corner" ->
+        let i = node () in
+        let j = node () in
+        let k = node () in
+        Checker.Corner (position i, position j, position k, reason i k (number ()))
+    | _ -> fail "settle or corner expected"
+  in
+  let steps = List.init count step in
+  let joins = joined reader reason position add core_size size in
+  let order = by_key size (fun s -> nodes.(s)) in
+  ( { nothing with Checker.body_size = size; node = (fun s -> nodes.(s)); by_node = (fun s -> order.(s)); core_size;
+      joins = (fun s -> joins.(s - core_size)) },
+    { Checker.centre_at = (fun v k -> match Table.find_opt centres v with Some (x, y, z) -> (match k with 0 -> x | 1 -> y | _ -> z) | None -> 0);
+      tree = (fun s -> tree.(s - 1)); steps } )
 
 (* A block of so many nodes, the first of which is a hub: cells, and how the nodes of the split graph hang together *)
 let split { number; fail; _ } size =
@@ -467,27 +533,32 @@ let read path (graph : Graph.t) =
       | Some s, Some t -> Checker.Inside (c, s, t)
       | _ -> fail (Printf.sprintf "%d and %d are not both in body %d" i j c)
   in
-  let bodies = ref [] and count = ref 0 in
-  let rec all next =
-    if next <> "body" then next
+  let count = ref 0 in
+  let number_it body =
+    for s = 0 to body.Checker.body_size - 1 do Table.replace body_at (key reader !count (body.Checker.node s)) s done;
+    incr count
+  in
+  let rec all kind read done_ next =
+    if next <> kind then (Array.of_list (List.rev done_), next)
     else begin
-      let read = body reader (reason !count) in
-      for s = 0 to read.Checker.body_size - 1 do Table.replace body_at (key reader !count (read.node s)) s done;
-      bodies := read :: !bodies;
-      incr count;
-      all (word ())
+      let one, body = read () in
+      number_it body;
+      all kind read (one :: done_) (word ())
     end
   in
-  let next = all (word ()) in
-  let bodies = Array.of_list (List.rev !bodies) in
+  let read_body () = let body = body reader (reason !count) in (body, body) in
+  let read_unique () = let one = unique reader (reason !count) in (one, fst one) in
+  let bodies, next = all "body" read_body [] (word ()) in
   let bound, next = bound reader next in
+  let uniques, next = all "unique" read_unique [] next in
   let solvable = next = "solvable" in
+  if Array.length uniques > 0 && not solvable then fail "solvable expected";
   let components =
     match next with
     | "solvable" -> expect "end"; None
     | "end" -> None
     | "components" -> Some (components reader graph bodies body_at)
-    | _ -> fail "body, block, other, solvable, components or end expected"
+    | _ -> fail "body, block, other, unique, solvable, components or end expected"
   in
   if not (finished ()) then fail "something after the end";
   let owner, components =
@@ -495,5 +566,5 @@ let read path (graph : Graph.t) =
     | None -> ((fun _ -> 0), None)
     | Some (owner, components) -> ((fun b -> owner.(b)), Some components)
   in
-  let sure = if solvable then determined bodies else [||] in
-  { lower; upper; bodies; owner; bound; components; sure = (fun b -> sure.(b)); solvable }
+  let sure = if solvable then Array.append (determined bodies) (Array.make (Array.length uniques) true) else [||] in
+  { lower; upper; bodies; owner; bound; components; sure = (fun b -> sure.(b)); uniques; solvable }

@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Generically Unique Solvable Sanity.
+From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Generically Unique Scales Solvable Sanity.
 
 Extract Inlined Constant muln => "Natural.mul".
 Extract Inlined Constant addn => "Natural.add".
@@ -30,6 +30,9 @@ Print Assumptions theorem_4_1.
 Print Assumptions rule_1.
 Print Assumptions rule_3.
 Print Assumptions rule_5.
+Print Assumptions settled.
+Print Assumptions demandsP.
+Print Assumptions demands_generic.
 Print Assumptions corollary_4_2.
 Print Assumptions generic_cameras.
 Print Assumptions rank_generically.

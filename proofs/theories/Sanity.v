@@ -1,6 +1,7 @@
 (* Is Statement.v about what it should be about? What a sceptic may want to see before he believes it. *)
 From mathcomp Require Import all_ssreflect all_algebra zify ring.
 From Viewcert Require Import Statement Skew Motions Differential Generic NormalForm Counting Rigid Checker Generically Unique Solvable.
+From Viewcert Require Scales.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -221,11 +222,12 @@ by apply; vm_compute.
 Qed.
 
 (* A triangle is solvable, as the program checks it; two nodes without a pair are not. *)
+Definition no_scales (_ : nat) : scales := Scales (fun _ _ => 0) (fun _ => Scales.Link 0 0 (Scales.Middle 0 (Pair 0) (Pair 0))) [::].
 Theorem triangle_solvable : solvable 3 [:: (0, 1); (0, 2); (1, 2)]%N.
 Proof.
 pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
 have := @verify_solvable 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
-  (fun _ => chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s) 0) (fun _ => true) 0.
+  (fun _ => chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s) 0) (fun _ => true) no_scales 0.
 by apply; vm_compute.
 Qed.
 

@@ -10,7 +10,9 @@ mod core;
 mod eliminated;
 mod flows;
 mod listed;
+mod scales;
 mod text;
+mod unique;
 mod upper;
 
 pub use text::Proof;
@@ -67,7 +69,7 @@ impl std::error::Error for Unproved {}
 impl Verdict {
     /// The explicit proof of this verdict on `graph`, which has to be the graph that was decided: a
     /// lower and an upper bound for the generic rank, and that the graph is solvable where the rules of
-    /// Theorem 4.1 say so. Of a graph that is not finite solvable and
+    /// Theorem 4.1, or linear algebra (Theorem 10.6), say so. Of a graph that is not finite solvable and
     /// has a large core it is the upper bound alone.
     ///
     /// O(size of the record of bodies) and an elimination of the core, which takes O(k^3) for k
@@ -125,12 +127,19 @@ impl Verdict {
                 Err(unproved) => return Err(unproved),
             }
         }
+        let by_rules = !refuted && listed::determine_all(&record.done, graph.nodes());
+        let uniques = if refuted || by_rules {
+            None
+        } else {
+            unique::determine_all(graph.edges(), graph.nodes(), record.done.len() as u32 + 1)
+        };
         Ok(Proof {
             nodes: graph.nodes(),
             pairs: graph.edges().len(),
             lower,
             upper,
-            solvable: !refuted && listed::determine_all(&record.done, graph.nodes()),
+            solvable: by_rules || uniques.is_some(),
+            uniques: uniques.unwrap_or_default(),
             bodies: record.done,
             blocks,
             components,

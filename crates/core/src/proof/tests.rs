@@ -190,3 +190,16 @@ fn a_core_beyond_the_limit_is_refused() {
     let why = proof_of(&graph, Question::default()).unwrap_err();
     assert!(matches!(why, Unproved::Core(1001..=1013)), "{why}");
 }
+
+/// K_{2,3} is uniquely determined by Theorem 10.3, which is a case of Theorem 10.6; the graph of the
+/// example of section 10 has two solutions.
+#[test]
+fn scales_are_settled_where_there_is_one_solution() {
+    let sides = [(0, 2), (0, 3), (0, 4), (1, 2), (1, 3), (1, 4)];
+    let proof = proof_of(&Graph::new(5, sides).unwrap(), Question::default()).unwrap();
+    assert!(proof.is_solvable());
+    assert!(proof.to_string().contains("\nsettle 2 middle "));
+    let two = graph6::decode(b"H?{QHIB").unwrap();
+    let proof = proof_of(&two, Question::default()).unwrap();
+    assert!(!proof.is_solvable() && !proof.to_string().contains("unique"));
+}

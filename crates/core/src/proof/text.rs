@@ -1,6 +1,7 @@
 //! A proof as data and as text.
 
-use super::listed::Listed;
+use super::listed::{Join, Listed};
+use super::unique::{Link, Step as Settled, Unique, Via};
 use super::upper::{Block, Blocks};
 use std::fmt;
 
@@ -16,7 +17,9 @@ pub struct Proof {
     /// Pairs in none of them are blocks by themselves.
     pub(super) blocks: Blocks,
     pub(super) components: Option<Components>,
-    /// The last body is uniquely determined and holds all nodes.
+    /// Sets that are uniquely determined, the last of which holds all nodes, if the bodies do not show it.
+    pub(super) uniques: Vec<Unique>,
+    /// It is proved that fundamental matrices determine the cameras.
     pub(super) solvable: bool,
 }
 
@@ -61,7 +64,7 @@ impl Proof {
     }
 
     /// Whether it is proved that fundamental matrices determine the cameras uniquely: where edges,
-    /// common nodes and triangles do (Theorem 4.1).
+    /// common nodes and triangles do (Theorem 4.1), or scales that linear algebra settles (Theorem 10.6).
     pub fn is_solvable(&self) -> bool {
         self.solvable
     }
@@ -87,14 +90,53 @@ impl fmt::Display for Listed {
             }
             writeln!(f)?;
         }
-        for (v, before) in &self.joins {
-            write!(f, "{} {v}", ["free", "one", "two"][before.len()])?;
-            for (a, why) in before {
-                write!(f, " {a} {why}")?;
-            }
-            writeln!(f)?;
+        joins(f, &self.joins)
+    }
+}
+
+/// The nodes behind a core.
+fn joins(f: &mut fmt::Formatter<'_>, joins: &[Join]) -> fmt::Result {
+    for (v, before) in joins {
+        write!(f, "{} {v}", ["free", "one", "two"][before.len()])?;
+        for (a, why) in before {
+            write!(f, " {a} {why}")?;
         }
-        Ok(())
+        writeln!(f)?;
+    }
+    Ok(())
+}
+
+impl fmt::Display for Unique {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (core, middle, steps) = (self.core.len(), self.middle.len(), self.steps.len());
+        writeln!(f, "{} {core} {middle} {steps}", core + self.joins.len())?;
+        for (v, [x, y, z]) in self.core.iter().chain(&self.middle) {
+            writeln!(f, "{v} {x} {y} {z}")?;
+        }
+        self.tree
+            .iter()
+            .try_for_each(|link| writeln!(f, "{link}"))?;
+        for step in &self.steps {
+            match step {
+                Settled::Settle(links) => {
+                    write!(f, "settle {}", links.len())?;
+                    links.iter().try_for_each(|link| write!(f, " {link}"))?;
+                    writeln!(f)?;
+                }
+                Settled::Corner([i, j, k], why) => writeln!(f, "corner {i} {j} {k} {why}")?,
+            }
+        }
+        joins(f, &self.joins)
+    }
+}
+
+impl fmt::Display for Link {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [i, j] = self.ends;
+        match self.via {
+            Via::Pair { plane, why } => write!(f, "pair {i} {j} {plane} {why}"),
+            Via::Middle { node, whys: [a, b] } => write!(f, "middle {i} {j} {node} {a} {b}"),
+        }
     }
 }
 
@@ -110,6 +152,9 @@ impl fmt::Display for Proof {
         if let Some(Components { bodies, steps }) = &self.components {
             numbers(f, "components", bodies)?;
             steps.iter().try_for_each(|step| write!(f, "{step}"))?;
+        }
+        for unique in &self.uniques {
+            write!(f, "unique {unique}")?;
         }
         if self.solvable {
             writeln!(f, "solvable")?;
