@@ -12,12 +12,12 @@ use viewcert::Model;
 use viewcert::here::{Centres, Here};
 use viewcert_formats::NamedGraph;
 use viewcert_report::at_cameras::AtCameras;
-use viewcert_report::{counted, size};
+use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
 use viewcert_session::{Session, outputs};
-use viewcert_studies::audit::at_cameras::{FloatClaim, read_table, rule};
+use viewcert_studies::audit::at_cameras::{self, FloatClaim, SigmaError, read_table, rule};
 use viewcert_studies::audit::claims::Ruling;
-use viewcert_studies::enclosure::{Enclosure, Matrix, enclose};
+use viewcert_studies::enclosure::{Enclosure, Matrix};
 
 /// The exact answer in one model, and the cameras as they were read.
 struct Exact {
@@ -81,24 +81,28 @@ fn one(
             writeln!(out, "  note        {note}")?;
         }
     }
+    let print = |out: &mut _, report: AtCameras| match json {
+        true => report.write_json(out),
+        false => report.write_text(out),
+    };
     let Some(claims) = claims else {
         let answer = &answers[Model::Projective.name()];
-        let matrix = Matrix::Plain;
         let found = answer
             .centres
             .cameras()
-            .map(|_| sigma(session, answer, matrix, None));
+            .map(|_| sigma(session, answer, Matrix::Plain, None));
         let found = found.transpose()?;
-        let report = AtCameras {
-            input: &answer.input,
-            here: &answer.here,
-            sigma: found.as_ref().map(|found| (matrix, found)),
-            ruled: None,
-        };
-        match json {
-            true => report.write_json(out)?,
-            false => report.write_text(out)?,
-        }
+        let sigma = found.as_ref().map(|found| (Matrix::Plain, found));
+        let (input, here) = (&answer.input, &answer.here);
+        print(
+            out,
+            AtCameras {
+                input,
+                here,
+                sigma,
+                ruled: None,
+            },
+        )?;
         return Ok(GOOD);
     };
     let mut counts = [0; 3];
@@ -113,16 +117,17 @@ fn one(
             Ruling::Refuted(_) => 1,
             Ruling::NotDecidable(_) => 2,
         }] += 1;
-        let report = AtCameras {
-            input: &answer.input,
-            here: &answer.here,
-            sigma: asked.zip(found.as_ref()),
-            ruled: Some((row, claim, &ruling)),
-        };
-        match json {
-            true => report.write_json(out)?,
-            false => report.write_text(out)?,
-        }
+        let (input, here, sigma) = (&answer.input, &answer.here, asked.zip(found.as_ref()));
+        let ruled = Some((row, claim, &ruling));
+        print(
+            out,
+            AtCameras {
+                input,
+                here,
+                sigma,
+                ruled,
+            },
+        )?;
         out.flush().context("standard output")?;
     }
     let [confirmed, refuted, open] = counts;
@@ -152,37 +157,22 @@ fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Re
     })
 }
 
-/// The singular value, as near as a claim asks for, and to nine digits at least where rounding allows it.
+/// The singular value, as near as a claim asks for.
 fn sigma(
     session: &Session,
     answer: &Exact,
     matrix: Matrix,
     claim: Option<&FloatClaim>,
 ) -> Result<Enclosure> {
-    if !answer.here.is_determined() {
-        return Ok(Enclosure::zero());
-    }
-    let graph = &answer.input.graph;
-    if let Some(most) = matrix.too_large(graph) {
-        let size = counted(graph.nodes(), "camera");
-        return Err(TooLarge(format!(
-            "sigma: {size}, and it is enclosed for up to {most}"
-        ))
-        .into());
-    }
-    let bounds = claim.and_then(FloatClaim::bounds);
-    let is_enough = |found: &Enclosure| {
-        let settled =
-            |[least, most]: &[_; 2]| found.is_within(least, most) || found.is_apart(least, most);
-        found.is_narrow() && bounds.as_ref().is_none_or(settled)
-    };
-    let norm = claim.and_then(|claim| claim.norm.as_ref());
-    let watch = session.shown_watch();
-    let found = enclose(matrix, graph, &answer.centres, norm, is_enough, &watch);
+    let (graph, at) = (&answer.input.graph, (&answer.centres, &answer.here));
+    let found = at_cameras::sigma(matrix, graph, at, claim, &session.shown_watch());
     session.hide();
-    found?.with_context(|| {
-        let line = claim.map_or(0, |claim| claim.line);
-        let name = matrix.name();
-        format!("line {line} of the table: sigma: {name} takes whole cameras, and the file gives centres alone; give `camera` or `pose`")
+    found.map_err(|error| match error {
+        SigmaError::TooLarge { .. } => TooLarge(error.to_string()).into(),
+        SigmaError::Stopped(stopped) => stopped.into(),
+        error => anyhow!(
+            "line {} of the table: {error}",
+            claim.map_or(0, |claim| claim.line)
+        ),
     })
 }

@@ -246,6 +246,12 @@ pub enum Problem {
         "an array of shape {0:?} holds neither cameras (n, 3, 4) nor centres (n, 3) of the {1} nodes"
     )]
     NoCameraArray(Vec<u64>, usize),
+    /// Several arrays of cameras in one file.
+    #[error("several arrays may be the cameras: {0}")]
+    SeveralCameraArrays(String),
+    /// No array of cameras in a file of several.
+    #[error("no array holds cameras ({0}) or centres (n, 3) of the {1} nodes")]
+    NoCameraArrays(&'static str, usize),
     /// A pair of a camera with itself.
     #[error("camera {0} is paired with itself")]
     SelfLoop(String),
@@ -591,8 +597,9 @@ impl Problem {
             Self::MissingCameras { .. } => {
                 "give every node a camera, or leave the pairs of those that have none out of the graph"
             }
-            Self::NoCameraArray(..) => {
-                "give an array with an entry for each node, in their order; nodes with names take a text file or a COLMAP model"
+            Self::SeveralCameraArrays(_) => "save the one that is meant, alone",
+            Self::NoCameraArray(..) | Self::NoCameraArrays(..) => {
+                "give an array with an entry for each node, in their order; nodes with names take a text file, a COLMAP model, or an .npz file with an array `names`"
             }
             Self::SomeVectors => {
                 "give vectors and positions on all lines, and the verdict is about these, or on none, and it is about vectors in general position"

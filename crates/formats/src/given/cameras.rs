@@ -1,4 +1,4 @@
-//! Cameras, at which a graph is decided as they are: text, a COLMAP model, an array of NumPy.
+//! Cameras, at which a graph is decided as they are: text, a COLMAP model, arrays of NumPy and MATLAB.
 //!
 //! In: a file, and the graph whose cameras it names. Out: for every node a camera or a centre, as exact
 //! fractions ([`GivenCameras`]); decimals, fractions and doubles are such. A quaternion q gives the
@@ -9,15 +9,15 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use super::arrays;
+use super::places::{Given, GivenCameras, Read, all, matrix};
+use super::table::Table;
 use crate::cameras::{Cameras, for_each_line, read_file};
 use crate::edge_list::fields::{Field, split};
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::model::exact;
-use crate::{Model, NamedGraph, numpy};
+use crate::{Model, NamedGraph};
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::model::Model as Question;
-use viewcert::graph::Labels;
-use viewcert::here::{CentreError, Centres};
 use viewcert::linalg::integer::Integer;
 use viewcert::linalg::rational::Rational;
 use viewcert::wording::counted;
@@ -32,74 +32,9 @@ const CENTRE: &str = "centre";
 /// The first words of lines with cameras.
 pub(super) const WORDS: [&str; 3] = [CAMERA, POSE, CENTRE];
 
-/// A camera for each node of a graph.
-#[derive(Clone, Debug)]
-pub struct GivenCameras {
-    /// Their centres.
-    pub centres: Centres,
-    /// What was read, and what of it was left out.
-    pub notes: Vec<String>,
-}
-
-enum Places {
-    Cameras(Vec<Camera<Rational>>),
-    Centres(Vec<[Rational; 3]>),
-}
-
-/// What a line, or an entry of an array, gives.
-enum Given {
-    Camera(Box<Camera<Rational>>),
-    Centre([Rational; 3]),
-}
-
-/// The cameras as they were read.
-struct Read {
-    places: Places,
-    notes: Vec<String>,
-}
-
-impl Read {
-    /// With the centres, as a model asks for them.
-    fn finish(self, model: Question, input: &NamedGraph) -> Result<GivenCameras, Fault> {
-        let centres = match &self.places {
-            Places::Cameras(cameras) => Centres::of_cameras(model, cameras),
-            Places::Centres(centres) => Centres::of_points(model, centres),
-        };
-        let problem = |error| Problem::NoCentre(centre_error(error, input));
-        let notes = self.notes;
-        let centres = centres.map_err(|error| Place::Input.fault(problem(error)))?;
-        Ok(GivenCameras { centres, notes })
-    }
-}
-
-/// What is wrong with cameras, by the names of these, and what to do.
-pub fn centre_error(error: CentreError, input: &NamedGraph) -> String {
-    let name = |v: u32| input.labels.display(v).to_string();
-    match error {
-        CentreError::Degenerate(v) => format!(
-            "camera {} has rank below 3, or zero for its direction: it has no centre; mend the file",
-            name(v)
-        ),
-        CentreError::AtInfinity(v) => format!(
-            "the centre of camera {} is at infinity, which no calibrated camera's is; say --model projective",
-            name(v)
-        ),
-        CentreError::NotAffine(v) => format!(
-            "camera {} is not affine: the last row of its matrix is not (0, 0, 0, 1) up to a factor; leave out --model affine",
-            name(v)
-        ),
-        CentreError::Coincide(i, j) => format!(
-            "{} and {} are at one place (or have one viewing direction), so that their pair has no fundamental matrix; leave the pair out",
-            name(i),
-            name(j)
-        ),
-        other => other.to_string(),
-    }
-}
-
-/// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), an `.npy` file with an
-/// array (n, 3, 4) of cameras or (n, 3) of centres, or a text whose first word is `camera`, `pose` or
-/// `centre`. Nothing is read from standard input and pipes, which can be read once only. O(bytes).
+/// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), an `.npy` or `.npz` file with an
+/// array (n, 3, 4) of cameras or (n, 3) of centres, a MATLAB file with one of 3 x 4 x n or n x 3, a text whose first word is `camera`, `pose` or
+/// `centre`, or a table whose head names such columns. Nothing is read from standard input and pipes, which can be read once only. O(bytes).
 ///
 /// # Errors
 /// With file and line: numbers that are none, cameras that the graph does not have, or that are missing.
@@ -118,12 +53,9 @@ pub fn read_cameras(
         let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
             return Ok(None);
         };
-        if start.starts_with(numpy::MAGIC) {
+        if let Some(read) = arrays::reader(&start[..count]) {
             let bytes = std::fs::read(path).map_err(|error| Place::Input.fault(error.into()));
-            bytes.and_then(|bytes| {
-                let array = of_array(&bytes, input);
-                array.map_err(|problem| Place::Input.fault(problem))
-            })
+            bytes.and_then(|bytes| read(&bytes, input))
         } else if is_text_of_cameras(path, &start[..count]) {
             let read = |text: &mut dyn io::Read| of_text(text, input)?.finish(model, input);
             return read_file(path, read, |given| &mut given.notes).map(Some);
@@ -139,36 +71,62 @@ pub fn read_cameras(
     Ok(Some(found))
 }
 
-/// Whether the first line that is no comment begins with the word of a camera; in a file that begins with
+/// Whether the first line that is no comment begins with the word of a camera, or is the head of a table of such; in a file that begins with
 /// long comments the whole is looked at.
 fn is_text_of_cameras(path: &Path, start: &[u8]) -> bool {
-    let first_word = |bytes: &[u8]| {
+    let first_line = |bytes: &[u8]| {
         let text = String::from_utf8_lossy(bytes).into_owned();
         let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
         let line = lines.find(|line| !line.is_empty() && !line.starts_with(['#', '%']))?;
-        Some(line.split([' ', '\t', ',']).next()?.to_owned())
+        Some(line.to_owned())
     };
-    let word = first_word(start).or_else(|| first_word(&std::fs::read(path).ok()?));
-    word.is_some_and(|word| WORDS.contains(&&*word))
+    let line = first_line(start).or_else(|| first_line(&std::fs::read(path).ok()?));
+    line.is_some_and(|line| {
+        let words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
+        let words: Vec<String> = words
+            .map(|word| word.trim_matches('"').to_lowercase())
+            .collect();
+        let is_word = line
+            .split([' ', '\t', ','])
+            .next()
+            .is_some_and(|word| WORDS.contains(&word));
+        is_word
+            || words
+                .split_first()
+                .is_some_and(|(first, rest)| Table::of_head(first, rest).is_some())
+    })
 }
 
 /// The cameras of a text.
 fn of_text(text: impl io::Read, input: &NamedGraph) -> Result<Read, Fault> {
     let mut given = BTreeMap::new();
     let mut fields = Vec::new();
+    let mut table: Option<Table> = None;
     for_each_line(text, input, |_, line, cameras| {
         split(line, &mut fields)?;
         let Some((word, fields)) = fields.split_first() else {
             return Ok(());
         };
-        let word = word.text(line);
-        let expected = match &*word {
-            CAMERA => 12,
-            POSE => 7,
-            CENTRE => 3,
-            _ => return Err(Problem::MixedCameras("cameras")),
+        let texts = || fields.iter().map(|&field| field.text(line).to_lowercase());
+        if table.is_none() && given.is_empty() {
+            table = Table::of_head(&word.text(line), &texts().collect::<Vec<_>>());
+            if table.is_some() {
+                return Ok(());
+            }
+        }
+        let (expected, first, rest) = match &table {
+            Some(table) => (table.width(), *word, table.ordered(fields)?),
+            None => {
+                let expected = match &*word.text(line) {
+                    CAMERA => 12,
+                    POSE => 7,
+                    CENTRE => 3,
+                    _ => return Err(Problem::MixedCameras("cameras")),
+                };
+                let (&first, rest) = fields.split_first().ok_or(Problem::NoCamera)?;
+                (expected, first, rest.to_vec())
+            }
         };
-        let (&first, rest) = fields.split_first().ok_or(Problem::NoCamera)?;
         let node = cameras.named(first, line)?;
         let found = rest.len();
         let numbers = rest.iter().map(|&field| number(field, line));
@@ -224,64 +182,6 @@ fn of_model(model: &Model, input: &NamedGraph) -> Result<Read, Problem> {
     all(given, input, note.into_iter().collect())
 }
 
-/// The cameras of an array, in the order of the nodes, which are called by numbers.
-fn of_array(bytes: &[u8], input: &NamedGraph) -> Result<Read, Problem> {
-    let (shape, numbers) = numpy::real_numbers(bytes)?;
-    let nodes = input.graph.nodes();
-    let wrong = || Problem::NoCameraArray(shape.clone(), nodes);
-    let numbered = matches!(input.labels, Labels::Numbers { .. } | Labels::Integers(_));
-    let width = match shape[..] {
-        [n, 3, 4] if n == nodes as u64 && numbered => 12,
-        [n, 3] if n == nodes as u64 && numbered => 3,
-        _ => return Err(wrong()),
-    };
-    let numbers = numbers
-        .into_iter()
-        .map(|x| exact(x).ok_or_else(|| Problem::NoRational(x.to_string())));
-    let numbers = numbers.collect::<Result<Vec<Rational>, Problem>>()?;
-    let entries = numbers.chunks(width).map(|entries| match entries {
-        [x, y, z] => Given::Centre([x.clone(), y.clone(), z.clone()]),
-        _ => Given::Camera(Box::new(matrix(entries))),
-    });
-    let note =
-        "row k of the array is the k-th camera in increasing order of their numbers".to_owned();
-    all((0..).zip(entries).collect(), input, vec![note])
-}
-
-/// One camera for each node.
-fn all(
-    given: BTreeMap<u32, Given>,
-    input: &NamedGraph,
-    notes: Vec<String>,
-) -> Result<Read, Problem> {
-    let nodes = input.graph.nodes();
-    let first = (0..nodes as u32).find(|v| !given.contains_key(v));
-    if let Some(first) = first {
-        return Err(Problem::MissingCameras {
-            first: input.labels.label(first).into_owned(),
-            missing: nodes - given.len(),
-        });
-    }
-    let (mut cameras, mut centres) = (Vec::new(), Vec::new());
-    for place in given.into_values() {
-        match place {
-            Given::Camera(camera) => cameras.push(*camera),
-            Given::Centre(centre) => centres.push(centre),
-        }
-    }
-    let places = match (cameras.is_empty(), centres.is_empty()) {
-        (_, true) => Places::Cameras(cameras),
-        (true, _) => Places::Centres(centres),
-        _ => return Err(Problem::MixedCameras("centres")),
-    };
-    Ok(Read { places, notes })
-}
-
-/// Twelve numbers, row by row.
-fn matrix(entries: &[Rational]) -> Camera<Rational> {
-    std::array::from_fn(|r| std::array::from_fn(|c| entries[4 * r + c].clone()))
-}
-
 /// [ d R(q) | |q|^2 d t ] for a quaternion and a translation, with d and a multiple of q that make all of them
 /// integers, for which no fraction is ever reduced; zero for q = 0.
 fn of_pose([q @ .., x, y, z]: &[Rational; 7]) -> Camera<Rational> {
@@ -318,7 +218,9 @@ fn of_pose([q @ .., x, y, z]: &[Rational; 7]) -> Camera<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::exact;
     use crate::{ReadOptions, read_graphs};
+    use viewcert::here::Centres;
 
     fn graph(text: &str) -> NamedGraph {
         let file = tempfile::NamedTempFile::new().unwrap();

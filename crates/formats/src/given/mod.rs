@@ -5,10 +5,13 @@
 //! or says nothing. Each line begins with the word that says what it is: `part`, `displacement` or
 //! `position` (docs/input.md); fields, quotes and comments are those of edge lists.
 
+mod arrays;
 pub(crate) mod cameras;
 mod displacements;
 mod parts;
+pub(crate) mod places;
 mod priors;
+mod table;
 
 use std::io::Read;
 use std::path::Path;

@@ -185,6 +185,39 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
     Ok(entries)
 }
 
+/// The full arrays of real numbers of a file of version 5 whose shape is asked for: name, shape, and numbers with the
+/// first index changing fastest. O(bytes).
+///
+/// # Errors
+/// A file of another version, truncated or corrupt; integers beyond 2^53.
+pub(crate) fn real_arrays(
+    bytes: &[u8],
+    is_wanted: impl Fn(&[u32]) -> bool,
+) -> Result<Vec<(String, Vec<u32>, Vec<f64>)>, Fault> {
+    let (order, variables) = variables(bytes)?;
+    let mut all = Vec::new();
+    for variable in variables {
+        let Some(shape) = variable
+            .header
+            .real_shape()
+            .filter(|shape| is_wanted(shape))
+        else {
+            continue;
+        };
+        let name = variable.header.name.clone();
+        let read = || {
+            let mut source = Source::of_element(variable.kind, variable.content, order)?;
+            let header = Header::read(&mut source)?;
+            let numbers = matrix::numbers(&header, &mut source)?;
+            source.finish()?;
+            Ok(numbers)
+        };
+        let numbers = read().map_err(|problem| Place::Variable(name.clone()).fault(problem))?;
+        all.push((name, shape.to_vec(), numbers));
+    }
+    Ok(all)
+}
+
 /// All variables of a file, in order; only their headers are read.
 fn variables(bytes: &[u8]) -> Result<(ByteOrder, Vec<Variable<'_>>), Fault> {
     let fault = |problem| Place::Input.fault(problem);

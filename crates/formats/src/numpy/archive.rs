@@ -166,6 +166,47 @@ pub(in super::super) fn read_archive_with(
     }
 }
 
+/// What an array of an archive holds, read.
+pub(crate) enum Held {
+    /// Real numbers, rows first, and their shape.
+    Numbers(Vec<u64>, Vec<f64>),
+    /// One text after another.
+    Texts(Vec<String>),
+}
+
+/// The arrays of an archive with their names: those of one dimension that hold texts, and those of real numbers whose shape
+/// is asked for. O(bytes).
+///
+/// # Errors
+/// A file that is truncated or corrupt; columns first; integers beyond 2^53.
+pub(crate) fn held(
+    bytes: &[u8],
+    is_wanted: impl Fn(&[u64]) -> bool,
+) -> Result<Vec<(String, Held)>, Problem> {
+    let archive = ZipArchive::from_slice(bytes).map_err(|error| zip(&error))?;
+    let mut all = Vec::new();
+    for array in arrays(&archive)? {
+        let shape = array.header.shape.clone();
+        let held = match array.header.element {
+            Element::Bytes(_) | Element::Characters(..) if shape.len() == 1 => {
+                let mut texts = Vec::new();
+                array.read(|header, input| {
+                    numbers::each_text(header, input, |text| texts.push(text))
+                })?;
+                Held::Texts(texts)
+            }
+            Element::Number(..) if is_wanted(&shape) => {
+                let numbers = array.numbers()?;
+                super::check_real(&array.header, &numbers)?;
+                Held::Numbers(shape, numbers)
+            }
+            _ => continue,
+        };
+        all.push((array.name, held));
+    }
+    Ok(all)
+}
+
 /// All arrays of an archive; only their headers are read.
 fn arrays<'a>(archive: &'a ZipSliceArchive<&'a [u8]>) -> Result<Vec<Array<'a>>, Problem> {
     let mut arrays: Vec<Array> = Vec::new();

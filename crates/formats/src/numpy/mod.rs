@@ -25,6 +25,7 @@ use header::{Element, Header};
 
 pub use archive::read_archive;
 pub(super) use archive::read_archive_with;
+pub(crate) use archive::{Held, held};
 pub(super) use archive::{MAGIC as ARCHIVE_MAGIC, is_archive};
 pub(super) use header::MAGIC;
 
@@ -56,24 +57,31 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, Fault> {
 pub(crate) fn real_numbers(bytes: &[u8]) -> Result<(Vec<u64>, Vec<f64>), Problem> {
     let mut input = Cursor::new(bytes);
     let header = Header::read(&mut input)?;
+    let mut numbers = Vec::new();
+    numbers::each(&header, &mut input, |number| {
+        numbers.push(number);
+        Ok(())
+    })?;
+    check_real(&header, &numbers)?;
+    if (input.position() as usize) < bytes.len() {
+        return Err(malformed("bytes follow the array"));
+    }
+    Ok((header.shape, numbers))
+}
+
+/// Refuses numbers that are not in their place, or not what was stored.
+fn check_real(header: &Header, numbers: &[f64]) -> Result<(), Problem> {
     if header.fortran && header.shape.len() > 1 {
         return Err(malformed(
             "an array with its columns first (save numpy.ascontiguousarray of it)",
         ));
     }
     let is_long = matches!(header.element, Element::Number(b'i' | b'u', 8, _));
-    let mut numbers = Vec::new();
-    numbers::each(&header, &mut input, |number| {
-        if is_long && number.abs() > 9_007_199_254_740_992.0 {
-            return Err(malformed("an integer beyond 2^53"));
-        }
-        numbers.push(number);
-        Ok(())
-    })?;
-    if (input.position() as usize) < bytes.len() {
-        return Err(malformed("bytes follow the array"));
+    let is_beyond = |number: &f64| number.abs() > 9_007_199_254_740_992.0;
+    match is_long && numbers.iter().any(is_beyond) {
+        true => Err(malformed("an integer beyond 2^53")),
+        false => Ok(()),
     }
-    Ok((header.shape, numbers))
 }
 
 /// The same with the options of whoever asks.

@@ -1,17 +1,13 @@
-//! What somebody's floating point found at given cameras, held against what is so there.
+//! Tables of what floating point found at given cameras.
 //!
-//! In: a table, one result a row. Out: for each row what it claims ([`FloatClaim`]), and, with the exact answer
-//! at the cameras and the enclosed singular value, whether that is so.
+//! In: CSV with a head. Out: for each row what it claims ([`FloatClaim`]), or what is wrong, by line.
 
-use super::claims::Ruling;
-use crate::enclosure::{Enclosure, Matrix, compare, decimal};
+use crate::enclosure::{Matrix, compare};
 use std::cmp::Ordering;
 use std::str::FromStr;
 use viewcert::Model;
-use viewcert::here::Here;
-use viewcert::linalg::Ring;
 use viewcert::linalg::integer::Integer;
-use viewcert::linalg::rational::{Rational, Rationals};
+use viewcert::linalg::rational::Rational;
 use viewcert::wording::counted;
 use viewcert_formats::csv;
 
@@ -284,75 +280,6 @@ fn last_place(text: &str) -> Option<Rational> {
         .all(|b| b.is_ascii_digit() || b"+.".contains(&b));
     let places = behind.len() as i64;
     is_decimal.then(|| Rational::scaled(Integer::one(), 10, exponent - places))
-}
-
-impl FloatClaim {
-    /// The bounds between which the claimed singular value is.
-    pub fn bounds(&self) -> Option<[Rational; 2]> {
-        let [value, error] = self.sigma.as_ref()?;
-        Some([Rationals.sub(value, error), Rationals.add(value, error)])
-    }
-}
-
-/// Rules on a claim, by the exact answer in its model at the cameras and, where one is claimed, the enclosed singular value.
-pub fn rule(claim: &FloatClaim, here: &Here, sigma: Option<&Enclosure>) -> Ruling {
-    let mut wrong = Vec::new();
-    let mut open = None;
-    if let Some(determined) = claim.determined
-        && determined != here.is_determined()
-    {
-        wrong.push(match determined {
-            true => format!(
-                "the cameras are not determined: the rank is {} of {}",
-                here.rank.value, here.required
-            ),
-            false => "the cameras are determined: the rank is full".to_owned(),
-        });
-    }
-    let counts = [
-        ("rank", claim.rank, here.rank.value),
-        ("components", claim.components, here.components.value.len()),
-    ];
-    for (what, claimed, is) in counts {
-        if let Some(claimed) = claimed.filter(|&claimed| claimed != is) {
-            wrong.push(format!("{what} {is}, not {claimed}"));
-        }
-    }
-    if let (Some([least, most]), Some(found)) = (claim.bounds(), sigma) {
-        if found.is_apart(&least, &most) {
-            wrong.push(format!("sigma is {}", between(found)));
-        } else if !found.is_within(&least, &most) {
-            open = Some(format!(
-                "sigma is {}, which holds part of what is claimed",
-                between(found)
-            ));
-        }
-    }
-    match open {
-        _ if !wrong.is_empty() => Ruling::Refuted(wrong),
-        Some(why) => Ruling::NotDecidable(why),
-        None => Ruling::Confirmed,
-    }
-}
-
-/// Both bounds in words.
-pub fn between(found: &Enclosure) -> String {
-    if compare(&found.most, &Integer::zero().into()).is_le() {
-        return "0".to_owned();
-    }
-    let [least, most] = decimals(found);
-    format!("between {least} and {most}")
-}
-
-/// Both bounds, rounded away from each other, to one digit more than tells them apart, and at least ten.
-pub fn decimals(found: &Enclosure) -> [String; 2] {
-    let text = |digits| {
-        [
-            decimal(&found.least, digits, false),
-            decimal(&found.most, digits, true),
-        ]
-    };
-    text(12)
 }
 
 #[cfg(test)]

@@ -1,0 +1,109 @@
+//! Cameras or centres, one for each node of a graph, wherever they were read.
+
+use std::collections::BTreeMap;
+
+use crate::NamedGraph;
+use crate::error::{Fault, Place, Problem};
+use viewcert::geometry::camera::Camera;
+use viewcert::geometry::model::Model as Question;
+use viewcert::here::{CentreError, Centres};
+use viewcert::linalg::rational::Rational;
+
+/// A camera for each node of a graph.
+#[derive(Clone, Debug)]
+pub struct GivenCameras {
+    /// Their centres.
+    pub centres: Centres,
+    /// What was read, and what of it was left out.
+    pub notes: Vec<String>,
+}
+
+enum Places {
+    Cameras(Vec<Camera<Rational>>),
+    Centres(Vec<[Rational; 3]>),
+}
+
+/// What a line, or an entry of an array, gives.
+pub(super) enum Given {
+    Camera(Box<Camera<Rational>>),
+    Centre([Rational; 3]),
+}
+
+/// The cameras as they were read.
+pub(super) struct Read {
+    places: Places,
+    pub(super) notes: Vec<String>,
+}
+
+impl Read {
+    /// With the centres, as a model asks for them.
+    pub(super) fn finish(self, model: Question, input: &NamedGraph) -> Result<GivenCameras, Fault> {
+        let centres = match &self.places {
+            Places::Cameras(cameras) => Centres::of_cameras(model, cameras),
+            Places::Centres(centres) => Centres::of_points(model, centres),
+        };
+        let problem = |error| Problem::NoCentre(centre_error(error, input));
+        let notes = self.notes;
+        let centres = centres.map_err(|error| Place::Input.fault(problem(error)))?;
+        Ok(GivenCameras { centres, notes })
+    }
+}
+
+/// What is wrong with cameras, by the names of these, and what to do.
+pub fn centre_error(error: CentreError, input: &NamedGraph) -> String {
+    let name = |v: u32| input.labels.display(v).to_string();
+    match error {
+        CentreError::Degenerate(v) => format!(
+            "camera {} has rank below 3, or zero for its direction: it has no centre; mend the file",
+            name(v)
+        ),
+        CentreError::AtInfinity(v) => format!(
+            "the centre of camera {} is at infinity, which no calibrated camera's is; say --model projective",
+            name(v)
+        ),
+        CentreError::NotAffine(v) => format!(
+            "camera {} is not affine: the last row of its matrix is not (0, 0, 0, 1) up to a factor; leave out --model affine",
+            name(v)
+        ),
+        CentreError::Coincide(i, j) => format!(
+            "{} and {} are at one place (or have one viewing direction), so that their pair has no fundamental matrix; leave the pair out",
+            name(i),
+            name(j)
+        ),
+        other => other.to_string(),
+    }
+}
+
+/// One camera for each node.
+pub(super) fn all(
+    given: BTreeMap<u32, Given>,
+    input: &NamedGraph,
+    notes: Vec<String>,
+) -> Result<Read, Problem> {
+    let nodes = input.graph.nodes();
+    let first = (0..nodes as u32).find(|v| !given.contains_key(v));
+    if let Some(first) = first {
+        return Err(Problem::MissingCameras {
+            first: input.labels.label(first).into_owned(),
+            missing: nodes - given.len(),
+        });
+    }
+    let (mut cameras, mut centres) = (Vec::new(), Vec::new());
+    for place in given.into_values() {
+        match place {
+            Given::Camera(camera) => cameras.push(*camera),
+            Given::Centre(centre) => centres.push(centre),
+        }
+    }
+    let places = match (cameras.is_empty(), centres.is_empty()) {
+        (_, true) => Places::Cameras(cameras),
+        (true, _) => Places::Centres(centres),
+        _ => return Err(Problem::MixedCameras("centres")),
+    };
+    Ok(Read { places, notes })
+}
+
+/// Twelve numbers, row by row.
+pub(super) fn matrix(entries: &[Rational]) -> Camera<Rational> {
+    std::array::from_fn(|r| std::array::from_fn(|c| entries[4 * r + c].clone()))
+}
