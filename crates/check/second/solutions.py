@@ -730,9 +730,9 @@ def added(a, d):
 
 
 def check_points(value, chart, known, where, meter):
-    """(S17) to (S18a): the number of points that count."""
+    """(S17) to (S18b): the number of points that count."""
     names = "centres unknowns bounds absent minors points"
-    optional = [name for name in ("form", "outside") if type(value) is dict and name in value]
+    optional = [name for name in ("form", "outside", "spurious") if type(value) is dict and name in value]
     centres, unknowns, bounds, absent, minors, points, *more = members(value, " ".join([names, *optional]), where)
     more = dict(zip(optional, more))
     rows = Rows(chart, centres, f"{where}: centres", meter)
@@ -749,17 +749,25 @@ def check_points(value, chart, known, where, meter):
     outside = []
     for k, point in enumerate(a_list(more.get("outside", []), f"{where}: outside")):
         outside.append(Outside(point, support, f"{where}: outside {k}"))
-    check_kernel(support, form, [*(values for values, _ in parsed), *(point.listed for point in outside)], where)
+    spurious = []
+    for k, point in enumerate(a_list(more.get("spurious", []), f"{where}: spurious")):
+        spurious.append(Spurious(point, support, f"{where}: spurious {k}"))
+    every = [*(values for values, _ in parsed), *(point.listed for point in [*outside, *spurious])]
+    check_kernel(support, form, every, where)
     for k, (values, steps) in enumerate(parsed):
         at = f"{where}: point {k}"
         here = {**known, **dict(zip(support.unknowns, values))}
-        for t, step in enumerate(steps):
-            need(type(step) is dict and step.get("kind") == "linear", f"{at}: step {t}: (S18) not a linear step")
-            check_linear(step, rows, here, f"{at}: step {t}")
+        check_steps(steps, rows, here, at, "(S18)")
         need(len(here) == len(chart.unknowns), f"{at}: (S18) an unknown is not known after the steps")
-    for point in outside:
+    for point in [*outside, *spurious]:
         point.check()
     return len(parsed)
+
+
+def check_steps(steps, rows, known, where, condition):
+    for t, step in enumerate(steps):
+        need(type(step) is dict and step.get("kind") == "linear", f"{where}: step {t}: {condition} not a linear step")
+        check_linear(step, rows, known, f"{where}: step {t}")
 
 
 def check_kernel(support, form, points, where):
@@ -874,6 +882,47 @@ class Outside:
                         line[side.unknown] += sign * w * sum(v * y[number[c]] for c, v in side.entries.items())
             lines.append([line[f] % p for f in unknowns])
         return lines
+
+
+class Spurious:
+    """(S18b): a point at which the rank of N(u) is more than 3 n' - 4, so that no solution comes near."""
+
+    def __init__(self, value, support, where):
+        values, steps = members(value, "values steps", where)
+        self.support, self.where, p = support, where, support.rows.p
+        self.steps = a_list(steps, f"{where}: steps")
+        self.listed = []
+        for entry in a_list(values, f"{where}: values"):
+            self.listed.append(None if entry is None else a_residue(entry, p, f"{where}: values"))
+        need(len(self.listed) == len(support.unknowns), f"{where}: (S18b) another number of values")
+
+    def check(self):
+        """What is to hold at the point, apart from (S17)."""
+        support, where = self.support, self.where
+        rows, p, there = support.rows, support.rows.p, set(support.exponents)
+        support.meter.charge(SPARSE * len(there) * (len(self.listed) + 1) ** 2)
+        for k, value in enumerate(self.listed):
+            pairs = [(a, (*a[:k], a[k] + 1, *a[k + 1 :])) for a in there]
+            told = [pair[value is None] for pair in pairs if pair[1] in there]
+            tells = any(power(self.listed, a, support.bounds, p) for a in told)
+            need(tells, f"{where}: (S18b) no exponents tell value {k}")
+        need(not self.steps or None not in self.listed, f"{where}: (S18b) steps beside an infinite value")
+        here = {**support.known, **dict(zip(support.unknowns, self.listed))}
+        check_steps(self.steps, rows, here, where, "(S18b)")
+        support.meter.charge(SPARSE * 6 * len(rows.sides))
+        matrix = []
+        for row, pair in enumerate(rows.sides):
+            if any(f not in here for f in rows.unknowns_of(row)):
+                continue
+            scales = [1 if side.unknown is None else here[side.unknown] for side in pair]
+            if scales in ([0, 0], [None, None]):
+                continue
+            if None in scales:
+                matrix.append({c: v % p for c, v in pair[scales.index(None)].scaled(1).items()})
+            else:
+                matrix.append(rows.at(row, here))
+        rank = rank_of(matrix, p, support.meter)
+        need(rank > rows.chart.width - 4, f"{where}: (S18b) the rank is {rank}, not above 3 n' - 4")
 
 
 # A lower bound -------------------------------------------------------------------------------------------------------

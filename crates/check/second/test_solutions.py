@@ -460,6 +460,86 @@ class Points(Case):
         self.points("(S7) another number of centres", centres=centres(4))
 
 
+# K_{2,3} again: a minor with two columns at a and one with two at b vanish at u = 1 and at one other point, where the
+# three rows are independent. (a + b s + c t = 0 and d s t + e s + f t = 0, solved by hand: s = a f / (b d).)
+SPURIOUS = {
+    **POINTS,
+    "bounds": [2, 2],
+    "minors": [minor([0, 1, 3]), minor([1, 3, 4])],
+    "spurious": [{"values": ["249531", "214213"], "steps": []}],
+}
+
+
+class Spurious(Case):
+    """(S18b): a point that all minors have in common, and that is none of N(u)."""
+
+    def count(self, **changes):
+        return bound(BICLIQUE, upper=upper(points={**SPURIOUS, **changes}))
+
+    def refused(self, words, **changes):
+        with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+            self.count(**changes)
+        self.assertIn(words, str(caught.exception))
+
+    def test_it_does_not_count(self):
+        self.assertEqual(self.count(), (1, 1))
+        both = [*POINTS["points"], *SPURIOUS["spurious"]]
+        self.assertEqual(self.count(points=both, spurious=[]), (1, 2))
+        self.refused("(S17) 1 points, but 2 dimensions", spurious=[])
+        self.refused("(S17) two points are the same", spurious=SPURIOUS["spurious"] * 2)
+        self.refused("(S17) a minor does not vanish at a point", spurious=[{"values": ["249531", None], "steps": []}])
+        self.refused("spurious 1: (S18b) the rank is 2, not above 3 n' - 4", points=[], spurious=both[::-1])
+
+    def test_its_members(self):
+        for nothing in (None, {}, "1"):
+            self.refused("spurious is not a list", spurious=nothing)
+            self.refused("spurious 0: steps is not a list", spurious=[{"values": ["1", "1"], "steps": nothing}])
+            self.refused("spurious 0: values is not a list", spurious=[{"values": nothing, "steps": []}])
+        self.refused("spurious 0: (S18b) another number of values", spurious=[{"values": ["1"], "steps": []}])
+        self.refused("spurious 0: values is out of range", spurious=[{"values": ["1", str(P)], "steps": []}])
+        self.refused("spurious 0: step 0: (S18b) not a linear step", spurious=[{**SPURIOUS["spurious"][0], "steps": [SUPPORT]}])
+        self.refused("spurious 0: step 0", spurious=[{**SPURIOUS["spurious"][0], "steps": [LINEAR]}])
+
+    def judged(self, values, steps=(), absent=(), unknowns=(0, 1), chart=HALF_EDGES, core=BICLIQUE):
+        """What is said of a point apart from (S17)."""
+        meter = solutions.Meter()
+        nodes = 1 + max(map(max, core))
+        rows = solutions.Rows(solutions.Chart(chart, [frozenset(pair) for pair in core], "", meter), centres(nodes), "", meter)
+        support = solutions.Support(list(unknowns), [1] * len(unknowns), list(absent), [], rows, {}, "")
+        solutions.Spurious({"values": values, "steps": list(steps)}, support, "").check()
+
+    def test_infinite_values(self):
+        """Of rows with one, that side is left."""
+        self.judged([None, "5"])
+        self.judged([None, None])
+        self.judged(["0", "0"])
+        with self.assertRaises(notation.Reject) as caught:
+            self.judged([None, "5"], steps=[LINEAR])
+        self.assertIn("(S18b) steps beside an infinite value", str(caught.exception))
+        # Scales of one row that are both 0, or both infinite.
+        chart = {**TETRAHEDRON, "unknowns": [[0, 0], [0, 1]]}
+        for value in ("0", None):
+            self.judged([value, value], chart=chart, core=FACE_AND_EDGES)
+
+    def test_open_unknowns(self):
+        """Rows with them are left out: two rows are not enough."""
+        with self.assertRaises(notation.Reject) as caught:
+            self.judged(["5"], unknowns=[0])
+        self.assertIn("(S18b) the rank is 2, not above 3 n' - 4", str(caught.exception))
+
+    def test_exponents_tell_each_value(self):
+        self.judged(["5", "1"], absent=[[0, 0]])
+        for values, absent, k in [
+            (["5", "1"], [[0, 0], [0, 1]], 0),
+            (["1", "5"], [[0, 0], [1, 0]], 1),
+            ([None, "0"], [[1, 0]], 0),
+            (["5", "0"], [[0, 0], [1, 0]], 0),
+        ]:
+            with self.subTest(values=values), self.assertRaises(notation.Reject) as caught:
+                self.judged(values, absent=absent)
+            self.assertIn(f"(S18b) no exponents tell value {k}", str(caught.exception))
+
+
 class Infinity(Case):
     """(S17) with a form, and (S18a): ten nodes, two solutions, and a third point that counts for nothing.
 

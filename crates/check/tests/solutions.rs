@@ -104,7 +104,7 @@ fn members_are_unique() {
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
     // One more is that of `oriented.rs`.
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 9);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 10);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -114,6 +114,7 @@ fn all_are_verified() {
         ("outside", 2),
         ("product", 4),
         ("pairs", 1),
+        ("spurious", 1),
     ] {
         let text = text_of(name).to_string();
         let verified =
@@ -784,6 +785,106 @@ fn s17_forms() {
         &[("U/points/outside", json!([]))],
         "U.points: 2 points, where 8 exponents less a rank of 5 are asked for",
     );
+}
+
+/// K_{2,3} with two minors that vanish at u = 1 and at one other point, where the three rows are
+/// independent.
+#[test]
+fn s18b_spurious_points() {
+    let place = "U/points/spurious";
+    let spurious = value_at("spurious", &format!("{place}/0"));
+    let one = value_at("spurious", "U/points/points/0");
+    let points = "U/points/points";
+    let nothing = json!([]);
+    for (changes, wanted) in [
+        (
+            vec![(place, json!([spurious, one])), (points, nothing.clone())],
+            "U.points.spurious[1]: the rank at the point is 2, which is not above 2",
+        ),
+        (
+            vec![(place, nothing)],
+            "U.points: 1 points, where 9 exponents less a rank of 7 are asked for",
+        ),
+        (
+            vec![(place, json!([spurious, spurious]))],
+            "U.points.spurious[1]: the form does not tell the point from another one",
+        ),
+    ] {
+        refused("spurious", &changes, wanted);
+    }
+    let point = "U/points/spurious/0";
+    let values = |of: Value| vec![("values", of)];
+    let linear = value_at("linear", "U/steps/0");
+    for (members, wanted) in [
+        (values(json!(["1"])), "1 values for 2 unknowns"),
+        (
+            values(json!(["1", "1000003"])),
+            "a residue is not below the prime",
+        ),
+        (
+            values(json!(["249531", null])),
+            "a minor does not vanish at the point",
+        ),
+        (
+            values(json!(["1", "1"])),
+            "the form does not tell the point from another one",
+        ),
+        (
+            vec![("steps", json!([value_at("support", "U/steps/0")]))],
+            "steps[0] is not `linear`",
+        ),
+        (
+            vec![("steps", json!([linear]))],
+            "U.points.spurious[0].steps[0]: `freed` is not an increasing list",
+        ),
+    ] {
+        let places: Vec<(String, Value)> = members
+            .into_iter()
+            .map(|(member, new)| (format!("{point}/{member}"), new))
+            .collect();
+        let changes: Vec<(&str, Value)> = places
+            .iter()
+            .map(|(place, new)| (place.as_str(), new.clone()))
+            .collect();
+        let whole = match wanted.starts_with("U.") {
+            true => wanted.to_owned(),
+            false => format!("U.points.spurious[0]: {wanted}"),
+        };
+        refused("spurious", &changes, &whole);
+    }
+    // The one that counts for nothing, counted.
+    let both = json!([value_at("spurious", &format!("{points}/0")), spurious]);
+    let text = changed("spurious", &[(points, both), (place, json!([]))]);
+    let reason = reason(&text);
+    let wanted = "claim.verdict: `solvable` is claimed, but the evidence gives `finite-solvable`";
+    assert_eq!(reason, wanted);
+}
+
+/// One minor of K_{2,3}, in which only one of the exponents 1, s, t, st is left to each value.
+#[test]
+fn s18b_infinite_values() {
+    let minor = json!({"rows": [0, 1, 2], "plus": [], "minus": [], "cols": [0, 1, 3]});
+    let weights = [([0, 0], 3), ([1, 0], 5), ([0, 1], 7), ([1, 1], 11)];
+    let form: Vec<Value> = weights
+        .iter()
+        .map(|(d, weight)| json!({"exponent": d, "weight": weight.to_string()}))
+        .collect();
+    let with = |spurious: Value| {
+        let points = value_at("spurious", "U/points");
+        let mut points = points.as_object().unwrap().clone();
+        points.insert("minors".into(), json!([minor]));
+        points.insert("form".into(), json!(form));
+        points.insert("spurious".into(), json!([spurious]));
+        reason(&changed("spurious", &[("U/points", json!(points))]))
+    };
+    // s t stands in no term of this minor: (infinity, infinity) annihilates all of its multiples.
+    let infinite = with(json!({"values": [null, null], "steps": []}));
+    let wanted = "2 points, where 9 exponents less a rank of 4 are asked for";
+    assert!(infinite.ends_with(wanted), "{infinite}");
+    let linear = value_at("linear", "U/steps/0");
+    let steps = with(json!({"values": [null, null], "steps": [linear]}));
+    let wanted = "spurious[0]: there are steps, and an infinite value";
+    assert!(steps.ends_with(wanted), "{steps}");
 }
 
 #[test]

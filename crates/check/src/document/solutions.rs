@@ -31,12 +31,13 @@ objects! {
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
         minors: Vec<Minor>, points: Vec<Point>, form: Optional<Vec<Term>>,
-        outside: Optional<Vec<Outside>>,
+        outside: Optional<Vec<Outside>>, spurious: Optional<Vec<Spurious>>,
     }
     Term { exponent: Vec<usize>, weight: Big<u64> }
     Outside {
         values: Vec<Option<Big<u64>>>, blocks: Vec<Vec<usize>>, dependent: Vec<Vec<usize>>,
     }
+    Spurious { values: Vec<Option<Big<u64>>>, steps: Vec<Step> }
     Point { values: Vec<Big<u64>>, steps: Vec<Step> }
 }
 

@@ -4,7 +4,7 @@
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`, less those `outside`), a lower one from simple points of a tight core (`simple`).
+//! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points of a tight core (`simple`).
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
 //! Which solutions are real and in front of the cameras is `oriented`, by signs of `polynomial`s.
 //! `dense` has the linear algebra; the text is `document::solutions`.
@@ -20,6 +20,7 @@ mod points;
 mod polynomial;
 mod product;
 mod simple;
+mod spurious;
 mod support;
 mod system;
 mod zeros;

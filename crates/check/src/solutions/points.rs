@@ -1,13 +1,13 @@
-//! The points to which solutions come near, at one assignment of centres: conditions (S17) and (S18)
-//! of section 12 (theory, Theorems 10.8 and 10.13).
+//! The points to which solutions come near, at one assignment of centres: conditions (S17), (S18) and
+//! the first part of (S18b) of section 12 (theory, Theorems 10.8, 10.13 and 10.21).
 
 use super::chart::Chart;
-use super::linear;
 use super::outside;
+use super::spurious;
 use super::support::{Span, Text, sum};
 use super::system::{Known, System, ensure_all_known};
 use crate::algebra::{Field, Ring};
-use crate::document::solutions::{Point, Points, Step, Term};
+use crate::document::solutions::{Point, Points, Term};
 use crate::elimination::Echelon;
 use crate::limits::Meter;
 use crate::rejection::{Checked, Failure, Within, ensure};
@@ -45,6 +45,15 @@ pub(super) fn check(text: &Points, chart: &Chart, known: &Known, meter: &Meter) 
         let limits = outside::check(point, &text.unknowns, &known, &system);
         let added = limits.and_then(|limits| found.add(&limits));
         added.within(|| format!("outside[{k}]"))?;
+    }
+    for (k, point) in text.spurious.0.iter().flatten().enumerate() {
+        let limits = spurious::limits(point, &text.unknowns, &system);
+        let checked = limits.and_then(|limits| {
+            found.add(&limits)?;
+            found.tells_all(&limits)?;
+            spurious::check(point, &text.unknowns, &limits, &known, &system)
+        });
+        checked.within(|| format!("spurious[{k}]"))?;
     }
     found.conclude()?;
     Ok(text.points.len())
@@ -132,7 +141,31 @@ impl Found<'_> {
         for (&f, &value) in text.unknowns.iter().zip(&values) {
             known[f] = Some(value);
         }
-        settle(&point.steps, self.system, &mut known)
+        spurious::follow(&point.steps, self.system, &mut known)?;
+        ensure_all_known(&known)
+    }
+
+    /// (S18b): each value is that of a quotient of entries of the vector.
+    fn tells_all(&self, limits: &[Option<u64>]) -> Checked<()> {
+        let (field, span) = (&self.system.field, self.span);
+        let bounds = span.exponents.bounds;
+        let present = span.all_present();
+        for (f, limit) in limits.iter().enumerate() {
+            self.system
+                .meter
+                .charge((present.len() * limits.len()) as u64)?;
+            let unit: Vec<usize> = (0..limits.len()).map(|g| usize::from(f == g)).collect();
+            let tells = |a: &Vec<usize>| {
+                let next = sum(a, &unit);
+                let at = if limit.is_some() { a } else { &next };
+                span.has_sum(a, &unit) && monomial(field, at, limits, bounds) != 0
+            };
+            ensure!(
+                present.iter().any(tells),
+                "no exponents tell the value of unknown {f} of the list"
+            );
+        }
+        Ok(())
     }
 
     /// (S17) for a point, of which values may be infinite.
@@ -191,17 +224,6 @@ impl Found<'_> {
         );
         Ok(())
     }
-}
-
-/// (S18): at the point, steps make all other unknowns known.
-fn settle(steps: &[Step], system: &System, known: &mut Known) -> Checked<()> {
-    for (k, step) in steps.iter().enumerate() {
-        let Step::Linear(step) = step else {
-            return Err(Failure::rejected(format!("steps[{k}] is not `linear`")));
-        };
-        linear::check(step, system, known).within(|| format!("steps[{k}]"))?;
-    }
-    ensure_all_known(known)
 }
 
 /// The value of a monomial. Zero to the power of zero is one; of an infinite value the highest power

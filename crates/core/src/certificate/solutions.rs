@@ -10,7 +10,7 @@ use crate::geometry::model::Model;
 use crate::linalg::integer::Integer;
 use crate::solutions::{
     AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, Number, One, Oriented,
-    Outside, Part, Place, Root, Rule, Scene, Solutions, Standing, Upper,
+    Outside, Part, Place, Root, Rule, Scene, Solutions, Spurious, Standing, Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -137,7 +137,12 @@ objects! {
         absent: &'a [Vec<usize>],
         minors: Vec<MinorView>,
         points: Vec<PointView<'a>>,
-        ; optional form: Vec<TermView<'a>>, outside: Vec<OutsideView<'a>>
+        ; optional form: Vec<TermView<'a>>, outside: Vec<OutsideView<'a>>, spurious: Vec<SpuriousView<'a>>
+    }
+
+    SpuriousView<'a> {
+        values: Vec<Option<Big<u64>>>,
+        steps: Vec<LinearView<'a>>,
     }
 
     TermView<'a> {
@@ -534,6 +539,8 @@ impl<'a> PointsView<'a> {
                 .collect(),
             form: (!plain).then(|| found.form.iter().map(TermView::new).collect()),
             outside: (!plain).then(|| found.outside.iter().map(OutsideView::new).collect()),
+            spurious: (!found.spurious.is_empty())
+                .then(|| found.spurious.iter().map(SpuriousView::new).collect()),
         }
     }
 }
@@ -547,14 +554,28 @@ impl<'a> TermView<'a> {
     }
 }
 
+/// `null` stands for infinity.
+fn limits(values: &[Limit]) -> Vec<Option<Big<u64>>> {
+    let value = |limit: &Limit| match *limit {
+        Limit::Finite(value) => Some(Big(value)),
+        Limit::Infinite => None,
+    };
+    values.iter().map(value).collect()
+}
+
+impl<'a> SpuriousView<'a> {
+    fn new(point: &'a Spurious) -> Self {
+        Self {
+            values: limits(&point.values),
+            steps: point.settled.iter().map(LinearView::new).collect(),
+        }
+    }
+}
+
 impl<'a> OutsideView<'a> {
     fn new(point: &'a Outside) -> Self {
-        let value = |limit: &Limit| match *limit {
-            Limit::Finite(value) => Some(Big(value)),
-            Limit::Infinite => None,
-        };
         Self {
-            values: point.values.iter().map(value).collect(),
+            values: limits(&point.values),
             blocks: &point.blocks,
             dependent: &point.dependent,
         }

@@ -59,13 +59,16 @@ impl SolutionCount {
         task: &Task<'_>,
     ) -> Result<Self, Stopped> {
         let plan = Plan {
-            effort: Effort::default(),
+            effort: match effort {
+                CountSolutions::Full | CountSolutions::Number => Effort::FULL,
+                CountSolutions::Off | CountSolutions::Quick => Effort::default(),
+            },
             quick: (effort == CountSolutions::Quick).then_some(QUICK),
             is_finite: true,
         };
         let (found, left_out) = match effort {
             CountSolutions::Off => (None, false),
-            CountSolutions::Quick | CountSolutions::Full => {
+            CountSolutions::Quick | CountSolutions::Full | CountSolutions::Number => {
                 count_in(graph, members, plan, seed, task)?
             }
         };

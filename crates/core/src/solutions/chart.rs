@@ -63,6 +63,9 @@ impl Row {
     }
 }
 
+/// So many charts have the first nodes that can be eliminated, and the trees of rotated lists.
+pub(super) const ROTATED: usize = 6;
+
 /// Members with shared nodes as indices, half-edges apart.
 #[derive(Clone, Debug)]
 pub(super) struct Core {
@@ -84,20 +87,31 @@ pub(super) struct Core {
 
 impl Core {
     /// The core of members of which there are two or more; `None` if one of them shares less
-    /// than two nodes, so that the graph is not finite solvable. Charts with different numbers
-    /// differ in the spanning tree.
+    /// than two nodes, so that the graph is not finite solvable. The first [`ROTATED`] charts differ in
+    /// the spanning tree, all others in the nodes that are eliminated as well.
     pub(super) fn new(members: &Members, chart: usize) -> Option<Self> {
         let shared = shared(&members.sets);
         let sets: Vec<Set> = members.sets.iter().map(|set| set & shared).collect();
         if sets.iter().any(|set| set.count_ones() < 2) {
             return None;
         }
-        let (half_edges, mut bodies) = half_edges(&sets, shared);
+        let mut nodes: Vec<usize> = bits(shared).collect();
+        if chart >= ROTATED {
+            shuffle(&mut nodes, chart, 0);
+        }
+        let (mut half_edges, mut bodies) = half_edges(&sets, &nodes);
+        if chart < ROTATED {
+            rotate(&mut bodies, chart);
+            rotate(&mut half_edges, chart / 2);
+        } else {
+            for (which, body) in (1..).zip(&mut bodies) {
+                shuffle(body, chart, which);
+            }
+            shuffle(&mut bodies, chart, 0);
+            shuffle(&mut half_edges, chart, 0);
+        }
         // Big members first: their scales stay in few rows, and half-edges come last of all.
-        rotate(&mut bodies, chart);
         bodies.sort_by_key(|body| std::cmp::Reverse(body.len()));
-        let mut half_edges = half_edges;
-        rotate(&mut half_edges, chart / 2);
         let mut number = vec![None; members.nodes.len()];
         let mut left = 0;
         for v in bits(shared) {
@@ -403,12 +417,13 @@ fn fixed_directions(field: &PrimeField, c: &[u64; 3], d: &[u64; 3]) -> Option<[[
     directions(field, c, d)
 }
 
-/// Nodes in just two members, both of two nodes, no two of them adjacent; and the other members.
-fn half_edges(sets: &[Set], shared: Set) -> (Vec<[usize; 3]>, Vec<Vec<usize>>) {
+/// Nodes in just two members, both of two nodes, no two of them adjacent, the first ones of a list; and
+/// the other members.
+fn half_edges(sets: &[Set], nodes: &[usize]) -> (Vec<[usize; 3]>, Vec<Vec<usize>>) {
     let mut used = vec![false; sets.len()];
     let mut half_edges = Vec::new();
     let mut apart: Set = 0;
-    for v in bits(shared) {
+    for &v in nodes {
         let at_v: Vec<usize> = (0..sets.len()).filter(|&k| sets[k] >> v & 1 == 1).collect();
         let [k, l] = at_v[..] else { continue };
         if [k, l].iter().any(|&x| sets[x].count_ones() != 2) {
@@ -441,6 +456,20 @@ fn rotate<T>(list: &mut [T], by: usize) {
     if !list.is_empty() {
         let by = by % list.len();
         list.rotate_left(by);
+    }
+}
+
+/// An order that looks random: the same one for the same numbers.
+fn shuffle<T>(list: &mut [T], chart: usize, which: u64) {
+    let mut state = (chart as u64) << 32 | which;
+    for k in (1..list.len()).rev() {
+        // Splitmix64 (Steele, Lea, Flood 2014); which order is taken decides nothing.
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = state;
+        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^= mixed >> 31;
+        list.swap(k, (mixed % (k as u64 + 1)) as usize);
     }
 }
 

@@ -1,6 +1,6 @@
 //! How many solutions: what is tried, in which order.
 
-use super::chart::Core;
+use super::chart::{Core, ROTATED};
 use super::evidence::{AtMost, Factor, Lower, One, Place, Solutions, Upper};
 use super::linear::settle;
 use super::members::{MOST_NODES, Members, Set, bits, nodes_of, shared};
@@ -37,6 +37,13 @@ const MOST_UNKNOWNS: usize = 12;
 const MANY_UNKNOWNS: usize = 8;
 
 impl Effort {
+    /// Whatever may help: seconds where the number stays open.
+    pub const FULL: Self = Self {
+        charts: 96,
+        draws: 48,
+        unknowns: 4,
+    };
+
     fn for_unknowns(self, unknowns: usize) -> Self {
         match unknowns {
             0..MANY_UNKNOWNS => self,
@@ -52,7 +59,7 @@ impl Effort {
 impl Default for Effort {
     fn default() -> Self {
         Self {
-            charts: 6,
+            charts: ROTATED,
             draws: 48,
             unknowns: 4,
         }
@@ -337,6 +344,7 @@ fn count_members(members: &[Vec<u32>], plan: Plan, draws: &Draws<'_>) -> Option<
             break;
         }
         let Some((inside, evidence)) = unique_part(&members, draws) else {
+            other_charts(&members, plan.effort, draws, &mut counted);
             break;
         };
         members.grow(inside, evidence);
@@ -429,7 +437,7 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
     }
     let effort = effort.for_unknowns(core.unknowns);
     let mut charts: Vec<Charted> = Vec::with_capacity(effort.charts);
-    for chart in 0..effort.charts {
+    for chart in 0..effort.charts.min(ROTATED) {
         let mut charted = Charted::new(members, chart, draws)?;
         charted.conclude(draws, &mut best);
         charted.few(draws, &mut best);
@@ -446,6 +454,28 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
     }
     redraw(&charts, effort.draws, draws, &mut best);
     Some(best)
+}
+
+/// Bounds for a core in charts that have other nodes eliminated: in one of them the minors may span what
+/// they do not in others.
+fn other_charts(members: &Members, effort: Effort, draws: &Draws<'_>, best: &mut Solutions) {
+    let unknowns = Core::new(members, 0).map_or(0, |core| core.unknowns);
+    if unknowns > MOST_UNKNOWNS {
+        return;
+    }
+    let effort = effort.for_unknowns(unknowns);
+    for chart in ROTATED..effort.charts {
+        let Some(mut charted) = Charted::new(members, chart, draws) else {
+            return;
+        };
+        charted.conclude(draws, best);
+        charted.few(draws, best);
+        charted.more(effort.unknowns, draws, best);
+        redraw(&[charted], effort.draws.min(FEW_DRAWS), draws, best);
+        if best.exactly().is_some() || draws.work.is_stopped() {
+            return;
+        }
+    }
 }
 
 impl Solutions {
@@ -657,6 +687,9 @@ impl Charted {
         best.upper(most, || self.upper(draws, Some((place(), found))));
     }
 }
+
+/// So many assignments of centres in charts of which there are many.
+const FEW_DRAWS: usize = 6;
 
 /// In how many charts points are looked at anew: solutions that are not rational in one are not so
 /// in any other.

@@ -180,7 +180,7 @@ pub enum Part {
     Minus(usize),
 }
 
-/// The points of Theorems 10.8, 10.13 and 10.14, with the other unknowns settled at each.
+/// The points of Theorems 10.8, 10.13, 10.14 and 10.21, with the other unknowns settled at each.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AtMost {
     /// The unknowns that are not settled by linear algebra.
@@ -200,6 +200,17 @@ pub struct AtMost {
     pub form: Vec<(Vec<usize>, u64)>,
     /// Points on the boundary that no solution comes near; they do not count.
     pub outside: Vec<Outside>,
+    /// Points at which the rank of N(u) is too large for a solution to be near; they do not count.
+    pub spurious: Vec<Spurious>,
+}
+
+/// A point at which the rows of N(u) whose scales are known have a rank above 3 n' - 4 (Theorem 10.21).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spurious {
+    /// The values of the unknowns of the span.
+    pub values: Vec<Limit>,
+    /// How others are settled there; none are where a value is infinite.
+    pub settled: Vec<Linear>,
 }
 
 /// A point on the boundary where N(u) has rank 3 n' - 4 or less, at all centres.

@@ -23,6 +23,7 @@ mod points;
 mod product;
 mod roots;
 mod simple;
+mod spurious;
 mod support;
 mod system;
 #[cfg(test)]
@@ -34,7 +35,7 @@ pub use count::{Effort, count};
 pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
     AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, One, Oriented, Outside,
-    Part, Place, Root, Rule, Scale, Scene, Solutions, Standing, Upper,
+    Part, Place, Root, Rule, Scale, Scene, Solutions, Spurious, Standing, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;

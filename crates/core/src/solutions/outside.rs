@@ -44,7 +44,7 @@ pub(super) fn outside(
 
 /// The point whose monomials, homogeneous in each unknown, are the entries of a vector; `None` if
 /// there is none, or if no value of it is zero or infinite.
-fn limits(
+pub(super) fn limits(
     field: &PrimeField,
     exponents: &Exponents,
     absent: &[bool],
@@ -113,7 +113,7 @@ impl<'a> Limited<'a> {
         let factors: Vec<[u64; 2]> = system
             .rows
             .iter()
-            .map(|row| factors(field, row, values))
+            .map(|row| factors(field, row, |f| values[f]))
             .collect::<Option<_>>()?;
         let mut span = Span::default();
         let mut rows = Vec::with_capacity(factors.len());
@@ -276,9 +276,13 @@ impl<'a> Limited<'a> {
 }
 
 /// The factors of both sides of a row; `None` if both vanish.
-fn factors(field: &PrimeField, row: &Row, values: &[Limit]) -> Option<[u64; 2]> {
+pub(super) fn factors(
+    field: &PrimeField,
+    row: &Row,
+    value: impl Fn(usize) -> Limit,
+) -> Option<[u64; 2]> {
     let one = field.from_u64(1);
-    let limit = |side: &Side| side.scale.map_or(Limit::Finite(1), |f| values[f]);
+    let limit = |side: &Side| side.scale.map_or(Limit::Finite(1), &value);
     match row.sides.each_ref().map(limit) {
         [Limit::Infinite, Limit::Infinite] | [Limit::Finite(0), Limit::Finite(0)] => None,
         [Limit::Infinite, Limit::Finite(_)] => Some([one, 0]),

@@ -1,11 +1,12 @@
 //! All points that solutions can come near, at one assignment of centres (docs/theory.md,
-//! Theorems 10.8, 10.13 and 10.14): an upper bound for the number of solutions.
+//! Theorems 10.8, 10.13, 10.14 and 10.21): an upper bound for the number of solutions.
 
-use super::evidence::AtMost;
+use super::evidence::{AtMost, Limit, Spurious};
 use super::exponents::Exponents;
 use super::linear::settle;
-use super::outside::outside;
+use super::outside::{limits, outside};
 use super::roots::{NoVectors, left_eigenvectors, transport};
+use super::spurious::{self, is_spurious, tells_all};
 use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
 use crate::linalg::prime::PrimeField;
@@ -141,6 +142,7 @@ impl Space {
                 .zip(form.weights.iter().map(|&weight| field.to_u64(weight)))
                 .collect(),
             outside: Vec::new(),
+            spurious: Vec::new(),
         };
         for combination in vectors {
             let mut vector = vec![0; self.exponents.len()];
@@ -159,6 +161,14 @@ impl Space {
                     bound.outside.push(beyond);
                     continue;
                 }
+                if homogeneous[0] == 0 {
+                    let limits = self.spurious(system, values, &span.unknowns, &vector);
+                    bound.spurious.push(Spurious {
+                        values: limits.ok_or(NoBound::Short)?,
+                        settled: Vec::new(),
+                    });
+                    continue;
+                }
             }
             let point =
                 finite(field, &homogeneous[..=span.unknowns.len()]).ok_or(NoBound::Short)?;
@@ -170,6 +180,14 @@ impl Space {
                 values[f] = Some(x);
             }
             let steps = settle(system, &mut values);
+            if is_spurious(system, &spurious::finite(system, &values)) {
+                let value = |&x: &u64| Limit::Finite(field.to_u64(x));
+                bound.spurious.push(Spurious {
+                    values: point.iter().map(value).collect(),
+                    settled: steps,
+                });
+                continue;
+            }
             let all: Option<Vec<u64>> = values.iter().copied().collect();
             let all = all.ok_or(NoBound::Short)?;
             bound
@@ -178,6 +196,24 @@ impl Space {
             bound.settled.push(steps);
         }
         Ok(bound)
+    }
+
+    /// The point of a vector with infinite values, if the rank is too large there.
+    fn spurious(
+        &self,
+        system: &System<'_>,
+        values: &Values,
+        unknowns: &[usize],
+        vector: &[u64],
+    ) -> Option<Vec<Limit>> {
+        let (exponents, absent) = (&self.exponents, &self.absent);
+        let limits = limits(&system.field, exponents, absent, vector)?;
+        let mut known = spurious::finite(system, values);
+        for (&f, &limit) in unknowns.iter().zip(&limits) {
+            known[f] = Some(limit);
+        }
+        let tells = tells_all(exponents, absent, &limits, vector);
+        (tells && is_spurious(system, &known)).then_some(limits)
     }
 
     /// The matrices of multiplication by the monomials of a form, divided by the form.

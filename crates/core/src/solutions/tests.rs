@@ -1,9 +1,11 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
 use super::evidence::{Limit, Part, Rule};
+use super::exponents::Exponents;
 use super::members::{Members, bits, nodes_of};
 use super::outside::is_outside;
 use super::simple;
+use super::spurious::{is_spurious, tells_all};
 use super::support::MinorSpan;
 use super::system::{System, Values};
 use super::{Effort, Number, Solutions, count};
@@ -397,6 +399,44 @@ fn a_part_with_one_solution_becomes_a_member() {
     expected[0] = Rule::Grown;
     assert_eq!(rules, expected);
     assert!(members.merges[0].grown.is_some());
+}
+
+/// K_{2,3}: its three rows have rank 2 at u = 1 alone. With one of them left out, they say nothing.
+#[test]
+fn spurious_points_do_not_count() {
+    let field = PrimeField::mersenne61();
+    let all: Vec<Vec<u32>> = [[0, 2], [0, 3], [0, 4], [1, 2], [1, 3], [1, 4]]
+        .map(Vec::from)
+        .to_vec();
+    let core = Core::new(&Members::unmerged(&all).unwrap(), 0).unwrap();
+    assert_eq!((core.half_edges.len(), core.unknowns), (3, 2));
+    let at = [[1, 2, 3], [5, 7, 2], [4, 1, 9], [8, 3, 1], [2, 6, 5]];
+    let at: Vec<[u64; 3]> = at.map(|c| c.map(|x| field.from_u64(x))).to_vec();
+    let system = System::new(field, &core, &at).unwrap();
+    let [one, five] = [1, 5].map(|x| Some(Limit::Finite(x)));
+    let (zero, infinite) = (Some(Limit::Finite(0)), Some(Limit::Infinite));
+    for (values, expected) in [
+        ([one, one], false),
+        ([one, five], true),
+        ([zero, one], true),
+        ([infinite, infinite], true),
+        ([five, None], false),
+        ([None, None], false),
+    ] {
+        assert_eq!(is_spurious(&system, &values), expected, "{values:?}");
+    }
+    // The quotient of two entries that are not absent tells each value.
+    let exponents = Exponents { bounds: vec![1, 1] };
+    let tells = |absent: [bool; 4], vector: [u64; 4]| {
+        let limits = [Limit::Finite(5), Limit::Infinite];
+        tells_all(&exponents, &absent, &limits, &vector)
+    };
+    // The vector of (5, infinity) at 1, t, s, st.
+    let vector = [0, 1, 0, 5];
+    assert!(tells([false; 4], vector));
+    assert!(!tells([false, true, false, false], vector));
+    assert!(tells([true, false, false, false], vector));
+    assert!(!tells([true, false, true, false], vector));
 }
 
 /// Points on the boundary are there at other centres as well, with other values of the unknowns
