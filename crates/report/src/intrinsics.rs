@@ -26,9 +26,6 @@ pub struct IntrinsicsLine {
     rank: usize,
     rank_at_most: usize,
     rank_required: usize,
-    /// If it is not proved: the rank is larger with a probability of at most 2 to the minus this.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error_bits: Option<u32>,
     /// The sum of the conditions of all cameras; a metric graph needs 8.
     conditions: usize,
     components: Vec<MetricLine>,
@@ -104,7 +101,6 @@ impl IntrinsicsLine {
             rank: found.rank,
             rank_at_most: found.at_most,
             rank_required: found.required,
-            error_bits: found.error_bits(),
             conditions: found.conditions,
             components: found.components.iter().map(line).collect(),
             other_pairs: found.other_pairs,
@@ -131,12 +127,13 @@ impl IntrinsicsLine {
         let classes = self.classes.iter().filter(|line| line.cameras > 0);
         let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
         let classes: Vec<String> = classes.collect();
-        let strength = match (self.proved, self.error_bits) {
-            (false, Some(bits)) => format!(
-                "rank {} at most; it is larger than {} with a probability of at most 2^-{bits}",
-                self.rank_at_most, self.rank
-            ),
-            _ => "proved".into(),
+        let strength = if self.proved {
+            "proved".to_owned()
+        } else {
+            format!(
+                "it is {} at least and {} at most",
+                self.rank, self.rank_at_most
+            )
         };
         let answer = match self.verdict {
             "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),

@@ -26,8 +26,6 @@ class Intrinsics:
         Whether the bounds of the rank meet: then all that is said is proved.
     rank, rank_at_most, rank_required : int
         The generic rank is between the first two; a metric graph has the third.
-    error_bits : int, optional
-        If it is not proved: the rank is larger with a probability of at most 2 to the minus this.
     components : tuple of frozenset
         Nodes of pairs that are metric against each other, the largest component first.
     other_pairs : int
@@ -42,7 +40,6 @@ class Intrinsics:
     rank: int
     rank_at_most: int
     rank_required: int
-    error_bits: Optional[int]
     components: Tuple[frozenset[Node], ...]
     other_pairs: int
     determined: Dict[Node, bool]
@@ -121,7 +118,6 @@ def intrinsics(
         rank=found["rank"],
         rank_at_most=found["rank_at_most"],
         rank_required=found["rank_required"],
-        error_bits=found.get("error_bits"),
         components=tuple(
             frozenset(by_text[text] for text in component["labels"])
             for component in found["components"]

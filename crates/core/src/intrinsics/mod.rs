@@ -122,8 +122,6 @@ pub struct Metric {
     pub conditions: usize,
     /// How many unknowns the system has that was eliminated.
     pub unknowns: usize,
-    /// What the degree of its entries, as polynomials in what is drawn, is not above.
-    pub degree: usize,
 }
 
 /// What one draw shows.
@@ -153,17 +151,10 @@ impl Metric {
         }
     }
 
-    /// Whether the rank is known, by bounds from both sides, and with it all that is said.
+    /// Whether the rank is known, by bounds from both sides, and with it all that is said. Otherwise nothing
+    /// is claimed of how likely it is that the rank is larger: one fixed prime says nothing of that.
     pub fn is_proved(&self) -> bool {
         self.rank == self.at_most
-    }
-
-    /// An upper bound for the probability, over the draws, that the rank is larger than said, as its
-    /// negative logarithm to the base 2; `None` if it is proved. A minor of the system has the degree of
-    /// an entry for each unknown at most (Theorems 17.6 and 17.13), and the prime is 2^61 - 1 (Schwartz 1980).
-    pub fn error_bits(&self) -> Option<u32> {
-        let degree = (self.degree * self.unknowns.max(1)) as u64;
-        (!self.is_proved()).then(|| 60_u32.saturating_sub(degree.ilog2()))
     }
 
     /// Asks what classes of cameras add to the verdict of the projective model on a graph, where each
@@ -222,11 +213,9 @@ impl Metric {
         let required = all.saturating_sub(7);
         let every: Vec<u32> = (0..graph.nodes() as u32).collect();
         let mut best: Option<Shown> = None;
-        let mut degree = 0;
         for draw in 0..DRAWS {
-            let system = System::new(members, sensors, &key(graph_sha256, sensors, seed, draw));
-            let motions = system.motions(1, watch)?;
-            degree = system.degree();
+            let key = key(graph_sha256, sensors, seed, draw);
+            let motions = System::new(members, sensors, &key).motions(1, watch)?;
             let rank = of_held - motions.dimension;
             let alike = Alike::new(members, &motions.first());
             let at_most = alike.bound(members, sensors).min(required);
@@ -259,7 +248,6 @@ impl Metric {
             determined: shown.alike.determined(sensors),
             conditions: sensors.conditions(&every).0,
             unknowns: shown.motions.motion.len(),
-            degree,
         };
         Ok((found, shown))
     }

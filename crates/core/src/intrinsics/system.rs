@@ -198,11 +198,6 @@ impl<'a> System<'a> {
         }
     }
 
-    /// What the degree of an entry in the drawn numbers is not above.
-    pub(super) fn degree(&self) -> usize {
-        if self.is_shared.contains(&true) { 5 } else { 2 }
-    }
-
     /// Whether the class of a node says something that its members do not.
     fn is_bound(&self, v: usize) -> bool {
         let sensor = self.sensors.of_node(v);

@@ -208,13 +208,13 @@ fn rank_where(
             }
         };
         add(first_scale + e, fundamental(&pi, &pj).map(|x| x.0));
-        for k in 0..cameras[i].count() {
+        for (k, &column) in place[i].iter().enumerate() {
             let moved = cameras[i].camera(Some(k));
-            add(place[i][k], fundamental(&moved, &pj).map(|x| x.1));
+            add(column, fundamental(&moved, &pj).map(|x| x.1));
         }
-        for k in 0..cameras[j].count() {
+        for (k, &column) in place[j].iter().enumerate() {
             let moved = cameras[j].camera(Some(k));
-            add(place[j][k], fundamental(&pi, &moved).map(|x| x.1));
+            add(column, fundamental(&pi, &moved).map(|x| x.1));
         }
     }
     textbook::eliminate(&field, &matrix).rank() - pairs.len()

@@ -136,13 +136,16 @@ fn of_matlab(bytes: &[u8], input: &NamedGraph) -> Result<Read, Fault> {
     let found = only(arrays.collect(), "3 x 4 x n", nodes);
     let (name, (shape, numbers)) = found.map_err(|problem| Place::Input.fault(problem))?;
     // MATLAB's first index changes fastest.
-    let (shape, at): (&[u64], fn(usize, usize) -> usize) = match shape.len() {
-        3 => (&[nodes as u64, 3, 4], |k, _| {
-            12 * (k / 12) + k % 12 / 4 + 3 * (k % 4)
-        }),
-        _ => (&[nodes as u64, 3], |k, nodes| k / 3 + nodes * (k % 3)),
+    let is_cameras = shape.len() == 3;
+    let at = |k: usize| match is_cameras {
+        true => 12 * (k / 12) + k % 12 / 4 + 3 * (k % 4),
+        false => k / 3 + nodes * (k % 3),
     };
-    let numbers: Vec<f64> = (0..numbers.len()).map(|k| numbers[at(k, nodes)]).collect();
+    let shape: &[u64] = match is_cameras {
+        true => &[nodes as u64, 3, 4],
+        false => &[nodes as u64, 3],
+    };
+    let numbers: Vec<f64> = (0..numbers.len()).map(|k| numbers[at(k)]).collect();
     let notes = vec![format!("cameras are the variable {name}")];
     let read = in_order((shape, &numbers), input, notes);
     read.map_err(|problem| Place::Variable(name).fault(problem))

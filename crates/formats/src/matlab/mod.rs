@@ -185,15 +185,17 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
     Ok(entries)
 }
 
-/// The full arrays of real numbers of a file of version 5 whose shape is asked for: name, shape, and numbers with the
-/// first index changing fastest. O(bytes).
+/// A full array: its name, its shape, and numbers with the first index changing fastest.
+pub(crate) type RealArray = (String, Vec<u32>, Vec<f64>);
+
+/// The full arrays of real numbers of a file of version 5 whose shape is asked for. O(bytes).
 ///
 /// # Errors
 /// A file of another version, truncated or corrupt; integers beyond 2^53.
 pub(crate) fn real_arrays(
     bytes: &[u8],
     is_wanted: impl Fn(&[u32]) -> bool,
-) -> Result<Vec<(String, Vec<u32>, Vec<f64>)>, Fault> {
+) -> Result<Vec<RealArray>, Fault> {
     let (order, variables) = variables(bytes)?;
     let mut all = Vec::new();
     for variable in variables {

@@ -77,7 +77,7 @@ fn where_doubles_are_blind() {
         let centres = Centres::of_points(Model::Calibrated, &points).unwrap();
         found(Matrix::Bearing, &complete(3), &centres)
     };
-    let values = [14, 24, 34].map(|bend| at(bend));
+    let values = [14, 24, 34].map(at);
     for pair in values.windows(2) {
         assert!(pair.iter().all(narrow), "{pair:?}");
         let ratio = value(&pair[1].least) / value(&pair[0].most);

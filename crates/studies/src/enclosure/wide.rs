@@ -90,7 +90,7 @@ impl Wide {
 
     /// A double that is an integer below 2^250, or is cut off to one.
     pub(super) fn from_f64(x: f64) -> Option<Self> {
-        if !(x.abs() < 2f64.powi(250)) {
+        if x.is_nan() || x.abs() >= 2f64.powi(250) {
             return None;
         }
         let hi = (x.abs() / 2f64.powi(128)).floor();

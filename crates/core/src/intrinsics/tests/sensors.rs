@@ -106,7 +106,8 @@ fn one_sensor_asks_for_pairs_and_for_the_calibrated_model() {
 #[test]
 fn a_few_pairs_determine_one_sensor() {
     // All graphs with one to three pairs and no other nodes, by K itself.
-    let graphs: [(Class, &[&[(u32, u32)]]); 3] = [
+    type Pairs = &'static [(u32, u32)];
+    let graphs: [(Class, &[Pairs]); 3] = [
         (Class::Focal, &[&[(0, 1)]]),
         (
             Class::FocalAndPoint,
