@@ -176,12 +176,21 @@ impl<'a> System<'a> {
             None => OF_MEMBER,
         });
         let first = widths.map(&mut next).collect();
-        let widths = (0..sensors.count()).map(|sensor| match sensors.class(sensor) {
-            _ if is_known[sensor] || images[sensor] == 0 => 0,
+        let width = |sensor: usize| match sensors.class(sensor) {
+            _ if is_known[sensor] => 0,
             Class::Unknown if !is_shared[sensor] => 0,
             class => class.unknowns(),
-        });
-        let intrinsics = widths.map(&mut next).collect();
+        };
+        // In the order of their first nodes, whatever sensors are called by.
+        let mut intrinsics = vec![None; sensors.count()];
+        for v in 0..sensors.nodes() {
+            let sensor = sensors.of_node(v);
+            if !members.of_node[v].is_empty() && intrinsics[sensor].is_none() {
+                intrinsics[sensor] = Some(next(width(sensor)));
+            }
+        }
+        let intrinsics = intrinsics.into_iter().map(Option::unwrap_or_default);
+        let intrinsics = intrinsics.collect();
         Self {
             members,
             sensors,
@@ -347,7 +356,7 @@ impl<'a> System<'a> {
             return (f.times(length, length), of.collect());
         }
         let r = &self.axes[v];
-        let unit = |a: usize| std::array::from_fn(|b| u64::from(a == b));
+        let unit = |a: usize| std::array::from_fn(|b| if a == b { f.one() } else { 0 });
         let of = match class {
             Class::Known | Class::Unknown => Vec::new(),
             Class::Focal => vec![(column, product(r, r))],

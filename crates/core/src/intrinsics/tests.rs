@@ -75,10 +75,6 @@ impl Parameters {
         }
     }
 
-    fn count(&self) -> usize {
-        self.intrinsics.len() + 6
-    }
-
     /// 3 x 4, with the derivative by parameter `k`. The rotation is that of the quaternion (1, x, y, z)
     /// times its squared length: a factor of the camera.
     fn camera(&self, k: Option<usize>) -> [[Dual; 4]; 3] {

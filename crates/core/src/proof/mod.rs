@@ -9,6 +9,7 @@ mod components;
 mod core;
 mod eliminated;
 mod flows;
+mod links;
 mod listed;
 mod scales;
 mod text;

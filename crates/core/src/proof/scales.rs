@@ -2,7 +2,7 @@
 //! at centres modulo 65521.
 
 use super::eliminated::{PRIME, next};
-use super::unique::{Link, Member, Step, Unique, Via, pairs};
+use super::links::{Link, Member, Step, Unique, Via, pairs};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,7 +1,7 @@
 //! A proof as data and as text.
 
+use super::links::{Link, Step as Settled, Unique, Via};
 use super::listed::{Join, Listed};
-use super::unique::{Link, Step as Settled, Unique, Via};
 use super::upper::{Block, Blocks};
 use std::fmt;
 
