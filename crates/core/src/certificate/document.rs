@@ -3,6 +3,7 @@
 mod here;
 mod intrinsics;
 
+use super::EMBED_NODES;
 use super::base_lines::{BaseLinesView, ClaimedBaseLines};
 use super::objects::{Big, bigs, objects};
 use super::solutions::{self, ClaimedSolutions, ForeignSolutions, SolutionsView};
@@ -16,7 +17,7 @@ use crate::decide::{
     Verdict,
 };
 use crate::geometry::plane_flow::PlaneFlowRank;
-use crate::graph::Graph;
+use crate::graph::{Graph, graph6};
 use crate::linalg::integer::Integer;
 use crate::linalg::textbook::Pivots;
 use crate::solutions::Solutions;
@@ -94,11 +95,25 @@ objects! {
     }
 }
 
+impl<'a> GraphView<'a> {
+    /// The graph, which is part of the text if it has at most [`EMBED_NODES`] nodes, or as `embed` says.
+    fn new((graph, name): (&Graph, &'a str), sha256: &[u8; 32], embed: bool) -> Self {
+        let embed = embed || graph.nodes() <= EMBED_NODES;
+        Self {
+            name,
+            nodes: graph.nodes(),
+            edges: graph.edges().len(),
+            sha256: hex(sha256),
+            graph6: embed.then(|| graph6::encode(graph)),
+        }
+    }
+}
+
 impl<'a> Document<'a> {
     pub(super) fn new(
         name: &'a str,
         graph: &Graph,
-        graph6: Option<String>,
+        embed: bool,
         verdict: &'a Verdict,
         solutions: Option<&'a Solutions>,
         base_lines: Option<&'a SharedBaseLines>,
@@ -118,13 +133,7 @@ impl<'a> Document<'a> {
             format: "viewcert certificate",
             version: 2,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
-            graph: GraphView {
-                name,
-                nodes: graph.nodes(),
-                edges: graph.edges().len(),
-                sha256: hex(&verdict.sha256),
-                graph6,
-            },
+            graph: GraphView::new((graph, name), &verdict.sha256, embed),
             model: verdict.model.name(),
             claim: ClaimView {
                 verdict: Valued::new(value, |value| value.name()),

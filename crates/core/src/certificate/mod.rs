@@ -14,7 +14,7 @@ pub use document::hex;
 pub use solutions::ForeignSolutions;
 
 use crate::decide::{SharedBaseLines, Verdict};
-use crate::graph::{Graph, graph6};
+use crate::graph::Graph;
 use crate::solutions::Solutions;
 use std::fmt;
 use std::io::{self, Write};
@@ -150,12 +150,10 @@ impl<'a> Certificate<'a> {
     /// # Errors
     /// Those of the writer.
     pub fn write_to(&self, mut out: impl Write) -> io::Result<()> {
-        let embed = self.embed || self.graph.nodes() <= EMBED_NODES;
-        let embedded = embed.then(|| graph6::encode(self.graph));
         let document = document::Document::new(
             self.name,
             self.graph,
-            embedded,
+            self.embed,
             self.verdict,
             self.solutions,
             self.base_lines,

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::decide::{Options, decide};
+use crate::graph::graph6;
 
 /// A triangle 0, 1, 2 and node 3 seen from node 2. Growth takes nodes by falling degree: node 2
 /// first, with its first neighbour 0; node 1 is reached from 2, then from 0, and joins. The body

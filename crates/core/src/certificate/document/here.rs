@@ -2,12 +2,12 @@
 
 use super::{
     Big, BodyView, ClaimView, GraphView, MembersView, MergeView, PartView, Rank, SeedView, Valued,
-    bigs, hex, objects,
+    bigs, objects,
 };
-use crate::certificate::{EMBED_NODES, lines};
+use crate::certificate::lines;
 use crate::contract::piece::Members;
 use crate::contract::{Body, Seed};
-use crate::graph::{Graph, graph6, sha256};
+use crate::graph::{Graph, sha256};
 use crate::here::{Centres, Class, Here, Piece};
 use crate::linalg::integer::Integer;
 use serde::ser::SerializeMap;
@@ -60,7 +60,7 @@ impl Serialize for HereSplit<'_> {
 
 impl Here {
     /// Writes the certificate: of `graph` at `centres`, which have to be those that were decided. The
-    /// graph is part of it if it has at most [`EMBED_NODES`] nodes, or as `embed` says.
+    /// graph is part of it if it has at most [`EMBED_NODES`](crate::certificate::EMBED_NODES) nodes, or as `embed` says.
     ///
     /// # Errors
     /// Those of the writer.
@@ -71,19 +71,12 @@ impl Here {
         embed: bool,
         mut out: impl Write,
     ) -> io::Result<()> {
-        let embed = embed || graph.nodes() <= EMBED_NODES;
         let determined = |is: bool| if is { "determined" } else { "not-determined" };
         let document = HereDocument {
             format: "viewcert certificate at cameras",
             version: 1,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
-            graph: GraphView {
-                name,
-                nodes: graph.nodes(),
-                edges: graph.edges().len(),
-                sha256: hex(&sha256(graph)),
-                graph6: embed.then(|| graph6::encode(graph)),
-            },
+            graph: GraphView::new((graph, name), &sha256(graph), embed),
             model: self.model.name(),
             cameras: centres
                 .cameras()

@@ -1,9 +1,9 @@
 //! The certificate of what is determined of cameras that have classes: docs/certificate.md, section 15.
 
-use super::{Big, BodyView, GraphView, List, MergeView, PieceView, SeedView, bigs, hex, objects};
-use crate::certificate::{EMBED_NODES, lines};
+use super::{Big, BodyView, GraphView, List, MergeView, PieceView, SeedView, bigs, objects};
+use crate::certificate::lines;
 use crate::decide::Verdict;
-use crate::graph::{Graph, graph6};
+use crate::graph::Graph;
 use crate::intrinsics::Certified;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -37,7 +37,7 @@ objects! {
 
 impl Certified {
     /// Writes the certificate, of the graph and the verdict that were asked about. The graph is part of it
-    /// if it has at most [`EMBED_NODES`] nodes, or as `embed` says.
+    /// if it has at most [`EMBED_NODES`](crate::certificate::EMBED_NODES) nodes, or as `embed` says.
     ///
     /// # Errors
     /// Those of the writer.
@@ -48,7 +48,6 @@ impl Certified {
         embed: bool,
         mut out: impl Write,
     ) -> io::Result<()> {
-        let embed = embed || graph.nodes() <= EMBED_NODES;
         let of_rules = verdict.contraction.bodies.iter();
         let of_rules = of_rules.filter_map(|body| BodyView::new(body, verdict));
         let by_rank = self.by_rank.iter().map(|body| BodyView {
@@ -64,13 +63,7 @@ impl Certified {
             format: "viewcert certificate of intrinsics",
             version: 1,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
-            graph: GraphView {
-                name,
-                nodes: graph.nodes(),
-                edges: graph.edges().len(),
-                sha256: hex(&verdict.sha256),
-                graph6: embed.then(|| graph6::encode(graph)),
-            },
+            graph: GraphView::new((graph, name), &verdict.sha256, embed),
             classes: self.classes.iter().map(|class| class.word()).collect(),
             claim: self.claim(),
             bodies: of_rules.chain(by_rank).collect(),
