@@ -2,7 +2,6 @@
 
 use super::super::certificates::Target;
 use super::AuditArguments;
-use super::rulings::{self, Ruled};
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -12,6 +11,7 @@ use viewcert::graph::graph6;
 use viewcert_formats::read::graphs;
 use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
 use viewcert_report::counted;
+use viewcert_report::rulings::{self, Ruled};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::outputs;

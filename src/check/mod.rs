@@ -1,14 +1,10 @@
 //! `verify check`: the independent checker on certificates.
 
 pub(crate) mod checker;
-mod folder;
 mod here;
 mod intrinsics;
-mod names;
 mod proved;
 
-use self::folder::{Listing, name};
-use self::names::{is_list, printable};
 use super::given::GivenArguments;
 use super::input::InputArguments;
 use super::plan::{INTRINSICS, IntrinsicsFrom};
@@ -22,11 +18,13 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_catalog::folder::{Listing, is_list, name};
 use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{Failure, is_here, is_of_intrinsics};
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
+use viewcert_session::printable;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;

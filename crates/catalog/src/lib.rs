@@ -10,11 +10,12 @@
 //!
 //! A [`work`] is a shard of a [`source`] of candidates, counted or written to files: entries to
 //! [`shard_files`], counts of verdicts to [`verdict_files`]; [`merge`] puts the shards together. A
-//! [`manifest`] says which files a published folder has.
+//! [`manifest`] says which files a published folder has, and a [`folder`] is held against it.
 
 pub mod candidates;
 pub mod canonical;
 pub mod counts;
+pub mod folder;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;

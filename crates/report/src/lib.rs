@@ -5,6 +5,8 @@ pub mod assumptions;
 #[cfg(feature = "studies")]
 pub mod at_cameras;
 #[cfg(feature = "studies")]
+pub mod audit;
+#[cfg(feature = "studies")]
 pub mod bars;
 #[cfg(feature = "studies")]
 pub mod comparison;
@@ -32,6 +34,8 @@ pub mod overview_page;
 pub mod page;
 mod part_names;
 pub mod read;
+#[cfg(feature = "studies")]
+pub mod rulings;
 pub mod second_scene;
 pub mod sheet;
 mod shown;
