@@ -72,8 +72,6 @@ impl From<Option<PathBuf>> for IntrinsicsFrom {
 pub(super) struct Products {
     /// The certificate, or the folder for the certificates of all graphs.
     pub(super) certificate: Option<PathBuf>,
-    /// Whether certificates hold graphs of any size.
-    pub(super) embed_graph: bool,
     /// The explicit proof.
     pub(super) proof: Option<PathBuf>,
     /// Two families of cameras with the same fundamental matrices.
@@ -269,7 +267,7 @@ impl Plan {
     /// If one file is meant and there are several graphs.
     pub(super) fn target(&self) -> Option<Target> {
         let path = self.products.certificate.as_deref()?;
-        Some(Target::new(path, self.products.embed_graph))
+        Some(Target::new(path))
     }
 
     /// How a graph is decided of which this is known.

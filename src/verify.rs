@@ -50,13 +50,13 @@ pub(super) struct VerifyArguments {
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "quick", default_missing_value = "quick")]
     solutions: Solutions,
-    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard
-    /// output, and the report to standard error).
+    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard output, and
+    /// the report to standard error).
+    ///
+    /// In a folder certificates hold their graphs, up to 10,000 cameras (elsewhere up to 100), so that `verify
+    /// check FOLDER` needs nothing else.
     #[arg(long, value_name = "PATH")]
     certificate: Option<PathBuf>,
-    /// Embed graphs of any size in their certificates.
-    #[arg(long, requires = "certificate")]
-    embed_graph: bool,
     /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
     #[arg(long, value_name = "FILE")]
     proof: Option<PathBuf>,
@@ -148,7 +148,6 @@ impl VerifyArguments {
         }
         plan.asked.planar = self.planar;
         plan.products.certificate = self.certificate.clone();
-        plan.products.embed_graph = self.embed_graph;
         plan.products.proof = self.proof.clone();
         if let Some(name) = self.table {
             plan.form = Form::Table(name.into());

@@ -140,7 +140,7 @@ impl AuditArguments {
         }
         let inputs = inputs.iter().map(PathBuf::as_path);
         outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
-        Ok(Some(Target::new(path, false)))
+        Ok(Some(Target::new(path)))
     }
 
     /// The file for certificates, if there is room for that of one graph only.
