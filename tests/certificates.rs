@@ -228,7 +228,7 @@ fn large_cores_by_a_small_prime() {
     std::fs::write(graph.path(), &both).unwrap();
     let path = graph.path().to_str().unwrap();
     let primes = |options: &[&str]| {
-        let text = certificate(&both, &options);
+        let text = certificate(&both, options);
         let run = check(&text);
         assert_eq!(run.code, 0, "{}{}", run.out, run.err);
         let value: Value = serde_json::from_str(&text).unwrap();

@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use viewcert::Model;
 use viewcert::here::{Centres, Here};
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, whole};
 use viewcert_report::at_cameras::AtCameras;
 use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
@@ -36,8 +36,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     let claims = match &arguments.float {
         None => None,
         Some(table) => {
-            let text =
-                std::fs::read_to_string(table).with_context(|| table.display().to_string())?;
+            let text = whole::text(table)?;
             let at = |line: usize| format!("{}:{line}", table.display());
             Some(read_table(&text).map_err(|error| anyhow!("{}: {error}", at(error.line)))?)
         }
@@ -143,6 +142,7 @@ fn one(
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
     let read = here::read(Some(path), input, model)?;
     let Some((input, centres)) = read else {
+        whole::bytes(path)?;
         bail!(
             "{}: no cameras: it takes lines `camera`, `pose` or `centre`, a COLMAP model or an array (verify help given)",
             path.display()

@@ -31,6 +31,7 @@ pub mod sparse6;
 mod tables;
 pub mod tracks;
 mod variables;
+pub mod whole;
 
 pub use edge_list::decimal::{Decimal, NoDecimal};
 pub use edge_list::layout::{Columns, ListOptions, NoColumns};
