@@ -118,6 +118,8 @@ pub struct WrittenProof {
     file: String,
     rank_at_least: usize,
     rank_at_most: usize,
+    /// Whether it shows that the cameras are unique.
+    solvable: bool,
     /// How many components there are; left out if that is not shown.
     #[serde(skip_serializing_if = "Option::is_none")]
     components: Option<usize>,
@@ -130,6 +132,7 @@ impl WrittenProof {
             file: file.display().to_string(),
             rank_at_least: proof.lower(),
             rank_at_most: proof.upper(),
+            solvable: proof.is_solvable(),
             components: proof.components(),
         }
     }
@@ -149,6 +152,9 @@ impl fmt::Display for WrittenProof {
         )?;
         if let Some(components) = self.components {
             write!(f, "; {}", counted(components, "component"))?;
+        }
+        if self.solvable {
+            f.write_str("; solvable")?;
         }
         f.write_str(")")
     }
