@@ -4,12 +4,31 @@
 
 use super::plan::{CERTIFICATE, INTRINSICS, IntrinsicsFrom};
 use anyhow::{Context, Result, ensure};
+use clap::Args;
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use viewcert::decide::Verdict;
 use viewcert::intrinsics::{Certified, Metric, Sensors};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
+
+/// What is known of each camera.
+#[derive(Args)]
+pub(super) struct IntrinsicsArguments {
+    /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
+    /// `focal+point D`, `unknown E`, `default focal`, and `shared focal F G` for images of one sensor.
+    /// Does the graph determine cameras and intrinsics? Without FILE: by the prior focal lengths and
+    /// `camera_id` of the graph's own COLMAP database; `free`: without prior ones.
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    intrinsics: Option<Option<PathBuf>>,
+}
+
+impl IntrinsicsArguments {
+    /// Where classes are from, if that is asked.
+    pub(super) fn from(&self) -> Option<IntrinsicsFrom> {
+        self.intrinsics.clone().map(IntrinsicsFrom::from)
+    }
+}
 
 /// The graph with the notes on its classes, and the sensor of each node if that is asked.
 ///

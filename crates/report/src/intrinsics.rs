@@ -3,6 +3,7 @@
 //!
 //! In: sensors with their classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
 
+use crate::priors::PriorsLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -35,6 +36,9 @@ pub struct IntrinsicsLine {
     determined: usize,
     /// The cameras whose intrinsics are not.
     not_determined: Vec<String>,
+    /// What one prior more would do, if that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    priors: Option<PriorsLine>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -73,7 +77,7 @@ impl IntrinsicsLine {
             labels: listed.then(|| component.nodes.iter().map(|&v| label(v)).collect()),
         };
         let shared = |(sensor, nodes): (usize, Vec<u32>)| SensorLine {
-            class: word(sensors.class(sensor)),
+            class: sensors.class(sensor).word(),
             cameras: nodes.len(),
             determined: found.determined[nodes[0] as usize],
             labels: listed.then(|| nodes.iter().map(|&v| label(v)).collect()),
@@ -106,7 +110,19 @@ impl IntrinsicsLine {
             other_pairs: found.other_pairs,
             determined: found.determined.len() - not_determined.len(),
             not_determined,
+            priors: None,
         }
+    }
+
+    /// With what one prior more would do.
+    pub fn with_priors(mut self, priors: PriorsLine) -> Self {
+        self.priors = Some(priors);
+        self
+    }
+
+    /// What one prior more would do, if that was asked.
+    pub(crate) fn priors(&self) -> Option<&PriorsLine> {
+        self.priors.as_ref()
     }
 
     /// Whether several cameras share unknown intrinsics.
@@ -127,14 +143,6 @@ impl IntrinsicsLine {
         let classes = self.classes.iter().filter(|line| line.cameras > 0);
         let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
         let classes: Vec<String> = classes.collect();
-        let strength = if self.proved {
-            "proved".to_owned()
-        } else {
-            format!(
-                "it is {} at least and {} at most",
-                self.rank, self.rank_at_most
-            )
-        };
         let answer = match self.verdict {
             "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
             "not-metric" if self.conditions < 8 => format!(
@@ -147,11 +155,15 @@ impl IntrinsicsLine {
         };
         writeln!(out, "  intrinsics  {}: {answer}", classes.join(", "))?;
         self.write_shared(out)?;
-        writeln!(
-            out,
-            "  metric rank {} of {} ({strength})",
-            self.rank, self.rank_required
-        )?;
+        let rank = if self.proved {
+            format!("{} of {} (proved)", self.rank, self.rank_required)
+        } else {
+            format!(
+                "{} at least and {} at most, of {}",
+                self.rank, self.rank_at_most, self.rank_required
+            )
+        };
+        writeln!(out, "  metric rank {rank}")?;
         let all = self.determined + self.not_determined.len();
         write!(
             out,
@@ -212,13 +224,6 @@ impl IntrinsicsLine {
         let count = counted(self.shared.len(), "sensor");
         writeln!(out, "  shared      {count}: {}", lines.join(", "))
     }
-}
-
-/// The word for a class.
-fn word(class: Class) -> &'static str {
-    let mut all = Class::ALL.into_iter();
-    let found = all.find(|&(of, _)| of == class);
-    found.expect("all classes have words").1
 }
 
 /// So many sizes of components, and so many sensors, are printed.
