@@ -36,6 +36,9 @@ pub struct IntrinsicsLine {
     determined: usize,
     /// The cameras whose intrinsics are not.
     not_determined: Vec<String>,
+    /// The nodes of each of the components.
+    #[serde(skip)]
+    nodes: Vec<Vec<u32>>,
     /// What one prior more would do, if that was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     priors: Option<PriorsLine>,
@@ -110,6 +113,11 @@ impl IntrinsicsLine {
             other_pairs: found.other_pairs,
             determined: found.determined.len() - not_determined.len(),
             not_determined,
+            nodes: found
+                .components
+                .iter()
+                .map(|component| component.nodes.clone())
+                .collect(),
             priors: None,
         }
     }
@@ -130,6 +138,46 @@ impl IntrinsicsLine {
         !self.shared.is_empty()
     }
 
+    /// The nodes of each metric component, the largest first.
+    pub(crate) fn nodes(&self) -> &[Vec<u32>] {
+        &self.nodes
+    }
+
+    /// What is found for the pairs of a database by what it knows of its cameras, in one sentence.
+    pub(crate) fn words_of_database(&self) -> String {
+        let answer = match self.verdict {
+            "metric" => "metric",
+            "not-metric" => "not metric",
+            _ => "open whether metric",
+        };
+        let parts = match self.components.first() {
+            None => "no metric part".to_owned(),
+            Some(largest) => format!(
+                "{}, largest {}",
+                counted(self.components.len(), "part"),
+                counted(largest.nodes, "camera")
+            ),
+        };
+        let strength = if self.proved { " (proved)" } else { "" };
+        let sensors = match self.shared.len() {
+            0 => String::new(),
+            count => format!(" ({})", counted(count, "shared sensor")),
+        };
+        format!(
+            "{}{sensors}: {answer}; {parts}; {} of {} determined{strength}",
+            self.classes_in_words(),
+            self.determined,
+            self.determined + self.not_determined.len(),
+        )
+    }
+
+    /// "2 known, 3 focal".
+    fn classes_in_words(&self) -> String {
+        let classes = self.classes.iter().filter(|line| line.cameras > 0);
+        let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
+        classes.collect::<Vec<_>>().join(", ")
+    }
+
     /// Whether all cameras are determined, with their intrinsics; it is proved.
     pub fn is_metric(&self) -> bool {
         self.verdict == "metric"
@@ -140,9 +188,6 @@ impl IntrinsicsLine {
     /// # Errors
     /// Those of the writer.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let classes = self.classes.iter().filter(|line| line.cameras > 0);
-        let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
-        let classes: Vec<String> = classes.collect();
         let answer = match self.verdict {
             "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
             "not-metric" if self.conditions < 8 => format!(
@@ -153,7 +198,7 @@ impl IntrinsicsLine {
             "not-metric" => "not metric: infinitely many sets of cameras (proved)".into(),
             _ => "not metric at drawn cameras, and counting gives no proof".to_owned(),
         };
-        writeln!(out, "  intrinsics  {}: {answer}", classes.join(", "))?;
+        writeln!(out, "  intrinsics  {}: {answer}", self.classes_in_words())?;
         self.write_shared(out)?;
         let rank = if self.proved {
             format!("{} of {} (proved)", self.rank, self.rank_required)
