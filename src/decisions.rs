@@ -14,6 +14,7 @@ use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
+use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
@@ -21,6 +22,7 @@ use viewcert_report::graph_picture::{self, Picture};
 use viewcert_report::here::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
+use viewcert_report::priors::PriorsLine;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
 use viewcert_session::exit::{GOOD, NOT};
@@ -126,8 +128,16 @@ impl Work<'_> {
             let found = intrinsics::decide(input, &verdict, sensors, (plan.seed, certify), &watch);
             session.hide();
             let (metric, evidence) = found.with_context(name)?;
-            let listed = plan.list_components;
-            scope = scope.with_intrinsics(IntrinsicsLine::new(input, sensors, &metric, listed));
+            let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
+            if let Some(most) = plan.priors {
+                let (graph, seed) = (&input.graph, plan.seed);
+                let priors = Priors::new(graph, &verdict, sensors, &metric, seed, &watch);
+                session.hide();
+                let priors = &priors.with_context(name)?;
+                let most = most as usize;
+                line = line.with_priors(PriorsLine::new(input, sensors, &metric, priors, most));
+            }
+            scope = scope.with_intrinsics(line);
             certified = evidence;
         }
         let centres = match besides {

@@ -33,6 +33,7 @@ pub mod overview;
 pub mod overview_page;
 pub mod page;
 mod part_names;
+pub mod priors;
 pub mod read;
 #[cfg(feature = "studies")]
 pub mod rulings;
@@ -177,6 +178,9 @@ impl Report<'_> {
     /// Those of the writer.
     pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
         text::write(out, self)?;
+        if let Some(priors) = self.scope.intrinsics().and_then(|line| line.priors()) {
+            priors.write(out)?;
+        }
         advice::write(out, self.advice)
     }
 

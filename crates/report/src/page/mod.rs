@@ -41,6 +41,9 @@ struct Drawing<'a> {
     colours: [&'static str; COLOURS.len()],
     /// How many components, the first ones, have a mark of their own.
     marked: usize,
+    /// The nodes of each metric component, if cameras have classes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    metric: Option<&'a [Vec<u32>]>,
     /// The adjacency picture, without its pixels.
     adjacency: Option<&'a Adjacency>,
 }
@@ -113,6 +116,7 @@ fn drawing<'a>(
         edges: picture.is_detailed().then(|| edges.collect()),
         colours: COLOURS,
         marked: picture.marked(),
+        metric: report.scope.intrinsics().map(|found| found.nodes()),
         adjacency,
     }
 }
