@@ -5,11 +5,14 @@
 //! crate; what a user sees is `lib/viewcert`, in Python. Work is
 //! done without the interpreter's lock, and can be interrupted (`work`).
 
+mod all;
 mod catalog;
 mod check;
 mod decided;
 mod errors;
 mod graph;
+mod kept;
+mod places;
 mod work;
 
 use pyo3::prelude::*;
@@ -18,6 +21,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use super::all::decide_all;
+    #[pymodule_export]
     use super::catalog::{Candidates, catalog_merge, catalog_shard, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
@@ -25,6 +30,10 @@ mod _native {
     use super::decided::{Decided, decide};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+    #[pymodule_export]
+    use super::kept::{about_graph, graph_kept, same_graph};
+    #[pymodule_export]
+    use super::places::{component_of_pairs, pairs_among};
 
     use super::*;
 

@@ -13,6 +13,7 @@ pub mod error;
 pub mod given;
 mod inflate;
 pub mod intrinsics;
+pub mod kept;
 mod lines;
 mod lookalikes;
 pub mod matching;

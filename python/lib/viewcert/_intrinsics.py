@@ -9,9 +9,60 @@ from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple
 from . import _native
 from ._act import _asked, _decided
 from ._errors import InputError
-from ._graph import Node, Path, as_graph
-from ._native import VerifiedIntrinsics
+from ._check import of_native, text_of
+from ._convert import Node
+from ._graph import Path, as_graph
+from ._types import Class, IntrinsicsValue
 from ._verdict import Verdict
+from ._words import whole_if
+
+
+@dataclass(frozen=True)
+class VerifiedIntrinsics:
+    """What a certificate of intrinsics proves. It can be pickled and compared.
+
+    Attributes
+    ----------
+    value : str
+        ``'metric'``, ``'not-metric'`` or ``'open'``.
+    rank, rank_at_most : int
+        Bounds of the generic rank.
+    required : int
+        The rank of a metric graph.
+    components : list of list of int, optional
+        Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.
+    not_determined : list of int, optional
+        The positions of the nodes whose intrinsics are not determined; None if bounds do not meet.
+    classes : list of (int, str)
+        How many cameras are of which class.
+    classes_sha256 : str
+        The hash of the classes.
+    nodes, edges : int
+        Of the graph.
+    sha256 : str
+        Its hash.
+    text : str
+        All of it in words.
+    """
+
+    value: IntrinsicsValue
+    rank: int
+    rank_at_most: int
+    required: int
+    components: Optional[List[List[int]]]
+    not_determined: Optional[List[int]]
+    classes: List[Tuple[int, Class]]
+    classes_sha256: str
+    nodes: int
+    edges: int
+    sha256: str
+    text: str = field(repr=False)
+
+    def __repr__(self) -> str:
+        size = f"{self.nodes} nodes, {self.edges} pairs"
+        least, most = self.rank, self.rank_at_most
+        rank = f"{least}" if least == most else f"{least} to {most}"
+        return f"<viewcert.VerifiedIntrinsics {self.value}: {size}, rank {rank} of {self.required}>"
 
 
 @dataclass(frozen=True)
@@ -43,7 +94,7 @@ class Intrinsics:
     components: Tuple[frozenset[Node], ...]
     other_pairs: int
     determined: Dict[Node, bool]
-    _verdict: Verdict = field(repr=False, compare=False)
+    _verdict: Verdict[Any] = field(repr=False, compare=False)
     _classes: Tuple[str, ...] = field(repr=False, compare=False)
     _sensors: Tuple[int, ...] = field(repr=False, compare=False)
 
@@ -181,11 +232,7 @@ def check_intrinsics(
     Returns
     -------
     VerifiedIntrinsics
-        What the certificate proves: `value` (``'metric'``, ``'not-metric'`` or ``'open'``), bounds
-        `rank` and `rank_at_most`, the `required` rank; `components`, as lists of positions in the
-        `graph.nodes` of a verdict, and those of the nodes that are `not_determined`, both None if
-        bounds do not meet; how many cameras are of which of the `classes`, their hash
-        `classes_sha256`; of the graph `nodes`, `edges`, `sha256`; all of it in words as `text`.
+        What the certificate proves.
 
     Raises
     ------
@@ -211,11 +258,9 @@ def check_intrinsics(
     """
     if isinstance(certificate, Intrinsics):
         text = certificate.certificate()
-    elif isinstance(certificate, (bytes, bytearray, memoryview)):
-        text = bytes(certificate)
     else:
-        with open(certificate, "rb") as file:
-            text = file.read()
+        text = text_of(certificate)
+    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     if graph is None and classes is not None:
         raise InputError("classes: their nodes are those of a graph; give the graph as well")
     given = None if graph is None else as_graph(graph)
@@ -223,7 +268,8 @@ def check_intrinsics(
     if given is not None and classes is not None:
         words = _words(given.nodes, classes, default)
     native = None if given is None else given._native
-    return _native.check_intrinsics(text, graph=native, classes=words, max_operations=max_operations)
+    found = _native.check_intrinsics(text, graph=native, classes=words, max_operations=max_operations)
+    return of_native(VerifiedIntrinsics, found)
 
 
 def _words(nodes: Sequence[Node], classes: Mapping[Node, str], default: str) -> List[str]:

@@ -147,7 +147,7 @@ pub(super) fn read_noting(
             if variable.is_none() && name != "A" {
                 parsed.notes.insert(0, chosen_note(&name));
             }
-            parsed.read.format = "MATLAB matrix";
+            parsed.read.format = "MATLAB matrix".into();
             Ok(parsed)
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
