@@ -3,7 +3,7 @@
 //! In: a graph as it was read. Out: the graph with what was noted in reading, and the sensors.
 
 use super::plan::{CERTIFICATE, INTRINSICS, IntrinsicsFrom};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -59,7 +59,7 @@ pub(super) fn read<'a>(
 /// What the graph determines, and with what shows it if it is to be certified.
 ///
 /// # Errors
-/// If the work was stopped; a graph without pairs, or with shared intrinsics, that is to be certified.
+/// If the work was stopped; a graph without pairs that is to be certified.
 pub(super) fn decide(
     input: &NamedGraph,
     verdict: &Verdict,
@@ -74,10 +74,6 @@ pub(super) fn decide(
             None,
         ));
     }
-    ensure!(
-        sensors.shared().is_empty(),
-        "{INTRINSICS}: certificates do not state shared intrinsics yet; leave out {CERTIFICATE}"
-    );
     let found = Certified::new(graph, verdict, sensors, seed, watch)?;
     let found = found.with_context(|| {
         format!("{INTRINSICS}: a graph without pairs has no certificate; leave out {CERTIFICATE}")

@@ -23,6 +23,7 @@ objects! {
         rows: &'a [usize],
         cols: &'a [usize],
         motion: Vec<Big<&'a u64>>,
+        ; optional shared: &'a [Vec<u32>]
     }
 
     IntrinsicsClaim<'a> {
@@ -65,6 +66,7 @@ impl Certified {
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView::new((graph, name), &verdict.sha256, embed),
             classes: self.classes.iter().map(|class| class.word()).collect(),
+            shared: (!self.shared.is_empty()).then_some(&*self.shared),
             claim: self.claim(),
             bodies: of_rules.chain(by_rank).collect(),
             prime: Big(self.draw.prime),
