@@ -48,7 +48,7 @@ from ._graph import (
     tracks_from_database,
     tracks_from_reconstruction,
 )
-from ._intrinsics import Intrinsics, check_intrinsics, intrinsics
+from ._intrinsics import Intrinsics, Prior, Priors, check_intrinsics, intrinsics
 from ._native import Verified, VerifiedIntrinsics, __version__
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
@@ -67,6 +67,8 @@ __all__ = [
     "Margin",
     "Outside",
     "Planar",
+    "Prior",
+    "Priors",
     "Rejected",
     "Shard",
     "Solutions",

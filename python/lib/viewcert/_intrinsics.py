@@ -15,6 +15,66 @@ from ._verdict import Verdict
 
 
 @dataclass(frozen=True)
+class Prior:
+    """What is determined once one camera more is calibrated.
+
+    Attributes
+    ----------
+    nodes : frozenset
+        The nodes of the sensor that is calibrated: one, unless several images are of one camera.
+    unknown : str
+        What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``.
+    metric : bool
+        Whether all cameras are determined then; it is proved if it is said.
+    proved : bool
+        Whether the bounds of the rank meet then, so that all of this is proved.
+    rank, rank_at_most, rank_required : int
+        The generic rank then is between the first two; a metric graph has the third.
+    determined : int
+        How many nodes have known or determined intrinsics then.
+    others : int
+        How many of them are neither in `nodes` nor determined without it.
+    largest : int
+        How many nodes the largest metric component has then.
+    """
+
+    nodes: frozenset[Node]
+    unknown: str
+    metric: bool
+    proved: bool
+    rank: int
+    rank_at_most: int
+    rank_required: int
+    determined: int
+    others: int
+    largest: int
+
+
+@dataclass(frozen=True)
+class Priors:
+    """What one prior more on intrinsics would do.
+
+    Attributes
+    ----------
+    each : tuple of Prior
+        The best first: a metric graph, most intrinsics determined, the largest metric component; of
+        equally good ones those with the fewest unknowns.
+    best : int
+        How many are as good as the first, itself included.
+    sensors : int
+        How many there are: sensors with a pair of which the intrinsics are not determined.
+    if_all_known : str
+        ``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known.
+        If that is ``'not-metric'``, pairs are missing, and no priors make it metric.
+    """
+
+    each: Tuple[Prior, ...]
+    best: int
+    sensors: int
+    if_all_known: str
+
+
+@dataclass(frozen=True)
 class Intrinsics:
     """What is determined up to similarities and finitely many choices.
 
@@ -68,6 +128,56 @@ class Intrinsics:
             raise InputError("certificates do not state shared intrinsics yet; leave out sensors")
         words = [self._classes[sensor] for sensor in self._sensors]
         return self._verdict._native.certificate_of_intrinsics(words, embed_graph=embed_graph)
+
+    def priors(self, most: int = 10) -> Priors:
+        """Which camera to calibrate: what one prior more would do, exactly.
+
+        Parameters
+        ----------
+        most : int
+            How many to list at most, the best first.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+        >>> found = viewcert.intrinsics(triangle, {"a": "known"}).priors()
+        >>> found.best, [(sorted(prior.nodes), prior.metric) for prior in found.each]
+        (2, [(['b'], True), (['c'], True)])
+        """
+        found = _asked(
+            self._verdict,
+            "intrinsics",
+            suggest=most,
+            intrinsics=list(self._classes),
+            sensors=list(self._sensors),
+        )["priors"]
+        by_text = self._verdict.graph._by_text()
+        return Priors(
+            each=tuple(
+                Prior(
+                    nodes=frozenset(by_text[text] for text in prior["labels"]),
+                    unknown=prior["class"],
+                    metric=prior["verdict"] == "metric",
+                    **{
+                        name: prior[name]
+                        for name in (
+                            "proved",
+                            "rank",
+                            "rank_at_most",
+                            "rank_required",
+                            "determined",
+                            "others",
+                            "largest",
+                        )
+                    },
+                )
+                for prior in found["each"]
+            ),
+            best=found["best"],
+            sensors=found["sensors"],
+            if_all_known=found["if_all_known"],
+        )
 
 
 def intrinsics(
