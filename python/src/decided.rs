@@ -17,11 +17,13 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::noticed::UnknownLoss;
+use viewcert_advice::priors::Priors;
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
 use viewcert_report::intrinsics::IntrinsicsLine;
+use viewcert_report::priors::PriorsLine;
 use viewcert_session::Outputs;
 
 /// A graph and what was decided about it.
@@ -368,14 +370,15 @@ impl Decided {
     }
 
     /// The certificate of what is determined if cameras have classes.
-    #[pyo3(signature = (classes, *, embed_graph=false))]
+    #[pyo3(signature = (classes, sensors, *, embed_graph=false))]
     fn certificate_of_intrinsics<'py>(
         &self,
         py: Python<'py>,
         classes: Vec<String>,
+        sensors: Vec<usize>,
         embed_graph: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let sensors = Sensors::own(&self.classes(&classes)?);
+        let sensors = Sensors::new(sensors, self.classes(&classes)?);
         let watch = work::watch(None, None)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
         let (threads, stop, seed) = (work::threads()?, watch.clone(), self.seed);
@@ -433,7 +436,7 @@ impl Decided {
         let redundant = redundant.map(str::parse).transpose();
         let redundant =
             redundant.map_err(|why: UnknownLoss| InputError::new_err(why.to_string()))?;
-        let request = Request {
+        let mut request = Request {
             weak,
             surplus,
             redundant,
@@ -458,7 +461,15 @@ impl Decided {
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
-                let line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                let mut line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                // Cameras to calibrate are suggested then, not images to match.
+                if let Some(most) = request.suggest.take() {
+                    let priors =
+                        Priors::new(&input.graph, &verdict, &sensors, &found, seed, &stop)?;
+                    let most = most as usize;
+                    let priors = PriorsLine::new(&input, &sensors, &found, &priors, most);
+                    line = line.with_priors(priors);
+                }
                 scope = scope.with_intrinsics(line);
             }
             let outputs = Outputs::default();

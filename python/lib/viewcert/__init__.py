@@ -50,7 +50,14 @@ from ._graph import (
     tracks_from_database,
     tracks_from_reconstruction,
 )
-from ._intrinsics import Intrinsics, VerifiedIntrinsics, check_intrinsics, intrinsics
+from ._intrinsics import (
+    Intrinsics,
+    Prior,
+    Priors,
+    VerifiedIntrinsics,
+    check_intrinsics,
+    intrinsics,
+)
 from ._native import __version__
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
@@ -70,6 +77,8 @@ __all__ = [
     "NoteWarning",
     "Outside",
     "Planar",
+    "Prior",
+    "Priors",
     "Rejected",
     "Shard",
     "Solutions",

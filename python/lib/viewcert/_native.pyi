@@ -118,7 +118,9 @@ class Decided:
     def components(self) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]: ...
     def component_count(self) -> int: ...
     def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes: ...
-    def certificate_of_intrinsics(self, classes: list[str], *, embed_graph: bool = False) -> bytes: ...
+    def certificate_of_intrinsics(
+        self, classes: list[str], sensors: list[int], *, embed_graph: bool = False
+    ) -> bytes: ...
     def report(
         self,
         kind: str,
@@ -232,7 +234,7 @@ def check_intrinsics(
     certificate: bytes,
     *,
     graph: Graph | None = None,
-    classes: list[str] | None = None,
+    sensors: tuple[list[str], list[int]] | None = None,
     max_operations: int | None = None,
 ) -> VerifiedIntrinsics: ...
 @final
