@@ -118,8 +118,11 @@ class Kept:
             return bytes(self._said["certificate"])
         return self._again().certificate(embed_graph=embed_graph, compact=compact)
 
-    def certificate_of_intrinsics(self, classes: List[str], *, embed_graph: bool = False) -> bytes:
-        return self._again().certificate_of_intrinsics(classes, embed_graph=embed_graph)
+    def certificate_of_intrinsics(
+        self, classes: List[str], sensors: List[int], *, embed_graph: bool = False
+    ) -> bytes:
+        again = self._again()
+        return again.certificate_of_intrinsics(classes, sensors, embed_graph=embed_graph)
 
     def report(self, kind: str, *, list_components: bool = False, **question: Any) -> bytes:
         if kind in ("json", "text") and not list_components and not question:
