@@ -26,6 +26,7 @@ pub mod many;
 mod mappers;
 pub mod merge;
 pub mod models;
+pub mod motion_picture;
 mod narrow;
 pub mod next;
 mod noticed;

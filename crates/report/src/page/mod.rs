@@ -10,6 +10,7 @@
 mod adjacency;
 
 use super::graph_picture::{Drawn, Picture, document};
+use super::motion_picture::{self, Frames};
 use super::svg::{COLOURS, escaped};
 use super::{Report, json};
 use adjacency::Adjacency;
@@ -25,6 +26,11 @@ const SCRIPT: &str = include_str!("script.js");
 
 /// Fewest nodes for which an adjacency picture says more than the graph itself.
 const ADJACENCY_FROM: usize = 100;
+
+/// The section with the motions at given cameras, which is there only if there are some.
+const MOTION: &str = "<section id=\"motion\"><h2>What moves at the given cameras</h2>\n<p class=\"explanation\">\
+    Motions of first order, exact, that leave all pairs as they are; the largest part is held still, and arrows show \
+    where the other centres go. Colours are the parts here.</p>\n";
 
 /// What the script needs besides the report.
 #[derive(Serialize)]
@@ -79,6 +85,12 @@ pub fn write(
             "report" => embed(out, numbers.trim_ascii_end())?,
             "drawing" => embed(out, &drawing)?,
             "picture" => out.write_all(document(picture, drawn, false).as_bytes())?,
+            "motion" => {
+                let moving = |here| motion_picture::picture(&here, Frames::Moving);
+                if let Some(picture) = report.here.and_then(moving) {
+                    write!(out, "{MOTION}{picture}</section>")?;
+                }
+            }
             "adjacency" => {
                 if let Some(adjacency) = &adjacency {
                     write!(out, "data:image/png;base64,")?;
