@@ -166,7 +166,7 @@ fn what_moves_is_drawn() {
     ]);
     assert_eq!(run.code, 1, "{}", run.err);
     let [svg, page] = [svg, page].map(|path| std::fs::read_to_string(path).unwrap());
-    assert!(svg.contains("motion 1 of 1: 2 cameras move"), "{svg}");
+    assert!(svg.contains("motion 1 of 1: 2 centres move"), "{svg}");
     let arrows: Vec<[f64; 2]> = svg
         .lines()
         .filter(|line| line.starts_with("<line") && line.contains("stroke:#222"))

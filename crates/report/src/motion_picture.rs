@@ -82,7 +82,7 @@ pub fn picture(report: &HereReport, frames: Frames) -> Option<String> {
         let words = format!(
             "motion {} of {all}: {} move",
             k + 1,
-            counted(moving, "camera")
+            counted(moving, "centre")
         );
         svg.text([left, top - 16.0], 13, "start", &words);
         panel.draw(&mut svg, report, motion, &labels, frames);
