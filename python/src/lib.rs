@@ -10,6 +10,7 @@ mod check;
 mod decided;
 mod errors;
 mod graph;
+mod shards;
 mod work;
 
 use pyo3::prelude::*;
@@ -18,13 +19,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::catalog::{Candidates, catalog_merge, catalog_shard, label, label_graph6};
+    use super::catalog::{Candidates, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]
     use super::decided::{Decided, decide};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+    #[pymodule_export]
+    use super::shards::{catalog_merge, catalog_shard};
 
     use super::*;
 
