@@ -1,6 +1,7 @@
 //! `verify advise GRAPH...`: what follows from a verdict, and what to do about it
 //! (docs/reconstruction.md).
 
+use super::intrinsics::IntrinsicsArguments;
 use super::plan::Plan;
 use super::question::{GRAPHS, QuestionArguments};
 use anyhow::Result;
@@ -17,6 +18,8 @@ pub(super) struct AdviseArguments {
     advice: AdviceArguments,
     #[command(flatten)]
     question: QuestionArguments,
+    #[command(flatten)]
+    intrinsics: IntrinsicsArguments,
 }
 
 /// What is asked about an answer.
@@ -40,7 +43,8 @@ pub(super) struct AdviceArguments {
     #[arg(default_missing_value = "1000")]
     implied: Option<u32>,
     /// Suggest images to match that would join components, at most N [default: 10]; with --tracks
-    /// also how much has to come of it. `advise` does this if nothing else is asked.
+    /// also how much has to come of it; with --intrinsics cameras to calibrate. `advise` does this if
+    /// nothing else is asked.
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true)]
     #[arg(default_missing_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
     suggest: Option<u32>,
@@ -75,6 +79,7 @@ impl AdviseArguments {
     /// By name, what does not go together.
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
+        plan.intrinsics = self.intrinsics.from();
         plan.request = self.advice.request();
         if !plan.request.asks() {
             plan.request.suggest = Some(SUGGESTED);

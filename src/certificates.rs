@@ -13,21 +13,23 @@ use viewcert_session::Outputs;
 /// The option that names the target.
 const OPTION: &str = "--certificate";
 
+/// Up to this many nodes a certificate in a folder holds its graph, so that the folder can be checked by
+/// itself; graph6 takes 8 MB for it, and grows with the square.
+const HELD_NODES: usize = 10_000;
+
 /// The target of `--certificate`.
 pub(super) struct Target {
     path: PathBuf,
     folder: bool,
-    embed: bool,
     taken: BTreeSet<String>,
 }
 
 impl Target {
     /// A folder if there is one of that name; a file otherwise.
-    pub(super) fn new(path: &Path, embed: bool) -> Self {
+    pub(super) fn new(path: &Path) -> Self {
         Self {
             path: path.to_owned(),
             folder: path.is_dir(),
-            embed,
             taken: BTreeSet::new(),
         }
     }
@@ -74,7 +76,8 @@ impl Target {
         } else {
             bail!("{}", Self::too_many(&self.path, "several graphs"));
         };
-        outputs.write(&path, |out| certificate(out, self.embed))?;
+        let embed = self.folder && input.graph.nodes() <= HELD_NODES;
+        outputs.write(&path, |out| certificate(out, embed))?;
         Ok(path)
     }
 

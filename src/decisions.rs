@@ -1,9 +1,10 @@
 //! A plan, carried out: every graph decided, certified, reported.
 
 use super::certificates::Target;
+use super::given::{Beside, read_beside};
 use super::plan::{Form, Plan, Products};
 use super::witness;
-use super::{given, here, input, intrinsics};
+use super::{here, input, intrinsics};
 use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::Path;
@@ -14,6 +15,7 @@ use viewcert::decide as verdict;
 use viewcert::decide::{Options, Value, Verdict};
 use viewcert::here::{Centres, Here};
 use viewcert::intrinsics::{Certified, Sensors};
+use viewcert_advice::priors::Priors;
 use viewcert_advice::{Advice, Shapes};
 use viewcert_formats::NamedGraph;
 use viewcert_report::assumptions::{BaseLines, Scope};
@@ -21,6 +23,8 @@ use viewcert_report::graph_picture::{self, Picture};
 use viewcert_report::here::HereReport;
 use viewcert_report::intrinsics::IntrinsicsLine;
 use viewcert_report::many::Table;
+use viewcert_report::motion_picture::{self, Frames};
+use viewcert_report::priors::PriorsLine;
 use viewcert_report::{Report, WrittenProof};
 use viewcert_report::{json, page};
 use viewcert_session::exit::{GOOD, NOT};
@@ -43,23 +47,19 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
     let too_many = |what: &str| plan.too_many(what);
     let each = |out: &mut _, input: &NamedGraph, start| {
         plan.request.check_input(input)?;
-        let given = plan.given.as_deref();
-        if let Some((input, centres)) = here::read(given, input, plan.draft.model)? {
-            ensure!(
-                !matches!(plan.form, Form::Table(_)),
-                "--table: a row does not say what holds at given cameras; leave out one of the two"
-            );
-            let options = plan.options(Known::default())?.watch(session.shown_watch());
-            let is_determined = work.decide(
-                &options,
-                &input,
-                Some(Besides::Cameras(&centres)),
-                start,
-                out,
-            )?;
-            return Ok(if is_determined { GOOD } else { NOT });
-        }
-        let (input, known) = given::read(given, input)?;
+        let (input, known) = match read_beside(plan.given.as_deref(), input, plan.draft.model)? {
+            Beside::Known(input, known) => (input, known),
+            Beside::Cameras(input, centres) => {
+                ensure!(
+                    !matches!(plan.form, Form::Table(_)),
+                    "--table: a row does not say what holds at given cameras; leave out one of the two"
+                );
+                let options = plan.options(Known::default())?.watch(session.shown_watch());
+                let besides = Some(Besides::Cameras(&centres));
+                let is_determined = work.decide(&options, &input, besides, start, out)?;
+                return Ok(if is_determined { GOOD } else { NOT });
+            }
+        };
         let options = plan.options(known)?.watch(session.shown_watch());
         let (input, sensors) = intrinsics::read(plan.intrinsics.as_ref(), input)?;
         let besides = sensors.as_ref().map(Besides::Sensors);
@@ -126,8 +126,16 @@ impl Work<'_> {
             let found = intrinsics::decide(input, &verdict, sensors, (plan.seed, certify), &watch);
             session.hide();
             let (metric, evidence) = found.with_context(name)?;
-            let listed = plan.list_components;
-            scope = scope.with_intrinsics(IntrinsicsLine::new(input, sensors, &metric, listed));
+            let mut line = IntrinsicsLine::new(input, sensors, &metric, plan.list_components);
+            if let Some(most) = plan.priors {
+                let (graph, seed) = (&input.graph, plan.seed);
+                let priors = Priors::new(graph, &verdict, sensors, &metric, seed, &watch);
+                session.hide();
+                let priors = &priors.with_context(name)?;
+                let most = most as usize;
+                line = line.with_priors(PriorsLine::new(input, sensors, &metric, priors, most));
+            }
+            scope = scope.with_intrinsics(line);
             certified = evidence;
         }
         let centres = match besides {
@@ -150,6 +158,11 @@ impl Work<'_> {
         let advice = self.advise(input, &verdict);
         session.hide();
         let advice = advice.with_context(name)?;
+        let is_drawn = plan.products.page.is_some() || plan.products.picture.is_some();
+        let motions = match &here {
+            Some((here, centres)) if is_drawn => here::motions(here, centres, session)?,
+            _ => Vec::new(),
+        };
         let report = Report {
             input,
             verdict: &verdict,
@@ -159,10 +172,12 @@ impl Work<'_> {
             advice: &advice,
             scope: &scope,
             proof: written.proof.as_ref(),
-            here: here.as_ref().map(|(here, _)| HereReport {
+            here: here.as_ref().map(|(here, centres)| HereReport {
                 input,
                 verdict: &verdict,
                 here,
+                centres,
+                motions: &motions,
             }),
         };
         draw(session, &plan.products, &report)?;
@@ -306,7 +321,9 @@ fn draw(session: &Session, products: &Products, report: &Report) -> Result<()> {
     let drawn = graph_picture::draw(&picture);
     let outputs = session.outputs();
     if let Some(path) = &products.picture {
-        let text = graph_picture::document(&picture, &drawn, true);
+        let motion = |here| motion_picture::picture(&here, Frames::Still);
+        let motion = report.here.and_then(motion);
+        let text = motion.unwrap_or_else(|| graph_picture::document(&picture, &drawn, true));
         outputs.write(path, |out| out.write_all(text.as_bytes()))?;
     }
     if let Some(path) = &products.page {

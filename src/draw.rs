@@ -2,6 +2,7 @@
 
 use super::advise::AdviceArguments;
 use super::given::GivenArguments;
+use super::intrinsics::IntrinsicsArguments;
 use super::plan::Plan;
 use super::question::QuestionArguments;
 use anyhow::{Result, bail};
@@ -24,6 +25,8 @@ pub(super) struct DrawArguments {
     question: QuestionArguments,
     #[command(flatten)]
     given: GivenArguments,
+    #[command(flatten)]
+    intrinsics: IntrinsicsArguments,
 }
 
 impl DrawArguments {
@@ -34,6 +37,7 @@ impl DrawArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(std::slice::from_ref(&self.graph))?;
         plan.given = self.given.path().map(Into::into);
+        plan.intrinsics = self.intrinsics.from();
         plan.request = self.advice.request();
         for file in &self.files {
             let is_standard = file == Path::new("-");

@@ -7,8 +7,9 @@ use anyhow::{Result, ensure};
 use clap::Args;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use viewcert::Known;
-use viewcert_formats::NamedGraph;
+use viewcert::here::Centres;
+use viewcert::{Known, Model};
+use viewcert_formats::{NamedGraph, beside};
 
 /// The option.
 pub(super) const OPTION: &str = "--given";
@@ -40,7 +41,8 @@ What --given FILE holds: what is known besides the pairs, one thing on each line
                              is determined at these very cameras is answered besides.
 A table may say the same: name,x,y,z or name,qw,qx,qy,qz,tx,ty,tz or name,p11,..,p34 in its head. A COLMAP model (a folder) as
 FILE gives the poses of its images, an array (n, 3, 4) or (n, 3) of NumPy (.npy, .npz) or 3 x 4 x n, n x 3 of MATLAB the
-matrices or centres of cameras that are called by numbers. A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
+matrices or centres of cameras that are called by numbers (version 7.3 with the feature hdf5); all but a folder may be
+standard input (-). A COLMAP database as FILE gives the positions of its pose priors, without the vectors.
 Cameras are called as in the graph; fields, quotes and comments are those of edge lists. Vectors stand
 on all lines or on none, in the frame of the directions: with them the answer is about these vectors,
 without them about vectors in general position. Parts and displacements do not go together.
@@ -81,12 +83,44 @@ pub(super) fn read<'a>(
     input: &'a NamedGraph,
 ) -> Result<(Cow<'a, NamedGraph>, Known)> {
     let given = viewcert_formats::given(given, input)?;
-    if given.notes.is_empty() {
-        return Ok((Cow::Borrowed(input), given.known));
+    Ok((noted(input, given.notes), given.known))
+}
+
+/// What a file gives, with the graph that has the notes on it.
+pub(super) enum Beside<'a> {
+    /// The cameras themselves.
+    Cameras(NamedGraph, Centres),
+    /// What is known of them, the rigs of the graph included.
+    Known(Cow<'a, NamedGraph>, Known),
+}
+
+/// As [`read`]; or the cameras that the file gives.
+///
+/// # Errors
+/// Those of the file; a camera that the model excludes.
+pub(super) fn read_beside<'a>(
+    given: Option<&Path>,
+    input: &'a NamedGraph,
+    model: Model,
+) -> Result<Beside<'a>> {
+    Ok(match beside(given, input, model)? {
+        viewcert_formats::Beside::Cameras(cameras) => {
+            let input = noted(input, cameras.notes).into_owned();
+            Beside::Cameras(input, cameras.centres)
+        }
+        viewcert_formats::Beside::Known(given) => {
+            Beside::Known(noted(input, given.notes), given.known)
+        }
+    })
+}
+
+fn noted(input: &NamedGraph, notes: Vec<String>) -> Cow<'_, NamedGraph> {
+    if notes.is_empty() {
+        return Cow::Borrowed(input);
     }
     let mut input = input.clone();
-    input.notes.extend(given.notes);
-    Ok((Cow::Owned(input), given.known))
+    input.notes.extend(notes);
+    Cow::Owned(input)
 }
 
 /// Why a file that goes with one graph cannot go with many.

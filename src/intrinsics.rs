@@ -3,13 +3,34 @@
 //! In: a graph as it was read. Out: the graph with what was noted in reading, and the sensors.
 
 use super::plan::{CERTIFICATE, INTRINSICS, IntrinsicsFrom};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
+use clap::Args;
 use std::borrow::Cow;
-use std::path::Path;
-use viewcert::decide::Verdict;
+use std::path::{Path, PathBuf};
+use viewcert::decide::{Options, Verdict};
 use viewcert::intrinsics::{Certified, Metric, Sensors};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, intrinsics, read_intrinsics};
+use viewcert_report::intrinsics::IntrinsicsLine;
+use viewcert_session::Session;
+
+/// What is known of each camera.
+#[derive(Args)]
+pub(super) struct IntrinsicsArguments {
+    /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
+    /// `focal+point D`, `unknown E`, `default focal`, and `shared focal F G` for images of one sensor.
+    /// Does the graph determine cameras and intrinsics? Without FILE: by the prior focal lengths and
+    /// `camera_id` of the graph's own COLMAP database; `free`: without prior ones.
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    intrinsics: Option<Option<PathBuf>>,
+}
+
+impl IntrinsicsArguments {
+    /// Where classes are from, if that is asked.
+    pub(super) fn from(&self) -> Option<IntrinsicsFrom> {
+        self.intrinsics.clone().map(IntrinsicsFrom::from)
+    }
+}
 
 /// The graph with the notes on its classes, and the sensor of each node if that is asked.
 ///
@@ -38,7 +59,7 @@ pub(super) fn read<'a>(
 /// What the graph determines, and with what shows it if it is to be certified.
 ///
 /// # Errors
-/// If the work was stopped; a graph without pairs, or with shared intrinsics, that is to be certified.
+/// If the work was stopped; a graph without pairs that is to be certified.
 pub(super) fn decide(
     input: &NamedGraph,
     verdict: &Verdict,
@@ -53,13 +74,30 @@ pub(super) fn decide(
             None,
         ));
     }
-    ensure!(
-        sensors.shared().is_empty(),
-        "{INTRINSICS}: certificates do not state shared intrinsics yet; leave out {CERTIFICATE}"
-    );
     let found = Certified::new(graph, verdict, sensors, seed, watch)?;
     let found = found.with_context(|| {
         format!("{INTRINSICS}: a graph without pairs has no certificate; leave out {CERTIFICATE}")
     })?;
     Ok((found.metric.clone(), Some(found)))
+}
+
+/// What the pairs of a database determine by the prior focal lengths and cameras in it, or why that is not
+/// known: a database may be of other programs that write no cameras.
+///
+/// # Errors
+/// If the work was stopped.
+pub(super) fn of_database(
+    session: &Session,
+    path: &Path,
+    input: &NamedGraph,
+    verdict: &Verdict,
+) -> Result<Result<IntrinsicsLine, String>> {
+    let found = match intrinsics::of_database(path, input, true) {
+        Ok(found) => found.sensors,
+        Err(error) => return Ok(Err(error.problem.to_string())),
+    };
+    let (seed, watch) = (Options::default().seed, session.shown_watch());
+    let metric = Metric::with_sensors(&input.graph, verdict, &found, seed, &watch);
+    session.hide();
+    Ok(Ok(IntrinsicsLine::new(input, &found, &metric?, false)))
 }

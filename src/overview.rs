@@ -6,6 +6,7 @@
 //! kept waiting while something is decided.
 
 use super::input::{self, Input, InputArguments, Inputs};
+use super::intrinsics;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::cell::OnceCell;
@@ -192,6 +193,12 @@ fn overview(
         Ok((input, [projective, decided(input, Model::Calibrated)?]))
     });
     let pairs = pairs.transpose()?;
+    let intrinsics = match (&pairs, &source.database) {
+        (Some((input, [verdict, _])), Some(_)) => {
+            Some(intrinsics::of_database(session, path, input, verdict)?)
+        }
+        _ => None,
+    };
     let tracks = source
         .tracks
         .as_ref()
@@ -264,6 +271,7 @@ fn overview(
         pairs: pairs
             .as_ref()
             .map(|(input, verdicts)| verdicts.each_ref().map(|v| report(*input, v, &no_joints))),
+        intrinsics,
         tracks: tracks.as_ref().map(|(input, verdict)| Report {
             scope: &scope,
             ..report(*input, verdict, &advice)

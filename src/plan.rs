@@ -6,7 +6,7 @@
 
 use super::certificates::Target;
 use super::given;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use viewcert::Known;
 use viewcert::decide::Meaningless;
@@ -38,6 +38,8 @@ pub(super) struct Plan {
     pub(super) asked: Asked,
     /// What is asked about the answer.
     pub(super) request: Request,
+    /// Priors on intrinsics, so many at most.
+    pub(super) priors: Option<u32>,
     /// Files that are written.
     pub(super) products: Products,
     /// How the report is printed.
@@ -72,8 +74,6 @@ impl From<Option<PathBuf>> for IntrinsicsFrom {
 pub(super) struct Products {
     /// The certificate, or the folder for the certificates of all graphs.
     pub(super) certificate: Option<PathBuf>,
-    /// Whether certificates hold graphs of any size.
-    pub(super) embed_graph: bool,
     /// The explicit proof.
     pub(super) proof: Option<PathBuf>,
     /// Two families of cameras with the same fundamental matrices.
@@ -130,6 +130,7 @@ impl Plan {
             seed,
             asked: Asked::default(),
             request: Request::default(),
+            priors: None,
             products: Products::default(),
             form: Form::Text,
             list_components: false,
@@ -140,7 +141,11 @@ impl Plan {
     ///
     /// # Errors
     /// By name, what does not go together, and what to leave out.
-    pub(super) fn checked(self) -> Result<Self> {
+    pub(super) fn checked(mut self) -> Result<Self> {
+        if self.intrinsics.is_some() {
+            // Cameras to calibrate are suggested then, not images to match.
+            self.priors = self.request.suggest.take();
+        }
         self.check_question()?;
         self.check_intrinsics()?;
         self.check_products()?;
@@ -199,6 +204,11 @@ impl Plan {
             !self.draft.whole_graph,
             "{INTRINSICS}: is decided between bodies; leave out --method matrix"
         );
+        if let Some(option) = self.request.asked_without_classes() {
+            bail!(
+                "{INTRINSICS}: {option} weighs pairs by the projective verdict alone; leave out one of the two"
+            );
+        }
         ensure!(
             self.products.proof.is_none(),
             "{INTRINSICS}: explicit proofs do not state classes of cameras; leave out {PROOF}"
@@ -269,7 +279,7 @@ impl Plan {
     /// If one file is meant and there are several graphs.
     pub(super) fn target(&self) -> Option<Target> {
         let path = self.products.certificate.as_deref()?;
-        Some(Target::new(path, self.products.embed_graph))
+        Some(Target::new(path))
     }
 
     /// How a graph is decided of which this is known.

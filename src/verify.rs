@@ -2,7 +2,8 @@
 
 use super::bounds::Bounds;
 use super::given::GivenArguments;
-use super::plan::{Form, IntrinsicsFrom, Plan};
+use super::intrinsics::IntrinsicsArguments;
+use super::plan::{Form, Plan};
 use super::question::{GRAPHS, QuestionArguments};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
@@ -40,23 +41,19 @@ pub(super) struct VerifyArguments {
     /// exit code is that of this case.
     #[arg(long, conflicts_with = "tracks")]
     planar: bool,
-    /// What is not known of the intrinsics of each camera, from FILE: lines `known A B`, `focal C`,
-    /// `focal+point D`, `unknown E`, `default focal`, and `shared focal F G` for images of one sensor.
-    /// Does the graph determine cameras and intrinsics? Without FILE: by the prior focal lengths and
-    /// `camera_id` of the graph's own COLMAP database; `free`: without prior ones.
-    #[arg(long, value_name = "FILE", num_args = 0..=1)]
-    intrinsics: Option<Option<PathBuf>>,
+    #[command(flatten)]
+    intrinsics: IntrinsicsArguments,
     /// Count the solutions of graphs that are finite solvable.
     #[arg(long, value_enum, value_name = "HOW", num_args = 0..=1, require_equals = true)]
     #[arg(default_value = "quick", default_missing_value = "quick")]
     solutions: Solutions,
-    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard
-    /// output, and the report to standard error).
+    /// Write a certificate to this file, or for every graph to this folder (`-`: to standard output, and
+    /// the report to standard error).
+    ///
+    /// In a folder certificates hold their graphs, up to 10,000 cameras (elsewhere up to 100), so that `verify
+    /// check FOLDER` needs nothing else.
     #[arg(long, value_name = "PATH")]
     certificate: Option<PathBuf>,
-    /// Embed graphs of any size in their certificates.
-    #[arg(long, requires = "certificate")]
-    embed_graph: bool,
     /// Write the explicit proof to this file: what `viewcert-proved` verifies (docs/proof.md).
     #[arg(long, value_name = "FILE")]
     proof: Option<PathBuf>,
@@ -124,7 +121,7 @@ impl VerifyArguments {
     pub(super) fn plan(&self) -> Result<Plan> {
         let mut plan = self.question.plan(&self.graphs)?;
         plan.given = self.given.path().map(Into::into);
-        plan.intrinsics = self.intrinsics.clone().map(IntrinsicsFrom::from);
+        plan.intrinsics = self.intrinsics.from();
         plan.draft.whole_graph = matches!(self.method, MethodName::Matrix);
         plan.draft.counting = !matches!(self.method, MethodName::Ranks);
         if let Some(Bounds {
@@ -148,7 +145,6 @@ impl VerifyArguments {
         }
         plan.asked.planar = self.planar;
         plan.products.certificate = self.certificate.clone();
-        plan.products.embed_graph = self.embed_graph;
         plan.products.proof = self.proof.clone();
         if let Some(name) = self.table {
             plan.form = Form::Table(name.into());

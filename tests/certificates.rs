@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Run, TABLE_1, cycle, data, geng, verify, verify_with};
+use common::{Run, TABLE_1, cycle, data, geng, root, verify, verify_with};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -79,8 +79,9 @@ fn samples() -> Vec<(&'static str, String, Vec<&'static str>)> {
 
 fn certificate(list: &str, options: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("c.json");
-    let arguments = ["-", "--certificate", path.to_str().unwrap()];
+    let path = folder.path().join("stdin.json");
+    // In a folder, a certificate holds its graph.
+    let arguments = ["-", "--certificate", folder.path().to_str().unwrap()];
     let run = verify_with(list.as_bytes(), &[&arguments, options].concat());
     assert!(run.code <= 1, "{}", run.err);
     std::fs::read_to_string(path).unwrap()
@@ -227,7 +228,7 @@ fn large_cores_by_a_small_prime() {
     std::fs::write(graph.path(), &both).unwrap();
     let path = graph.path().to_str().unwrap();
     let primes = |options: &[&str]| {
-        let text = certificate(&both, &[options, &["--embed-graph"]].concat());
+        let text = certificate(&both, options);
         let run = check(&text);
         assert_eq!(run.code, 0, "{}{}", run.out, run.err);
         let value: Value = serde_json::from_str(&text).unwrap();
@@ -603,6 +604,16 @@ fn folders_and_lists_are_checked_whole() {
         run.out
     );
 
+    // Of the two other kinds.
+    let tests = root().join("crates/check/tests");
+    let others = ["here/line.json", "intrinsics/twins.json"];
+    for (name, other) in ["c.json", "d.json"].into_iter().zip(others) {
+        std::fs::copy(tests.join(other), path.join(name)).unwrap();
+    }
+    let run = verify(&["check", path.to_str().unwrap()]);
+    let all = "5 certificates verified, 0 rejected";
+    assert!(run.code == 0 && run.out.contains(all), "{}", run.out);
+
     let bad = lines.replace("\"value\":28", "\"value\":27");
     assert_ne!(bad, lines);
     std::fs::write(path.join("sub/b.jsonl"), bad).unwrap();
@@ -610,7 +621,7 @@ fn folders_and_lists_are_checked_whole() {
     assert_eq!(run.code, 1);
     assert!(run.out.contains("b.jsonl:1: "), "{}", run.out);
     assert!(
-        run.out.contains("2 certificates verified, 1 rejected"),
+        run.out.contains("4 certificates verified, 1 rejected"),
         "{}",
         run.out
     );

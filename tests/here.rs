@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Run, first_checker, root, second_checker, verify};
+use common::{Run, first_checker, root, second_checker, verify, verify_with};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
@@ -111,6 +111,113 @@ fn a_line_and_a_plane() {
     assert_eq!(here["means"], "these cameras are the only ones");
     assert_eq!(here["special"][0]["kind"], "coplanar");
     verified(&certificate);
+}
+
+/// Cameras and what is given besides, from standard input.
+#[test]
+fn from_standard_input() {
+    let cameras = "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n";
+    let scene = Scene::new(PAIRS, cameras);
+    let expected = scene.run("projective", &["--json"]).json().remove(0);
+    let pairs = scene.file("pairs.txt");
+    let run = verify_with(cameras.as_bytes(), &[&pairs, "--cameras", "-", "--json"]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);
+    // Comments first, an array, and what is no camera.
+    let long = format!("{}{cameras}", "# comment\n".repeat(100));
+    let run = verify_with(long.as_bytes(), &[&pairs, "--given", "-", "--json"]);
+    assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);
+    let run = verify_with(b"part a b c\n", &[&pairs, "--given", "-", "--json"]);
+    let line = run.json().remove(0);
+    assert_eq!((run.code, &line["at_cameras"]), (0, &Value::Null));
+    assert_eq!(line["parts"], 1, "{line}");
+    for (text, expected) in [
+        ("centre a 0 0 0\n", "-: "),
+        ("centre a 0 x 0\n", "-:1: "),
+        ("nonsense a b\n", "-:1: "),
+        ("", "-: "),
+    ] {
+        let run = verify_with(text.as_bytes(), &[&pairs, "--given", "-"]);
+        assert_eq!(run.code, 2, "{text}: {}", run.out);
+        assert!(run.err.contains(expected), "{text}: {}", run.err);
+    }
+}
+
+/// A quadrangle in a plane, by hand: the pair a b is held still, c goes along b c by (1, 3), d along a d by
+/// (-1, 2) 17/13, and their difference along c d.
+#[test]
+fn what_moves_is_drawn() {
+    let example = |name: &str| {
+        let path = root().join("examples/degenerate").join(name);
+        path.display().to_string()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let [svg, page] = ["motion.svg", "page.html"].map(|name| folder.path().join(name));
+    let (pairs, cameras) = (example("square-pairs.txt"), example("square-cameras.txt"));
+    let run = verify(&[
+        "draw",
+        &pairs,
+        svg.to_str().unwrap(),
+        page.to_str().unwrap(),
+        "--model",
+        "calibrated",
+        "--cameras",
+        &cameras,
+    ]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    let [svg, page] = [svg, page].map(|path| std::fs::read_to_string(path).unwrap());
+    assert!(svg.contains("motion 1 of 1: 2 cameras move"), "{svg}");
+    let arrows: Vec<[f64; 2]> = svg
+        .lines()
+        .filter(|line| line.starts_with("<line") && line.contains("stroke:#222"))
+        .map(|line| {
+            let number = |name: &str| {
+                let from = line.find(&format!("{name}=\"")).unwrap() + name.len() + 2;
+                let text = &line[from..];
+                text[..text.find('"').unwrap()].parse::<f64>().unwrap()
+            };
+            // Up is up.
+            [number("x2") - number("x1"), number("y1") - number("y2")]
+        })
+        .collect();
+    let [c, d] = arrows[..] else {
+        panic!("{arrows:?}")
+    };
+    assert!(
+        (c[1] / c[0] - 3.0).abs() < 0.05 && (d[1] / d[0] + 2.0).abs() < 0.05,
+        "{arrows:?}"
+    );
+    assert!(
+        (d[1] / c[1] - 2.0 * 17.0 / (13.0 * 3.0)).abs() < 0.02,
+        "{arrows:?}"
+    );
+    assert!(!svg.contains("<animate") && page.contains("<section id=\"motion\">"));
+    // Four lines with four ends each, two discs with two coordinates.
+    assert_eq!(page.matches("<animate ").count(), 4 * 4 + 2 * 2);
+    // The same at cameras that hold: the picture of the graph, and no motion.
+    let held = folder.path().join("held.txt");
+    std::fs::write(
+        &held,
+        "centre a 0 0 0\ncentre b 4 0 1\ncentre c 5 3 0\ncentre d -1 2 3\n",
+    )
+    .unwrap();
+    let page = folder.path().join("held.html");
+    let files = [held.to_str().unwrap(), page.to_str().unwrap()];
+    let run = verify(&[
+        "draw",
+        &pairs,
+        files[1],
+        "--model",
+        "calibrated",
+        "--cameras",
+        files[0],
+    ]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(
+        !std::fs::read_to_string(page)
+            .unwrap()
+            .contains("<section id=\"motion\">")
+    );
 }
 
 #[test]

@@ -16,7 +16,10 @@ fn with(graph: &str, classes: &str, more: &[&str]) -> Run {
         path.to_str().unwrap().to_owned()
     };
     let (graph, classes) = (path("graph.txt", graph), path("classes.txt", classes));
-    verify(&[&[&graph, "--intrinsics", &classes][..], more].concat())
+    // A command comes first.
+    let (command, more) = more.split_at(usize::from(more.first() == Some(&"advise")));
+    let words = [&graph, "--intrinsics", &classes];
+    verify(&[command, &words[..], more].concat())
 }
 
 fn intrinsics(run: &Run) -> Value {
@@ -206,4 +209,119 @@ fn databases_know_their_focal_lengths() {
     let run = verify(&[&name(&text), "--intrinsics"]);
     assert_eq!(run.code, 2);
     assert!(run.err.contains("no COLMAP database"), "{}", run.err);
+}
+
+/// Two triangles with one camera, and a pair that hangs on; `t` and `u` are images of one phone.
+const MIXED: &str = "a b\na c\nb c\nc t\nc u\nt u\nu e\n";
+const CLASSES: &str = "focal+point a\nfocal+point b\nshared unknown t u\ndefault unknown\n";
+
+#[test]
+fn a_prior_does_what_it_is_said_to_do() {
+    let run = with(MIXED, CLASSES, &["advise", "--json"]);
+    let found = intrinsics(&run);
+    let priors = &found["priors"];
+    assert_eq!(priors["if_all_known"], "not-metric");
+    let each = priors["each"].as_array().unwrap();
+    assert_eq!(priors["sensors"], each.len());
+    // What the decision says once they are known, by another way.
+    for prior in each {
+        let labels = prior["labels"].as_array().unwrap();
+        let labels: Vec<&str> = labels.iter().map(|label| label.as_str().unwrap()).collect();
+        let of = labels.join(" ");
+        let lines = CLASSES.lines().filter(|line| !line.ends_with(&of));
+        let then = format!("known {of}\n{}\n", lines.collect::<Vec<_>>().join("\n"));
+        let then = intrinsics(&with(MIXED, &then, &["--json"]));
+        for name in [
+            "verdict",
+            "proved",
+            "rank",
+            "rank_at_most",
+            "rank_required",
+            "determined",
+        ] {
+            assert_eq!(prior[name], then[name], "{name}: {labels:?}");
+        }
+        let largest = &then["components"][0]["nodes"];
+        assert_eq!(
+            prior["largest"].as_u64().unwrap(),
+            largest.as_u64().unwrap_or(0)
+        );
+        let own = labels.len() as u64;
+        let before = found["determined"].as_u64().unwrap();
+        let after = then["determined"].as_u64().unwrap();
+        assert_eq!(
+            prior["others"].as_u64().unwrap(),
+            after - before - own,
+            "{labels:?}"
+        );
+    }
+    // By Theorem 17.12: c and each of a and b (5 and 2 and 2 conditions) make one triangle metric, c and
+    // the phone (5 and 5) the other one.
+    let labels = serde_json::json!(["c"]);
+    let of_c = each.iter().find(|prior| prior["labels"] == labels).unwrap();
+    assert_eq!((&of_c["others"], &of_c["largest"]), (&4.into(), &3.into()));
+    // No more than are asked for.
+    let run = with(MIXED, CLASSES, &["advise", "--json", "--suggest=1"]);
+    assert_eq!(
+        intrinsics(&run)["priors"]["each"].as_array().unwrap().len(),
+        1
+    );
+}
+
+#[test]
+fn advice_on_priors_is_in_words() {
+    let run = with(TRIANGLE, "known a\n", &["advise"]);
+    assert_eq!(run.code, 1);
+    for words in [
+        "suggested   to calibrate one more (the best of 2 sensors that are not determined; 1 other is as good as the first):",
+        "    all five intrinsics of b: metric, all cameras and intrinsics (proved)",
+    ] {
+        assert!(run.out.contains(words), "{words}: {}", run.out);
+    }
+    let said = |graph: &str, classes: &str, words: &str| {
+        let run = with(graph, classes, &["advise"]);
+        assert!(run.out.contains(words), "{words}: {}", run.out);
+    };
+    said(
+        TRIANGLE,
+        "default known\n",
+        "nothing to calibrate: the graph is metric",
+    );
+    // A path of known cameras: their scales are not determined, and no prior changes that.
+    let path = "a b\nb c\n";
+    said(
+        path,
+        "default known\n",
+        "nothing to calibrate: all intrinsics are determined",
+    );
+    said(
+        path,
+        "default known\n",
+        "with all intrinsics known it is not metric either (proved)",
+    );
+    // Of three, two have to be known.
+    said(
+        TRIANGLE,
+        "default unknown\n",
+        "none alone determines anything else: it takes several",
+    );
+    for option in [
+        "--weak",
+        "--surplus",
+        "--redundant=1",
+        "--implied",
+        "--explain=a",
+        "--sweep=20",
+        "--margin",
+    ] {
+        let run = with(TRIANGLE, "known a\n", &["advise", option]);
+        assert_eq!(run.code, 2, "{option}");
+        let name = option.split('=').next().unwrap();
+        assert!(
+            run.err
+                .contains(&format!("--intrinsics: {name} weighs pairs")),
+            "{}",
+            run.err
+        );
+    }
 }

@@ -6,7 +6,7 @@ use common::{TABLE_1, data, first_checker, geng, run_with, second_checker, verif
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
@@ -135,6 +135,52 @@ fn random_scene(random: &mut ChaCha8Rng) -> Scene {
         .collect();
     let pairs: String = pairs.iter().map(|(i, j)| format!("n{i} n{j}\n")).collect();
     Scene::new(&pairs, &classes)
+}
+
+/// The same with sensors: of each class the cameras are divided at random among some of them.
+fn random_sensors(random: &mut ChaCha8Rng) -> Scene {
+    let scene = random_scene(random);
+    let classes = fs::read_to_string(scene.file("classes.txt")).unwrap();
+    let mut sensors: BTreeMap<(&str, u32), String> = BTreeMap::new();
+    let most = random.random_range(1..5);
+    for line in classes.lines() {
+        let (class, camera) = line.split_once(' ').unwrap();
+        let sensor = sensors.entry((class, random.random_range(0..most)));
+        *sensor.or_default() += &format!(" {camera}");
+    }
+    let lines = sensors.iter();
+    let lines: String = lines
+        .map(|((class, _), cameras)| format!("shared {class}{cameras}\n"))
+        .collect();
+    fs::write(scene.file("classes.txt"), lines).unwrap();
+    scene
+}
+
+#[test]
+fn random_mixtures_of_sensors() {
+    let mut random = ChaCha8Rng::seed_from_u64(16);
+    let (mut lines, mut metric, mut partly, mut shared, mut rows) = (String::new(), 0, 0, 0, 0);
+    for _ in 0..500 {
+        let (report, certificate) = random_sensors(&mut random).decided();
+        same(&report, &certificate);
+        assert_eq!(report["proved"], true, "{certificate}");
+        // Certificates list the sensors that the report counts.
+        let count = |value: &Value| value.as_array().map_or(0, Vec::len);
+        assert_eq!(count(&report["shared"]), count(&certificate["shared"]));
+        metric += usize::from(report["verdict"] == "metric");
+        partly += usize::from(
+            report["verdict"] != "metric" && report["components"] != Value::Array(vec![]),
+        );
+        shared += usize::from(certificate.get("shared").is_some());
+        rows += usize::from(certificate["rows"] != Value::Array(vec![]));
+        lines += &format!("{certificate}\n");
+    }
+    assert!(
+        metric > 50 && partly > 50 && shared > 300 && rows > 100,
+        "{metric} {partly} {shared} {rows}"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    both_verify(folder.path(), &lines, 500);
 }
 
 #[test]
@@ -305,6 +351,46 @@ fn classes_that_are_expected() {
 }
 
 #[test]
+fn sensors_that_are_expected() {
+    let scene = Scene::new("a b\na c\nb c\n", "shared unknown a b c\n");
+    let (report, certificate) = scene.decided();
+    assert_eq!(certificate["shared"], serde_json::json!([[0, 1, 2]]));
+    let [pairs, classes, path] =
+        ["pairs.txt", "classes.txt", "c.json"].map(|name| scene.file(name));
+    let hash = report["classes_sha256"].as_str().unwrap();
+    let check = || verify(&["check", &path, &pairs, "--intrinsics", &classes]);
+    let run = check();
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+    for line in [
+        format!("VERIFIED with classes {hash} (3 unknown; 1 shared by 3)"),
+        // Three images of one camera determine it: 18 + 5 unknowns, less 7.
+        "VERIFIED verdict on intrinsics metric (proof)".into(),
+        "VERIFIED metric rank 16 to 16 of 16 (proof)".into(),
+    ] {
+        assert!(run.out.contains(&line), "{line}: {}", run.out);
+    }
+    let run = second_checker(&[&path, "--classes", hash]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains("3 unknown; 1 shared by 3"), "{}", run.out);
+    for others in [
+        "default unknown\n",
+        "shared unknown a b\nunknown c\n",
+        "shared focal a b c\n",
+    ] {
+        fs::write(&classes, others).unwrap();
+        let run = check();
+        assert_eq!(run.code, 1, "{others}: {}{}", run.out, run.err);
+        assert!(run.out.contains("another hash"), "{}", run.out);
+    }
+    // What is known is not shared, whoever took it.
+    fs::write(&classes, "shared known a b c\n").unwrap();
+    let (_, certificate) = scene.decided();
+    assert!(certificate.get("shared").is_none(), "{certificate}");
+    fs::write(&classes, "known a b c\n").unwrap();
+    assert_eq!(check().code, 0);
+}
+
+#[test]
 fn graphs_without_pairs_have_no_certificate() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
@@ -356,6 +442,38 @@ fn databases() {
     ] {
         let run = verify(&[&["check", &certificate, &database], more].concat());
         assert_eq!(run.code, code, "{more:?}: {}{}", run.out, run.err);
+    }
+    let plain = plain(&database, folder.path());
+    assert_eq!(second_checker(&[&certificate, &plain]).code, 0);
+}
+
+#[test]
+fn databases_with_images_of_one_camera() {
+    let Some(data) = data() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (database, certificate) = (path("banana.db"), path("c.json"));
+    fs::copy(data.join("colmap/photos_banana.db"), &database).unwrap();
+    let run = verify(&[
+        &database,
+        "--certificate",
+        &certificate,
+        "--intrinsics",
+        "free",
+    ]);
+    assert_eq!(run.code, 1, "{}{}", run.out, run.err);
+    for (more, code) in [
+        (&["--intrinsics", "free"][..], 0),
+        // Priors make them known, and nothing is shared then.
+        (&["--intrinsics"], 1),
+        (&[], 0),
+    ] {
+        let run = verify(&[&["check", &certificate, &database], more].concat());
+        assert_eq!(run.code, code, "{more:?}: {}{}", run.out, run.err);
+        let shared = "16 focal; 1 shared by 16";
+        assert!(code == 1 || run.out.contains(shared), "{}", run.out);
     }
     let plain = plain(&database, folder.path());
     assert_eq!(second_checker(&[&certificate, &plain]).code, 0);

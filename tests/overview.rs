@@ -472,3 +472,49 @@ fn commands_name_the_database() {
         }
     }
 }
+
+/// What a database knows of its cameras: of pairs between cameras with known or unknown focal lengths the
+/// calibrated verdict decides (theory, Corollary 17.10), and images without pairs are not determined.
+#[test]
+fn an_overview_says_which_intrinsics_are_determined() {
+    let Some(samples) = samples() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut metric = 0;
+    for name in [
+        "photos_lund.db",
+        "photos_banana.db",
+        "synthetic_sparse.db",
+        "clusters_shared_image.db",
+    ] {
+        let copy = folder.path().join(name);
+        std::fs::copy(samples.join(name), &copy).unwrap();
+        let run = verify(&["overview", "--json", copy.to_str().unwrap()]);
+        let line = valid(&schema(), &run).remove(0);
+        let (found, pairs) = (&line["intrinsics"], &line["pairs"]);
+        let is_metric = found["verdict"] == "metric";
+        assert_eq!(
+            is_metric,
+            pairs["calibrated"]["verdict"] != "not-finite-solvable",
+            "{name}"
+        );
+        assert_eq!(found["proved"], true, "{name}");
+        metric += usize::from(is_metric);
+        let classes = found["classes"].as_array().unwrap().iter();
+        let cameras: u64 = classes
+            .map(|class| class["cameras"].as_u64().unwrap())
+            .sum();
+        assert_eq!(pairs["images"], cameras, "{name}");
+        let asked = verify(&["--json", copy.to_str().unwrap(), "--intrinsics"])
+            .json()
+            .remove(0);
+        assert_eq!(asked["intrinsics"], *found, "{name}");
+        let run = verify(&["overview", copy.to_str().unwrap()]);
+        assert!(run.out.contains("  intrinsics  "), "{}", run.out);
+    }
+    assert!(metric >= 2, "{metric}");
+    // What is no database knows nothing of them.
+    let run = verify_with(TWO.as_bytes(), &["overview", "-", "--json"]);
+    assert!(run.json()[0].get("intrinsics").is_none());
+}

@@ -337,6 +337,54 @@ fn surplus_is_drawn_over_the_picture() {
     assert_eq!(found[0][1], "0 of 7");
 }
 
+/// Two triangles with one camera and a pair that hangs on: with two calibrated cameras in each triangle
+/// both are metric, and nothing is known of what hangs on (theory, Theorem 17.3).
+#[test]
+fn intrinsics_are_drawn_over_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let classes = folder.path().join("classes.txt");
+    fs::write(&classes, "known a c d\n").unwrap();
+    let asked = [
+        "-",
+        "--json",
+        "--intrinsics",
+        classes.to_str().unwrap(),
+        "--suggest",
+    ];
+    let page = Page::of(b"a b\na c\nb c\nc d\nc e\nd e\ne f\n", &asked);
+    let report = page.report();
+    assert_eq!(report["intrinsics"]["verdict"], "not-metric");
+    let Some(browser) = Browser::find() else {
+        return;
+    };
+    let opened = page.opened(&browser, "");
+    agrees(&opened, &report);
+    let lines = |part: &str| {
+        let (before, _) = opened.split_once(&format!("data-metric=\"{part}\""))?;
+        Some(
+            before[before.rfind("<path").unwrap()..]
+                .matches('M')
+                .count(),
+        )
+    };
+    let found = ["1", "2", "3", "none"].map(lines);
+    assert_eq!(found, [Some(3), Some(3), None, Some(1)]);
+    let rings = |determined: bool| {
+        opened
+            .matches(&format!("data-determined=\"{determined}\""))
+            .count()
+    };
+    assert_eq!((rings(true), rings(false)), (5, 1));
+    assert!(opened.contains("data-metric-verdict=\"not-metric\""));
+    let found = section(&opened, "part-intrinsics");
+    let tables: Vec<&str> = found.split("<tbody>").skip(1).collect();
+    assert_eq!(tables.len(), 3);
+    for (table, words) in tables.iter().zip(["133", "f", "funknownnot-metric603"]) {
+        let body = text_of(table.split_once("</tbody>").unwrap().0);
+        assert!(body.starts_with(words), "{body}");
+    }
+}
+
 /// A page of cameras and points: its numbers are those of the JSON, and of the graph by hand.
 #[test]
 fn cameras_and_points_have_a_page() {

@@ -440,11 +440,14 @@ fn bodies_by_rank_with_parts() {
         format!("{here} {right}\n{here} {below}\n")
     };
     let files = Files::new(&cells.map(around).collect::<String>(), "0 18 40\n");
-    let certificate = files.name("certificate.json");
-    let run = files.verify(&["--json", "--embed-graph", "--certificate", &certificate]);
+    let folder = files.path("certificates");
+    fs::create_dir(&folder).unwrap();
+    let run = files.verify(&["--json", "--certificate", folder.to_str().unwrap()]);
     let line = &run.json()[0];
     assert_eq!(line["verdict"], "finite-solvable");
     assert_eq!((&line["parts"], &line["rank"]), (&1.into(), &3164.into()));
+    let only = fs::read_dir(&folder).unwrap().next().unwrap().unwrap();
+    let certificate = only.path().to_str().unwrap().to_owned();
     let text = fs::read_to_string(&certificate).unwrap();
     let value: serde_json::Value = serde_json::from_str(&text).unwrap();
     let bodies = value["bodies"].as_array().unwrap();

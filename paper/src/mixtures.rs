@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use viewcert::decide::{
     CountSolutions, Options, Projective, Question, Verdict, VerdictError, decide,
 };
-use viewcert::graph::Graph;
-use viewcert::intrinsics::{Class, Metric, Sensors};
+use viewcert::graph::{Graph, graph6};
+use viewcert::intrinsics::{Certified, Class, Metric, Sensors};
 
 /// So many nodes at most: symmetries are found by trying all n! of them.
 pub const MOST_NODES: usize = 8;
@@ -214,6 +214,30 @@ impl<'a> Asked<'a> {
         let least = metric.iter().filter(is_least);
         let least = least.map(|of_node| of_node.to_vec()).collect();
         Ok(Cases { all, least })
+    }
+
+    /// The certificate of one assignment, a line.
+    ///
+    /// # Errors
+    /// If the work was stopped.
+    ///
+    /// # Panics
+    /// If the graph has no edge.
+    pub fn certificate(
+        &self,
+        kind: Kind,
+        of_node: &[u8],
+        options: &Options,
+    ) -> Result<Vec<u8>, VerdictError> {
+        let (sensors, watch) = (kind.sensors(of_node), &options.watch);
+        let found = Certified::new(self.graph, &self.verdict, &sensors, 1, watch)?;
+        let found = found.expect("a connected graph of two nodes has an edge");
+        let name = [&*graph6::encode(self.graph), &*kind.letters(of_node)].join(" ");
+        let mut line = Vec::new();
+        found
+            .write_line((self.graph, &name), &self.verdict, &mut line)
+            .expect("memory takes all bytes");
+        Ok(line)
     }
 
     /// The first of all assignments that symmetries make of one.

@@ -137,6 +137,44 @@ fn least_assignments_say_which_are_metric() {
 }
 
 #[test]
+fn every_assignment_has_its_certificate() {
+    let folder = tempfile::tempdir().unwrap();
+    let [list, lines] = ["list.tsv", "all.jsonl"].map(|name| folder.path().join(name));
+    let [list, lines] = [&list, &lines].map(|path| path.to_str().unwrap());
+    let run = workshop(&graphs(4), &["--list", list, "--certificates", lines]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = std::fs::read_to_string(list).unwrap();
+    let certificates = std::fs::read_to_string(lines).unwrap();
+    let claims = certificates.lines().map(|line| {
+        let certificate: serde_json::Value = serde_json::from_str(line).unwrap();
+        let claim = &certificate["claim"];
+        ["at_least", "at_most", "required"].map(|name| claim[name].to_string())
+    });
+    let decided = rows.lines().skip(1).map(|row| {
+        let cells: Vec<&str> = row.split('\t').collect();
+        [cells[3], cells[4], cells[5]].map(str::to_owned)
+    });
+    assert!(claims.eq(decided));
+    let count = rows.lines().count() - 1;
+    // Both checkers accept all of them.
+    let checked = common::run("verify", &["check", lines]);
+    assert_eq!(checked.code, 0, "{}", checked.out);
+    let all = format!("{count} certificates verified, 0 rejected");
+    assert!(checked.out.contains(&all), "{}", checked.out);
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let checker = root().join("crates/check/second/check.py");
+    let second = Command::new(python)
+        .arg(checker)
+        .args(["--list", lines])
+        .output();
+    let second = second.unwrap();
+    let said = String::from_utf8(second.stdout).unwrap();
+    assert!(second.status.success(), "{said}");
+    let all = format!("{count} verified, 0 rejected, 0 too large");
+    assert!(said.contains(&all), "{said}");
+}
+
+#[test]
 fn what_is_too_large_is_refused() {
     let run = workshop("K~~~~~~~~~~~\n", &[]);
     assert_eq!(run.code, 2);

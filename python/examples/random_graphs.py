@@ -38,7 +38,7 @@ def connected(density: float, seed: int) -> Any:
     return graph
 
 
-def table(graphs: int) -> dict[int, list[viewcert.Verdict]]:
+def table(graphs: int) -> dict[int, list[viewcert.Verdict[Any]]]:
     found = {}
     print("density %   finite solvable   components")
     for percent in (5, 10, 20, 30, 40):
@@ -50,7 +50,7 @@ def table(graphs: int) -> dict[int, list[viewcert.Verdict]]:
     return found
 
 
-def plot(found: dict[int, list[viewcert.Verdict]], path: str) -> None:
+def plot(found: dict[int, list[viewcert.Verdict[Any]]], path: str) -> None:
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots()

@@ -214,18 +214,21 @@ pub(crate) struct VerifiedIntrinsics {
     text: String,
 }
 
-/// Verifies a certificate of intrinsics, for a graph and its classes if they are given.
+/// Verifies a certificate of intrinsics, for a graph and what is known of its intrinsics if it is given:
+/// a class for each sensor, and the sensor of each node.
 #[pyfunction]
-#[pyo3(signature = (certificate, *, graph=None, classes=None, max_operations=None))]
+#[pyo3(signature = (certificate, *, graph=None, sensors=None, max_operations=None))]
 pub(crate) fn check_intrinsics(
     py: Python<'_>,
     certificate: Vec<u8>,
     graph: Option<&Graph>,
-    classes: Option<Vec<String>>,
+    sensors: Option<(Vec<String>, Vec<usize>)>,
     max_operations: Option<u64>,
 ) -> PyResult<VerifiedIntrinsics> {
-    let classes = classes.map(|words| of_words(&words)).transpose()?;
-    let hash = classes.map(|classes| hex(&Sensors::own(&classes).sha256()));
+    let hash = |(words, of_node): (Vec<String>, _)| -> PyResult<String> {
+        Ok(hex(&Sensors::new(of_node, of_words(&words)?).sha256()))
+    };
+    let hash = sensors.map(hash).transpose()?;
     let input = graph.map(|graph| Arc::clone(&graph.0));
     let mut limits = Limits::default();
     limits.operations = max_operations.unwrap_or(limits.operations);

@@ -1,10 +1,10 @@
 //! Verdicts.
 
 use crate::errors::{InputError, of_any, of_deciding};
-use crate::graph::{Graph, pair_array};
+use crate::graph::Graph;
 use crate::work;
 use crate::work::Told;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
@@ -17,11 +17,13 @@ use viewcert::linalg::prime::PrimeField;
 use viewcert::watch::Watch;
 use viewcert::{Arithmetic, CountSolutions, Known, Model, Options, Prime, Verdict};
 use viewcert_advice::noticed::UnknownLoss;
+use viewcert_advice::priors::Priors;
 use viewcert_advice::{Request, Shapes, Weak};
 use viewcert_formats::{NamedGraph, NamedParts, with_rigs};
 use viewcert_report::Report;
 use viewcert_report::assumptions::{self, Scope};
 use viewcert_report::intrinsics::IntrinsicsLine;
+use viewcert_report::priors::PriorsLine;
 use viewcert_session::Outputs;
 
 /// A graph and what was decided about it.
@@ -37,6 +39,24 @@ pub(crate) struct Decided {
 }
 
 impl Decided {
+    /// What was decided of a graph, and how long it took.
+    pub(crate) fn new(
+        input: Arc<NamedGraph>,
+        verdict: Verdict,
+        wanted: &Wanted,
+        time: Duration,
+    ) -> Self {
+        Self {
+            input,
+            verdict: Arc::new(verdict),
+            rational: wanted.bounds.is_some(),
+            planar: wanted.planar,
+            focal: wanted.model == "focal",
+            seed: wanted.seed,
+            time,
+        }
+    }
+
     /// Classes, by their words.
     fn classes(&self, words: &[String]) -> PyResult<Vec<Class>> {
         if self.verdict.model != Model::Projective {
@@ -108,25 +128,84 @@ fn with_vectors(
     Displacements::with_vectors(nodes, items).map_err(|error| wrong(error.to_string()))
 }
 
+/// What is asked of graphs beside what is known of one: a `dict` in Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Wanted {
+    model: String,
+    seed: u64,
+    solutions: Option<String>,
+    planar: bool,
+    bounds: Option<(u64, u64)>,
+    prime: Option<u64>,
+    contraction: bool,
+    counting: bool,
+}
+
+impl Wanted {
+    /// The same as options of the library.
+    ///
+    /// # Errors
+    /// What does not go together, in words.
+    pub(crate) fn options(&self, known: Known, watch: Watch) -> Result<Options, String> {
+        let focal = self.model == "focal";
+        let model = if focal {
+            Model::Calibrated
+        } else {
+            let wrong = || format!("model={:?}: there is no such model", self.model);
+            self.model.parse().map_err(|_| wrong())?
+        };
+        let solutions = match self.solutions.as_deref() {
+            None => CountSolutions::Off,
+            Some("quick") => CountSolutions::Quick,
+            Some("full") => CountSolutions::Full,
+            Some(other) => {
+                let wish = "solutions are counted 'quick' or 'full', or not: None";
+                return Err(format!("solutions={other:?}: {wish}"));
+            }
+        };
+        let prime = match self.prime {
+            None => Prime::Auto,
+            Some(prime) => {
+                let field = PrimeField::new(prime);
+                Prime::Fixed(field.map_err(|error| format!("prime={prime}: {error}"))?)
+            }
+        };
+        let arithmetic = match self.bounds {
+            None => Arithmetic::Prime,
+            Some((numerator, denominator)) => Arithmetic::Rational {
+                numerator,
+                denominator,
+            },
+        };
+        let draft = Draft {
+            model,
+            whole_graph: !self.contraction,
+            arithmetic,
+            counting: self.counting,
+            solutions,
+            known,
+        };
+        let question = draft.question().map_err(|error| error.to_string())?;
+        Ok(Options::default()
+            .question(question)
+            .prime(prime)
+            .seed(self.seed)
+            .watch(watch))
+    }
+}
+
 /// Decides a graph.
 #[pyfunction]
 #[pyo3(signature = (
-    graph, *, model, seed, solutions, planar=false, bounds=None, prime=None,
-    contraction=true, counting=true, parts=None, displacements=None, vectors=None, time_limit=None,
+    graph, wanted, *, parts=None, displacements=None, vectors=None, time_limit=None,
     memory_limit=None, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn decide(
     py: Python<'_>,
     graph: &Graph,
-    model: &str,
-    seed: u64,
-    solutions: Option<&str>,
-    planar: bool,
-    bounds: Option<(u64, u64)>,
-    prime: Option<u64>,
-    contraction: bool,
-    counting: bool,
+    wanted: Wanted,
     parts: Option<Vec<Vec<u32>>>,
     displacements: Option<Vec<Vec<u32>>>,
     vectors: Option<Vec<[String; 3]>>,
@@ -135,28 +214,6 @@ pub(crate) fn decide(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
-    let focal = model == "focal";
-    let model: Model = if focal {
-        Model::Calibrated
-    } else {
-        model.parse().map_err(|error| wrong(&error))?
-    };
-    let solutions = match solutions {
-        None => CountSolutions::Off,
-        Some("quick") => CountSolutions::Quick,
-        Some("full") => CountSolutions::Full,
-        Some(other) => {
-            let wish = "solutions are counted 'quick' or 'full', or not: None";
-            return Err(wrong(&format!("solutions={other:?}: {wish}")));
-        }
-    };
-    let prime = match prime {
-        None => Prime::Auto,
-        Some(prime) => {
-            let field = PrimeField::new(prime);
-            Prime::Fixed(field.map_err(|error| wrong(&format!("prime={prime}: {error}")))?)
-        }
-    };
     let watch = work::watch(time_limit, memory_limit)?;
     let told = Arc::new(Told::default());
     let watched = match &progress {
@@ -179,26 +236,8 @@ pub(crate) fn decide(
         Known::Displacements(displacements)
     };
     let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
-    let arithmetic = bounds.map_or(Arithmetic::Prime, |(numerator, denominator)| {
-        Arithmetic::Rational {
-            numerator,
-            denominator,
-        }
-    });
-    let draft = Draft {
-        model,
-        whole_graph: !contraction,
-        arithmetic,
-        counting,
-        solutions,
-        known,
-    };
-    let question = draft.question().map_err(|error| wrong(&error))?;
-    let options = Options::default()
-        .question(question)
-        .prime(prime)
-        .seed(seed)
-        .watch(watched);
+    let options = wanted.options(known, watched);
+    let options = options.map_err(|why| wrong(&why))?;
     let (decided, threads) = (Arc::clone(&input), work::threads()?);
     let start = Instant::now();
     let decided = work::run(
@@ -208,15 +247,7 @@ pub(crate) fn decide(
         move || threads.install(|| viewcert::decide(&decided.graph, &options)),
     )?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
-    Ok(Decided {
-        input,
-        verdict: Arc::new(verdict),
-        rational: bounds.is_some(),
-        planar,
-        focal,
-        seed,
-        time: start.elapsed(),
-    })
+    Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
 }
 
 #[pymethods]
@@ -307,22 +338,6 @@ impl Decided {
         self.verdict.components.len()
     }
 
-    /// The pairs of a component, an array of shape (k, 2).
-    fn component_pairs<'py>(
-        &self,
-        py: Python<'py>,
-        component: usize,
-    ) -> PyResult<Bound<'py, PyArray2<u32>>> {
-        let edges = py.detach(|| {
-            let component = self.verdict.components.get(component);
-            component.map(|component| component.edges(&self.input.graph))
-        });
-        match edges {
-            Some(edges) => pair_array(py, &edges),
-            None => Err(pyo3::exceptions::PyIndexError::new_err("no such component")),
-        }
-    }
-
     /// The certificate.
     #[pyo3(signature = (*, embed_graph=false, compact=false))]
     fn certificate<'py>(
@@ -355,14 +370,15 @@ impl Decided {
     }
 
     /// The certificate of what is determined if cameras have classes.
-    #[pyo3(signature = (classes, *, embed_graph=false))]
+    #[pyo3(signature = (classes, sensors, *, embed_graph=false))]
     fn certificate_of_intrinsics<'py>(
         &self,
         py: Python<'py>,
         classes: Vec<String>,
+        sensors: Vec<usize>,
         embed_graph: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let sensors = Sensors::own(&self.classes(&classes)?);
+        let sensors = Sensors::new(sensors, self.classes(&classes)?);
         let watch = work::watch(None, None)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
         let (threads, stop, seed) = (work::threads()?, watch.clone(), self.seed);
@@ -420,7 +436,7 @@ impl Decided {
         let redundant = redundant.map(str::parse).transpose();
         let redundant =
             redundant.map_err(|why: UnknownLoss| InputError::new_err(why.to_string()))?;
-        let request = Request {
+        let mut request = Request {
             weak,
             surplus,
             redundant,
@@ -445,7 +461,15 @@ impl Decided {
             let mut scope = Scope::new(&input, &verdict, asked, &stop)?;
             if let Some(sensors) = sensors {
                 let found = Metric::with_sensors(&input.graph, &verdict, &sensors, seed, &stop)?;
-                let line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                let mut line = IntrinsicsLine::new(&input, &sensors, &found, list_components);
+                // Cameras to calibrate are suggested then, not images to match.
+                if let Some(most) = request.suggest.take() {
+                    let priors =
+                        Priors::new(&input.graph, &verdict, &sensors, &found, seed, &stop)?;
+                    let most = most as usize;
+                    let priors = PriorsLine::new(&input, &sensors, &found, &priors, most);
+                    line = line.with_priors(priors);
+                }
                 scope = scope.with_intrinsics(line);
             }
             let outputs = Outputs::default();

@@ -3,7 +3,7 @@
 use crate::errors::{InputError, of_reading};
 use crate::work;
 use numpy::ndarray::ArrayView2;
-use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 use std::path::PathBuf;
@@ -15,6 +15,10 @@ use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
     ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
 };
+
+/// So many pairs are a graph in a millisecond: nobody interrupts that, and a thread of its own would
+/// take as long.
+const AT_ONCE: usize = 10_000;
 
 /// A graph with its labels and notes.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -64,6 +68,13 @@ impl Graph {
         self.0.notes.clone()
     }
 
+    /// The number of inliers of every pair, if it is known.
+    fn inliers<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<u32>>> {
+        let known = self.0.matching.as_ref();
+        let known = known.filter(|_| self.0.cameras.is_none());
+        known.map(|known| PyArray1::from_slice(py, &known.inliers))
+    }
+
     /// SHA-256 of the canonical form.
     fn sha256(&self, py: Python<'_>) -> String {
         py.detach(|| hex(&sha256(&self.0.graph)))
@@ -110,11 +121,16 @@ pub(crate) fn graph_of_integers(
     } else {
         integers::<u32>(py, &pairs.extract()?)
     }?;
-    let built = work::run(py, &Watch::default(), None, move || match found {
+    let small = pairs.len()? <= AT_ONCE;
+    let build = move || match found {
         Integers::Short(found) => pairs::of_integers(&name, found),
         Integers::Long(found) => pairs::of_long_integers(&name, &found),
-    })?;
-    graph(built)
+    };
+    graph(if small {
+        py.detach(build)
+    } else {
+        work::run(py, &Watch::default(), None, build)?
+    })
 }
 
 enum Integers {
@@ -152,7 +168,7 @@ where
 }
 
 /// All pairs as other integers, if they fit.
-fn all<T: Copy + TryInto<U>, U>(view: &ArrayView2<'_, T>) -> Option<Vec<(U, U)>> {
+pub(crate) fn all<T: Copy + TryInto<U>, U>(view: &ArrayView2<'_, T>) -> Option<Vec<(U, U)>> {
     let pair = |a: T, b: T| Some((a.try_into().ok()?, b.try_into().ok()?));
     match view.as_slice() {
         Some(flat) => flat
@@ -170,7 +186,10 @@ fn all<T: Copy + TryInto<U>, U>(view: &ArrayView2<'_, T>) -> Option<Vec<(U, U)>>
 /// The graph on `nodes` nodes with an array of shape (m, 2) of node numbers. Labels are `names`, or
 /// else `integers`, which increase, or else the node numbers.
 #[pyfunction]
-#[pyo3(signature = (nodes, pairs, name, *, names=None, integers=None))]
+#[pyo3(signature = (
+    nodes, pairs, name, *, names=None, integers=None, inliers=None, min_inliers=0
+))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
 pub(crate) fn graph_of_nodes(
     py: Python<'_>,
     nodes: u32,
@@ -178,6 +197,8 @@ pub(crate) fn graph_of_nodes(
     name: String,
     names: Option<Vec<String>>,
     integers: Option<Vec<u64>>,
+    inliers: Option<Vec<u32>>,
+    min_inliers: u32,
 ) -> PyResult<Graph> {
     let labels = match (names, integers) {
         (Some(names), _) => Labels::Names(names.into_iter().map(String::into_boxed_str).collect()),
@@ -196,10 +217,24 @@ pub(crate) fn graph_of_nodes(
     }
     let view = pairs.as_array();
     let found = py.detach(|| all(&view)).unwrap_or_default();
-    let built = work::run(py, &Watch::default(), None, move || {
-        pairs::of_nodes(&name, nodes, labels, found)
-    })?;
-    graph(built)
+    if let Some(given) = inliers.as_ref().map(Vec::len)
+        && given != found.len()
+    {
+        return Err(InputError::new_err(format!(
+            "{given} numbers of inliers for {} pairs",
+            found.len()
+        )));
+    }
+    let small = found.len() <= AT_ONCE;
+    let build = move || match inliers {
+        None => pairs::of_nodes(&name, nodes, labels, found),
+        Some(inliers) => pairs::with_inliers(&name, nodes, labels, found, &inliers, min_inliers),
+    };
+    graph(if small {
+        py.detach(build)
+    } else {
+        work::run(py, &Watch::default(), None, build)?
+    })
 }
 
 fn graph(built: Result<NamedGraph, ReadError>) -> PyResult<Graph> {

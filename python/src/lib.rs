@@ -5,11 +5,14 @@
 //! crate; what a user sees is `lib/viewcert`, in Python. Work is
 //! done without the interpreter's lock, and can be interrupted (`work`).
 
+mod all;
 mod catalog;
 mod check;
 mod decided;
 mod errors;
 mod graph;
+mod kept;
+mod places;
 mod shards;
 mod work;
 
@@ -19,6 +22,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use super::all::decide_all;
+    #[pymodule_export]
     use super::catalog::{Candidates, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
@@ -26,6 +31,10 @@ mod _native {
     use super::decided::{Decided, decide};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+    #[pymodule_export]
+    use super::kept::{about_graph, graph_kept, same_graph};
+    #[pymodule_export]
+    use super::places::{component_of_pairs, pairs_among};
     #[pymodule_export]
     use super::shards::{catalog_merge, catalog_shard};
 

@@ -27,7 +27,10 @@ const REMEMBERED: usize = 1000;
 /// A watch within limits. `memory` is in bytes; by default it is the program's.
 pub(crate) fn watch(seconds: Option<f64>, memory: Option<u64>) -> PyResult<Watch> {
     let time = seconds.map(Duration::try_from_secs_f64).transpose();
-    let time = time.map_err(|error| InputError::new_err(error.to_string()))?;
+    let time = time.map_err(|_| {
+        let seconds = seconds.unwrap_or_default();
+        InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
+    })?;
     Ok(Watch::new(Limits {
         deadline: time.and_then(|time| Instant::now().checked_add(time)),
         memory: memory.or_else(viewcert_session::default_memory_limit),
@@ -158,6 +161,19 @@ impl State {
 }
 
 impl Told {
+    /// Work of so many units, which are counted.
+    pub(crate) fn expecting(what: &str, total: u64) -> Self {
+        let news = News {
+            what: what.to_owned(),
+            done: 0,
+            total,
+        };
+        Self(Mutex::new(State {
+            news: VecDeque::from([news.clone()]),
+            works: vec![(0, news)],
+        }))
+    }
+
     /// Tells the callback what is new, and how far the work is that began last.
     fn tell(&self, py: Python<'_>, callback: &Py<PyAny>) -> PyResult<()> {
         let news: Vec<News> = {

@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import re
 import subprocess
-from typing import Any, NoReturn
+import warnings
+from typing import Any, Iterator, NoReturn
 
 import pytest
+import viewcert
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -27,6 +30,29 @@ def data() -> pathlib.Path:
     if not path.is_dir():
         absent(f"the published data are not at {path}")
     return path.resolve()
+
+
+@pytest.fixture(autouse=True)
+def in_words_of_python(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Listens to all that the package raises and warns of: nothing names options of the program."""
+    said: list[str] = []
+    construct, warn = viewcert.Error.__init__, warnings.warn
+
+    def raised(error: viewcert.Error, *arguments: object) -> None:
+        construct(error, *arguments)
+        said.append(" ".join(map(str, error.args)))
+
+    def warned(message: Any, category: Any = None, *others: Any, **options: Any) -> None:
+        if category is viewcert.NoteWarning:
+            said.append(str(message))
+            options["stacklevel"] = options.get("stacklevel", 1) + 1
+        warn(message, category, *others, **options)
+
+    monkeypatch.setattr(viewcert.Error, "__init__", raised)
+    monkeypatch.setattr("viewcert._words.warnings.warn", warned)
+    yield
+    named = [message for message in said if re.search(r"(?<![\w-])--[a-z]", message)]
+    assert not named, named
 
 
 class Program:

@@ -108,5 +108,48 @@ def test_what_is_refused_of_sensors() -> None:
         viewcert.intrinsics(triangle, {"a": "known"}, "focal", sensors={"a": "phone", "c": "phone"})
     with pytest.raises(viewcert.InputError, match="no node 'x'"):
         viewcert.intrinsics(triangle, {}, sensors={"x": 1})
-    with pytest.raises(viewcert.InputError, match="shared intrinsics"):
-        viewcert.intrinsics(triangle, {}, sensors=dict.fromkeys("abc", 1)).certificate()
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1), st.lists(st.integers(0, 3), min_size=7, max_size=7))
+def test_certificates_of_shared_intrinsics(edges: set[tuple[int, int]], drawn: list[int]) -> None:
+    graph = nx.Graph(sorted(edges))
+    # Sensor k is of class k: two of them of a class that is shared, a known one, whose images do not count as one.
+    sensors = {node: drawn[node] for node in graph}
+    classes = {node: CLASSES[drawn[node]] for node in graph}
+    found = viewcert.intrinsics(graph, classes, sensors=sensors)
+    verified = viewcert.check_intrinsics(found.certificate(), graph, classes, sensors=sensors)
+    assert (verified.value == "metric") == found.metric
+    assert (verified.rank, verified.rank_at_most, verified.required) == (
+        found.rank, found.rank_at_most, found.rank_required
+    )
+    shared = [k for k in set(drawn) if CLASSES[k] != "known" and list(sensors.values()).count(k) > 1]
+    own = {node: (k if k in shared else node + 10) for node, k in sensors.items()}
+    viewcert.check_intrinsics(found.certificate(), graph, classes, sensors=own)
+    if shared:
+        with pytest.raises(viewcert.Rejected, match="another hash"):
+            viewcert.check_intrinsics(found.certificate(), graph, classes)
+    else:
+        viewcert.check_intrinsics(found.certificate(), graph, classes)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sets(st.sampled_from(ALL), min_size=1), st.lists(st.sampled_from(CLASSES), min_size=7, max_size=7))
+def test_a_prior_does_what_a_known_camera_does(edges: set[tuple[int, int]], drawn: list[str]) -> None:
+    graph = nx.Graph(sorted(edges))
+    classes = {node: drawn[node] for node in graph}
+    found = viewcert.intrinsics(graph, classes)
+    priors = found.priors(most=7)
+    free = {node for node, is_so in found.determined.items() if not is_so}
+    assert {node for prior in priors.each for node in prior.nodes} == free
+    assert priors.sensors == len(priors.each) == len(free) and priors.best <= len(free)
+    for prior in priors.each:
+        (node,) = prior.nodes
+        assert prior.unknown == classes[node]
+        then = viewcert.intrinsics(graph, {**classes, node: "known"})
+        assert (prior.metric, prior.rank, prior.rank_required) == (then.metric, then.rank, then.rank_required)
+        assert prior.determined == sum(then.determined.values())
+        assert prior.others == prior.determined - sum(found.determined.values()) - 1
+    known = viewcert.intrinsics(graph, {}, default="known")
+    assert priors.if_all_known == ("metric" if known.metric else "not-metric")
+    assert len(found.priors(most=1).each) == min(1, len(free))

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import viewcert
 from conftest import Program, untimed
+from viewcert._words import in_python
 
 RANDOM_GRAPHS = 2000
 
@@ -91,7 +92,7 @@ def compared(program: Program, path: pathlib.Path, folder: pathlib.Path, **optio
     if certificate is None:
         with pytest.raises(viewcert.Error) as refused:
             viewcert.verify(viewcert.read(path, **options))
-        assert str(refused.value) == expected
+        assert str(refused.value) == in_python(expected)
         return False
     verdict = viewcert.verify(viewcert.read(path, **options))
     found = verdict.to_dict()

@@ -1,7 +1,7 @@
 //! `--cameras`: what is so at cameras that somebody brings, and whether floating point found it there.
 
 use super::AuditArguments;
-use crate::given::too_many;
+use crate::given::{Beside, read_beside, too_many};
 use crate::here;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use viewcert::Model;
 use viewcert::here::{Centres, Here};
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, whole};
 use viewcert_report::at_cameras::AtCameras;
 use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
@@ -36,8 +36,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     let claims = match &arguments.float {
         None => None,
         Some(table) => {
-            let text =
-                std::fs::read_to_string(table).with_context(|| table.display().to_string())?;
+            let text = whole::text(table)?;
             let at = |line: usize| format!("{}:{line}", table.display());
             Some(read_table(&text).map_err(|error| anyhow!("{}: {error}", at(error.line)))?)
         }
@@ -141,8 +140,8 @@ fn one(
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
-    let read = here::read(Some(path), input, model)?;
-    let Some((input, centres)) = read else {
+    let Beside::Cameras(input, centres) = read_beside(Some(path), input, model)? else {
+        whole::bytes(path)?;
         bail!(
             "{}: no cameras: it takes lines `camera`, `pose` or `centre`, a COLMAP model or an array (verify help given)",
             path.display()

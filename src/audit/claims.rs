@@ -2,7 +2,6 @@
 
 use super::super::certificates::Target;
 use super::AuditArguments;
-use super::rulings::{self, Ruled};
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -10,8 +9,9 @@ use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::graph::graph6;
 use viewcert_formats::read::graphs;
-use viewcert_formats::{NamedGraph, ReadOptions, read_graphs};
+use viewcert_formats::{NamedGraph, ReadOptions, read_graphs, whole};
 use viewcert_report::counted;
+use viewcert_report::rulings::{self, Ruled};
 use viewcert_session::Session;
 use viewcert_session::exit::{GOOD, NOT, ends_run};
 use viewcert_session::outputs;
@@ -20,7 +20,7 @@ use viewcert_studies::audit::claims::{Claim, Named, Row, Ruling};
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
-    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let text = whole::text(path)?;
     let at = |line: usize| format!("{}:{line}", path.display());
     let rows = claims::read_table(&text, &arguments.ignore)
         .map_err(|error| anyhow!("{}: {error}", at(error.line)))?;

@@ -3,11 +3,8 @@
 
 mod cameras;
 mod claims;
-mod report;
-mod rulings;
 mod sweep;
 
-use self::report::Audit;
 use super::certificates::Target;
 use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
@@ -20,6 +17,7 @@ use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
+use viewcert_report::audit::{self as report, Audit};
 use viewcert_session::Session;
 use viewcert_session::exit;
 use viewcert_session::exit::{GOOD, NOT};
@@ -142,7 +140,7 @@ impl AuditArguments {
         }
         let inputs = inputs.iter().map(PathBuf::as_path);
         outputs::ensure_apart(&[("--certificate", Some(path))], inputs)?;
-        Ok(Some(Target::new(path, false)))
+        Ok(Some(Target::new(path)))
     }
 
     /// The file for certificates, if there is room for that of one graph only.

@@ -6,8 +6,8 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
 use viewcert_check::{
-    Certificate, Failure, Graph, IntrinsicsCertificate, Limits, Model, Verdict, Verified,
-    VerifiedIntrinsics, is_of_intrinsics,
+    Certificate, Failure, Graph, HereCertificate, IntrinsicsCertificate, Limits, Model, Verdict,
+    Verified, VerifiedHere, VerifiedIntrinsics, is_here, is_of_intrinsics,
 };
 use viewcert_formats::{NamedGraph, ReadOptions, read_meant};
 
@@ -59,6 +59,24 @@ impl Proved {
             components: verified.components.as_ref().map_or(0, Vec::len),
         }
     }
+
+    fn of_here(verified: &VerifiedHere) -> Self {
+        let is = if verified.is_determined {
+            "determined"
+        } else {
+            "not-determined"
+        };
+        Self {
+            sha256: verified.sha256.clone(),
+            verdict: is.into(),
+            solutions: None,
+            text: verified.to_string(),
+            is_projective: false,
+            rank: verified.rank.0,
+            required: verified.required,
+            components: verified.components.0 as usize,
+        }
+    }
 }
 
 /// What is proved of the number of solutions; a number is proved by `solvable` as well.
@@ -81,6 +99,11 @@ pub(super) fn check(text: &[u8]) -> Result<Proved, Failure> {
         let certificate = IntrinsicsCertificate::parse(text)?;
         let verified = certificate.check_within(None, None, &Limits::default())?;
         return Ok(Proved::of_intrinsics(&verified));
+    }
+    if is_here(text) {
+        let certificate = HereCertificate::parse(text)?;
+        let verified = certificate.check_within(None, &Limits::default())?;
+        return Ok(Proved::of_here(&verified));
     }
     viewcert_check::check(text, None).map(|verified| Proved::new(&verified))
 }

@@ -1,14 +1,10 @@
 //! `verify check`: the independent checker on certificates.
 
 pub(crate) mod checker;
-mod folder;
 mod here;
 mod intrinsics;
-mod names;
 mod proved;
 
-use self::folder::{Listing, name};
-use self::names::{is_list, printable};
 use super::given::GivenArguments;
 use super::input::InputArguments;
 use super::plan::{INTRINSICS, IntrinsicsFrom};
@@ -22,11 +18,14 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use viewcert_catalog::folder::{Listing, is_list, name};
 use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{Failure, is_here, is_of_intrinsics};
+use viewcert_formats::whole;
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
+use viewcert_session::printable;
 
 /// Certificates that are read before they are checked together.
 const BATCH: usize = 256;
@@ -98,7 +97,7 @@ pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
         );
         return check_files(path, &listing);
     }
-    let text = read(path)?;
+    let text = whole::bytes(path)?;
     ensure_certificate(path, &text, arguments.graph.as_deref())?;
     let given = arguments.given.path();
     let classes = arguments.intrinsics.as_ref().and_then(Option::as_deref);
@@ -218,19 +217,6 @@ fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<
         matches!(other, Some(Ok(other)) if is_certificate(&other))
     });
     bail!("{}: {}", path.display(), no_certificate(swapped))
-}
-
-fn read(path: &Path) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let done = if path == Path::new("-") {
-        std::io::stdin()
-            .lock()
-            .read_to_end(&mut bytes)
-            .map(|_| bytes)
-    } else {
-        fs::read(path)
-    };
-    done.with_context(|| path.display().to_string())
 }
 
 /// Checks every certificate of every file; each must hold its graph. Then, by its manifest, whether

@@ -17,6 +17,7 @@ pub mod named;
 pub mod narrow;
 pub mod noticed;
 pub mod parts;
+pub mod priors;
 pub mod request;
 pub mod special;
 pub mod split;

@@ -9,7 +9,7 @@
 //! of that graph have one scale.
 
 use crate::condensation::chain;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, bail, ensure};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -17,7 +17,7 @@ use viewcert::Graph;
 use viewcert::decide::{Options, Question, decide};
 use viewcert::geometry::model::Model;
 use viewcert::watch::Watch;
-use viewcert_formats::NamedGraph;
+use viewcert_formats::{NamedGraph, whole};
 
 /// A list, and what it determines by itself.
 pub struct List {
@@ -56,8 +56,7 @@ impl List {
 /// # Errors
 /// A file that cannot be read or is empty; a name of no image, with its line.
 pub fn images(input: &NamedGraph, file: &Path) -> Result<(Vec<u32>, usize)> {
-    let text = std::fs::read_to_string(file);
-    let text = text.with_context(|| format!("{}: cannot be read", file.display()))?;
+    let text = whole::text(file)?;
     let all = 0..input.graph.nodes() as u32;
     let nodes: BTreeMap<String, u32> = all
         .map(|v| (input.labels.label(v).into_owned(), v))

@@ -55,8 +55,8 @@ impl Request {
         ))
     }
 
-    /// The first option that weighs the pairs of a graph and nothing else, if there is one.
-    fn asked_of_pairs(&self) -> Option<&'static str> {
+    /// The options that weigh the pairs of a graph and nothing else.
+    fn asked_of_pairs(&self) -> impl Iterator<Item = &'static str> {
         let asked = [
             (self.weak.is_some(), "--weak"),
             (self.surplus, "--surplus"),
@@ -67,22 +67,19 @@ impl Request {
             (!self.sweep.is_empty(), "--sweep"),
             (self.margin.is_some(), "--margin"),
         ];
-        let mut asked = asked.into_iter();
-        asked.find_map(|(asked, option)| asked.then_some(option))
+        let asked = asked.into_iter();
+        asked.filter_map(|(asked, option)| asked.then_some(option))
     }
 
     /// The first option that has no answer where displacements are known, if there is one.
     fn asked_without_displacements(&self) -> Option<&'static str> {
-        let asked = [
-            (self.weak.is_some(), "--weak"),
-            (self.surplus, "--surplus"),
-            (self.redundant.is_some(), "--redundant"),
-            (self.implied.is_some(), "--implied"),
-            (!self.sweep.is_empty(), "--sweep"),
-            (self.margin.is_some(), "--margin"),
-        ];
-        let mut asked = asked.into_iter();
-        asked.find_map(|(asked, option)| asked.then_some(option))
+        let mut asked = self.asked_of_pairs();
+        asked.find(|option| !["--suggest", "--explain"].contains(option))
+    }
+
+    /// The first option that has no answer where cameras have classes, if there is one.
+    pub fn asked_without_classes(&self) -> Option<&'static str> {
+        self.asked_of_pairs().find(|&option| option != "--suggest")
     }
 
     /// Refuses what a graph has no answer to.
@@ -105,7 +102,7 @@ impl Request {
 
     /// Whether more than the joints is asked for.
     pub fn asks(&self) -> bool {
-        self.asked_of_pairs().is_some() || self.export.is_some()
+        self.asked_of_pairs().next().is_some() || self.export.is_some()
     }
 
     /// Does what is asked for; joints are always looked for, but not with displacements that are given
@@ -123,7 +120,7 @@ impl Request {
         shapes: &mut Shapes,
         watch: Watch,
     ) -> Result<Advice> {
-        if let Some(option) = self.asked_of_pairs() {
+        if let Some(option) = self.asked_of_pairs().next() {
             ensure!(
                 verdict.known_parts.is_empty(),
                 "{option} weighs the pairs of a graph alone, and this verdict rests on known parts; \
@@ -140,7 +137,7 @@ impl Request {
         }
         if verdict.displacements.vectors().is_some() {
             ensure!(
-                self.asked_of_pairs().is_none(),
+                self.asked_of_pairs().next().is_none(),
                 "displacements that are given as numbers join components in ways of their own, and nothing \
                  is said about these; give them without numbers"
             );

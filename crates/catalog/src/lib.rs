@@ -10,13 +10,15 @@
 //!
 //! A [`work`] is a shard of a [`source`] of candidates, counted or written to files: entries to
 //! [`shard_files`], counts of verdicts to [`verdict_files`]; [`merge`] verifies the shards and puts them
-//! together, and can [`recheck`] a [`sample`] of them. A [`manifest`] says which files a published folder has.
+//! together, and can [`recheck`] a [`sample`] of them. A [`manifest`] says which files a published folder
+//! has, and a [`folder`] is held against it.
 
 pub mod candidates;
 pub mod canonical;
 pub mod counts;
 mod faults;
 mod files;
+pub mod folder;
 pub mod grow;
 pub mod invariants;
 pub mod kernel;

@@ -268,7 +268,7 @@ def contradiction(document):
     """What is wrong with an accepted certificate."""
     graph = graphs.read_graph6(document["graph"]["graph6"])
     if "motion" in document:
-        of = graph.n, list(graph.edges), document["classes"], document["claim"]
+        of = graph.n, list(graph.edges), document["classes"], document.get("shared", []), document["claim"]
         return intrinsics_by_force.contradiction(*of, random.Random(graph.n))
     n, edges, model = graph.n, set(map(tuple, graph.edges)), document["model"]
     # A known part is as good as all its pairs (theory, Theorem 4.14).

@@ -138,7 +138,7 @@ def need_certificate(where, data, other=None):
 
     def says_so(text):
         text = text.lstrip()
-        return text.startswith(b"{") and (b'"viewcert certificate"' in text or b'"claim"' in text)
+        return text.startswith(b"{") and (b'"viewcert certificate' in text or b'"claim"' in text)
 
     if not says_so(data):
         if other is not None and says_so(other):

@@ -107,24 +107,31 @@ def kernel_of(rows, width):
 class Truth:
     """The motions of generic cameras: what they do to intrinsics, and to sets of nodes."""
 
-    def __init__(self, n, edges, words, rng):
+    def __init__(self, n, edges, words, shared, rng):
         self.n, self.edges, self.words = n, edges, words
-        widths = [6 + UNKNOWN[word] for word in words]
-        self.first = [0, *itertools.accumulate(widths)]
-        total = self.first[-1]
-        values = [[rng.randrange(1, PRIME) for _ in range(width)] for width in widths]
+        sensor = list(range(n))
+        for nodes in shared:
+            for v in nodes:
+                sensor[v] = nodes[0]
+        # The unknowns of each sensor once, then those of each pose.
+        inner, total = {}, 0
+        for s in sorted(set(sensor)):
+            inner[s] = list(range(total, total + UNKNOWN[words[s]]))
+            total += len(inner[s])
+        self.inner = [inner[s] for s in sensor]
+        self.columns = [[*self.inner[v], *range(total + 6 * v, total + 6 * v + 6)] for v in range(n)]
+        total += 6 * n
+        value = [rng.randrange(1, PRIME) for _ in range(total)]
         constant = [[rng.randrange(1, PRIME) for _ in range(5)] for _ in words]
 
         def at(v, moving=None):
-            return camera(words[v], constant[v], [Dual(x, int(k == moving)) for k, x in enumerate(values[v])])
+            return camera(words[v], constant[sensor[v]], [Dual(value[k], int(k == moving)) for k in self.columns[v]])
 
         rows = []
         for e, (i, j) in enumerate(edges):
             columns = {total + e: [entry.x for entry in fundamental(at(i), at(j))]}
-            for k in range(widths[i]):
-                columns[self.first[i] + k] = [entry.dx for entry in fundamental(at(i, k), at(j))]
-            for k in range(widths[j]):
-                columns[self.first[j] + k] = [entry.dx for entry in fundamental(at(i), at(j, k))]
+            for k in {*self.columns[i], *self.columns[j]}:
+                columns[k] = [entry.dx for entry in fundamental(at(i, k), at(j, k))]
             for entry in range(9):
                 row = [0] * (total + len(edges))
                 for column, entries in columns.items():
@@ -134,12 +141,11 @@ class Truth:
         self.rank, self.required = rank - len(edges), total - 7
 
     def not_determined(self):
-        moving = [any(any(y[self.first[v] : self.first[v] + UNKNOWN[word]]) for y in self.motions) for v, word in enumerate(self.words)]
-        return [v for v in range(self.n) if moving[v]]
+        return [v for v in range(self.n) if any(y[k] for y in self.motions for k in self.inner[v])]
 
     def is_metric(self, nodes):
         """Whether all motions are one similarity on these nodes, of which two at least have an edge."""
-        columns = [k for v in nodes for k in range(self.first[v], self.first[v + 1])]
+        columns = sorted({k for v in nodes for k in self.columns[v]})
         return kernel_of([[y[k] for k in columns] for y in self.motions], len(columns))[1] == 7
 
     def components(self):
@@ -155,11 +161,11 @@ class Truth:
 TRUTHS = {}
 
 
-def contradiction(n, edges, words, claim, rng):
+def contradiction(n, edges, words, shared, claim, rng):
     """What is wrong with a claim, or None."""
-    key = n, tuple(edges), tuple(words)
+    key = n, tuple(edges), tuple(words), tuple(map(tuple, shared))
     if key not in TRUTHS:
-        truth = Truth(n, edges, words, rng)
+        truth = Truth(n, edges, words, shared, rng)
         TRUTHS[key] = truth.rank, truth.required, truth.components(), truth.not_determined()
     rank, required, components, free = TRUTHS[key]
     least, most = claim["at_least"], claim["at_most"]
@@ -176,7 +182,7 @@ def contradiction(n, edges, words, claim, rng):
 
 
 def change(document, rng):
-    """Other classes, weaker or other evidence: of which more may be true than at random, once the claim is put right."""
+    """Other classes and sensors, weaker or other evidence: of which more may be true than at random, once the claim is put right."""
     classes, motion = document["classes"], document["motion"]
     p = int(document["prime"])
 
@@ -193,8 +199,34 @@ def change(document, rng):
         for name in ("rows", "cols"):
             document[name] = [document[name][k] for k in order]
 
+    def share():
+        """Some nodes of one class, which are in no list, share their intrinsics; or nodes leave a list."""
+        lists = document.setdefault("shared", [])
+        taken = {v for nodes in lists for v in nodes}
+        word = rng.choice(classes)
+        free = [v for v, other in enumerate(classes) if other == word and v not in taken]
+        if lists and (len(free) < 2 or rng.random() < 0.5):
+            nodes = rng.choice(lists)
+            nodes.remove(rng.choice(nodes))
+        else:
+            lists.append(sorted(rng.sample(free, rng.randrange(min(2, len(free)), len(free) + 1))))
+        lists[:] = sorted(nodes for nodes in lists if len(nodes) > 1 or rng.random() < 0.02)
+        if not lists and rng.random() < 0.9:
+            del document["shared"]
+
+    def united():
+        """Two sensors become one."""
+        lists = document["shared"]
+        one, other = rng.sample(lists, 2)
+        lists.remove(other)
+        one[:] = sorted(one + other)
+        lists.sort()
+
     ways = [
         scaled,
+        share,
+        share,
+        united,
         fewer,
         permuted,
         lambda: motion.__setitem__(slice(None), ["0"] * len(motion)),

@@ -50,6 +50,8 @@ class IntrinsicsTests(unittest.TestCase):
             ("pendant", "not-metric", (23, 23, 27), [[0, 1, 2]], [3]),
             ("core", "not-metric", (88, 88, 90), [[*range(9)]], [9]),
             ("mixed", "not-metric", (36, 36, 37), [[0, 1, 2, 3], [3, 4]], []),
+            ("twins", "not-metric", (7, 7, 8), [], [0, 1]),
+            ("phones", "not-metric", (49, 49, 68), [[0, 1, 2], [2, 3], [3, 4], [4, 5]], [7, 8, 9]),
         ]:
             found = self.verifies(named(name)).found
             self.assertEqual((found["verdict"], found["components"], found["not_determined"]), (verdict, components, free))
@@ -63,6 +65,47 @@ class IntrinsicsTests(unittest.TestCase):
         numbers = {"at_least": 5, "at_most": 5, "required": 5}
         document["claim"] = {"verdict": "metric", **numbers, "components": [[0, 1]], "not_determined": []}
         self.verifies(document)
+
+    def test_by_hand_of_one_sensor(self):
+        """The example of the page: two cameras and their edge, of one sensor."""
+        document = named("twins")
+        document.update(classes=["focal", "focal"], rows=[], cols=[], motion=["0"] * 7)
+        numbers = {"at_least": 6, "at_most": 6, "required": 6}
+        document["claim"] = {"verdict": "metric", **numbers, "components": [[0, 1]], "not_determined": []}
+        self.assertIn("2 focal; 1 shared by 2, SHA-256", self.verifies(document).statements()[1])
+        # Of two sensors they are metric as well, with one unknown more.
+        del document["shared"]
+        self.refused("\\(I6\\) at_least: found 7", document)
+
+    def test_shared(self):
+        """(I1): what is shared. The certificate has sensors of two classes, one with a node in no edge."""
+        lists = named("phones")["shared"]
+        self.assertEqual(lists, [[0, 1, 2, 6], [3, 4], [8, 9]])
+        for words, *change in [
+            ("shared is empty", []),
+            ("shared is not a list", None),
+            ("a list of shared is not a list", 0, 3),
+            ("a node of shared is not an int", 1, 0, "3"),
+            ("out of range", 2, 1, 10),
+            ("is below 0", 0, 0, -1),
+            ("one node or none", 1, [3]),
+            ("one node or none", 1, []),
+            ("a list of shared is not increasing", 1, [4, 3]),
+            ("a list of shared is not increasing", 1, [3, 3]),
+            ("the lists of shared are not increasing", lists[::-1]),
+            ("is in two lists", 2, [4, 8]),
+            ("nodes of two classes", 1, [3, 5]),
+        ]:
+            self.refused(words, self.changed("phones", "shared", *change))
+        known = self.changed("phones", "classes", ["known"] * 10)
+        self.refused("known intrinsics are in a list", known)
+        # Who shares is a hypothesis, and part of the hash.
+        own = self.verifies(named("phones")).classes_hash.hex()
+        self.verifies(named("phones"), classes_hash=own)
+        alone = self.changed("phones", "shared", [[0, 1, 2, 6], [3, 4]])
+        self.refused("the classes that are expected are others", alone, classes_hash=own)
+        for other in (alone, self.changed("phones", "shared", 0, [0, 1, 2]), self.changed("twins", "shared", ...)):
+            self.refused("section 15", other)
 
     def test_less_evidence(self):
         """Without a motion that tells something bounds leave a gap; with fewer pivots too. Then no more may be claimed."""

@@ -405,7 +405,7 @@ fn say_if_expected(
 pub fn is_certificate(text: &[u8]) -> bool {
     let text = text.trim_ascii_start();
     let has = |member: &[u8]| text.windows(member.len()).any(|word| word == member);
-    text.starts_with(b"{") && (has(b"\"viewcert certificate\"") || has(b"\"claim\""))
+    text.starts_with(b"{") && (has(b"\"viewcert certificate") || has(b"\"claim\""))
 }
 
 /// Why there is no answer about a file that is no certificate; `swapped` if the graph's file is one.

@@ -51,6 +51,13 @@ fn what_is_verified() {
             vec![vec![0, 1, 2, 3], vec![3, 4]],
             vec![],
         ),
+        ("twins", [7, 7, 8], vec![], vec![0, 1]),
+        (
+            "phones",
+            [49, 49, 68],
+            vec![vec![0, 1, 2], vec![2, 3], vec![3, 4], vec![4, 5]],
+            vec![7, 8, 9],
+        ),
     ] {
         let verified = check(&named(name)).unwrap();
         let [least, most] = verified.rank;
@@ -78,6 +85,72 @@ fn by_hand() {
     });
     let verified = check(&document).unwrap();
     assert_eq!(verified.verdict, "metric");
+}
+
+/// The example of the page: two cameras and their edge, of one sensor.
+#[test]
+fn by_hand_of_one_sensor() {
+    let mut document = named("twins");
+    document["classes"] = json!(["focal", "focal"]);
+    document["rows"] = json!([]);
+    document["cols"] = json!([]);
+    document["motion"] = json!(vec!["0"; 7]);
+    document["claim"] = json!({
+        "verdict": "metric", "at_least": 6, "at_most": 6, "required": 6,
+        "components": [[0, 1]], "not_determined": [],
+    });
+    let verified = check(&document).unwrap();
+    assert_eq!((verified.verdict, verified.shared), ("metric", [1, 2]));
+    assert!(verified.to_string().contains("(2 focal; 1 shared by 2)"));
+    // Of two sensors they are metric as well, with one unknown more.
+    document.as_object_mut().unwrap().remove("shared");
+    refused("the rank is 7 to 7 of 7", &document);
+}
+
+/// What is shared: the certificate has sensors of two classes, one with a node in no edge.
+#[test]
+fn shared() {
+    assert_eq!(
+        named("phones")["shared"],
+        json!([[0, 1, 2, 6], [3, 4], [8, 9]])
+    );
+    for (pointer, value, words) in [
+        ("", json!([]), "`shared` is empty"),
+        ("", Value::Null, "expected a list"),
+        ("/0", json!(3), "expected"),
+        ("/1/0", json!("3"), "expected"),
+        ("/2/1", json!(10), "no increasing list of nodes"),
+        ("/0/0", json!(-1), "out of range"),
+        ("/1", json!([3]), "one node or none"),
+        ("/0", json!([]), "one node or none"),
+        ("/1", json!([4, 3]), "no increasing list of nodes"),
+        ("/1", json!([3, 3]), "no increasing list of nodes"),
+        (
+            "",
+            json!([[3, 4], [0, 1, 2, 6], [8, 9]]),
+            "lists of `shared` are not increasing",
+        ),
+        ("/2", json!([4, 8]), "node 4 is in two lists of `shared`"),
+        ("/1", json!([3, 5]), "nodes of two classes"),
+    ] {
+        let document = changed("phones", &format!("/shared{pointer}"), value);
+        refused(words, &document);
+    }
+    refused(
+        "known intrinsics are in a list of `shared`",
+        &changed("phones", "/classes", json!(vec!["known"; 10])),
+    );
+    // Who shares is a hypothesis, and part of the hash.
+    let own = check(&named("phones")).unwrap().classes_sha256;
+    check_for(&named("phones"), Some(&own)).unwrap();
+    let alone = changed("phones", "/shared", json!([[0, 1, 2, 6], [3, 4]]));
+    let failure = check_for(&alone, Some(&own)).unwrap_err().to_string();
+    assert!(failure.contains("have another hash"), "{failure}");
+    check(&alone).unwrap_err();
+    check(&changed("phones", "/shared/0", json!([0, 1, 2]))).unwrap_err();
+    let mut apart = named("twins");
+    apart.as_object_mut().unwrap().remove("shared");
+    check(&apart).unwrap_err();
 }
 
 /// Without a motion that tells something bounds leave a gap; with fewer pivots too. Then no more may be

@@ -1,7 +1,9 @@
 //! What a matching of images says of pairs, beyond the graph that it gives.
 
+use serde::{Deserialize, Serialize};
+
 /// Facts about pairs of images, from a database of matches; images are nodes of the graph.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Matching {
     /// For every edge, in the order of the graph's edges, how many verified matches it has. Of a
     /// camera-point graph, whose edges are observations, empty.
@@ -15,7 +17,7 @@ pub struct Matching {
 
 /// A pair of images that was matched: with too few matches or none, or not verified, unless tracks
 /// are made of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OtherPair {
     /// The two images, the smaller node first.
     pub images: (u32, u32),

@@ -203,13 +203,13 @@ impl File {
                 list.entry(row, column, value(at))?;
             }
             let mut parsed = list.graph()?;
-            parsed.read.format = FORMAT;
+            parsed.read.format = FORMAT.into();
             return Ok(parsed);
         }
         let (matrix, again) =
             Matrix::of_entries(size.rows, Places::MATLAB, &self.entries, value, options)?;
         let mut parsed = matrix.graph()?;
-        parsed.read.format = FORMAT;
+        parsed.read.format = FORMAT.into();
         // Of a symmetric matrix both triangles were filled in.
         let symmetric = kind.symmetry != Symmetry::General;
         let again = if symmetric { again / 2 } else { again };

@@ -5,8 +5,9 @@
 
 use crate::edge_list::nodes::number_integers;
 use crate::error::{Place, Problem};
-use crate::{NamedGraph, ReadAs, ReadError, merged};
+use crate::{Matching, NamedGraph, OtherPair, ReadAs, ReadError, merged};
 use viewcert::graph::{Graph, GraphError, Labels};
+use viewcert::wording::counted;
 
 /// Most pairs, as in files.
 const MOST: usize = i32::MAX as usize;
@@ -84,6 +85,67 @@ pub fn of_nodes(
     })
 }
 
+/// The graph of those of the pairs that have enough inliers, with the numbers of all: the others are
+/// known as pairs that were matched and do not count, as in a database. Of a pair that is given more
+/// than once the largest number counts. O(pairs log pairs).
+///
+/// # Errors
+/// As [`of_nodes`].
+///
+/// # Panics
+/// If there is not one number for each pair.
+pub fn with_inliers(
+    name: &str,
+    nodes: u32,
+    labels: Labels,
+    pairs: Vec<(u32, u32)>,
+    inliers: &[u32],
+    least: u32,
+) -> Result<NamedGraph, ReadError> {
+    assert_eq!(pairs.len(), inliers.len());
+    let increasing = |&(a, b): &(u32, u32)| (a.min(b), a.max(b));
+    let mut numbers: Vec<((u32, u32), u32)> = pairs
+        .iter()
+        .map(increasing)
+        .zip(inliers.iter().copied())
+        .collect();
+    let mut found = of_nodes(name, nodes, labels, pairs)?;
+    numbers.sort_unstable();
+    let mut of_pair: Vec<((u32, u32), u32)> = Vec::with_capacity(found.graph.edges().len());
+    for (pair, inliers) in numbers {
+        match of_pair.last_mut() {
+            Some((last, most)) if *last == pair => *most = inliers,
+            _ => of_pair.push((pair, inliers)),
+        }
+    }
+    let (used, few): (Vec<_>, Vec<_>) = of_pair
+        .into_iter()
+        .partition(|&(_, inliers)| inliers >= least);
+    if !few.is_empty() {
+        found.notes.push(format!(
+            "{} of {} have fewer than {least} inliers and are not used (--min-inliers)",
+            few.len(),
+            counted(few.len() + used.len(), "pair"),
+        ));
+        let pairs = used.iter().map(|&(pair, _)| pair);
+        found.graph = Graph::new(nodes, pairs)
+            .map_err(|error| refused(name, Problem::Corrupt(error.to_string())))?;
+    }
+    let other = |((a, b), inliers)| OtherPair {
+        images: (a, b),
+        inliers,
+        matches: None,
+        verified: true,
+        used: false,
+    };
+    found.matching = Some(Matching {
+        inliers: used.into_iter().map(|(_, inliers)| inliers).collect(),
+        others: few.into_iter().map(other).collect(),
+        positions: Vec::new(),
+    });
+    Ok(found)
+}
+
 fn refused(name: &str, problem: Problem) -> ReadError {
     Place::Input.fault(problem).in_file(name)
 }
@@ -133,6 +195,30 @@ mod tests {
                 assert_eq!(found, expected);
             }
         }
+    }
+
+    #[test]
+    fn pairs_with_few_inliers_are_known_and_do_not_count() {
+        let labels = Labels::Numbers { first: 0 };
+        let pairs = vec![(2, 1), (0, 1), (1, 2), (0, 2)];
+        let found = with_inliers("memory", 4, labels, pairs, &[40, 14, 7, 15], 15).unwrap();
+        assert_eq!(found.graph.edges(), [(0, 2), (1, 2)]);
+        assert_eq!(found.graph.nodes(), 4, "cameras without pairs stay");
+        let matching = found.matching.unwrap();
+        // Of the pair that is there twice the larger number.
+        assert_eq!(matching.inliers, [15, 40]);
+        let others = matching
+            .others
+            .iter()
+            .map(|pair| (pair.images, pair.inliers));
+        assert_eq!(others.collect::<Vec<_>>(), [((0, 1), 14)]);
+        assert_eq!(
+            found.notes.len(),
+            2,
+            "merged, and left out: {:?}",
+            found.notes
+        );
+        assert!(found.notes[1].starts_with("1 of 3 pairs have fewer than 15 inliers"));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 //! A graph is only worth as much as the reading of its file, so each reader says what it took the
 //! file for, what of it became the graph, and what it left out, guessed or merged.
 
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::fmt;
 
 use viewcert::graph::{Graph, Labels};
@@ -21,12 +23,12 @@ pub struct Parsed {
 }
 
 /// How an input was read.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReadAs {
     /// What it was taken for: `edge list`, `graph6`, `COLMAP database`.
-    pub format: &'static str,
+    pub format: Cow<'static, str>,
     /// What it was compressed by, if it was.
-    pub compression: Option<&'static str>,
+    pub compression: Option<Cow<'static, str>>,
     /// What of it became the graph: `names in columns 1 and 2`, `variable A`.
     pub taken: Option<String>,
     /// What was left out, a short phrase each: `column 3 (weights?)`, `4 lines of comments`.
@@ -41,7 +43,7 @@ impl ReadAs {
     /// An input of which only the format is worth saying.
     pub fn new(format: &'static str) -> Self {
         Self {
-            format,
+            format: Cow::Borrowed(format),
             ..Self::default()
         }
     }
@@ -50,8 +52,8 @@ impl ReadAs {
 /// One line: `edge list, names in columns 1 and 2; ignored: column 3 (weights?)`.
 impl fmt::Display for ReadAs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.format)?;
-        if let Some(compression) = self.compression {
+        f.write_str(&self.format)?;
+        if let Some(compression) = &self.compression {
             write!(f, ", compressed by {compression}")?;
         }
         if let Some(taken) = &self.taken {
@@ -75,7 +77,7 @@ mod tests {
         let plain = ReadAs::new("graph6");
         assert_eq!(plain.to_string(), "graph6");
         let list = ReadAs {
-            compression: Some("gzip"),
+            compression: Some("gzip".into()),
             taken: Some("names in columns 1 and 2".into()),
             ignored: vec!["column 3 (weights?)".into(), "4 lines of comments".into()],
             guessed: vec!["the first line is a head".into()],

@@ -24,22 +24,6 @@ pub struct AtCameras<'a> {
     pub ruled: Option<(usize, &'a FloatClaim, &'a Ruling)>,
 }
 
-fn word(ruling: &Ruling) -> &'static str {
-    match ruling {
-        Ruling::Confirmed => "confirmed",
-        Ruling::Refuted(_) => "refuted",
-        Ruling::NotDecidable(_) => "not decidable",
-    }
-}
-
-fn reason(ruling: &Ruling) -> String {
-    match ruling {
-        Ruling::Confirmed => String::new(),
-        Ruling::Refuted(wrong) => wrong.join("; "),
-        Ruling::NotDecidable(why) => why.clone(),
-    }
-}
-
 impl AtCameras<'_> {
     fn verdict(&self) -> &'static str {
         match self.here.is_determined() {
@@ -56,12 +40,13 @@ impl AtCameras<'_> {
         let here = self.here;
         match self.ruled {
             Some((row, claim, ruling)) => {
-                let word = match ruling {
-                    Ruling::Refuted(_) => "REFUTED",
-                    other => word(other),
-                };
                 let name = claim.name.as_ref().map(|name| format!("{name}: "));
-                write!(out, "row {row:4}  {word:13}  {}", name.unwrap_or_default())?;
+                write!(
+                    out,
+                    "row {row:4}  {:13}  {}",
+                    ruling.word(),
+                    name.unwrap_or_default()
+                )?;
             }
             None => write!(out, "  at cameras  ")?,
         }
@@ -75,7 +60,7 @@ impl AtCameras<'_> {
         )?;
         match self.ruled {
             Some((.., ruling)) if *ruling != Ruling::Confirmed => {
-                writeln!(out, "; {}", reason(ruling))?;
+                writeln!(out, "; {}", ruling.reasons())?;
             }
             _ => writeln!(out)?,
         }
@@ -115,8 +100,8 @@ impl AtCameras<'_> {
             row: self.ruled.map(|(row, ..)| row),
             line: self.ruled.map(|(_, claim, _)| claim.line),
             name: self.ruled.and_then(|(_, claim, _)| claim.name.as_deref()),
-            ruling: self.ruled.map(|(.., ruling)| word(ruling)),
-            reason: self.ruled.map(|(.., ruling)| reason(ruling)),
+            ruling: self.ruled.map(|(.., ruling)| ruling.name()),
+            reason: self.ruled.map(|(.., ruling)| ruling.reasons()),
             graph: GraphLine::of(self.input),
             model: here.model.name(),
             verdict: self.verdict(),

@@ -2,6 +2,7 @@
 
 use super::counted;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io::{self, Write};
 use viewcert_formats::colmap::{Bin, DatabaseFacts, Pipeline, config_name};
 
@@ -11,7 +12,7 @@ const SHOWN: usize = 8;
 /// The summary as `verify --json` prints it, in the member `database`.
 #[derive(Serialize)]
 pub struct DatabaseLine {
-    table: &'static str,
+    table: Cow<'static, str>,
     pipeline: &'static str,
     min_inliers: u32,
     images: usize,
@@ -63,7 +64,7 @@ impl From<&DatabaseFacts> for DatabaseLine {
             pairs: bin.pairs,
         });
         Self {
-            table: facts.table,
+            table: facts.table.clone(),
             pipeline: facts.pipeline.name(),
             min_inliers: facts.min_inliers,
             images: facts.images,

@@ -4,10 +4,10 @@ use super::{counted, text};
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
-use viewcert::decide::Verdict;
+use viewcert::decide::{Component, Verdict};
 use viewcert::geometry::model::Model;
 use viewcert::graph::UnionFind;
-use viewcert::here::{Here, Special};
+use viewcert::here::{Centres, Here, Motion, Special};
 use viewcert_formats::NamedGraph;
 
 /// How many special sets, and cameras of one, the text names.
@@ -24,6 +24,10 @@ pub struct HereReport<'a> {
     pub verdict: &'a Verdict,
     /// The answer here.
     pub here: &'a Here,
+    /// The centres that it is about.
+    pub centres: &'a Centres,
+    /// A basis of what moves, if that is to be drawn.
+    pub motions: &'a [Motion],
 }
 
 impl HereReport<'_> {
@@ -45,6 +49,21 @@ impl HereReport<'_> {
             }
             (false, false) => "these cameras have a motion of first order",
         }
+    }
+
+    /// The part here of each edge.
+    pub(super) fn parts_of_edges(&self) -> Vec<Option<usize>> {
+        let parts = self.here.components.value.iter().map(Component::nodes);
+        let parts: Vec<Vec<u32>> = parts.collect();
+        let holds = |part: &Vec<u32>, v: u32| part.binary_search(&v).is_ok();
+        let edges = self.input.graph.edges().iter();
+        edges
+            .map(|&(i, j)| {
+                parts
+                    .iter()
+                    .position(|part| holds(part, i) && holds(part, j))
+            })
+            .collect()
     }
 
     fn is_connected(&self) -> bool {

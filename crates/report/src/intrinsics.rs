@@ -3,6 +3,7 @@
 //!
 //! In: sensors with their classes, what was found. Out: lines of a report, the member `intrinsics` of JSON.
 
+use crate::priors::PriorsLine;
 use serde::Serialize;
 use std::io::{self, Write};
 use viewcert::certificate::hex;
@@ -35,6 +36,12 @@ pub struct IntrinsicsLine {
     determined: usize,
     /// The cameras whose intrinsics are not.
     not_determined: Vec<String>,
+    /// The nodes of each of the components.
+    #[serde(skip)]
+    nodes: Vec<Vec<u32>>,
+    /// What one prior more would do, if that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    priors: Option<PriorsLine>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -73,7 +80,7 @@ impl IntrinsicsLine {
             labels: listed.then(|| component.nodes.iter().map(|&v| label(v)).collect()),
         };
         let shared = |(sensor, nodes): (usize, Vec<u32>)| SensorLine {
-            class: word(sensors.class(sensor)),
+            class: sensors.class(sensor).word(),
             cameras: nodes.len(),
             determined: found.determined[nodes[0] as usize],
             labels: listed.then(|| nodes.iter().map(|&v| label(v)).collect()),
@@ -106,12 +113,69 @@ impl IntrinsicsLine {
             other_pairs: found.other_pairs,
             determined: found.determined.len() - not_determined.len(),
             not_determined,
+            nodes: found
+                .components
+                .iter()
+                .map(|component| component.nodes.clone())
+                .collect(),
+            priors: None,
         }
+    }
+
+    /// With what one prior more would do.
+    pub fn with_priors(mut self, priors: PriorsLine) -> Self {
+        self.priors = Some(priors);
+        self
+    }
+
+    /// What one prior more would do, if that was asked.
+    pub(crate) fn priors(&self) -> Option<&PriorsLine> {
+        self.priors.as_ref()
     }
 
     /// Whether several cameras share unknown intrinsics.
     pub(crate) fn is_shared(&self) -> bool {
         !self.shared.is_empty()
+    }
+
+    /// The nodes of each metric component, the largest first.
+    pub(crate) fn nodes(&self) -> &[Vec<u32>] {
+        &self.nodes
+    }
+
+    /// What is found for the pairs of a database by what it knows of its cameras, in one sentence.
+    pub(crate) fn words_of_database(&self) -> String {
+        let answer = match self.verdict {
+            "metric" => "metric",
+            "not-metric" => "not metric",
+            _ => "open whether metric",
+        };
+        let parts = match self.components.first() {
+            None => "no metric part".to_owned(),
+            Some(largest) => format!(
+                "{}, largest {}",
+                counted(self.components.len(), "part"),
+                counted(largest.nodes, "camera")
+            ),
+        };
+        let strength = if self.proved { " (proved)" } else { "" };
+        let sensors = match self.shared.len() {
+            0 => String::new(),
+            count => format!(" ({})", counted(count, "shared sensor")),
+        };
+        format!(
+            "{}{sensors}: {answer}; {parts}; {} of {} determined{strength}",
+            self.classes_in_words(),
+            self.determined,
+            self.determined + self.not_determined.len(),
+        )
+    }
+
+    /// "2 known, 3 focal".
+    fn classes_in_words(&self) -> String {
+        let classes = self.classes.iter().filter(|line| line.cameras > 0);
+        let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
+        classes.collect::<Vec<_>>().join(", ")
     }
 
     /// Whether all cameras are determined, with their intrinsics; it is proved.
@@ -124,17 +188,6 @@ impl IntrinsicsLine {
     /// # Errors
     /// Those of the writer.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let classes = self.classes.iter().filter(|line| line.cameras > 0);
-        let classes = classes.map(|line| format!("{} {}", line.cameras, line.class));
-        let classes: Vec<String> = classes.collect();
-        let strength = if self.proved {
-            "proved".to_owned()
-        } else {
-            format!(
-                "it is {} at least and {} at most",
-                self.rank, self.rank_at_most
-            )
-        };
         let answer = match self.verdict {
             "metric" => "metric: all cameras and intrinsics, up to similarities and finitely many choices (proved)".into(),
             "not-metric" if self.conditions < 8 => format!(
@@ -145,13 +198,17 @@ impl IntrinsicsLine {
             "not-metric" => "not metric: infinitely many sets of cameras (proved)".into(),
             _ => "not metric at drawn cameras, and counting gives no proof".to_owned(),
         };
-        writeln!(out, "  intrinsics  {}: {answer}", classes.join(", "))?;
+        writeln!(out, "  intrinsics  {}: {answer}", self.classes_in_words())?;
         self.write_shared(out)?;
-        writeln!(
-            out,
-            "  metric rank {} of {} ({strength})",
-            self.rank, self.rank_required
-        )?;
+        let rank = if self.proved {
+            format!("{} of {} (proved)", self.rank, self.rank_required)
+        } else {
+            format!(
+                "{} at least and {} at most, of {}",
+                self.rank, self.rank_at_most, self.rank_required
+            )
+        };
+        writeln!(out, "  metric rank {rank}")?;
         let all = self.determined + self.not_determined.len();
         write!(
             out,
@@ -212,13 +269,6 @@ impl IntrinsicsLine {
         let count = counted(self.shared.len(), "sensor");
         writeln!(out, "  shared      {count}: {}", lines.join(", "))
     }
-}
-
-/// The word for a class.
-fn word(class: Class) -> &'static str {
-    let mut all = Class::ALL.into_iter();
-    let found = all.find(|&(of, _)| of == class);
-    found.expect("all classes have words").1
 }
 
 /// So many sizes of components, and so many sensors, are printed.

@@ -5,6 +5,8 @@ pub mod assumptions;
 #[cfg(feature = "studies")]
 pub mod at_cameras;
 #[cfg(feature = "studies")]
+pub mod audit;
+#[cfg(feature = "studies")]
 pub mod bars;
 #[cfg(feature = "studies")]
 pub mod comparison;
@@ -24,6 +26,7 @@ pub mod many;
 mod mappers;
 pub mod merge;
 pub mod models;
+pub mod motion_picture;
 mod narrow;
 pub mod next;
 mod noticed;
@@ -31,7 +34,10 @@ pub mod overview;
 pub mod overview_page;
 pub mod page;
 mod part_names;
+pub mod priors;
 pub mod read;
+#[cfg(feature = "studies")]
+pub mod rulings;
 pub mod second_scene;
 pub mod sheet;
 mod shown;
@@ -114,6 +120,8 @@ pub struct WrittenProof {
     file: String,
     rank_at_least: usize,
     rank_at_most: usize,
+    /// Whether it shows that the cameras are unique.
+    solvable: bool,
     /// How many components there are; left out if that is not shown.
     #[serde(skip_serializing_if = "Option::is_none")]
     components: Option<usize>,
@@ -126,6 +134,7 @@ impl WrittenProof {
             file: file.display().to_string(),
             rank_at_least: proof.lower(),
             rank_at_most: proof.upper(),
+            solvable: proof.is_solvable(),
             components: proof.components(),
         }
     }
@@ -145,6 +154,9 @@ impl fmt::Display for WrittenProof {
         )?;
         if let Some(components) = self.components {
             write!(f, "; {}", counted(components, "component"))?;
+        }
+        if self.solvable {
+            f.write_str("; solvable")?;
         }
         f.write_str(")")
     }
@@ -167,6 +179,9 @@ impl Report<'_> {
     /// Those of the writer.
     pub fn write_text(&self, out: &mut impl Write) -> io::Result<()> {
         text::write(out, self)?;
+        if let Some(priors) = self.scope.intrinsics().and_then(|line| line.priors()) {
+            priors.write(out)?;
+        }
         advice::write(out, self.advice)
     }
 

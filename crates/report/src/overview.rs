@@ -11,6 +11,7 @@ use super::tracks::TrackLine;
 use super::{Report, counted, database, mappers, narrow, part_names, size_of, text, tracks};
 use crate::advice::{joints as write_joints, suggestions as write_suggestions};
 use crate::assumptions::BaseLines;
+use crate::intrinsics::IntrinsicsLine;
 use serde::Serialize;
 use std::cell::OnceCell;
 use std::collections::HashMap;
@@ -42,6 +43,8 @@ pub struct Overview<'a> {
     pub read: &'a ReadAs,
     /// The pairs in the projective and in the calibrated model, unless the input has tracks alone.
     pub pairs: Option<[Report<'a>; 2]>,
+    /// What these determine of the intrinsics, as the database knows them, or why that is not said.
+    pub intrinsics: Option<Result<IntrinsicsLine, String>>,
     /// The cameras and points.
     pub tracks: Option<Report<'a>>,
     /// Why there are no tracks, if there are none.
@@ -363,6 +366,11 @@ impl Overview<'_> {
                 text::write_components(out, report)?;
             }
         }
+        match &self.intrinsics {
+            Some(Ok(found)) => wrapped(out, "intrinsics", &found.words_of_database())?,
+            Some(Err(why)) => wrapped(out, "intrinsics", &format!("not asked: {why}"))?,
+            None => {}
+        }
         match (&self.tracks, self.no_tracks) {
             (Some(report), _) => {
                 if let Some(facts) = &report.input.tracks {
@@ -509,6 +517,10 @@ impl Overview<'_> {
             notes: &self.notes,
             database,
             pairs,
+            intrinsics: self
+                .intrinsics
+                .as_ref()
+                .and_then(|found| found.as_ref().ok()),
             tracks,
             no_tracks: self.no_tracks,
             joints: self.joints,
@@ -545,6 +557,8 @@ struct Line<'a> {
     database: Option<DatabaseLine>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<PairLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    intrinsics: Option<&'a IntrinsicsLine>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tracks: Option<PositionLine<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]

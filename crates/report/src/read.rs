@@ -6,9 +6,9 @@ use viewcert_formats::ReadAs;
 /// The member `read` of a report.
 #[derive(Serialize)]
 pub struct ReadLine<'a> {
-    format: &'static str,
+    format: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    compression: Option<&'static str>,
+    compression: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     taken: Option<&'a str>,
     ignored: &'a [String],
@@ -19,8 +19,8 @@ pub struct ReadLine<'a> {
 impl<'a> From<&'a ReadAs> for ReadLine<'a> {
     fn from(read: &'a ReadAs) -> Self {
         Self {
-            format: read.format,
-            compression: read.compression,
+            format: &read.format,
+            compression: read.compression.as_deref(),
             taken: read.taken.as_deref(),
             ignored: &read.ignored,
             guessed: &read.guessed,

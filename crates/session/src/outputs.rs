@@ -9,7 +9,7 @@
 
 use crate::exit::{GOOD, NOT};
 use crate::unpoisoned;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -129,7 +129,9 @@ impl Outputs {
         }
         let file = {
             let mut pending = unpoisoned(&self.pending);
-            let file = builder.prefix(".viewcert-").tempfile_in(folder_of(path))?;
+            let folder = folder_of(path);
+            let file = builder.prefix(".viewcert-").tempfile_in(folder);
+            let file = file.map_err(|error| no_room(folder, &error))?;
             pending.insert(file.path().to_owned());
             file
         };
@@ -182,10 +184,9 @@ impl Outputs {
             builder.permissions(Permissions::from_mode(0o777));
         }
         let mut pending = unpoisoned(&self.pending);
-        let new = builder
-            .prefix(".viewcert-")
-            .tempdir_in(folder_of(path))?
-            .keep();
+        let folder = folder_of(path);
+        let new = builder.prefix(".viewcert-").tempdir_in(folder);
+        let new = new.map_err(|error| no_room(folder, &error))?.keep();
         pending.insert(new.clone());
         Ok(new)
     }
@@ -212,6 +213,20 @@ fn exchange(new: &Path, path: &Path) -> Result<()> {
 }
 
 /// The folder that a path is in.
+/// Why nothing can be put into a folder, without the name that it would have had for a while.
+fn no_room(folder: &Path, error: &io::Error) -> anyhow::Error {
+    let name = folder.display();
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            anyhow!("there is no folder {name}; make it, or name another place")
+        }
+        io::ErrorKind::NotADirectory => anyhow!("{name} is not a folder; name another place"),
+        kind => {
+            anyhow!("{name}: {kind}; name another place, or see to it that it can be written to")
+        }
+    }
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

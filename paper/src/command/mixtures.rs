@@ -2,20 +2,19 @@
 //! list are metric.
 
 use crate::mixtures::{Asked, Cases, KINDS, Kind, MOST_NODES};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use clap::Args;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use viewcert::decide::{Options, VerdictError};
 use viewcert::graph::graph6;
 use viewcert_formats::csv;
 use viewcert_formats::{Format, ReadOptions, read_graphs};
-use viewcert_session::Session;
 use viewcert_session::exit::GOOD;
+use viewcert_session::{Session, outputs};
 
 /// What to count.
 #[derive(Args)]
@@ -31,6 +30,10 @@ pub struct Arguments {
     /// Also write every assignment and its rank to a file.
     #[arg(long, value_name = "LIST")]
     list: Option<PathBuf>,
+    /// Also write the certificate of every assignment to a file, a line each (`.jsonl`); `verify check`
+    /// takes it. A graph is called by its graph6 and the letters of the assignment.
+    #[arg(long, value_name = "JSONL")]
+    certificates: Option<PathBuf>,
 }
 
 /// The sums of one question.
@@ -49,6 +52,11 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
         format: Some(Format::Graph6),
         ..ReadOptions::default()
     };
+    let written = [
+        ("--list", arguments.list.as_deref()),
+        ("--certificates", arguments.certificates.as_deref()),
+    ];
+    outputs::ensure_apart(&written, [&*arguments.from])?;
     let mut graphs = Vec::new();
     for input in read_graphs(&arguments.from, &read) {
         let input = input?;
@@ -60,10 +68,11 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
         );
         graphs.push(input.graph);
     }
-    let found: Vec<Vec<Cases>> = graphs
+    let asked = graphs.par_iter().map(|graph| Asked::new(graph, &options));
+    let asked: Vec<Asked> = asked.collect::<Result<_, VerdictError>>()?;
+    let found: Vec<Vec<Cases>> = asked
         .par_iter()
-        .map(|graph| {
-            let asked = Asked::new(graph, &options)?;
+        .map(|asked| {
             KINDS
                 .iter()
                 .map(|&kind| asked.cases(kind, &options))
@@ -75,23 +84,42 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
         graphs.flat_map(|(graph, found)| KINDS.into_iter().zip(found).map(move |row| (graph, row)))
     };
     if let Some(path) = &arguments.list {
-        let file = File::create(path).with_context(|| path.display().to_string())?;
-        let mut list = csv::Writer::tabs(BufWriter::new(file));
-        list.row(["graph6", "question", "nodes", "rank", "at_most", "required"])?;
-        for (graph, (kind, cases)) in rows() {
-            for case in &cases.all {
-                let numbers = [case.rank, case.at_most, case.required];
-                let words = [
-                    graph6::encode(graph),
-                    kind.name(),
-                    kind.letters(&case.of_node),
-                ];
-                list.row(words.into_iter().chain(numbers.map(|x| x.to_string())))?;
+        session.outputs().write(path, |out| {
+            let mut list = csv::Writer::tabs(out);
+            list.row(["graph6", "question", "nodes", "rank", "at_most", "required"])?;
+            for (graph, (kind, cases)) in rows() {
+                for case in &cases.all {
+                    let numbers = [case.rank, case.at_most, case.required];
+                    let words = [
+                        graph6::encode(graph),
+                        kind.name(),
+                        kind.letters(&case.of_node),
+                    ];
+                    list.row(words.into_iter().chain(numbers.map(|x| x.to_string())))?;
+                }
             }
-        }
-        list.finish()?;
+            list.finish()
+        })?;
     }
-    let mut out = std::io::stdout().lock();
+    if let Some(path) = &arguments.certificates {
+        let of_graphs: Vec<Vec<u8>> = asked
+            .par_iter()
+            .zip(&found)
+            .map(|(asked, found)| {
+                let mut lines = Vec::new();
+                for (kind, cases) in KINDS.into_iter().zip(found) {
+                    for case in &cases.all {
+                        lines.extend(asked.certificate(kind, &case.of_node, &options)?);
+                    }
+                }
+                Ok(lines)
+            })
+            .collect::<Result<_, VerdictError>>()?;
+        session.outputs().write(path, |out| {
+            of_graphs.iter().try_for_each(|lines| out.write_all(lines))
+        })?;
+    }
+    let mut out = outputs::text(&written.map(|(_, path)| path));
     if arguments.graphs {
         let mut table = csv::Writer::tabs(&mut out);
         table.row(["graph6", "question", "cases", "metric", "open", "least"])?;

@@ -16,7 +16,6 @@ use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 use viewcert::decide::{
     CountSolutions, Options, Prime, Projective, Value, Verdict, VerdictError, decide,
 };
@@ -202,23 +201,18 @@ impl Counts {
 }
 
 /// Certificates are decided modulo [`PRIME`]; a rank that falls short there for want of room
-/// is decided anew modulo the default prime. Which solutions are oriented is left out: it would be most of
-/// the published certificates, and one command finds it again.
+/// is decided anew modulo the default prime. Which solutions are oriented is not looked for: it would be most
+/// of the published certificates, and one command finds it.
 fn decide_small(graph: &Graph, watch: &Watch) -> Result<Verdict, VerdictError> {
-    let options = options(CountSolutions::Full, watch.clone());
+    let options = options(CountSolutions::Number, watch.clone());
     let small = PrimeField::new(PRIME).map_or_else(
         |_| options.clone(),
         |field| options.clone().prime(Prime::Fixed(field)),
     );
-    let mut verdict = match decide(graph, &small) {
+    match decide(graph, &small) {
         Err(VerdictError::Undecided { .. }) => decide(graph, &options),
         decided => decided,
-    }?;
-    let solutions = verdict.solutions.as_mut();
-    if let Some(evidence) = solutions.and_then(|count| count.evidence.as_mut()) {
-        Arc::make_mut(evidence).oriented = None;
     }
-    Ok(verdict)
 }
 
 /// The candidates of a size, all labelled canonically, in the order of the generator.
@@ -297,7 +291,7 @@ fn certify(out: &mut Files, nodes: usize, progress: &Progress) -> Result<(Counts
 fn list(out: &mut Files, nodes: usize, count: bool, progress: &Progress) -> Result<Counts> {
     let options = options(
         if count {
-            CountSolutions::Full
+            CountSolutions::Number
         } else {
             CountSolutions::Off
         },

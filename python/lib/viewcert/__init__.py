@@ -12,7 +12,8 @@ the cameras, and which maximal parts of it do?
 >>> viewcert.check(verdict.certificate()).value
 'not-finite-solvable'
 
-Warnings about what was merged, ignored or guessed go to ``logging.getLogger("viewcert")``.
+What was merged, ignored or guessed is a warning, of :class:`viewcert.NoteWarning`, and stands in
+``Verdict.notes``. ``logging.getLogger("viewcert")`` has a line for each verdict, at level DEBUG.
 """
 
 import logging as _logging
@@ -38,9 +39,10 @@ from ._act import (
     sweep,
     weak,
 )
+from ._all import verify_all
 from ._catalog import Entry, Shard, catalog, catalog_merge, catalog_shards, from_label, label
-from ._check import check
-from ._errors import Error, InputError, Rejected, TooLarge, Undecided
+from ._check import Verified, check
+from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
 from ._graph import (
     Graph,
     from_database,
@@ -48,8 +50,15 @@ from ._graph import (
     tracks_from_database,
     tracks_from_reconstruction,
 )
-from ._intrinsics import Intrinsics, check_intrinsics, intrinsics
-from ._native import Verified, VerifiedIntrinsics, __version__
+from ._intrinsics import (
+    Intrinsics,
+    Prior,
+    Priors,
+    VerifiedIntrinsics,
+    check_intrinsics,
+    intrinsics,
+)
+from ._native import __version__
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
@@ -65,8 +74,11 @@ __all__ = [
     "Intrinsics",
     "Joint",
     "Margin",
+    "NoteWarning",
     "Outside",
     "Planar",
+    "Prior",
+    "Priors",
     "Rejected",
     "Shard",
     "Solutions",
@@ -101,6 +113,7 @@ __all__ = [
     "tracks_from_database",
     "tracks_from_reconstruction",
     "verify",
+    "verify_all",
     "weak",
 ]
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 from ._errors import InputError
-from ._graph import Node, Path
+from ._convert import Node
+from ._graph import Path
 from ._verdict import Verdict, verify
 
 _Pair = Tuple[Node, Node]
@@ -212,11 +213,11 @@ class Implied:
     complete: str
 
 
-def _decided(verdict: Any) -> Verdict:
+def _decided(verdict: Any) -> Verdict[Any]:
     return verdict if isinstance(verdict, Verdict) else verify(verdict)
 
 
-def _asked(verdict: Verdict, what: str, **question: Any) -> Any:
+def _asked(verdict: Verdict[Any], what: str, **question: Any) -> Any:
     """The member of the program's JSON that answers a question."""
     answer: Dict[str, Any] = json.loads(verdict._native.report("json", **question))
     return answer[what]

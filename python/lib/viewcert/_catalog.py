@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import os
 from dataclasses import dataclass, field
 from typing import Any, Iterator, List, Optional
@@ -11,8 +10,7 @@ from . import _native
 from ._errors import InputError, TooLarge
 from ._graph import Path, as_graph
 from ._progress import Progress, shown
-
-_log = logging.getLogger("viewcert")
+from ._words import noted, whole, whole_if
 
 
 @dataclass(frozen=True)
@@ -102,13 +100,13 @@ def catalog(
     [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
     found = _native.Candidates(
-        nodes,
-        edges=edges,
+        whole("nodes", nodes, 0, 2**31 - 1),
+        edges=whole_if("edges", edges, 0, 2**31 - 1),
         necessary=necessary,
         minimal=minimal,
         solutions=solutions,
-        prime=prime,
-        seed=seed,
+        prime=whole_if("prime", prime, 5, 2**62 - 1),
+        seed=whole("seed", seed, 0, 2**64 - 1),
     )
     return map(_entry, found)
 
@@ -154,7 +152,7 @@ class Shard:
 
     def run(self, progress: Progress = None) -> str:
         """Does the work, or what is left of it: parts that an earlier run has finished are verified and
-        stay; what is damaged is computed again, with a warning of ``logging.getLogger("viewcert")``.
+        stay; what is damaged is computed again, with a :class:`NoteWarning`.
 
         Returns
         -------
@@ -167,8 +165,8 @@ class Shard:
             A folder of another run, or a size without candidates.
         """
         with shown(progress) as callback:
-            for note in _native.catalog_shard(self, progress=callback):
-                _log.warning("%s", note)
+            notes = _native.catalog_shard(self, progress=callback)
+        noted(f"shard {self.index}/{self.count}", notes)
         if self.verdicts:
             return self.folder
         return os.path.join(self.folder, f"shard-{self.index}-of-{self.count}")
@@ -232,8 +230,11 @@ def catalog_shards(
     >>> print(viewcert.catalog_merge(folder, recheck="all").split()[11:18])
     ['seconds', '7', 'nodes,', '9', 'edges,', 'biconnected', '20']
     """
-    if count < 1:
-        raise InputError(f"count={count}: there is one shard at least")
+    count = whole("count", count, 1, 2**63 - 1)
+    nodes, edges = whole("nodes", nodes, 0, 2**31 - 1), whole_if("edges", edges, 0, 2**31 - 1)
+    prime, seed = whole_if("prime", prime, 5, 2**62 - 1), whole("seed", seed, 0, 2**64 - 1)
+    part = whole_if("part", part, 1, 2**32 - 1)
+    threads = whole_if("threads", threads, 1, 2**16 - 1)
     shards = [
         Shard(
             folder=os.fspath(folder),
@@ -258,8 +259,7 @@ def catalog_shards(
         raise InputError(
             "verdicts=True counts alone: leave out minimal, solutions, certificates, solvable_only and prime"
         )
-    for note in _native.catalog_shard(shards[0], prepare=True):
-        _log.warning("%s", note)
+    noted("catalog_shards", _native.catalog_shard(shards[0], prepare=True))
     return shards
 
 
@@ -289,6 +289,7 @@ def catalog_merge(
     Rejected
         What was decided again contradicts the files.
     """
+    threads = whole_if("threads", threads, 1, 2**16 - 1)
     with shown(progress) as callback:
         return _native.catalog_merge(os.fspath(folder), recheck=recheck, threads=threads, progress=callback)
 

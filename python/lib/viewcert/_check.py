@@ -3,22 +3,111 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Union
+from dataclasses import dataclass, field, fields
+from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _native
 from ._errors import InputError
-from ._graph import Node, Path, as_graph, numbered
-from ._native import Verified
+from ._convert import Node
+from ._graph import Path, as_graph, numbered
+from ._types import BaseLinesValue, Decided, Strength, Value
 from ._verdict import Number, Verdict, coordinates
+from ._words import whole_if
+
+_T = TypeVar("_T")
+
+
+def of_native(kind: Type[_T], found: Any) -> _T:
+    """What the native part says, as a value of Python."""
+    return kind(**{one.name: getattr(found, one.name) for one in fields(kind)})  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Verified:
+    """What a certificate proves. It can be pickled and compared.
+
+    Attributes
+    ----------
+    value : str
+        ``'solvable'``, ``'finite-solvable'`` or ``'not-finite-solvable'``.
+    strength : str
+        ``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``.
+    error_log2 : int, optional
+        The exponent of the error bound.
+    rank, required : int
+        The generic rank, and that of a finite solvable graph with as many nodes.
+    components : int
+        How many there are.
+    nodes, edges : int
+        Of the graph.
+    sha256 : str
+        Its hash.
+    parts : int
+        How many known parts are taken for given.
+    displacements : int
+        Between how many sets of nodes displacements are taken for given.
+    base_lines : str, optional
+        What frames add where base lines are unknown.
+    model : str
+        The question.
+    text : str
+        All of it in words.
+    """
+
+    value: Value
+    strength: Strength
+    error_log2: Optional[int]
+    rank: int
+    required: int
+    components: int
+    nodes: int
+    edges: int
+    sha256: str
+    parts: int
+    displacements: int
+    base_lines: Optional[BaseLinesValue]
+    model: Decided
+    text: str = field(repr=False)
+
+    def __repr__(self) -> str:
+        size = f"{self.nodes} nodes, {self.edges} pairs"
+        count = "1 component" if self.components == 1 else f"{self.components} components"
+        return (
+            f"<viewcert.Verified {self.value} ({self.strength}): {self.model}, {size}, rank "
+            f"{self.rank} of {self.required}, {count}>"
+        )
+
+
+def text_of(certificate: Union[bytes, bytearray, memoryview, Path]) -> bytes:
+    """The bytes of a certificate, or of its file.
+
+    Raises
+    ------
+    InputError
+        If it is the text of a certificate as `str`, or no certificate at all.
+    """
+    if isinstance(certificate, (bytes, bytearray, memoryview)):
+        return bytes(certificate)
+    if isinstance(certificate, str) and certificate.lstrip()[:1] in ("{", "["):
+        raise InputError(
+            "a str is the path of a certificate, and this is its text: give the bytes, "
+            "text.encode()"
+        )
+    if not isinstance(certificate, (str, os.PathLike)):
+        raise InputError(
+            f"{type(certificate).__name__} is no certificate: give its bytes, its file, or a verdict"
+        )
+    with open(certificate, "rb") as file:
+        return file.read()
 
 
 def check(
-    certificate: Union[bytes, bytearray, memoryview, Path, Verdict],
+    certificate: Union[bytes, bytearray, memoryview, Path, Verdict[Any]],
     graph: Any = None,
     *,
     parts: Optional[Iterable[Iterable[Node]]] = None,
     displacements: Union[
-        Mapping[Tuple[Node, Node], Sequence[Number]], Iterable[Iterable[Node]], None
+        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
     ] = None,
     max_operations: Optional[int] = None,
 ) -> Verified:
@@ -43,11 +132,7 @@ def check(
     Returns
     -------
     Verified
-        What the certificate proves: `value`, `strength`, `error_log2`, `rank`, `required`, the
-        number of `components`, and of the graph `nodes`, `edges`, `sha256`; how many known `parts`
-        it takes for given, and between how many sets of nodes `displacements`; `base_lines`: what
-        frames add where base lines are unknown (``'solvable'``, ``'not-finite-solvable'`` or
-        ``'open'``), or None; `model`; all of it in words as `text`.
+        What the certificate proves.
 
     Raises
     ------
@@ -79,23 +164,22 @@ def check(
             parts = certificate.parts if parts is None else parts
             if displacements is None:
                 displacements = certificate.vectors or certificate.displacements
-    elif isinstance(certificate, (bytes, bytearray, memoryview)):
-        text = bytes(certificate)
     else:
-        with open(certificate, "rb") as file:
-            text = file.read()
+        text = text_of(certificate)
+    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     stated = {"parts": parts, "displacements": displacements}
     for what in (what for what, sets in stated.items() if sets is not None):
         if graph is None or isinstance(graph, (str, os.PathLike)):
             raise InputError(f"{what}: their nodes are those of a graph; give the graph itself, not a file")
     if isinstance(graph, (str, os.PathLike)):
-        return _native.check(text, file=os.fspath(graph), max_operations=max_operations)
+        found = _native.check(text, file=os.fspath(graph), max_operations=max_operations)
+        return of_native(Verified, found)
     if graph is None:
-        return _native.check(text, max_operations=max_operations)
+        return of_native(Verified, _native.check(text, max_operations=max_operations))
     given = as_graph(graph)
     known = None if parts is None else numbered(given, parts)
     groups = None if displacements is None else numbered(given, displacements, "displacements")
-    return _native.check(
+    found = _native.check(
         text,
         graph=given._native,
         parts=known,
@@ -103,3 +187,4 @@ def check(
         vectors=coordinates(displacements),
         max_operations=max_operations,
     )
+    return of_native(Verified, found)

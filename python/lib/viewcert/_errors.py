@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-__all__ = ["Error", "InputError", "Rejected", "TooLarge", "Undecided"]
+from ._words import NoteWarning, in_python
+
+__all__ = ["Error", "InputError", "NoteWarning", "Rejected", "TooLarge", "Undecided"]
 
 
 class Error(Exception):
     """Any error of this package."""
+
+    def __init__(self, *arguments: object) -> None:
+        # What the native part raises names options of the program.
+        words = (in_python(word) if isinstance(word, str) else word for word in arguments)
+        super().__init__(*words)
 
 
 class InputError(Error, ValueError):
@@ -37,7 +44,7 @@ class Rejected(Error):
     def __init__(self, step: str, reason: str) -> None:
         super().__init__(step, reason)
         self.step = step
-        self.reason = reason
+        self.reason = in_python(reason)
 
     def __str__(self) -> str:
         return f"{self.step}: {self.reason}" if self.step else self.reason

@@ -1,33 +1,66 @@
-"""Graphs of many kinds, as the native part takes them; files."""
+"""Graphs, and the files that they come from."""
 
 from __future__ import annotations
 
-import logging
 import os
-import sys
 import tempfile
 from decimal import Decimal
-from itertools import chain
-from typing import Any, Hashable, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Dict,
+    Generic,
+    Iterable,
+    Iterator,
+    List,
+    Literal,
+    Optional,
+    Sequence,
+    Tuple,
+    Union,
+    cast,
+    get_args,
+    overload,
+)
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._native import Graph as NativeGraph
+from ._convert import Node, Wish, converted
 from ._errors import InputError
+from ._native import Graph as NativeGraph
+from ._types import Format, Lines, N, Pipeline
+from ._words import in_python, noted, one_of, shown_notes, whole, whole_if
 
-Node = Hashable
+if TYPE_CHECKING:
+    import networkx
+
 Path = Union[str, "os.PathLike[str]"]
 
-_log = logging.getLogger("viewcert")
 
-
-class Graph:
+class Graph(Generic[N]):
     """A viewing graph, or a graph of cameras and points, that `verify` takes as it is.
 
     What :func:`read`, :func:`from_database` and the functions for tracks return; other graphs are
-    converted by :func:`verify` and need not be made into one.
+    converted by :func:`verify`, and are made into one only for what the parameters say. It cannot be
+    changed. Two are equal if they have the same nodes and pairs, whatever they are called and were
+    read from. It can be pickled, with all that is known of it.
+
+    Parameters
+    ----------
+    graph
+        What :func:`verify` takes.
+    name : str
+        What reports and certificates call it.
+    columns : pair of str, optional
+        The two columns of a data frame that hold the pairs. Without it: the only two columns,
+        ``source`` and ``target``, ``image1`` and ``image2``, ``img1`` and ``img2``, or ``i`` and ``j``.
+    inliers : str, optional
+        The attribute of pairs, or the column, that holds their numbers of inliers. Advice goes by
+        them (:func:`suggest`, :func:`sweep`), verdicts do not.
+    min_inliers : int
+        Pairs with fewer inliers do not count; that is a note.
 
     Examples
     --------
@@ -39,26 +72,106 @@ class Graph:
     ['a', 'b', 'c']
     >>> graph.pairs.tolist()
     [[0, 1], [0, 2], [1, 2]]
+    >>> len(graph), "a" in graph, list(graph)
+    (3, True, ['a', 'b', 'c'])
+    >>> graph == viewcert.Graph([("c", "b"), ("c", "a"), ("b", "a")])
+    True
     """
 
-    __slots__ = ("_native", "_nodes", "_texts")
+    __slots__ = ("_native", "_nodes", "_texts", "_numbers")
 
     _native: NativeGraph
     _nodes: Optional[Sequence[Node]]
     _texts: Optional[Sequence[str]]
+    _numbers: Optional[Dict[Node, int]]
 
-    def __init__(self, graph: Any, *, name: str = "graph") -> None:
-        self._native, self._nodes, self._texts = _converted(graph, name)
-        for note in self._native.notes:
-            _log.warning("%s: %s", self._native.name, note)
+    def __init__(
+        self,
+        graph: Any,
+        *,
+        name: str = "graph",
+        columns: Optional[Tuple[Any, Any]] = None,
+        inliers: Optional[str] = None,
+        min_inliers: int = 0,
+    ) -> None:
+        least = whole("min_inliers", min_inliers, 0, 2**32 - 1)
+        if least and inliers is None:
+            raise InputError("min_inliers: say which attribute holds the inliers, inliers='...'")
+        if isinstance(graph, Graph):
+            if columns is not None or inliers is not None:
+                raise InputError("a viewcert.Graph is what it is; make it anew from what it came from")
+            self._set(graph._native, graph._nodes, graph._texts)
+            return
+        if columns is not None:
+            if isinstance(columns, str) or len(columns) != 2:
+                raise InputError(f"columns={columns!r}: name the two that hold the pairs")
+            columns = (columns[0], columns[1])
+        self._set(*converted(graph, name, Wish(columns, inliers, least)))
+        noted(name, self._native.notes)
+
+    def _set(
+        self,
+        native: NativeGraph,
+        nodes: Optional[Sequence[Node]],
+        texts: Optional[Sequence[str]],
+    ) -> None:
+        for slot, value in zip(self.__slots__, (native, nodes, texts, None)):
+            object.__setattr__(self, slot, value)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a graph cannot be changed: {name}")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a graph cannot be changed: {name}")
 
     @classmethod
-    def _of(cls, native: NativeGraph) -> Graph:
-        graph = cls.__new__(cls)
-        graph._native, graph._nodes, graph._texts = native, None, None
-        for note in native.notes:
-            _log.warning("%s: %s", native.name, note)
+    def _of(
+        cls,
+        native: NativeGraph,
+        nodes: Optional[Sequence[Node]] = None,
+        texts: Optional[Sequence[str]] = None,
+    ) -> Graph[Any]:
+        graph: Graph[Any] = cls.__new__(cls)
+        graph._set(native, nodes, texts)
         return graph
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        native = self._native
+        labels, about = _native.about_graph(native)
+        kept = (native.name, native.nodes, native.pairs(), labels, about)
+        return _restored, (kept, self._nodes, self._texts)
+
+    def __copy__(self) -> Graph[N]:
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> Graph[N]:
+        return self
+
+    def __len__(self) -> int:
+        return self._native.nodes
+
+    def __bool__(self) -> bool:
+        # There is no graph without nodes.
+        return True
+
+    def __iter__(self) -> Iterator[N]:
+        return iter(self.nodes)
+
+    def __contains__(self, node: object) -> bool:
+        try:
+            return node in self._number_of()
+        except TypeError:
+            return False
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Graph):
+            return NotImplemented
+        if self is other:
+            return True
+        return self.nodes == other.nodes and _native.same_graph(self._native, other._native)
+
+    def __hash__(self) -> int:
+        return hash((self._native.nodes, self.sha256))
 
     @property
     def name(self) -> str:
@@ -66,14 +179,14 @@ class Graph:
         return self._native.name
 
     @property
-    def nodes(self) -> List[Node]:
+    def nodes(self) -> List[N]:
         """The nodes, as they were given, in the order of their numbers.
 
         Of a camera-point graph first the names of the cameras, then ``point 1`` and so on.
         """
         if self._nodes is None:
-            self._nodes = self._native.labels()
-        return list(self._nodes)
+            object.__setattr__(self, "_nodes", self._native.labels())
+        return cast("List[N]", list(self._nodes or ()))
 
     @property
     def pairs(self) -> NDArray[np.uint32]:
@@ -81,14 +194,19 @@ class Graph:
         return self._native.pairs()
 
     @property
+    def inliers(self) -> Optional[NDArray[np.uint32]]:
+        """The number of inliers of each of `pairs`, if it is known."""
+        return self._native.inliers()
+
+    @property
     def read_as(self) -> str:
         """What the input was taken for, and what of it became the graph, in a line."""
-        return self._native.read_as
+        return in_python(self._native.read_as)
 
     @property
     def notes(self) -> List[str]:
-        """What was merged, ignored or guessed."""
-        return self._native.notes
+        """What was merged, ignored or guessed: also warnings, of :class:`NoteWarning`."""
+        return [in_python(note) for note in self._native.notes]
 
     @property
     def cameras(self) -> Optional[int]:
@@ -100,29 +218,98 @@ class Graph:
         """The hash that certificates name, in hexadecimal digits."""
         return self._native.sha256()
 
+    def to_networkx(self) -> networkx.Graph[N]:
+        """The graph for networkx, with ``inliers`` at its edges if they are known, and of a
+        camera-point graph ``bipartite`` at its nodes: 0 for cameras, 1 for points.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> viewcert.Graph([("a", "b"), ("b", "c")]).to_networkx().degree["b"]
+        2
+        """
+        import networkx
+
+        graph: networkx.Graph[N] = networkx.Graph(name=self.name)
+        nodes, cameras, inliers = self.nodes, self.cameras, self.inliers
+        if cameras is None:
+            graph.add_nodes_from(nodes)
+        else:
+            graph.add_nodes_from(nodes[:cameras], bipartite=0)
+            graph.add_nodes_from(nodes[cameras:], bipartite=1)
+        ends = ((nodes[i], nodes[j]) for i, j in self.pairs.tolist())
+        if inliers is None:
+            graph.add_edges_from(ends)
+        else:
+            counts = inliers.tolist()
+            graph.add_edges_from((a, b, {"inliers": count}) for (a, b), count in zip(ends, counts))
+        return graph
+
     def __repr__(self) -> str:
         native = self._native
-        return f"<viewcert.Graph {native.name!r}: {native.nodes} nodes, {native.edges} pairs>"
+        size = f"{native.nodes} nodes, {native.edges} pairs"
+        return f"<viewcert.Graph {native.name!r}: {size}{shown_notes(self.notes)}>"
+
+    def _number_of(self) -> Dict[Node, int]:
+        """The number of every node."""
+        if self._numbers is None:
+            numbers = {node: number for number, node in enumerate(self.nodes)}
+            object.__setattr__(self, "_numbers", numbers)
+        assert self._numbers is not None
+        return self._numbers
+
+    def _rows(self, pairs: Any) -> NDArray[np.uint32]:
+        """Pairs of nodes as rows of node numbers."""
+        if isinstance(pairs, np.ndarray) and pairs.dtype.kind in "iu":
+            if pairs.ndim != 2 or pairs.shape[1] != 2:
+                raise InputError(f"an array of shape {pairs.shape} is no list of pairs, which has shape (m, 2)")
+            known = np.array(self.nodes)
+            if known.dtype.kind in "iu" and (known[1:] > known[:-1]).all():
+                first, last = int(known[0]), int(known[-1])
+                if last - first == len(known) - 1:
+                    strange = (pairs < first) | (pairs > last)
+                    places = pairs - pairs.dtype.type(first) if not strange.any() else pairs
+                else:
+                    places = np.searchsorted(known, pairs).clip(max=len(known) - 1)
+                    strange = known[places] != pairs
+                if strange.any():
+                    row = int(np.flatnonzero(strange.any(axis=1))[0])
+                    raise InputError(f"row {row} of the pairs, {tuple(pairs[row].tolist())}, is no pair of the graph")
+                return places.astype(np.uint32)
+            pairs = pairs.tolist()
+        numbers, found = self._number_of(), []
+        for row, (a, b, *_) in enumerate(pairs):
+            if a not in numbers or b not in numbers:
+                raise InputError(f"row {row} of the pairs, {(a, b)!r}, is no pair of the graph")
+            found.append((numbers[a], numbers[b]))
+        return np.array(found, dtype=np.uint32).reshape(-1, 2)
 
     def _text_of(self, node: Node) -> str:
         """What a node is called in reports."""
         if self._texts is None:
             return str(node)
-        nodes = self.nodes
-        try:
-            return self._texts[nodes.index(node)]
-        except ValueError:
-            return str(node)
+        number = self._number_of().get(node)
+        return str(node) if number is None else self._texts[number]
 
     def _by_text(self) -> dict[str, Node]:
         """The nodes by what they are called in reports."""
-        nodes = self.nodes
+        nodes: List[Node] = list(self.nodes)
         texts = map(str, nodes) if self._texts is None else self._texts
         return dict(zip(texts, nodes))
 
 
+def _restored(
+    kept: Tuple[Any, ...], nodes: Optional[Sequence[Node]], texts: Optional[Sequence[str]]
+) -> Graph[Any]:
+    """A graph that was pickled."""
+    name, count, pairs, labels, about = kept
+    # What came over a wire may begin anywhere in a buffer.
+    pairs = np.require(pairs, requirements="A")
+    return Graph._of(_native.graph_kept(name, count, pairs, labels, about), nodes, texts)
+
+
 def numbered(
-    graph: Graph, parts: Iterable[Iterable[Node]], what: str = "parts"
+    graph: Graph[Any], parts: Iterable[Iterable[Node]], what: str = "parts"
 ) -> List[List[int]]:
     """Sets of nodes, by the numbers of the nodes; `what` is the argument that they came as.
 
@@ -131,7 +318,7 @@ def numbered(
     InputError
         If one of them is no node of the graph, or they are no sets of nodes.
     """
-    numbers = {node: number for number, node in enumerate(graph.nodes)}
+    numbers = graph._number_of()
     found = []
     for part in parts:
         if isinstance(part, (str, bytes)):
@@ -145,156 +332,71 @@ def numbered(
     return found
 
 
-_Converted = Tuple[NativeGraph, Optional[Sequence[Node]], Optional[Sequence[str]]]
-
-
-def as_graph(graph: Any, name: Optional[str] = None) -> Graph:
+def as_graph(graph: Any, name: Optional[str] = None) -> Graph[Any]:
     """Any graph as a `Graph`."""
     if isinstance(graph, Graph):
         return graph
     return Graph(graph, name="graph" if name is None else name)
 
 
-def _converted(graph: Any, name: str) -> _Converted:
-    if isinstance(graph, Graph):
-        return graph._native, graph._nodes, graph._texts
-    networkx = sys.modules.get("networkx")
-    if networkx is not None and isinstance(graph, networkx.Graph):
-        return _of_pairs(graph.edges(), name, list(graph))
-    rustworkx = sys.modules.get("rustworkx")
-    if rustworkx is not None and isinstance(graph, (rustworkx.PyGraph, rustworkx.PyDiGraph)):
-        return _of_rustworkx(graph, name)
-    sparse = sys.modules.get("scipy.sparse")
-    if sparse is not None and sparse.issparse(graph):
-        return _of_sparse(graph.tocoo(), name)
-    if isinstance(graph, np.ndarray):
-        return _of_array(graph, name)
-    if isinstance(graph, (str, bytes, os.PathLike)):
-        raise InputError(f"{graph!r} is no graph; viewcert.read reads files")
-    return _of_pairs(graph, name, [])
-
-
-def _of_array(pairs: NDArray[Any], name: str) -> _Converted:
-    if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise InputError(
-            f"an array of shape {pairs.shape} is no list of pairs, which has shape (m, 2); make an "
-            "adjacency matrix a sparse one (scipy.sparse.coo_array)"
-        )
-    if pairs.dtype.kind not in "iu":
-        raise InputError(
-            f"an array of {pairs.dtype} holds no numbers of images: give integers, or an iterable "
-            "of pairs"
-        )
-    if pairs.dtype not in (np.int64, np.uint64, np.int32, np.uint32):
-        pairs = pairs.astype(np.int64)
-    return _native.graph_of_integers(pairs, name), None, None
-
-
-def _of_rustworkx(graph: Any, name: str) -> _Converted:
-    nodes = np.fromiter(graph.node_indices(), dtype=np.int64, count=len(graph))
-    ends = np.array(graph.edge_list(), dtype=np.int64).reshape(-1, 2)
-    pairs = np.searchsorted(nodes, ends).astype(np.uint32)
-    indices = nodes.tolist()
-    native = _native.graph_of_nodes(len(indices), pairs, name, integers=indices)
-    return native, indices, None
-
-
-def _of_sparse(matrix: Any, name: str) -> _Converted:
-    if len(matrix.shape) != 2 or matrix.shape[0] != matrix.shape[1]:
-        raise InputError(f"a matrix of shape {matrix.shape} is no adjacency matrix: not square")
-    nodes = matrix.shape[0]
-    if nodes >= 2**32:
-        raise InputError(f"{nodes} nodes are too many: at most 2^32 - 1")
-    there = matrix.data != 0
-    row, column = matrix.row[there].astype(np.uint64), matrix.col[there].astype(np.uint64)
-    loops = row == column
-    if loops.any():
-        raise InputError(f"node {row[loops][0]} is paired with itself; set the diagonal to zero")
-    entry = np.unique(row << np.uint64(32) | column)
-    mirrored = np.unique(column << np.uint64(32) | row)
-    if not np.array_equal(entry, mirrored):
-        alone = int(np.setdiff1d(entry, mirrored)[0])
-        i, j = alone >> 32, alone & 0xFFFFFFFF
-        raise InputError(
-            f"the matrix is not symmetric: ({i}, {j}) is non-zero, ({j}, {i}) is zero; give "
-            "A + A.T if the direction of pairs does not matter"
-        )
-    pairs = np.stack([entry >> np.uint64(32), entry & np.uint64(0xFFFFFFFF)], axis=1)
-    pairs = pairs[pairs[:, 0] < pairs[:, 1]].astype(np.uint32)
-    return _native.graph_of_nodes(nodes, pairs, name), range(nodes), None
-
-
-def _of_pairs(graph: Any, name: str, alone: List[Node]) -> _Converted:
-    """Pairs of any nodes; `alone` are nodes that need not have a pair."""
-    try:
-        pairs = list(graph)
-    except TypeError:
-        raise InputError(
-            f"{type(graph).__name__} is no graph: give a graph of networkx or rustworkx, a sparse "
-            "matrix, an integer array of shape (m, 2), or pairs of nodes"
-        ) from None
-    if any(isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") for pair in pairs):
-        raise InputError("a graph is given by pairs of nodes, such as [('a.jpg', 'b.jpg')]")
-    for number, pair in enumerate(pairs):
-        if len(pair) != 2:
-            raise InputError(f"pair {number} has {len(pair)} members: {pair!r}; give two nodes")
-    ends = chain.from_iterable
-    try:
-        nodes: List[Node] = list(dict.fromkeys(chain(alone, ends(pairs))))
-    except TypeError as error:
-        raise InputError(f"a node cannot be told from others: {error}") from None
-    nodes, texts, labels = _ordered(nodes)
-    number_of = {node: number for number, node in enumerate(nodes)}
-    numbers = np.fromiter(map(number_of.__getitem__, ends(pairs)), np.uint32, 2 * len(pairs))
-    native = _native.graph_of_nodes(len(nodes), numbers.reshape(-1, 2), name, **labels)
-    return native, nodes, texts
-
-
-def _ordered(nodes: List[Node]) -> Tuple[List[Node], Optional[List[str]], dict[str, Any]]:
-    """Nodes in the order in which the program numbers them in files, what they are called if that
-    is not `str`, and their labels for the native part.
-
-    Integers, and texts that are all integers, increase; other texts do so too (in Python by code
-    points, in the program by the bytes of UTF-8, which is the same); all else stays as it came.
-    """
-    if all(type(node) is int or isinstance(node, np.integer) for node in nodes):
-        given: List[Any] = sorted(nodes, key=_integer)
-        integers = list(map(_integer, given))
-        if not integers or 0 <= integers[0] and integers[-1] < 2**64:
-            return given, None, {"integers": integers}
-    if all(type(node) is str for node in nodes):
-        texts: List[str] = [str(node) for node in nodes]
-        if all(map(_is_integer, texts)):
-            texts.sort(key=int)
-            return list(texts), None, {"integers": [int(text) for text in texts]}
-        texts.sort()
-        return list(texts), None, {"names": texts}
-    for show in (str, repr):
-        texts = [show(node) for node in nodes]
-        if len(set(texts)) == len(texts):
-            break
-    else:
-        texts = [f"{text} ({number})" for number, text in enumerate(texts)]
-    return nodes, texts, {"names": texts}
-
-
-def _integer(node: Any) -> int:
-    """An integer of Python or numpy as one of Python."""
-    return int(node)
-
-
-def _is_integer(text: str) -> bool:
-    """Whether a reader of edge lists takes a text for a number."""
-    plain = text.isascii() and text.isdecimal() and (text == "0" or text[0] != "0")
-    return plain and int(text) < 2**64
-
-
+@overload
 def read(
     path: Path,
     *,
-    format: Optional[str] = None,
+    tracks: Literal[True],
+    format: Optional[Format] = ...,
+    variable: Optional[str] = ...,
+    pipeline: Optional[Pipeline] = ...,
+    min_inliers: Optional[int] = ...,
+    min_views: int = ...,
+    max_spread: int = ...,
+    rigs: bool = ...,
+    columns: Optional[Sequence[Union[str, int]]] = ...,
+    min_weight: Union[str, int, Decimal, None] = ...,
+    skip_loops: bool = ...,
+) -> Graph[str]: ...
+@overload
+def read(
+    path: Path,
+    *,
+    format: Format,
+    variable: Optional[str] = ...,
+    pipeline: Optional[Pipeline] = ...,
+    min_inliers: Optional[int] = ...,
+    tracks: Literal[False] = ...,
+    min_views: int = ...,
+    max_spread: int = ...,
+    rigs: bool = ...,
+    columns: Optional[Sequence[Union[str, int]]] = ...,
+    min_weight: Union[str, int, Decimal, None] = ...,
+    skip_loops: bool = ...,
+) -> Graph[Any]: ...
+@overload
+def read(
+    path: Path, *, format: Lines, skip_loops: bool = ...
+) -> Union[Graph[int], List[Graph[int]]]: ...
+@overload
+def read(
+    path: Path,
+    *,
+    format: None = ...,
+    variable: Optional[str] = ...,
+    pipeline: Optional[Pipeline] = ...,
+    min_inliers: Optional[int] = ...,
+    tracks: bool = ...,
+    min_views: int = ...,
+    max_spread: int = ...,
+    rigs: bool = ...,
+    columns: Optional[Sequence[Union[str, int]]] = ...,
+    min_weight: Union[str, int, Decimal, None] = ...,
+    skip_loops: bool = ...,
+) -> Any: ...
+def read(
+    path: Path,
+    *,
+    format: Union[Format, Lines, None] = None,
     variable: Optional[str] = None,
-    pipeline: Optional[str] = None,
+    pipeline: Optional[Pipeline] = None,
     min_inliers: Optional[int] = None,
     tracks: bool = False,
     min_views: int = 3,
@@ -314,7 +416,10 @@ def read(
         database, a model (the folder or its points3D file), Bundler's ``bundle.out``, BAL, NVM,
         or OpenMVG's matches.
     format : str, optional
-        The format, as ``verify --format`` names it, of files that do not show it.
+        The format of files that do not show it: ``'edges'``, ``'graph6'``, ``'sparse6'``,
+        ``'matlab'``, ``'matrix-market'``, ``'numpy'``, ``'match-list'``, ``'glomap'``, ``'1dsfm'``,
+        ``'openmvg-pairs'``, ``'raw-matches'``, ``'text-matrix'``, ``'g2o'``, ``'node-link'``,
+        ``'graphml'``, ``'gml'``, ``'gexf'`` or ``'dot'``.
     variable : str, optional
         The variable of a MATLAB file.
     pipeline, min_inliers : optional
@@ -358,24 +463,28 @@ def read(
     """
     if isinstance(min_weight, float):
         raise InputError(f"min_weight={min_weight!r}: give an integer, a Decimal or a string")
+    if pipeline is not None:
+        one_of("pipeline", pipeline, get_args(Pipeline))
     found = _native.read(
         os.fspath(path),
         format=format,
         variable=variable,
         pipeline=pipeline,
-        min_inliers=min_inliers,
-        min_views=min_views if tracks else None,
-        max_spread=max_spread if tracks else None,
+        min_inliers=whole_if("min_inliers", min_inliers, 0, 2**32 - 1),
+        min_views=whole("min_views", min_views, 1, 2**32 - 1) if tracks else None,
+        max_spread=whole("max_spread", max_spread, 0, 2**32 - 1) if tracks else None,
         rigs=rigs,
         columns=None if columns is None else ",".join(map(str, columns)),
         min_weight=None if min_weight is None else str(min_weight),
         skip_loops=skip_loops,
     )
     graphs = [Graph._of(native) for native in found]
+    for graph in graphs:
+        noted(graph.name, graph._native.notes)
     return graphs[0] if len(graphs) == 1 else graphs
 
 
-def _read_one(path: Path, **options: Any) -> Graph:
+def _read_one(path: Path, **options: Any) -> Graph[str]:
     found = read(path, **options)
     if not isinstance(found, Graph):
         raise InputError(f"{os.fspath(path)}: {len(found)} graphs, where one is expected")
@@ -383,8 +492,8 @@ def _read_one(path: Path, **options: Any) -> Graph:
 
 
 def from_database(
-    path: Path, *, min_inliers: int = 15, pipeline: str = "incremental"
-) -> Graph:
+    path: Path, *, min_inliers: int = 15, pipeline: Pipeline = "incremental"
+) -> Graph[str]:
     """The viewing graph of a COLMAP database, which is opened for reading only.
 
     Parameters
@@ -420,8 +529,8 @@ def tracks_from_database(
     max_spread: int = 10,
     rigs: bool = True,
     min_inliers: int = 15,
-    pipeline: str = "incremental",
-) -> Graph:
+    pipeline: Pipeline = "incremental",
+) -> Graph[str]:
     """The graph of cameras and points of a COLMAP database: its matches, joined to tracks.
 
     Parameters
@@ -452,7 +561,7 @@ def tracks_from_database(
     return _read_one(path, tracks=True, min_views=min_views, **options)
 
 
-def tracks_from_reconstruction(reconstruction: Any, min_views: int = 3) -> Graph:
+def tracks_from_reconstruction(reconstruction: Any, min_views: int = 3) -> Graph[str]:
     """The graph of cameras and points of a reconstruction of pycolmap.
 
     Parameters

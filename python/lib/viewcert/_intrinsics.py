@@ -2,16 +2,126 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _native
 from ._act import _asked, _decided
 from ._errors import InputError
-from ._graph import Node, Path, as_graph
-from ._native import VerifiedIntrinsics
+from ._check import of_native, text_of
+from ._convert import Node
+from ._graph import Path, as_graph
+from ._types import Class, IntrinsicsValue
 from ._verdict import Verdict
+from ._words import whole_if
+
+
+@dataclass(frozen=True)
+class VerifiedIntrinsics:
+    """What a certificate of intrinsics proves. It can be pickled and compared.
+
+    Attributes
+    ----------
+    value : str
+        ``'metric'``, ``'not-metric'`` or ``'open'``.
+    rank, rank_at_most : int
+        Bounds of the generic rank.
+    required : int
+        The rank of a metric graph.
+    components : list of list of int, optional
+        Metric components, as positions in the `graph.nodes` of a verdict; None if bounds do not meet.
+    not_determined : list of int, optional
+        The positions of the nodes whose intrinsics are not determined; None if bounds do not meet.
+    classes : list of (int, str)
+        How many cameras are of which class.
+    classes_sha256 : str
+        The hash of the classes.
+    nodes, edges : int
+        Of the graph.
+    sha256 : str
+        Its hash.
+    text : str
+        All of it in words.
+    """
+
+    value: IntrinsicsValue
+    rank: int
+    rank_at_most: int
+    required: int
+    components: Optional[List[List[int]]]
+    not_determined: Optional[List[int]]
+    classes: List[Tuple[int, Class]]
+    classes_sha256: str
+    nodes: int
+    edges: int
+    sha256: str
+    text: str = field(repr=False)
+
+    def __repr__(self) -> str:
+        size = f"{self.nodes} nodes, {self.edges} pairs"
+        least, most = self.rank, self.rank_at_most
+        rank = f"{least}" if least == most else f"{least} to {most}"
+        return f"<viewcert.VerifiedIntrinsics {self.value}: {size}, rank {rank} of {self.required}>"
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is determined once one camera more is calibrated.
+
+    Attributes
+    ----------
+    nodes : frozenset
+        The nodes of the sensor that is calibrated: one, unless several images are of one camera.
+    unknown : str
+        What is not known of it before, as a class: ``'focal'``, ``'focal+point'`` or ``'unknown'``.
+    metric : bool
+        Whether all cameras are determined then; it is proved if it is said.
+    proved : bool
+        Whether the bounds of the rank meet then, so that all of this is proved.
+    rank, rank_at_most, rank_required : int
+        The generic rank then is between the first two; a metric graph has the third.
+    determined : int
+        How many nodes have known or determined intrinsics then.
+    others : int
+        How many of them are neither in `nodes` nor determined without it.
+    largest : int
+        How many nodes the largest metric component has then.
+    """
+
+    nodes: frozenset[Node]
+    unknown: str
+    metric: bool
+    proved: bool
+    rank: int
+    rank_at_most: int
+    rank_required: int
+    determined: int
+    others: int
+    largest: int
+
+
+@dataclass(frozen=True)
+class Priors:
+    """What one prior more on intrinsics would do.
+
+    Attributes
+    ----------
+    each : tuple of Prior
+        The best first: a metric graph, most intrinsics determined, the largest metric component; of
+        equally good ones those with the fewest unknowns.
+    best : int
+        How many are as good as the first, itself included.
+    sensors : int
+        How many there are: sensors with a pair of which the intrinsics are not determined.
+    if_all_known : str
+        ``'metric'``, ``'not-metric'`` or ``'open'``: what the graph is if all intrinsics are known.
+        If that is ``'not-metric'``, pairs are missing, and no priors make it metric.
+    """
+
+    each: Tuple[Prior, ...]
+    best: int
+    sensors: int
+    if_all_known: str
 
 
 @dataclass(frozen=True)
@@ -43,15 +153,15 @@ class Intrinsics:
     components: Tuple[frozenset[Node], ...]
     other_pairs: int
     determined: Dict[Node, bool]
-    _verdict: Verdict = field(repr=False, compare=False)
+    _verdict: Verdict[Any] = field(repr=False, compare=False)
     _classes: Tuple[str, ...] = field(repr=False, compare=False)
     _sensors: Tuple[int, ...] = field(repr=False, compare=False)
 
     def certificate(self, *, embed_graph: bool = False) -> bytes:
         """The certificate, which :func:`check_intrinsics` and two independent programs verify.
 
-        It states the classes, and all of it is proved. Components and what is determined it claims
-        only if bounds meet.
+        It states the classes and which nodes share intrinsics, and all of it is proved. Components and
+        what is determined it claims only if bounds meet.
 
         Parameters
         ----------
@@ -61,13 +171,61 @@ class Intrinsics:
         Raises
         ------
         InputError
-            If the graph has no pairs, or nodes share unknown intrinsics.
+            If the graph has no pairs.
         """
-        of_sensor = Counter(self._sensors)
-        if any(of_sensor[k] > 1 and word != "known" for k, word in enumerate(self._classes)):
-            raise InputError("certificates do not state shared intrinsics yet; leave out sensors")
-        words = [self._classes[sensor] for sensor in self._sensors]
-        return self._verdict._native.certificate_of_intrinsics(words, embed_graph=embed_graph)
+        return self._verdict._native.certificate_of_intrinsics(
+            list(self._classes), list(self._sensors), embed_graph=embed_graph
+        )
+
+    def priors(self, most: int = 10) -> Priors:
+        """Which camera to calibrate: what one prior more would do, exactly.
+
+        Parameters
+        ----------
+        most : int
+            How many to list at most, the best first.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+        >>> found = viewcert.intrinsics(triangle, {"a": "known"}).priors()
+        >>> found.best, [(sorted(prior.nodes), prior.metric) for prior in found.each]
+        (2, [(['b'], True), (['c'], True)])
+        """
+        found = _asked(
+            self._verdict,
+            "intrinsics",
+            suggest=most,
+            intrinsics=list(self._classes),
+            sensors=list(self._sensors),
+        )["priors"]
+        by_text = self._verdict.graph._by_text()
+        return Priors(
+            each=tuple(
+                Prior(
+                    nodes=frozenset(by_text[text] for text in prior["labels"]),
+                    unknown=prior["class"],
+                    metric=prior["verdict"] == "metric",
+                    **{
+                        name: prior[name]
+                        for name in (
+                            "proved",
+                            "rank",
+                            "rank_at_most",
+                            "rank_required",
+                            "determined",
+                            "others",
+                            "largest",
+                        )
+                    },
+                )
+                for prior in found["each"]
+            ),
+            best=found["best"],
+            sensors=found["sensors"],
+            if_all_known=found["if_all_known"],
+        )
 
 
 def intrinsics(
@@ -105,7 +263,6 @@ def intrinsics(
     """
     verdict = _decided(verdict)
     nodes = verdict.graph.nodes
-    _ensure_nodes(nodes, classes, sensors or {})
     words, numbers = _sensors(nodes, classes, default, sensors or {})
     found = _asked(
         verdict, "intrinsics", list_components=True, intrinsics=words, sensors=numbers
@@ -131,12 +288,13 @@ def intrinsics(
 
 
 def _sensors(
-    nodes: Any,
+    nodes: Sequence[Node],
     classes: Mapping[Node, str],
     default: str,
     sensors: Mapping[Node, Hashable],
 ) -> Tuple[List[str], List[int]]:
     """A class for each sensor, and the number of the sensor of each node."""
+    _ensure_nodes(nodes, classes, sensors)
     words: List[str] = []
     numbers: List[int] = []
     of_sensor: Dict[Hashable, int] = {}
@@ -161,6 +319,7 @@ def check_intrinsics(
     graph: Any = None,
     classes: Optional[Mapping[Node, str]] = None,
     default: str = "unknown",
+    sensors: Optional[Mapping[Node, Hashable]] = None,
     *,
     max_operations: Optional[int] = None,
 ) -> VerifiedIntrinsics:
@@ -175,26 +334,24 @@ def check_intrinsics(
     classes : mapping, optional
         The classes that it has to suppose, with `default` for all other nodes, if a graph is given.
         Without it compare `classes_sha256`.
+    sensors : mapping, optional
+        Which nodes it has to suppose to share intrinsics, as for :func:`intrinsics`, beside `classes`.
     max_operations : int, optional
         What checking may cost, in elementary operations; by default 2 * 10^12.
 
     Returns
     -------
     VerifiedIntrinsics
-        What the certificate proves: `value` (``'metric'``, ``'not-metric'`` or ``'open'``), bounds
-        `rank` and `rank_at_most`, the `required` rank; `components`, as lists of positions in the
-        `graph.nodes` of a verdict, and those of the nodes that are `not_determined`, both None if
-        bounds do not meet; how many cameras are of which of the `classes`, their hash
-        `classes_sha256`; of the graph `nodes`, `edges`, `sha256`; all of it in words as `text`.
+        What the certificate proves.
 
     Raises
     ------
     Rejected
-        If anything in it does not hold, or it is about other classes.
+        If anything in it does not hold, or it is about other classes or sensors.
     TooLarge
         If checking would cost more than the limits allow.
     InputError
-        If `graph` is no graph, or `classes` does not go with it.
+        If `graph` is no graph, or `classes` or `sensors` do not go with it.
 
     Examples
     --------
@@ -211,25 +368,25 @@ def check_intrinsics(
     """
     if isinstance(certificate, Intrinsics):
         text = certificate.certificate()
-    elif isinstance(certificate, (bytes, bytearray, memoryview)):
-        text = bytes(certificate)
     else:
-        with open(certificate, "rb") as file:
-            text = file.read()
-    if graph is None and classes is not None:
-        raise InputError("classes: their nodes are those of a graph; give the graph as well")
+        text = text_of(certificate)
+    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
+    is_supposed = classes is not None or sensors is not None
+    if graph is None and is_supposed:
+        raise InputError(
+            "classes and sensors: their nodes are those of a graph; give the graph as well"
+        )
     given = None if graph is None else as_graph(graph)
-    words = None
-    if given is not None and classes is not None:
-        words = _words(given.nodes, classes, default)
-    native = None if given is None else given._native
-    return _native.check_intrinsics(text, graph=native, classes=words, max_operations=max_operations)
-
-
-def _words(nodes: Sequence[Node], classes: Mapping[Node, str], default: str) -> List[str]:
-    """The class of each node."""
-    _ensure_nodes(nodes, classes)
-    return [classes.get(node, default) for node in nodes]
+    supposed = None
+    if given is not None and is_supposed:
+        supposed = _sensors(given.nodes, classes or {}, default, sensors or {})
+    found = _native.check_intrinsics(
+        text,
+        graph=None if given is None else given._native,
+        sensors=supposed,
+        max_operations=max_operations,
+    )
+    return of_native(VerifiedIntrinsics, found)
 
 
 def _ensure_nodes(nodes: Sequence[Node], *named: Mapping[Node, Any]) -> None:

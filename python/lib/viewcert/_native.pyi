@@ -2,12 +2,14 @@
 
 import os
 from collections.abc import Callable
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._catalog import Shard
+from ._types import BaseLinesValue, Class, IntrinsicsValue, Strength, Value
+from ._types import Decided as DecidedModel
 
 __all__ = [
     "Candidates",
@@ -16,16 +18,22 @@ __all__ = [
     "Verified",
     "VerifiedIntrinsics",
     "__version__",
+    "about_graph",
     "catalog_merge",
     "catalog_shard",
     "check",
     "check_intrinsics",
+    "component_of_pairs",
     "decide",
+    "decide_all",
+    "graph_kept",
     "graph_of_integers",
     "graph_of_nodes",
     "label",
     "label_graph6",
+    "pairs_among",
     "read",
+    "same_graph",
 ]
 
 __version__: str
@@ -46,6 +54,7 @@ class Graph:
     def read_as(self) -> str: ...
     @property
     def notes(self) -> list[str]: ...
+    def inliers(self) -> NDArray[np.uint32] | None: ...
     def sha256(self) -> str: ...
     def labels(self) -> list[int] | list[str]: ...
     def pairs(self) -> NDArray[np.uint32]: ...
@@ -58,7 +67,21 @@ def graph_of_nodes(
     *,
     names: list[str] | None = None,
     integers: list[int] | None = None,
+    inliers: list[int] | None = None,
+    min_inliers: int = 0,
 ) -> Graph: ...
+def about_graph(graph: Graph) -> tuple[Any, str]: ...
+def graph_kept(
+    name: str, nodes: int, pairs: NDArray[np.uint32], labels: Any, about: str
+) -> Graph: ...
+def same_graph(one: Graph, other: Graph) -> bool: ...
+def pairs_among(graph: Graph, nodes: NDArray[np.uint32]) -> NDArray[np.uint32]: ...
+def component_of_pairs(
+    graph: Graph,
+    members: NDArray[np.uint32],
+    ends: NDArray[np.uint64],
+    pairs: NDArray[np.uint32] | None = None,
+) -> NDArray[np.int32]: ...
 def read(
     path: str | os.PathLike[str],
     *,
@@ -78,9 +101,9 @@ def label_graph6(label: str) -> str: ...
 @final
 class Decided:
     @property
-    def model(self) -> str: ...
+    def model(self) -> DecidedModel: ...
     @property
-    def value(self) -> str: ...
+    def value(self) -> Value: ...
     @property
     def rank(self) -> int: ...
     @property
@@ -92,12 +115,13 @@ class Decided:
     def parts(self) -> list[list[int]]: ...
     def displacements(self) -> list[list[int]]: ...
     def vectors(self) -> list[list[tuple[int, int, int]]] | None: ...
-    def strengths(self) -> list[tuple[str, int | None]]: ...
+    def strengths(self) -> list[tuple[Strength, int | None]]: ...
     def components(self) -> tuple[NDArray[np.uint32], NDArray[np.uint64]]: ...
     def component_count(self) -> int: ...
-    def component_pairs(self, component: int) -> NDArray[np.uint32]: ...
     def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes: ...
-    def certificate_of_intrinsics(self, classes: list[str], *, embed_graph: bool = False) -> bytes: ...
+    def certificate_of_intrinsics(
+        self, classes: list[str], sensors: list[int], *, embed_graph: bool = False
+    ) -> bytes: ...
     def report(
         self,
         kind: str,
@@ -121,15 +145,8 @@ class Decided:
 
 def decide(
     graph: Graph,
+    wanted: dict[str, Any],
     *,
-    model: str,
-    seed: int,
-    solutions: str | None,
-    planar: bool = False,
-    bounds: tuple[int, int] | None = None,
-    prime: int | None = None,
-    contraction: bool = True,
-    counting: bool = True,
     parts: list[list[int]] | None = None,
     displacements: list[list[int]] | None = None,
     vectors: list[tuple[str, str, str]] | None = None,
@@ -137,12 +154,21 @@ def decide(
     memory_limit: int | None = None,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> Decided: ...
+def decide_all(
+    graphs: list[Graph],
+    wanted: dict[str, Any],
+    *,
+    threads: int | None = None,
+    time_limit: float | None = None,
+    memory_limit: int | None = None,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> list[Decided | Exception]: ...
 @final
 class Verified:
     @property
-    def value(self) -> str: ...
+    def value(self) -> Value: ...
     @property
-    def strength(self) -> str: ...
+    def strength(self) -> Strength: ...
     @property
     def error_log2(self) -> int | None: ...
     @property
@@ -162,9 +188,9 @@ class Verified:
     @property
     def displacements(self) -> int: ...
     @property
-    def base_lines(self) -> str | None: ...
+    def base_lines(self) -> BaseLinesValue | None: ...
     @property
-    def model(self) -> str: ...
+    def model(self) -> DecidedModel: ...
     @property
     def text(self) -> str: ...
 
@@ -181,7 +207,7 @@ def check(
 @final
 class VerifiedIntrinsics:
     @property
-    def value(self) -> str: ...
+    def value(self) -> IntrinsicsValue: ...
     @property
     def rank(self) -> int: ...
     @property
@@ -193,7 +219,7 @@ class VerifiedIntrinsics:
     @property
     def not_determined(self) -> list[int] | None: ...
     @property
-    def classes(self) -> list[tuple[int, str]]: ...
+    def classes(self) -> list[tuple[int, Class]]: ...
     @property
     def classes_sha256(self) -> str: ...
     @property
@@ -209,7 +235,7 @@ def check_intrinsics(
     certificate: bytes,
     *,
     graph: Graph | None = None,
-    classes: list[str] | None = None,
+    sensors: tuple[list[str], list[int]] | None = None,
     max_operations: int | None = None,
 ) -> VerifiedIntrinsics: ...
 @final

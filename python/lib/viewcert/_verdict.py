@@ -10,24 +10,42 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from typing import (
+    TYPE_CHECKING,
     Any,
     Dict,
     FrozenSet,
+    Generic,
     Iterable,
+    Iterator,
     List,
+    Literal,
     Mapping,
     NoReturn,
     Optional,
     Sequence,
     Tuple,
     Union,
+    cast,
+    overload,
 )
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _native
-from ._native import Decided
+from ._convert import Node
 from ._errors import InputError
-from ._graph import Graph, Node, Path, as_graph, numbered
+from ._graph import Graph, Path, as_graph, numbered
+from ._kept import Kept, Question
+from ._native import Decided
 from ._progress import Progress, shown
+from ._question import chosen_model, wanted
+from ._types import BaseLinesValue, Counting, Model, N, Strength, Value
+from ._types import Decided as DecidedModel
+from ._words import in_python, limits, noted, shown_notes
+
+if TYPE_CHECKING:
+    import networkx
 
 _log = logging.getLogger("viewcert")
 
@@ -66,7 +84,7 @@ class Joint:
     inliers: Optional[Tuple[int, ...]]
     freedom: int
     meaning: str
-    strength: str
+    strength: Strength
 
 
 @dataclass(frozen=True)
@@ -87,7 +105,7 @@ class Solutions:
 
     at_least: int
     at_most: Optional[int]
-    strength: str
+    strength: Strength
     full_may_tell_more: bool = False
 
     @property
@@ -110,7 +128,7 @@ class Planar:
         The rank without which there are infinitely many sets of cameras.
     """
 
-    value: str
+    value: Literal["solvable", "not-finite-solvable"]
     rank: int
     required: int
 
@@ -146,7 +164,7 @@ class BaseLines:
         are several: the value is ``'open'`` then.
     """
 
-    value: str
+    value: BaseLinesValue
     frames: int
     unknown: int
     rank: int
@@ -158,9 +176,14 @@ class BaseLines:
     groups_not_turned: Optional[int] = None
 
 
-class Verdict:
+class Verdict(Generic[N]):
     """What a graph determines. It cannot be changed, and has three values, so that it is neither
     true nor false.
+
+    It is a sequence of its components as far as `len` and iteration go. Two verdicts are equal if
+    they say the same of equal graphs, however long that took and whatever the seed. It can be
+    pickled: answer, components, report and certificate go along, and the rest of what advice needs is
+    found again where it is asked for.
 
     Examples
     --------
@@ -176,24 +199,59 @@ class Verdict:
     False
     """
 
-    __slots__ = ("_graph", "_native", "_components", "_joints")
+    __slots__ = ("_graph", "_native", "_question", "_components", "_joints")
 
-    _graph: Graph
-    _native: Decided
-    _components: Optional[List[FrozenSet[Node]]]
+    _graph: Graph[N]
+    _native: Union[Decided, Kept]
+    _question: Question
+    _components: Optional[List[FrozenSet[N]]]
     _joints: Optional[Tuple[Joint, ...]]
 
     def __init__(self) -> None:
         raise TypeError("verdicts come from viewcert.verify")
 
     @classmethod
-    def _of(cls, graph: Graph, native: Decided) -> Verdict:
-        verdict = cls.__new__(cls)
-        for name, value in (("_graph", graph), ("_native", native)):
-            object.__setattr__(verdict, name, value)
-        verdict._keep("_components", None)
-        verdict._keep("_joints", None)
+    def _of(
+        cls, graph: Graph[Any], native: Union[Decided, Kept], question: Question
+    ) -> Verdict[Any]:
+        verdict: Verdict[Any] = cls.__new__(cls)
+        for name, value in zip(cls.__slots__, (graph, native, question, None, None)):
+            verdict._keep(name, value)
         return verdict
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _restored, (self._graph, self._question, Kept.said(self._native))
+
+    def __copy__(self) -> Verdict[N]:
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> Verdict[N]:
+        return self
+
+    def __len__(self) -> int:
+        return len(self._parts_found())
+
+    def __iter__(self) -> Iterator[FrozenSet[N]]:
+        return iter(self.components)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Verdict):
+            return NotImplemented
+        return self is other or (self._graph == other._graph and self._answer() == other._answer())
+
+    def __hash__(self) -> int:
+        return hash((self._graph, self.model, self.value, self.rank))
+
+    def _answer(self) -> Dict[str, Any]:
+        """All that the report says but what is not about the graph and its cameras."""
+        found = self.to_dict()
+        for member in ("seconds", "graph", "name", "file", "notes", "read"):
+            found.pop(member, None)
+        native = self._native
+        members, ends = native.components()
+        found["sets"] = members.tolist(), ends.tolist()
+        found["known"] = native.parts(), native.displacements(), native.vectors()
+        return found
 
     def _keep(self, name: str, value: object) -> None:
         """Remembers what follows from the rest and was asked for."""
@@ -212,25 +270,25 @@ class Verdict:
         )
 
     @property
-    def graph(self) -> Graph:
+    def graph(self) -> Graph[N]:
         """The graph that was decided."""
         return self._graph
 
     @property
-    def parts(self) -> List[FrozenSet[Node]]:
+    def parts(self) -> List[FrozenSet[N]]:
         """The known parts that the answer takes for given, each once."""
         nodes = self._graph.nodes
         return [frozenset(nodes[number] for number in part) for part in self._native.parts()]
 
     @property
-    def displacements(self) -> List[FrozenSet[Node]]:
+    def displacements(self) -> List[FrozenSet[N]]:
         """The sets of nodes between which the answer takes the vectors for given."""
         nodes = self._graph.nodes
         groups = self._native.displacements()
         return [frozenset(nodes[number] for number in group) for group in groups]
 
     @property
-    def vectors(self) -> Optional[Dict[Tuple[Node, Node], Tuple[int, int, int]]]:
+    def vectors(self) -> Optional[Dict[Tuple[N, N], Tuple[int, int, int]]]:
         """The vectors that were given for `displacements`, as integers in one unit: from one node of
         each set to the others. None if only the sets were given."""
         given = self._native.vectors()
@@ -244,19 +302,19 @@ class Verdict:
         }
 
     @property
-    def model(self) -> str:
+    def model(self) -> DecidedModel:
         """The question: ``'projective'``, ``'calibrated'`` or ``'affine'``. What was asked as
         ``'focal'`` is decided as calibrated, see `conditions`."""
         return self._native.model
 
     @property
-    def value(self) -> str:
+    def value(self) -> Value:
         """The answer: ``'solvable'`` (the cameras are unique), ``'finite-solvable'`` (finitely
         many sets of cameras) or ``'not-finite-solvable'`` (infinitely many)."""
         return self._native.value
 
     @property
-    def strength(self) -> str:
+    def strength(self) -> Strength:
         """``'proof'``, or ``'error-bound'``: wrong with probability at most ``2**error_log2``."""
         return self._native.strengths()[0][0]
 
@@ -276,12 +334,12 @@ class Verdict:
         return self._native.required
 
     @property
-    def rank_strength(self) -> str:
+    def rank_strength(self) -> Strength:
         """How strong it is that the rank is not larger."""
         return self._native.strengths()[1][0]
 
     @property
-    def components_strength(self) -> str:
+    def components_strength(self) -> Strength:
         """How strong it is that the components are maximal."""
         return self._native.strengths()[2][0]
 
@@ -304,7 +362,7 @@ class Verdict:
     @property
     def conditions(self) -> Tuple[str, ...]:
         """What the answer holds for, beyond generic cameras of the model, in words."""
-        return tuple(self.to_dict().get("conditions", ()))
+        return tuple(map(in_python, self.to_dict().get("conditions", ())))
 
     @property
     def planar(self) -> Optional[Planar]:
@@ -326,18 +384,26 @@ class Verdict:
         return BaseLines(found["verdict"], required=found["rank_required"], **others)
 
     @property
-    def components(self) -> List[FrozenSet[Node]]:
+    def notes(self) -> List[str]:
+        """What was merged, ignored or guessed of the graph and of what is known of it."""
+        return [in_python(note) for note in self._native.notes]
+
+    @property
+    def components(self) -> List[FrozenSet[N]]:
         """The maximal parts that their pairs determine, as sets of nodes, by falling number of
         pairs. Two share at most one node.
 
         Of a camera-point graph: their cameras; at the end every camera that sees no point.
         """
+        return list(self._parts_found())
+
+    def _parts_found(self) -> List[FrozenSet[N]]:
         if self._components is None:
             self._keep("_components", self._listed_components())
         assert self._components is not None
-        return list(self._components)
+        return self._components
 
-    def _listed_components(self) -> List[FrozenSet[Node]]:
+    def _listed_components(self) -> List[FrozenSet[N]]:
         nodes = self._graph.nodes
         members, ends = self._native.components()
         numbers = members.tolist()
@@ -354,13 +420,24 @@ class Verdict:
         found.extend(frozenset([nodes[number]]) for number in alone)
         return found
 
-    def pairs_of(self, component: int) -> List[Tuple[Node, Node]]:
+    @overload
+    def pairs_of(
+        self, component: int, *, as_array: Literal[False] = ...
+    ) -> List[Tuple[N, N]]: ...
+    @overload
+    def pairs_of(self, component: int, *, as_array: Literal[True]) -> NDArray[np.uint32]: ...
+    def pairs_of(
+        self, component: int, *, as_array: bool = False
+    ) -> Union[List[Tuple[N, N]], NDArray[np.uint32]]:
         """The pairs of a component, of a camera-point graph its observations.
 
         Parameters
         ----------
         component : int
             Its place in `components`.
+        as_array : bool
+            Whether they are rows of node numbers, as in `Graph.pairs`: of millions of pairs in a
+            tenth of a second instead of ten.
 
         Raises
         ------
@@ -370,11 +447,112 @@ class Verdict:
         count = self._native.component_count()
         if component < 0 or component >= count:
             if count <= component < len(self.components):
-                return []
+                return np.empty((0, 2), dtype=np.uint32) if as_array else []
             raise IndexError(f"no component {component}: there are {len(self.components)}")
+        members, ends = self._native.components()
+        first = int(ends[component - 1]) if component else 0
+        inside = members[first : int(ends[component])]
+        pairs = _native.pairs_among(self._graph._native, inside)
+        if as_array:
+            return pairs
         nodes = self._graph.nodes
-        pairs = self._native.component_pairs(component).tolist()
-        return [(nodes[i], nodes[j]) for i, j in pairs]
+        return [(nodes[i], nodes[j]) for i, j in pairs.tolist()]
+
+    def component_of_pair(self, pairs: Any = None) -> NDArray[np.int32]:
+        """The component of every pair, as its place in `components`; a pair is in just one.
+
+        Parameters
+        ----------
+        pairs : optional
+            Pairs of the graph, in any order and orientation: an array of shape (m, 2) if nodes are
+            integers, or any pairs of nodes. The answer has the same order. Without it: `Graph.pairs`.
+
+        Raises
+        ------
+        InputError
+            If one is no pair of the graph; with its row.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> verdict = viewcert.verify([(0, 1), (0, 2), (1, 2), (2, 3)])
+        >>> verdict.component_of_pair([(3, 2), (1, 0)])
+        array([1, 0], dtype=int32)
+        """
+        rows = None if pairs is None else self._graph._rows(pairs)
+        members, ends = self._native.components()
+        return _native.component_of_pairs(self._graph._native, members, ends, rows)
+
+    def component_of_node(self) -> NDArray[np.int32]:
+        """For every node, in the order of `Graph.nodes`, the first component that holds it, which is
+        the one with the most pairs; -1 if there is none.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> viewcert.verify([(0, 1), (0, 2), (1, 2), (2, 3)]).component_of_node()
+        array([0, 0, 0, 1], dtype=int32)
+        """
+        members, ends = self._native.components()
+        sizes = ends.astype(np.int64)
+        sizes[1:] -= sizes[:-1].copy()
+        found = np.full(len(self._graph), -1, dtype=np.int32)
+        numbers = np.repeat(np.arange(len(ends), dtype=np.int32), sizes)
+        # The last one that is written stays, which is the first component.
+        found[members[::-1]] = numbers[::-1]
+        cameras = self._graph.cameras
+        if cameras is not None:
+            alone = np.flatnonzero(found[:cameras] < 0)
+            found[alone] = len(ends) + np.arange(len(alone), dtype=np.int32)
+        return found
+
+    def annotate(self, graph: Any) -> Any:
+        """Writes the answer into a graph of networkx: ``component`` at each node (the first that
+        holds it, -1 for none) and at each pair, ``components`` at each node (how many hold it), and
+        ``value`` and ``strength`` at the graph. All of it can be written to GraphML and the like.
+
+        Parameters
+        ----------
+        graph : networkx.Graph
+            With the pairs that were decided, or some of them. It is changed.
+
+        Returns
+        -------
+        networkx.Graph
+            The same graph.
+
+        Raises
+        ------
+        InputError
+            If it has nodes or pairs that were not decided; it is as it was then.
+
+        Examples
+        --------
+        >>> import networkx, viewcert
+        >>> graph = networkx.path_graph(3)
+        >>> viewcert.verify(graph).annotate(graph).edges[1, 2]
+        {'component': 1}
+        """
+        numbers = self._graph._number_of()
+        strange = next((node for node in graph if node not in numbers), None)
+        if strange is not None:
+            raise InputError(f"annotate: {strange!r} is no node of the graph that was decided")
+        edges = list(graph.edges(keys=True)) if graph.is_multigraph() else list(graph.edges())
+        places = self.component_of_pair([edge[:2] for edge in edges]).tolist()
+        members, _ = self._native.components()
+        held = np.bincount(members, minlength=len(self._graph)).tolist()
+        first = self.component_of_node().tolist()
+        for node in graph:
+            number = numbers[node]
+            graph.nodes[node].update(component=first[number], components=max(held[number], int(first[number] >= 0)))
+        for edge, place in zip(edges, places):
+            graph.edges[edge]["component"] = place
+        graph.graph.update(value=self.value, strength=self.strength)
+        return graph
+
+    def to_networkx(self) -> networkx.Graph[N]:
+        """The graph for networkx, with the answer in it; see :meth:`annotate`."""
+        return cast("networkx.Graph[N]", self.annotate(self._graph.to_networkx()))
 
     @property
     def joints(self) -> Tuple[Joint, ...]:
@@ -449,7 +627,7 @@ class Verdict:
         components = "1 component" if count == 1 else f"{count} components"
         return (
             f"<viewcert.Verdict {self.value} ({self.strength}): rank {self.rank} of "
-            f"{self.required}, {components}>"
+            f"{self.required}, {components}{shown_notes(self.notes)}>"
         )
 
     def _repr_html_(self) -> str:
@@ -476,13 +654,83 @@ def coordinates(displacements: Any) -> Optional[List[Tuple[str, str, str]]]:
     return None
 
 
+def _restored(graph: Graph[Any], question: Question, said: Dict[str, Any]) -> Verdict[Any]:
+    """A verdict that was pickled."""
+    return Verdict._of(graph, Kept(graph._native, question, said), question)
+
+
+@overload
+def verify(
+    graph: Graph[N],
+    *,
+    model: Optional[Model] = ...,
+    seed: int = ...,
+    planar: bool = ...,
+    solutions: Optional[Counting] = ...,
+    rational: bool = ...,
+    numerator: int = ...,
+    denominator: int = ...,
+    prime: Optional[int] = ...,
+    contraction: bool = ...,
+    counting: bool = ...,
+    parts: Optional[Iterable[Iterable[N]]] = ...,
+    displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
+    name: Optional[str] = ...,
+    time_limit: Optional[float] = ...,
+    memory_limit: Optional[int] = ...,
+    progress: Progress = ...,
+) -> Verdict[N]: ...
+@overload
+def verify(
+    graph: Sequence[Tuple[N, N]],
+    *,
+    model: Optional[Model] = ...,
+    seed: int = ...,
+    planar: bool = ...,
+    solutions: Optional[Counting] = ...,
+    rational: bool = ...,
+    numerator: int = ...,
+    denominator: int = ...,
+    prime: Optional[int] = ...,
+    contraction: bool = ...,
+    counting: bool = ...,
+    parts: Optional[Iterable[Iterable[N]]] = ...,
+    displacements: Union[Mapping[Tuple[N, N], Sequence[Number]], Iterable[Iterable[N]], None] = ...,
+    name: Optional[str] = ...,
+    time_limit: Optional[float] = ...,
+    memory_limit: Optional[int] = ...,
+    progress: Progress = ...,
+) -> Verdict[N]: ...
+@overload
 def verify(
     graph: Any,
     *,
-    model: Optional[str] = None,
+    model: Optional[Model] = ...,
+    seed: int = ...,
+    planar: bool = ...,
+    solutions: Optional[Counting] = ...,
+    rational: bool = ...,
+    numerator: int = ...,
+    denominator: int = ...,
+    prime: Optional[int] = ...,
+    contraction: bool = ...,
+    counting: bool = ...,
+    parts: Optional[Iterable[Iterable[Any]]] = ...,
+    displacements: Union[
+        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Any]], None
+    ] = ...,
+    name: Optional[str] = ...,
+    time_limit: Optional[float] = ...,
+    memory_limit: Optional[int] = ...,
+    progress: Progress = ...,
+) -> Verdict[Any]: ...
+def verify(
+    graph: Any,
+    *,
+    model: Optional[Model] = None,
     seed: int = 1,
     planar: bool = False,
-    solutions: Optional[str] = "quick",
+    solutions: Optional[Counting] = "quick",
     rational: bool = False,
     numerator: int = 9,
     denominator: int = 4,
@@ -491,13 +739,13 @@ def verify(
     counting: bool = True,
     parts: Optional[Iterable[Iterable[Node]]] = None,
     displacements: Union[
-        Mapping[Tuple[Node, Node], Sequence[Number]], Iterable[Iterable[Node]], None
+        Mapping[Tuple[Any, Any], Sequence[Number]], Iterable[Iterable[Node]], None
     ] = None,
     name: Optional[str] = None,
     time_limit: Optional[float] = None,
     memory_limit: Optional[int] = None,
     progress: Progress = None,
-) -> Verdict:
+) -> Verdict[Any]:
     """Decides exactly whether a viewing graph determines its cameras.
 
     Parameters
@@ -505,7 +753,9 @@ def verify(
     graph
         A graph of networkx or rustworkx (there nodes are its indices), a sparse adjacency matrix
         of scipy (nodes are its rows), an integer array of shape (m, 2) (nodes are the integers
-        that occur), an iterable of pairs of hashable nodes, or a :class:`Graph`.
+        that occur), a data frame of pandas or polars with two columns (or ``source`` and
+        ``target``), an iterable of pairs of hashable nodes, which dicts of attributes may follow, or
+        a :class:`Graph`.
     model : {'projective', 'calibrated', 'affine', 'focal'}, optional
         What is known of the cameras: nothing, their intrinsics, that they are affine, or all
         intrinsics but the focal lengths. The default is projective, of camera-point graphs
@@ -564,8 +814,8 @@ def verify(
     Notes
     -----
     The interpreter's lock is released, and Ctrl-C stops the work. Pairs that occur several times
-    are merged; that and whatever else is guessed is a warning of ``logging.getLogger("viewcert")``
-    and stands in ``to_dict()["notes"]``.
+    are merged; that and whatever else is guessed is a :class:`NoteWarning`, and stands in
+    `Verdict.notes`.
 
     Examples
     --------
@@ -580,17 +830,19 @@ def verify(
     'solvable'
     """
     given = as_graph(graph, name)
+    asked = wanted(
+        chosen_model(given, model),
+        seed=seed,
+        planar=planar,
+        solutions=solutions,
+        rational=rational,
+        numerator=numerator,
+        denominator=denominator,
+        prime=prime,
+        contraction=contraction,
+        counting=counting,
+    )
     points = given.cameras is not None
-    if points and model not in (None, "calibrated"):
-        raise InputError(
-            "observations are directions of known rotations, which only the calibrated model has; "
-            f"leave out model={model!r}"
-        )
-    chosen = model or ("calibrated" if points else "projective")
-    if planar and chosen == "affine":
-        raise InputError(
-            "planar=True: affine cameras have no centres that could lie in a plane; leave it out"
-        )
     known = None if parts is None else numbered(given, parts)
     if known and points:
         raise InputError("parts: tracks are decided by themselves; leave out one of the two")
@@ -601,32 +853,23 @@ def verify(
             "tracks": points,
             "planar=True": planar,
         }
-        for other in (other for other, asked in refused.items() if asked):
+        for other in (other for other, asked_ in refused.items() if asked_):
             raise InputError(f"displacements: not with {other}; leave out one of the two")
-    if not 0 <= seed < 2**64:
-        raise InputError(f"seed={seed}: a seed is at least 0 and below 2^64")
-    if rational and not (1 <= numerator <= 100 and 1 <= denominator <= 12):
-        raise InputError("numerators are bounded by 1 to 100, and denominators by 1 to 12")
+    seconds, memory = limits(time_limit, memory_limit)
+    vectors = coordinates(displacements)
+    question = {"wanted": asked, "parts": known, "displacements": groups, "vectors": vectors}
     with shown(progress) as callback:
         native = _native.decide(
             given._native,
-            model=chosen,
-            seed=seed,
-            planar=planar,
-            solutions=solutions,
-            bounds=(numerator, denominator) if rational else None,
-            prime=prime,
-            contraction=contraction,
-            counting=counting,
+            asked,
             parts=known,
             displacements=groups,
-            vectors=coordinates(displacements),
-            time_limit=time_limit,
-            memory_limit=memory_limit,
+            vectors=vectors,
+            time_limit=seconds,
+            memory_limit=memory,
             progress=callback,
         )
-    verdict = Verdict._of(given, native)
-    for note in native.notes[len(given.notes) :]:
-        _log.warning("%s: %s", given.name, note)
+    verdict = Verdict._of(given, native, question)
+    noted(given.name, native.notes[len(given._native.notes) :])
     _log.debug("%s: %r in %.3f s", given.name, verdict, native.seconds)
     return verdict

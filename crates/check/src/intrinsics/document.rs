@@ -1,7 +1,7 @@
 //! The JSON text of a certificate of intrinsics (section 15 of the specification).
 
 use crate::document::{Body, GraphName};
-use crate::json::{Big, Strict, objects};
+use crate::json::{Big, Optional, Strict, objects};
 use crate::rejection::{Checked, Failure, ensure};
 
 /// What the member `format` says.
@@ -10,6 +10,7 @@ pub(super) const FORMAT: &str = "viewcert certificate of intrinsics";
 objects! {
     Document {
         format: String, version: u64, program: String, graph: GraphName, classes: Vec<String>,
+        shared: Optional<Vec<Vec<u32>>>,
         claim: Claim, bodies: Vec<Body>, prime: Big<u64>, seed: Big<u64>, draw: u64,
         rows: Vec<usize>, cols: Vec<usize>, motion: Vec<Big<u64>>,
     }

@@ -1,6 +1,6 @@
-//! Members that are metric, their clusters and columns (section 15; theory, Theorems 17.3 and 17.6).
+//! Members that are metric, their clusters and columns (section 15; theory, Theorems 17.3, 17.6 and 17.12).
 
-use super::Class;
+use super::sensors::{Class, Sensors};
 use crate::elimination::SPARSE;
 use crate::forest::{root, unite};
 use crate::rejection::Checked;
@@ -19,26 +19,28 @@ pub(super) struct Members<'a> {
     pub first: Vec<usize>,
     /// The members of each node, increasing.
     pub of_node: Vec<Vec<usize>>,
-    /// The first column of each node that is bound.
-    pub bound: Vec<Option<usize>>,
+    /// Which nodes are bound.
+    pub bound: Vec<bool>,
+    /// The first column of each sensor that has columns.
+    pub intrinsics: Vec<Option<usize>>,
     pub columns: usize,
 }
 
 impl<'a> Members<'a> {
-    pub fn new(structure: &'a Structure, classes: &[Class]) -> Checked<Self> {
+    pub fn new(structure: &'a Structure, sensors: &Sensors) -> Checked<Self> {
         let all = structure.everything.iter();
         let all: Vec<&[u32]> = all.map(|&member| structure.nodes_of(member)).collect();
         let size: usize = all.iter().map(|nodes| nodes.len()).sum();
         let meter = structure.setting.meter;
-        meter.charge(50 * SPARSE * (size + classes.len()) as u64)?;
-        let is_metric = metric(&all, classes);
+        meter.charge(50 * SPARSE * (size + sensors.of_node.len()) as u64)?;
+        let (is_metric, unknowns) = metric(&all, sensors);
         let of = |kind: bool| {
             let all = all.iter().zip(&is_metric);
             all.filter(move |&(_, &is)| is == kind)
                 .map(|(&nodes, _)| nodes)
         };
         let nodes: Vec<&[u32]> = of(true).chain(of(false)).collect();
-        let of_node = members_of(&nodes, classes.len());
+        let of_node = members_of(&nodes, sensors.of_node.len());
         let metric = of(true).count();
         let mut forest: Vec<usize> = (0..metric).collect();
         for held in &of_node {
@@ -60,11 +62,18 @@ impl<'a> Members<'a> {
         };
         let widths = (0..nodes.len()).map(|k| if k < metric { 4 } else { 15 });
         let first = widths.map(&mut next).collect();
-        let bound = of_node.iter().zip(classes).map(|(held, class)| {
-            let is_bound = held.first().is_some_and(|&k| k >= metric);
-            (is_bound && *class != Class::Unknown).then(|| next(class.unknowns()))
+        let bound = (0..of_node.len()).map(|v| {
+            let says = sensors.classes[v] != Class::Unknown || sensors.is_shared[v];
+            says && of_node[v].first().is_some_and(|&k| k >= metric)
         });
-        let bound = bound.collect();
+        let bound: Vec<bool> = bound.collect();
+        let mut intrinsics = vec![None; of_node.len()];
+        for v in (0..of_node.len()).filter(|&v| bound[v]) {
+            let sensor = sensors.of_node[v];
+            if unknowns[sensor] > 0 && intrinsics[sensor].is_none() {
+                intrinsics[sensor] = Some(next(unknowns[sensor]));
+            }
+        }
         meter.allow_core(columns.div_ceil(15))?;
         Ok(Members {
             nodes,
@@ -72,6 +81,7 @@ impl<'a> Members<'a> {
             first,
             of_node,
             bound,
+            intrinsics,
             columns,
         })
     }
@@ -86,14 +96,19 @@ fn members_of(all: &[&[u32]], nodes: usize) -> Vec<Vec<usize>> {
     of_node
 }
 
-/// Which members are metric: the nodes of those that are have five conditions in all others.
-fn metric(all: &[&[u32]], classes: &[Class]) -> Vec<bool> {
-    let of_node = members_of(all, classes.len());
-    let mut missing: Vec<usize> = classes.iter().map(|class| class.unknowns()).collect();
-    let mut sums: Vec<usize> = all
-        .iter()
-        .map(|nodes| nodes.iter().map(|&v| 5 - missing[v as usize]).sum())
-        .collect();
+/// Which members are metric, and how many intrinsics of each sensor are unknown then: none if a node of it
+/// is in one of these.
+fn metric(all: &[&[u32]], sensors: &Sensors) -> (Vec<bool>, Vec<usize>) {
+    let nodes = sensors.of_node.len();
+    let mut unknowns: Vec<usize> = (0..nodes).map(|v| sensors.unknowns(v)).collect();
+    let mut of_sensor = vec![Vec::new(); nodes];
+    let mut sums = Vec::with_capacity(all.len());
+    for (k, nodes) in all.iter().enumerate() {
+        let of_member = sensors.of(nodes.iter().map(|&v| v as usize));
+        let less: usize = of_member.iter().map(|&s| unknowns[s]).sum();
+        sums.push(5 * nodes.len() - less);
+        of_member.into_iter().for_each(|s| of_sensor[s].push(k));
+    }
     let mut is_metric = vec![false; all.len()];
     let mut todo: Vec<usize> = (0..all.len()).collect();
     while let Some(k) = todo.pop() {
@@ -102,14 +117,15 @@ fn metric(all: &[&[u32]], classes: &[Class]) -> Vec<bool> {
         }
         is_metric[k] = true;
         for &v in all[k] {
-            let more = std::mem::take(&mut missing[v as usize]);
+            let sensor = sensors.of_node[v as usize];
+            let more = std::mem::take(&mut unknowns[sensor]);
             if more > 0 {
-                for &other in &of_node[v as usize] {
+                for &other in &of_sensor[sensor] {
                     sums[other] += more;
                     todo.push(other);
                 }
             }
         }
     }
-    is_metric
+    (is_metric, unknowns)
 }

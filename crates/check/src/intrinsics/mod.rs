@@ -3,6 +3,7 @@
 
 mod document;
 mod members;
+mod sensors;
 mod system;
 
 use crate::algebra::Field;
@@ -18,38 +19,10 @@ use crate::structure::Structure;
 use crate::{Graph, Limits};
 use document::Document;
 use members::Members;
-use sha2::{Digest, Sha256};
+use sensors::{Class, Sensors};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
 use system::System;
-
-/// What is not known of the intrinsics of a camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Class {
-    Known,
-    Focal,
-    FocalAndPoint,
-    Unknown,
-}
-
-impl Class {
-    const ALL: [(Class, &'static str); 4] = [
-        (Class::Known, "known"),
-        (Class::Focal, "focal"),
-        (Class::FocalAndPoint, "focal+point"),
-        (Class::Unknown, "unknown"),
-    ];
-
-    /// d of section 15.
-    fn unknowns(self) -> usize {
-        match self {
-            Class::Known => 0,
-            Class::Focal => 1,
-            Class::FocalAndPoint => 3,
-            Class::Unknown => 5,
-        }
-    }
-}
 
 /// What a certificate of intrinsics proves. There is no way to come by one but a check that passed.
 #[derive(Clone, Debug)]
@@ -61,7 +34,9 @@ pub struct VerifiedIntrinsics {
     pub sha256: String,
     /// How many cameras are of which class.
     pub classes: Vec<(usize, &'static str)>,
-    /// The hash of the classes.
+    /// How many sensors with unknown intrinsics have several images, and how many images these are.
+    pub shared: [usize; 2],
+    /// The hash of the classes, and of what is shared.
     pub classes_sha256: String,
     /// `metric`, `not-metric`, or `open` if the bounds do not tell.
     pub verdict: &'static str,
@@ -82,7 +57,11 @@ impl fmt::Display for VerifiedIntrinsics {
         let counts = self.classes.iter();
         let counts: Vec<String> = counts.map(|(n, word)| format!("{n} {word}")).collect();
         let hash = &self.classes_sha256;
-        writeln!(f, "with classes {hash} ({})", counts.join(", "))?;
+        let shared = match self.shared {
+            [0, _] => String::new(),
+            [sensors, images] => format!("; {sensors} shared by {images}"),
+        };
+        writeln!(f, "with classes {hash} ({}{shared})", counts.join(", "))?;
         writeln!(f, "verdict on intrinsics {} (proof)", self.verdict)?;
         let ([least, most], required) = (self.rank, self.required);
         writeln!(f, "metric rank {least} to {most} of {required} (proof)")?;
@@ -136,8 +115,8 @@ impl IntrinsicsCertificate {
     ) -> Result<VerifiedIntrinsics, Failure> {
         let IntrinsicsCertificate(document) = self;
         let (graph, sha256) = document.graph.find(graph).within(|| "graph".into())?;
-        let (classes, hash) = classes(document, &graph).within(|| "classes".into())?;
-        let classes = &classes;
+        let sensors = &Sensors::new(document, &graph).within(|| "classes".into())?;
+        let hash = sensors.hash(&document.classes);
         ensure!(
             classes_sha256.is_none_or(|expected| expected == hex(&hash)),
             "the classes that are expected have another hash"
@@ -153,10 +132,10 @@ impl IntrinsicsCertificate {
             groups: &[],
         };
         let structure = &Structure::new(&graph, setting, (known, &document.bodies))?;
-        let members = &Members::new(structure, classes)?;
+        let members = &Members::new(structure, sensors)?;
         let checker = Checker {
             document,
-            classes,
+            sensors,
             members,
             setting,
             hash,
@@ -165,38 +144,13 @@ impl IntrinsicsCertificate {
     }
 }
 
-/// The classes of all nodes (I1), and their hash.
-fn classes(document: &Document, graph: &Graph) -> Checked<(Vec<Class>, [u8; 32])> {
-    let (words, nodes) = (&document.classes, graph.nodes());
-    ensure!(
-        words.len() == nodes,
-        "{} classes for {nodes} nodes",
-        words.len()
-    );
-    ensure!(!graph.pairs.is_empty(), "the graph has no edge");
-    let class = |word: &String| {
-        let known = Class::ALL.into_iter().find(|(_, name)| name == word);
-        let strange = || Failure::rejected(format!("\"{word}\" is no class"));
-        known.map(|(class, _)| class).ok_or_else(strange)
-    };
-    let classes = words.iter().map(class).collect::<Checked<_>>()?;
-    let mut hash = Sha256::new();
-    hash.update(b"viewcert classes 1\n");
-    hash.update((words.len() as u64).to_le_bytes());
-    for word in words {
-        hash.update(word);
-        hash.update(b"\n");
-    }
-    Ok((classes, hash.finalize().into()))
-}
-
 fn hex(hash: &[u8; 32]) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 struct Checker<'a> {
     document: &'a Document,
-    classes: &'a [Class],
+    sensors: &'a Sensors,
     members: &'a Members<'a>,
     setting: &'a Setting<'a>,
     /// That of the classes.
@@ -210,6 +164,8 @@ struct Alike {
     /// The group of each node that stays.
     group: Vec<Option<usize>>,
     groups: usize,
+    /// The sensors with a node in a group.
+    still: BTreeSet<usize>,
 }
 
 impl Checker<'_> {
@@ -218,7 +174,7 @@ impl Checker<'_> {
         let field = &Field::new(document.prime.0)?;
         let hashes = [&self.setting.sha256, &self.hash];
         let mut stream = Stream::new("draw", hashes, document.seed.0, document.draw);
-        let system = System::new(members, self.classes, field, &mut stream);
+        let system = System::new(members, self.sensors, field, &mut stream);
         let sizes = members.of_node.iter().map(|held| 16 * held.len() as u64);
         let meter = self.setting.meter;
         meter.charge(20 * SPARSE * sizes.sum::<u64>())?;
@@ -231,14 +187,14 @@ impl Checker<'_> {
         let echelon = Echelon::new(field, members.columns, meter);
         let row = |row: usize| rows[row].iter().map(|(&column, &x)| (column, x));
         Factors::new(echelon, &pivots, row)?;
-        let of = |nodes: &mut dyn Iterator<Item = usize>| -> i64 {
-            let each = nodes.map(|v| 6 + self.classes[v].unknowns() as i64);
-            each.sum()
+        let of = |nodes: Vec<usize>| -> i64 {
+            let poses = 6 * nodes.len() as i64;
+            poses + self.sensors.sum(&self.sensors.of(nodes))
         };
         let held = |&v: &usize| !members.of_node[v].is_empty();
-        let at_least = of(&mut (0..graph.nodes()).filter(held));
+        let at_least = of((0..graph.nodes()).filter(held).collect());
         let at_least = at_least - (members.columns - pivots.rows.len()) as i64;
-        let required = of(&mut (0..graph.nodes())) - 7;
+        let required = of((0..graph.nodes()).collect()) - 7;
         let motion = self.motion(field)?;
         ensure!(
             rows.iter().all(|row| system.value(row, &motion) == 0),
@@ -276,13 +232,16 @@ impl Checker<'_> {
             blocks[block].extend(*nodes);
         }
         let mut number = HashMap::new();
-        let group = (0..self.classes.len()).map(|v| {
+        let group = (0..self.members.of_node.len()).map(|v| {
             let next = number.len();
             let turn = system.turn(v, motion)?;
             Some(*number.entry(turn).or_insert(next))
         });
+        let group: Vec<Option<usize>> = group.collect();
+        let in_groups = (0..group.len()).filter(|&v| group[v].is_some());
         Alike {
-            group: group.collect(),
+            still: self.sensors.of(in_groups),
+            group,
             groups: number.len(),
             blocks,
         }
@@ -290,21 +249,22 @@ impl Checker<'_> {
 
     /// The upper bound of (I5), before `required`.
     fn at_most(&self, alike: &Alike) -> i64 {
-        let unknowns = |v: usize| self.classes[v].unknowns() as i64;
-        let nodes = (0..self.classes.len()).filter(|&v| alike.group[v].is_some());
-        let of_groups: i64 = nodes.map(|v| 3 + unknowns(v)).sum();
+        let still = &alike.still;
+        let in_groups = alike.group.iter().flatten().count() as i64;
+        let of_groups = 3 * (in_groups - alike.groups as i64);
         let of_blocks = alike.blocks.iter().map(|block| {
-            let (mut sum, mut met) = (0, BTreeMap::new());
+            let (mut free, mut met) = (Vec::new(), BTreeMap::new());
             for &v in block {
                 match alike.group[v as usize] {
-                    None => sum += 6 + unknowns(v as usize),
+                    None => free.push(v as usize),
                     Some(group) => *met.entry(group).or_insert(1) += 1,
                 }
             }
-            sum += 3 * met.into_values().sum::<i64>();
+            let mut sum = 6 * free.len() as i64 + 3 * met.into_values().sum::<i64>();
+            sum += self.sensors.sum(self.sensors.of(free).difference(still));
             (sum - 7).min(11 * block.len() as i64 - 15)
         });
-        of_groups - 3 * alike.groups as i64 + of_blocks.sum::<i64>()
+        of_groups + self.sensors.sum(still) + of_blocks.sum::<i64>()
     }
 
     /// The claim is what was found (I6).
@@ -338,9 +298,12 @@ impl Checker<'_> {
                 .collect();
             metric.sort_unstable();
             components = Some(metric);
-            let free = (0..graph.nodes() as u32)
-                .filter(|v| group(v).is_none() && self.classes[*v as usize] != Class::Known);
-            not_determined = Some(free.collect());
+            let moves = |&v: &usize| {
+                !alike.still.contains(&self.sensors.of_node[v])
+                    && self.sensors.classes[v] != Class::Known
+            };
+            let moving = (0..graph.nodes()).filter(moves).map(|v| v as u32);
+            not_determined = Some(moving.collect());
         }
         ensure!(
             claim.components == components,
@@ -351,13 +314,17 @@ impl Checker<'_> {
             "the nodes whose intrinsics are not determined are others"
         );
         let counts = Class::ALL.map(|(class, word)| {
-            let of_class = self.classes.iter().filter(|&&other| other == class);
+            let of_class = self.sensors.classes.iter().filter(|&&other| other == class);
             (of_class.count(), word)
         });
         Ok(VerifiedIntrinsics {
             size: [graph.nodes(), graph.pairs.len()],
             sha256: self.document.graph.sha256.clone(),
             classes: counts.into_iter().filter(|&(n, _)| n > 0).collect(),
+            shared: [
+                self.sensors.lists,
+                self.sensors.is_shared.iter().filter(|&&is| is).count(),
+            ],
             classes_sha256: hex(&self.hash),
             verdict,
             rank: [least, most],

@@ -1,7 +1,8 @@
-//! The system of section 15 at drawn centres and axes, and a motion in it (theory, Theorem 17.6).
+//! The system of section 15 at drawn centres, axes and rotations, and a motion in it (theory, Theorems 17.6
+//! and 17.13).
 
-use super::Class;
 use super::members::Members;
+use super::sensors::{Class, Sensors};
 use crate::algebra::{Field, Ring};
 use crate::cameras::Stream;
 use std::collections::BTreeMap;
@@ -9,6 +10,7 @@ use std::collections::BTreeMap;
 /// A linear form, by columns.
 type Form = BTreeMap<usize, u64>;
 type Vector = [u64; 3];
+type Square = [Vector; 3];
 
 /// The places above the diagonal.
 const OFF: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
@@ -16,30 +18,34 @@ const OFF: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 /// The members at a draw.
 pub(super) struct System<'a> {
     members: &'a Members<'a>,
-    classes: &'a [Class],
+    sensors: &'a Sensors,
     field: &'a Field,
     centres: Vec<Vector>,
     axes: Vec<Vector>,
+    /// How nodes are turned; empty if nothing is shared.
+    turned: Vec<Vector>,
 }
 
 impl<'a> System<'a> {
     pub fn new(
         members: &'a Members,
-        classes: &'a [Class],
+        sensors: &'a Sensors,
         field: &'a Field,
         stream: &mut Stream,
     ) -> Self {
         let mut vectors = || -> Vec<Vector> {
             let vector = |_| [(); 3].map(|()| field.element(stream.below(field.p)));
-            classes.iter().map(vector).collect()
+            sensors.of_node.iter().map(vector).collect()
         };
         let (centres, axes) = (vectors(), vectors());
+        let turned = (sensors.lists > 0).then(vectors).unwrap_or_default();
         System {
             members,
-            classes,
+            sensors,
             field,
             centres,
             axes,
+            turned,
         }
     }
 
@@ -53,8 +59,8 @@ impl<'a> System<'a> {
             for &other in others {
                 self.agree(v, first, other, &mut rows);
             }
-            if let Some(column) = self.members.bound[v] {
-                self.in_class(v, first, column, &mut rows);
+            if self.members.bound[v] {
+                self.in_class(v, first, &mut rows);
             }
         }
         for row in &mut rows {
@@ -86,23 +92,63 @@ impl<'a> System<'a> {
     }
 
     /// Five rows: the intrinsics of a bound node move as its class allows.
-    fn in_class(&self, v: usize, first: usize, column: usize, rows: &mut Vec<Form>) {
-        let (one, r) = (self.field.one, self.axes[v]);
-        let minus = |x: u64| self.field.neg(x);
-        let u = |i: usize| match self.classes[v] {
-            Class::Known | Class::Unknown => Form::new(),
-            Class::Focal => Form::from([(column, r[i])]),
-            Class::FocalAndPoint => Form::from([(column + i, one)]),
+    fn in_class(&self, v: usize, first: usize, rows: &mut Vec<Form>) {
+        let (h, of_columns) = self.velocities(v);
+        let (minus_h, minus) = (self.field.neg(h), self.field.neg(self.field.one));
+        let s = |i: usize, j: usize| -> Form {
+            let entries = of_columns.iter();
+            entries.map(|(column, s)| (*column, s[i][j])).collect()
         };
         let m = |i: usize, j: usize| self.m(first, v, i, j);
         for (i, j) in OFF {
-            let (a, b) = ((minus(r[i]), u(j)), (minus(r[j]), u(i)));
-            rows.push(self.sum([(one, m(i, j)), (one, m(j, i)), a, b]));
+            let (one, other) = ((minus, s(i, j)), (minus, s(j, i)));
+            rows.push(self.sum([(h, m(i, j)), (h, m(j, i)), one, other]));
         }
         for i in 1..3 {
-            let (a, b) = ((minus(r[0]), u(0)), (r[i], u(i)));
-            rows.push(self.sum([(one, m(0, 0)), (minus(one), m(i, i)), a, b]));
+            let (one, other) = ((minus, s(0, 0)), (self.field.one, s(i, i)));
+            rows.push(self.sum([(h, m(0, 0)), (minus_h, m(i, i)), one, other]));
         }
+    }
+
+    /// h and S of a bound node, the latter as the matrix of each of its columns.
+    fn velocities(&self, v: usize) -> (u64, Vec<(usize, Square)>) {
+        let (f, r) = (self.field, self.axes[v]);
+        let Some(column) = self.members.intrinsics[self.sensors.of_node[v]] else {
+            return (f.one, Vec::new());
+        };
+        let outer = |a: Vector, b: Vector| a.map(|x| b.map(|y| f.mul(x, y)));
+        if self.sensors.is_shared[v] {
+            let (length, a) = self.rotation(v);
+            let pairs = [(2, 2), (0, 2), (1, 2), (0, 0), (0, 1)];
+            let of_columns = (column..).zip(pairs.map(|(i, j)| outer(a[i], a[j])));
+            let of_columns = of_columns.take(self.sensors.unknowns(v)).collect();
+            return (f.mul(length, length), of_columns);
+        }
+        let unit = |k: usize| std::array::from_fn(|j| if j == k { f.one } else { 0 });
+        let of_columns = match self.sensors.classes[v] {
+            Class::Known | Class::Unknown => Vec::new(),
+            Class::Focal => vec![(column, outer(r, r))],
+            Class::FocalAndPoint => (0..3).map(|k| (column + k, outer(r, unit(k)))).collect(),
+        };
+        (f.one, of_columns)
+    }
+
+    /// 1 + g, and the matrix by Cayley's formula.
+    fn rotation(&self, v: usize) -> (u64, Square) {
+        let f = self.field;
+        let q = self.turned[v];
+        let twice = |x: u64| f.add(x, x);
+        let of = |i: usize, j: usize| twice(f.mul(q[i], q[j]));
+        let g = q.iter().fold(0, |sum, &x| f.add(sum, f.mul(x, x)));
+        let on = f.add(f.one, f.neg(g));
+        let [x, y, z] = q.map(twice);
+        let less = |a: u64, b: u64| f.add(a, f.neg(b));
+        let rows = [
+            [f.add(on, of(0, 0)), less(of(0, 1), z), f.add(of(0, 2), y)],
+            [f.add(of(0, 1), z), f.add(on, of(1, 1)), less(of(1, 2), x)],
+            [less(of(0, 2), y), f.add(of(1, 2), x), f.add(on, of(2, 2))],
+        ];
+        (f.add(f.one, g), rows)
     }
 
     /// M_ij of a member at a node.

@@ -8,10 +8,12 @@
 mod centres;
 
 mod core;
+mod motion;
 mod rank;
 mod special;
 
 pub use centres::{CentreError, Centres};
+pub use motion::Motion;
 pub use special::Special;
 
 use crate::contract::Contraction;

@@ -31,6 +31,8 @@ pub struct Certified {
     /// The answer; what is claimed of components and intrinsics is what follows from this evidence.
     pub metric: Metric,
     pub(crate) classes: Vec<Class>,
+    /// The nodes of each sensor with several ones and unknown intrinsics, the one of the least node first.
+    pub(crate) shared: Vec<Vec<u32>>,
     /// Bodies that come behind those of the verdict.
     pub(crate) by_rank: Vec<ByRank>,
     pub(crate) draw: ModularDraw,
@@ -62,8 +64,7 @@ impl Certified {
     /// If the work was stopped.
     ///
     /// # Panics
-    /// If there is not one sensor for each node, or the verdict is of another model or graph; if unknown
-    /// intrinsics are shared, which certificates do not state.
+    /// If there is not one sensor for each node, or the verdict is of another model or graph.
     pub fn new(
         graph: &Graph,
         verdict: &Verdict,
@@ -72,7 +73,6 @@ impl Certified {
         watch: &Watch,
     ) -> Result<Option<Self>, Stopped> {
         assert_eq!(sensors.nodes(), graph.nodes(), "a sensor for each node");
-        assert!(sensors.shared().is_empty(), "a sensor of its own for each");
         assert_eq!(verdict.model, Model::Projective, "the projective verdict");
         if graph.edges().is_empty() {
             return Ok(None);
@@ -82,11 +82,15 @@ impl Certified {
         let members = members(verdict, &by_rank, sensors);
         let of = (graph, verdict.sha256);
         let (metric, shown) = Metric::of_members(of, &members, sensors, seed, watch)?;
+        let shared = sensors.shared().into_iter();
+        let mut shared: Vec<Vec<u32>> = shared.map(|(_, nodes)| nodes).collect();
+        shared.sort_unstable();
         Ok(Some(Self {
             metric,
             classes: (0..graph.nodes())
                 .map(|v| sensors.class_of_node(v))
                 .collect(),
+            shared,
             by_rank,
             draw: ModularDraw {
                 prime: PrimeField::mersenne61().modulus(),

@@ -142,13 +142,7 @@ impl Metric {
 
     /// `metric`, `not-metric`, or `open` if the bounds do not tell: as certificates and JSON have it.
     pub fn verdict(&self) -> &'static str {
-        if self.is_metric() {
-            "metric"
-        } else if self.at_most < self.required {
-            "not-metric"
-        } else {
-            "open"
-        }
+        verdict(self.rank, self.at_most, self.required)
     }
 
     /// Whether the rank is known, by bounds from both sides, and with it all that is said. Otherwise nothing
@@ -250,6 +244,17 @@ impl Metric {
             unknowns: shown.motions.motion.len(),
         };
         Ok((found, shown))
+    }
+}
+
+/// What bounds of the rank say.
+fn verdict(rank: usize, at_most: usize, required: usize) -> &'static str {
+    if rank == required {
+        "metric"
+    } else if at_most < required {
+        "not-metric"
+    } else {
+        "open"
     }
 }
 

@@ -6,11 +6,12 @@
 use super::bound::Alike;
 use super::members::Members;
 use super::system::{Motions, Moved, System};
-use super::{Class, DRAWS, Metric, Sensors, key};
+use super::{Class, DRAWS, Metric, Sensors, key, verdict};
 use crate::decide::Verdict;
 use crate::graph::Graph;
 use crate::linalg::sparse_lu::{Factorisation, SparseRow};
 use crate::watch::{Step, Stopped, Task, Watch};
+use std::cmp::Reverse;
 
 /// The numbers that say how intrinsics move, and one motion more, so that some motion is left with none.
 const MOTIONS: usize = 6;
@@ -40,6 +41,16 @@ impl Prior {
         self.rank == self.required
     }
 
+    /// `metric`, `not-metric`, or `open` if the bounds do not tell.
+    pub fn verdict(&self) -> &'static str {
+        verdict(self.rank, self.at_most, self.required)
+    }
+
+    /// Whether another prior makes as much of the graph metric, and determines as many intrinsics.
+    pub fn is_as_good_as(&self, other: &Self) -> bool {
+        self.effect() == other.effect()
+    }
+
     /// Whether the bounds meet, so that all that is said is proved.
     pub fn is_proved(&self) -> bool {
         self.rank == self.at_most
@@ -47,9 +58,8 @@ impl Prior {
 
     /// By this priors are sorted, the best first: a metric graph, then most cameras with determined
     /// intrinsics, then the largest component.
-    fn merit(&self) -> (bool, usize, usize, std::cmp::Reverse<usize>) {
-        let first = std::cmp::Reverse(self.sensor);
-        (self.is_metric(), self.determined, self.largest, first)
+    fn effect(&self) -> (bool, usize, usize) {
+        (self.is_metric(), self.determined, self.largest)
     }
 }
 
@@ -111,7 +121,7 @@ impl Metric {
             }
             work.done(1)?;
         }
-        found.sort_by_key(|prior| std::cmp::Reverse(prior.merit()));
+        found.sort_by_key(|prior| (Reverse(prior.effect()), prior.sensor));
         Ok(found)
     }
 

@@ -43,7 +43,7 @@ pub(super) struct System<'a> {
     axes: Vec<[u64; 3]>,
     /// How each node is turned: the vector part of a quaternion, whose real part is 1.
     turned: Vec<[u64; 3]>,
-    /// Of which sensors two images or more are in members.
+    /// Which sensors have several images, and unknown intrinsics.
     is_shared: Vec<bool>,
     /// Which sensors have an image in a metric member.
     is_known: Vec<bool>,
@@ -157,15 +157,16 @@ impl<'a> System<'a> {
             vectors.collect()
         };
         let (centres, axes) = (vectors(), vectors());
-        let mut images = vec![0; sensors.count()];
+        let mut is_shared = vec![false; sensors.count()];
+        for (sensor, _) in sensors.shared() {
+            is_shared[sensor] = true;
+        }
         let mut is_known = vec![false; sensors.count()];
         for (v, held) in members.of_node.iter().enumerate() {
             if let Some(&first) = held.first() {
-                images[sensors.of_node(v)] += 1;
                 is_known[sensors.of_node(v)] |= members.all[first].cluster.is_some();
             }
         }
-        let is_shared: Vec<bool> = images.iter().map(|&count| count > 1).collect();
         let mut columns = OF_CLUSTER * members.clusters;
         let mut next = |count: usize| {
             columns += count;
@@ -210,9 +211,7 @@ impl<'a> System<'a> {
     /// Whether the class of a node says something that its members do not.
     fn is_bound(&self, v: usize) -> bool {
         let sensor = self.sensors.of_node(v);
-        let says = self.sensors.class(sensor) != Class::Unknown
-            || self.is_shared[sensor]
-            || self.is_known[sensor];
+        let says = self.sensors.class(sensor) != Class::Unknown || self.is_shared[sensor];
         let first = self.members.of_node[v].first();
         let is_metric = |&member: &usize| self.members.all[member].cluster.is_some();
         says && first.is_some_and(|first| !is_metric(first))
@@ -342,11 +341,10 @@ impl<'a> System<'a> {
     fn velocities(&self, v: usize) -> (u64, Vec<(usize, Square)>) {
         let f = &self.field;
         let sensor = self.sensors.of_node(v);
-        let column = self.intrinsics[sensor];
-        let class = match self.is_known[sensor] {
-            true => Class::Known,
-            false => self.sensors.class(sensor),
-        };
+        if self.is_known[sensor] {
+            return (f.one(), Vec::new());
+        }
+        let (column, class) = (self.intrinsics[sensor], self.sensors.class(sensor));
         let product =
             |r: &[u64; 3], u: &[u64; 3]| -> Square { r.map(|x| u.map(|y| f.times(x, y))) };
         if self.is_shared[sensor] {

@@ -1,13 +1,15 @@
 //! What a database is, on one screen.
 
 use super::Pipeline;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A summary of a database; images are those of its table of images, pairs the rows of its table of
 /// verified pairs between two such images.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DatabaseFacts {
     /// The table that the verified pairs are from.
-    pub table: &'static str,
+    pub table: Cow<'static, str>,
     /// Which mapper the graph is for.
     pub pipeline: Pipeline,
     /// The least number of inliers of an edge.
@@ -37,7 +39,7 @@ pub struct DatabaseFacts {
 }
 
 /// How many pairs have a configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ConfigCount {
     /// The number that the database has for it.
     pub config: i64,
@@ -48,7 +50,7 @@ pub struct ConfigCount {
 }
 
 /// How many pairs have so many inliers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Bin {
     /// The least number in the bin.
     pub from: u32,

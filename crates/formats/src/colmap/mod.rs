@@ -101,7 +101,7 @@ pub(crate) const MAGIC: &[u8] = b"SQLite format 3\0";
 pub const DEFAULT_MIN_INLIERS: u32 = 15;
 
 /// Which mapper the graph is for: it says which verified pairs are edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Pipeline {
     /// Every pair with enough inliers, whatever its configuration.
     #[default]

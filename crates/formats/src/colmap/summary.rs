@@ -26,7 +26,7 @@ impl Tables {
         }
         let connected = connected(graph);
         DatabaseFacts {
-            table: self.table,
+            table: self.table.into(),
             pipeline: self.pipeline,
             min_inliers: self.min_inliers,
             images: self.names.len(),

@@ -147,7 +147,7 @@ pub(super) fn read_with(
         Document::RawMatches => raw_matches::read(text, asked, options),
         Document::TextMatrix => text_matrix::read(text, options),
     }?;
-    parsed.read.format = document.name();
+    parsed.read.format = document.name().into();
     Ok(parsed)
 }
 

@@ -12,7 +12,7 @@ use std::path::Path;
 use super::arrays;
 use super::places::{Given, GivenCameras, Read, all, matrix};
 use super::table::Table;
-use crate::cameras::{Cameras, for_each_line, read_file};
+use crate::cameras::{Cameras, for_each_line};
 use crate::edge_list::fields::{Field, split};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{Model, NamedGraph};
@@ -34,7 +34,8 @@ pub(super) const WORDS: [&str; 3] = [CAMERA, POSE, CENTRE];
 
 /// Reads the cameras of a graph from a file, if it is one of cameras: a COLMAP model (a folder), an `.npy` or `.npz` file with an
 /// array (n, 3, 4) of cameras or (n, 3) of centres, a MATLAB file with one of 3 x 4 x n or n x 3, a text whose first word is `camera`, `pose` or
-/// `centre`, or a table whose head names such columns. Nothing is read from standard input and pipes, which can be read once only. O(bytes).
+/// `centre`, or a table whose head names such columns. Nothing is read from standard input and pipes, which can be read once only:
+/// their bytes are for [`cameras_in`]. O(bytes).
 ///
 /// # Errors
 /// With file and line: numbers that are none, cameras that the graph does not have, or that are missing.
@@ -44,57 +45,82 @@ pub fn read_cameras(
     model: Question,
 ) -> Result<Option<GivenCameras>, ReadError> {
     let name = path.display().to_string();
-    let found = if path.is_dir() {
-        of_model(&Model::read(path)?, input).map_err(|problem| Place::Input.fault(problem))
-    } else if path == Path::new("-") || !path.is_file() {
+    if path.is_dir() {
+        let found =
+            of_model(&Model::read(path)?, input).map_err(|problem| Place::Input.fault(problem));
+        return finished(found, &name, input, model).map(Some);
+    }
+    if path == Path::new("-") || !path.is_file() {
         return Ok(None);
-    } else {
-        let mut start = [0; 512];
-        let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
-            return Ok(None);
-        };
-        if let Some(read) = arrays::reader(&start[..count]) {
-            let bytes = std::fs::read(path).map_err(|error| Place::Input.fault(error.into()));
-            bytes.and_then(|bytes| read(&bytes, input))
-        } else if is_text_of_cameras(path, &start[..count]) {
-            let read = |text: &mut dyn io::Read| of_text(text, input)?.finish(model, input);
-            return read_file(path, read, |given| &mut given.notes).map(Some);
-        } else {
-            return Ok(None);
-        }
+    }
+    let mut start = [0; 512];
+    let Ok(count) = File::open(path).and_then(|mut file| file.read(&mut start)) else {
+        return Ok(None);
     };
+    if arrays::reader(&start[..count]).is_none() && !is_text_of_cameras(path, &start[..count]) {
+        return Ok(None);
+    }
+    let bytes = std::fs::read(path).map_err(|error| Place::Input.fault(error.into()));
+    let bytes = bytes.map_err(|fault: Fault| fault.in_file(&name))?;
+    cameras_in(&bytes, &name, input, model)
+}
+
+/// The cameras that bytes hold which were read from what is called `name`, if they hold any: all that
+/// [`read_cameras`] reads but a COLMAP model. O(bytes).
+///
+/// # Errors
+/// As there.
+pub fn cameras_in(
+    bytes: &[u8],
+    name: &str,
+    input: &NamedGraph,
+    model: Question,
+) -> Result<Option<GivenCameras>, ReadError> {
+    let found = match arrays::reader(bytes) {
+        Some(read) => read(bytes, input),
+        None if is_first_line_of_cameras(bytes) == Some(true) => of_text(bytes, input),
+        None => return Ok(None),
+    };
+    finished(found, name, input, model).map(Some)
+}
+
+fn finished(
+    found: Result<Read, Fault>,
+    name: &str,
+    input: &NamedGraph,
+    model: Question,
+) -> Result<GivenCameras, ReadError> {
     let found = found.and_then(|read| read.finish(model, input));
-    let mut found = found.map_err(|fault: Fault| fault.in_file(&name))?;
+    let mut found = found.map_err(|fault: Fault| fault.in_file(name))?;
     for note in &mut found.notes {
         *note = format!("{name}: {note}");
     }
-    Ok(Some(found))
+    Ok(found)
 }
 
-/// Whether the first line that is no comment begins with the word of a camera, or is the head of a table of such; in a file that begins with
-/// long comments the whole is looked at.
+/// Whether a file is of cameras by its start; in one that begins with long comments the whole is looked at.
 fn is_text_of_cameras(path: &Path, start: &[u8]) -> bool {
-    let first_line = |bytes: &[u8]| {
-        let text = String::from_utf8_lossy(bytes).into_owned();
-        let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
-        let line = lines.find(|line| !line.is_empty() && !line.starts_with(['#', '%']))?;
-        Some(line.to_owned())
-    };
-    let line = first_line(start).or_else(|| first_line(&std::fs::read(path).ok()?));
-    line.is_some_and(|line| {
-        let words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
-        let words: Vec<String> = words
-            .map(|word| word.trim_matches('"').to_lowercase())
-            .collect();
-        let is_word = line
-            .split([' ', '\t', ','])
-            .next()
-            .is_some_and(|word| WORDS.contains(&word));
-        is_word
-            || words
-                .split_first()
-                .is_some_and(|(first, rest)| Table::of_head(first, rest).is_some())
-    })
+    is_first_line_of_cameras(start)
+        .or_else(|| is_first_line_of_cameras(&std::fs::read(path).ok()?))
+        .unwrap_or(false)
+}
+
+/// Whether the first line that is no comment begins with the word of a camera, or is the head of a table of
+/// such; nothing if there is no such line.
+fn is_first_line_of_cameras(bytes: &[u8]) -> Option<bool> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let line = lines.find(|line| !line.is_empty() && !line.starts_with(['#', '%']))?;
+    let separators = [' ', '\t', ','];
+    if WORDS.contains(&line.split(separators).next().unwrap_or_default()) {
+        return Some(true);
+    }
+    let words = line.split(separators).filter(|word| !word.is_empty());
+    let words: Vec<String> = words
+        .map(|word| word.trim_matches('"').to_lowercase())
+        .collect();
+    let head = words.split_first();
+    Some(head.is_some_and(|(first, rest)| Table::of_head(first, rest).is_some()))
 }
 
 /// The cameras of a text.

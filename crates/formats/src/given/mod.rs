@@ -20,10 +20,11 @@ use crate::cameras::{for_each_line, read_file};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::{NamedGraph, colmap};
-use viewcert::Known;
 use viewcert::graph::Displacements;
+use viewcert::{Known, Model};
 
 pub use parts::NamedParts;
+use places::GivenCameras;
 pub(crate) use priors::PosePriors;
 
 /// What a file gives.
@@ -71,6 +72,50 @@ pub fn given(path: Option<&Path>, input: &NamedGraph) -> Result<Given, ReadError
         problem,
     })?;
     Ok(Given { known, ..given })
+}
+
+/// What a file beside a graph holds.
+#[derive(Clone, Debug)]
+pub enum Beside {
+    /// The cameras themselves.
+    Cameras(GivenCameras),
+    /// What is known of them.
+    Known(Given),
+}
+
+/// The cameras that a file gives (`-` is standard input), see [`read_cameras`](cameras::read_cameras); or what
+/// is given besides the pairs, see [`given`].
+///
+/// # Errors
+/// As there.
+pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<Beside, ReadError> {
+    let Some(path) = path else {
+        return given(None, input).map(Beside::Known);
+    };
+    if path != Path::new("-") {
+        return Ok(match cameras::read_cameras(path, input, model)? {
+            Some(cameras) => Beside::Cameras(cameras),
+            None => Beside::Known(given(Some(path), input)?),
+        });
+    }
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|error| Place::Input.fault(error.into()).in_file("-"))?;
+    if let Some(cameras) = cameras::cameras_in(&bytes, "-", input, model)? {
+        return Ok(Beside::Cameras(cameras));
+    }
+    let mut found = read_named(&bytes, "-", input)?;
+    found.known = with_rigs(found.known, input)
+        .map_err(|problem| Place::Input.fault(problem).in_file("-"))?;
+    Ok(Beside::Known(found))
+}
+
+fn read_named(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
+    let mut found = read(bytes, input).map_err(|fault| fault.in_file(name))?;
+    for note in &mut found.notes {
+        *note = format!("{name}: {note}");
+    }
+    Ok(found)
 }
 
 /// What is known, with the base lines of the graph's rigs.

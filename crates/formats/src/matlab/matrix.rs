@@ -153,8 +153,9 @@ pub(super) fn numbers(header: &Header, source: &mut Source) -> Result<Vec<f64>, 
     let expected: u64 = header.dimensions.iter().map(|&d| u64::from(d)).product();
     let mut all = Vec::new();
     each_number(source, &tag, |value| {
-        if value.abs() > 9_007_199_254_740_992.0 && matches!(tag.kind, 12 | 13) {
-            return Err(malformed("an integer beyond 2^53"));
+        // 2^53 + 1 is 2^53 by now.
+        if value.abs() >= 9_007_199_254_740_992.0 && matches!(tag.kind, 12 | 13) {
+            return Err(malformed("an integer of 2^53 or beyond"));
         }
         if all.len() as u64 == expected {
             return Err(malformed("an array has more values than entries"));

@@ -147,7 +147,7 @@ pub(super) fn read_noting(
             if variable.is_none() && name != "A" {
                 parsed.notes.insert(0, chosen_note(&name));
             }
-            parsed.read.format = "MATLAB matrix";
+            parsed.read.format = "MATLAB matrix".into();
             Ok(parsed)
         }
         Err(problem) => Err(Place::Variable(name).fault(problem)),
@@ -155,7 +155,7 @@ pub(super) fn read_noting(
 }
 
 #[cfg(feature = "hdf5")]
-use hdf5::read as read_hdf5;
+use hdf5::{read as read_hdf5, real_arrays as arrays_of_hdf5};
 
 /// Says that this build reads none.
 #[cfg(not(feature = "hdf5"))]
@@ -165,6 +165,12 @@ fn read_hdf5(
     _: &ListOptions,
 ) -> Result<(String, Result<Parsed, Problem>), Fault> {
     Err(Place::Input.fault(Problem::NoHdf5))
+}
+
+/// The same.
+#[cfg(not(feature = "hdf5"))]
+fn arrays_of_hdf5(_: &[u8], _: &dyn Fn(&[u32]) -> bool) -> Result<Vec<RealArray>, Problem> {
+    Err(Problem::NoHdf5)
 }
 
 /// The non-zero entries `(row, column, value)` of a numeric variable of any shape in a file of
@@ -188,14 +194,19 @@ pub fn entries(bytes: &[u8], variable: &str) -> Result<Vec<(u32, u32, f64)>, Fau
 /// A full array: its name, its shape, and numbers with the first index changing fastest.
 pub(crate) type RealArray = (String, Vec<u32>, Vec<f64>);
 
-/// The full arrays of real numbers of a file of version 5 whose shape is asked for. O(bytes).
+/// The full arrays of real numbers whose shape is asked for, of a file of version 5, or of one of version
+/// 7.3 that MATLAB has named its arrays in. O(bytes).
 ///
 /// # Errors
-/// A file of another version, truncated or corrupt; integers beyond 2^53.
+/// A file of another version, truncated or corrupt; integers beyond 2^53; version 7.3 in a program that
+/// was built without it.
 pub(crate) fn real_arrays(
     bytes: &[u8],
     is_wanted: impl Fn(&[u32]) -> bool,
 ) -> Result<Vec<RealArray>, Fault> {
+    if version(bytes) == Some(Version::Hdf5) {
+        return arrays_of_hdf5(bytes, &is_wanted).map_err(|problem| Place::Input.fault(problem));
+    }
     let (order, variables) = variables(bytes)?;
     let mut all = Vec::new();
     for variable in variables {

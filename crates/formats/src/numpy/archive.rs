@@ -159,7 +159,7 @@ pub(in super::super) fn read_archive_with(
             if variable.is_none() && arrays.len() > 1 && chosen.name != "A" {
                 parsed.notes.insert(0, chosen_note(&chosen.name));
             }
-            parsed.read.format = "NumPy archive";
+            parsed.read.format = "NumPy archive".into();
             Ok(parsed)
         }
         Err(problem) => Err(Place::Variable(chosen.name.clone()).fault(problem)),
@@ -321,7 +321,7 @@ impl<'s, 'a, F: Fn(&str) -> Option<&'s Array<'a>>> Sparse<'s, 'a, F> {
         };
         let (matrix, again) = Matrix::of_entries(rows, order, &places, |at| values[at], options)?;
         let mut parsed = matrix.graph()?;
-        parsed.read.format = "sparse matrix of SciPy";
+        parsed.read.format = "sparse matrix of SciPy".into();
         parsed.read.merged = again;
         parsed.notes.extend(crate::merged(again));
         Ok(parsed)

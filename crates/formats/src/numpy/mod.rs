@@ -90,7 +90,7 @@ pub(super) fn read_with(bytes: &[u8], options: &ListOptions) -> Result<Parsed, F
     let mut input = Cursor::new(bytes);
     let header = Header::read(&mut input).map_err(fault)?;
     let mut parsed = graph(&header, &mut input, options).map_err(fault)?;
-    parsed.read.format = "NumPy array";
+    parsed.read.format = "NumPy array".into();
     let rest = &bytes[input.position() as usize..];
     if rest.starts_with(MAGIC) {
         return Err(fault(Problem::Foreign {

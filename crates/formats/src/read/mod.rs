@@ -249,7 +249,7 @@ fn graphs_at(
     let graphs = of_sampled(None, name, inner, options);
     Box::new(graphs.map(move |graph| {
         graph.map(|mut graph| {
-            graph.read.compression = Some(compression.name());
+            graph.read.compression = Some(compression.name().into());
             graph
         })
     }))

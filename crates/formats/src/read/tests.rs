@@ -115,7 +115,7 @@ fn gzip_is_inflated() {
         panic!("{items:?}");
     };
     assert_eq!(
-        (named.graph.nodes(), named.read.compression),
+        (named.graph.nodes(), named.read.compression.as_deref()),
         (3, Some("gzip"))
     );
     assert_eq!(all(&gzip(b"Bw\nC~\n")).iter().flatten().count(), 2);

@@ -6,6 +6,7 @@
 //! is one unknown for all frames (13.26): its images have centres of their own in a verdict, and what
 //! the frames add is asked apart ([`Frames::rig_frames`]).
 
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 use viewcert::decide::RigFrames;
@@ -38,7 +39,7 @@ pub(crate) struct Frame {
 }
 
 /// What the frames of an input say of its cameras.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Frames {
     /// Groups of cameras between any two of which the base line is known up to the rotation of their
     /// frame; in each at least two nodes, increasing; no node is in two.

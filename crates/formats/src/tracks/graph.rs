@@ -3,6 +3,7 @@
 use crate::NamedGraph;
 use crate::error::{Fault, Place, Problem};
 use crate::tracks::Frames;
+use serde::{Deserialize, Serialize};
 use viewcert::graph::{Graph, Labels};
 use viewcert::wording::counted;
 
@@ -31,7 +32,7 @@ impl Default for TrackOptions {
 }
 
 /// How many tracks there are, and how many count.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrackFacts {
     /// In how many images a track has to be seen.
     pub min_views: u32,

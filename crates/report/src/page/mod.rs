@@ -10,6 +10,7 @@
 mod adjacency;
 
 use super::graph_picture::{Drawn, Picture, document};
+use super::motion_picture::{self, Frames};
 use super::svg::{COLOURS, escaped};
 use super::{Report, json};
 use adjacency::Adjacency;
@@ -26,6 +27,11 @@ const SCRIPT: &str = include_str!("script.js");
 /// Fewest nodes for which an adjacency picture says more than the graph itself.
 const ADJACENCY_FROM: usize = 100;
 
+/// The section with the motions at given cameras, which is there only if there are some.
+const MOTION: &str = "<section id=\"motion\"><h2>What moves at the given cameras</h2>\n<p class=\"explanation\">\
+    Motions of first order, exact, that leave all pairs as they are; the largest part is held still, and arrows show \
+    where the other centres go. Colours are the parts here.</p>\n";
+
 /// What the script needs besides the report.
 #[derive(Serialize)]
 struct Drawing<'a> {
@@ -41,6 +47,9 @@ struct Drawing<'a> {
     colours: [&'static str; COLOURS.len()],
     /// How many components, the first ones, have a mark of their own.
     marked: usize,
+    /// The nodes of each metric component, if cameras have classes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    metric: Option<&'a [Vec<u32>]>,
     /// The adjacency picture, without its pixels.
     adjacency: Option<&'a Adjacency>,
 }
@@ -76,6 +85,12 @@ pub fn write(
             "report" => embed(out, numbers.trim_ascii_end())?,
             "drawing" => embed(out, &drawing)?,
             "picture" => out.write_all(document(picture, drawn, false).as_bytes())?,
+            "motion" => {
+                let moving = |here| motion_picture::picture(&here, Frames::Moving);
+                if let Some(picture) = report.here.and_then(moving) {
+                    write!(out, "{MOTION}{picture}</section>")?;
+                }
+            }
             "adjacency" => {
                 if let Some(adjacency) = &adjacency {
                     write!(out, "data:image/png;base64,")?;
@@ -113,6 +128,7 @@ fn drawing<'a>(
         edges: picture.is_detailed().then(|| edges.collect()),
         colours: COLOURS,
         marked: picture.marked(),
+        metric: report.scope.intrinsics().map(|found| found.nodes()),
         adjacency,
     }
 }

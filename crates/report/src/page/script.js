@@ -672,6 +672,7 @@
   const TITLES = {
     conditions: "Conditions",
     database: "Database",
+    intrinsics: "Intrinsics",
     planar: "If all centres lie in one plane",
     tracks: "Tracks",
     export: "Export",
@@ -750,10 +751,89 @@
     ], margin.components);
     return section;
   };
+  // Which intrinsics are determined: over the picture pairs in the colours of their metric components, grey
+  // if they are in none, and a ring round each camera, dashed if its intrinsics are not determined.
+  const METRIC = {
+    metric: "All cameras and intrinsics are determined, up to similarities and finitely many choices (proved).",
+    "not-metric": "Not metric: infinitely many sets of cameras and intrinsics (proved).",
+    open: "Not metric at drawn cameras; counting gives no proof.",
+  };
+  const RINGS = { true: "#228833", false: "#cc3311" };
+  const intrinsicsPart = (id, found) => {
+    const section = html("section", { id }, html("h2", {}, TITLES.intrinsics));
+    const metric = drawing.metric ?? [];
+    const partsOf = names.map(() => []);
+    metric.forEach((nodes, k) => nodes.forEach((node) => partsOf[node].push(k)));
+    const colour = (k) => (k === undefined ? "#8a929c" : drawing.colours[k % drawing.colours.length]);
+    const paths = new Map();
+    for (let k = 0; k < (drawing.edges?.length ?? 0); k += 2) {
+      const [i, j] = [drawing.edges[k], drawing.edges[k + 1]];
+      // Two components have one camera in common at most.
+      const part = partsOf[i].find((one) => partsOf[j].includes(one));
+      const [[x, y], [a, b]] = [i, j].map((node) => place(drawn.get(node)));
+      paths.set(part, `${paths.get(part) ?? ""}M${x} ${y}L${a} ${b}`);
+    }
+    const lines = svg("g", { class: "metric", "aria-hidden": "true", fill: "none", "stroke-width": 2.5 });
+    for (const [part, d] of paths) {
+      lines.append(svg("path", { d, stroke: colour(part), "data-metric": part === undefined ? "none" : part + 1 }));
+    }
+    const first = picture.querySelector("[data-node]");
+    if (first) first.parentNode.insertBefore(lines, first);
+    const open = new Set(found.not_determined.map((name) => nodeOf.get(name)));
+    const rings = svg("g", { class: "rings", "aria-hidden": "true", fill: "none", "stroke-width": 2 });
+    for (const [node, element] of drawn) {
+      const [cx, cy] = place(element);
+      const determined = !open.has(node);
+      rings.append(svg("circle", {
+        cx, cy, r: 9, stroke: RINGS[determined], "stroke-dasharray": determined ? "none" : "3 2", "data-determined": String(determined),
+      }));
+    }
+    picture.insertBefore(rings, overlay);
+    const of = found.classes.filter((line) => line.cameras > 0).map((line) => `${grouped(line.cameras)} ${line.class}`).join(", ");
+    section.append(
+      html("p", { "data-metric-verdict": found.verdict }, METRIC[found.verdict]),
+      html("p", {}, `Cameras: ${of}. Rank ${grouped(found.rank)} of ${grouped(found.rank_required)}${
+        found.proved ? " (proved)" : `, ${grouped(found.rank_at_most)} at most`}. ` +
+        `The intrinsics of ${grouped(found.determined)} of ${grouped(names.length)} cameras are known or determined: ` +
+        "these have a green ring in the picture, the others a dashed red one."),
+    );
+    if (metric.length > 0) {
+      table(section, `Metric components, whose pairs have these colours in the picture; ${
+        counted(found.other_pairs, "pair")} in none ${found.other_pairs === 1 ? "is" : "are"} grey.`, [
+        {
+          title: "metric component",
+          number: true,
+          value: (k) => k,
+          show: (k) => html("span", { style: `border-left: .6em solid ${colour(k)}; padding-left: .4em` }, `${k + 1}`),
+        },
+        { title: "cameras", number: true, value: (k) => found.components[k].nodes, show: (k) => grouped(found.components[k].nodes) },
+        { title: "pairs", number: true, value: (k) => found.components[k].edges, show: (k) => grouped(found.components[k].edges) },
+      ], metric.map((_, k) => k));
+    }
+    if (open.size > 0) {
+      table(section, "Cameras whose intrinsics are not determined.", [
+        { title: "image", value: (node) => names[node], show: cameraButton },
+      ], [...open]);
+    }
+    if (found.priors?.each.length > 0) {
+      const labels = (prior) => (prior.labels.length === 1 ? prior.labels[0]
+        : `${prior.labels[0]} .. ${prior.labels.at(-1)} (one sensor, ${counted(prior.labels.length, "image")})`);
+      table(section, "What one more calibrated camera determines, the best first.", [
+        { title: "camera", value: labels, show: labels },
+        { title: "unknown now", value: (prior) => prior.class, show: (prior) => prior.class },
+        { title: "then", value: (prior) => prior.verdict, show: (prior) => prior.verdict },
+        { title: "intrinsics determined", number: true, value: (prior) => prior.determined, show: (prior) => grouped(prior.determined) },
+        { title: "besides its own", number: true, value: (prior) => prior.others, show: (prior) => grouped(prior.others) },
+        { title: "largest metric component", number: true, value: (prior) => prior.largest, show: (prior) => grouped(prior.largest) },
+      ], found.priors.each);
+    }
+    return section;
+  };
   const partOf = (name, value) => {
     const id = `part-${name}`;
     if (name === "weak" && Array.isArray(value.items)) return weakPart(id, value);
     if (name === "surplus" && Array.isArray(value.items)) return surplusPart(id, value);
+    if (name === "intrinsics" && Array.isArray(value.classes)) return intrinsicsPart(id, value);
     if (name === "margin" && Array.isArray(value.missing)) return marginPart(id, value);
     return part(id, TITLES[name] ?? named(name), value);
   };

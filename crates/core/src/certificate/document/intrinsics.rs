@@ -23,6 +23,7 @@ objects! {
         rows: &'a [usize],
         cols: &'a [usize],
         motion: Vec<Big<&'a u64>>,
+        ; optional shared: &'a [Vec<u32>]
     }
 
     IntrinsicsClaim<'a> {
@@ -43,11 +44,38 @@ impl Certified {
     /// Those of the writer.
     pub fn write_certificate(
         &self,
-        (graph, name): (&Graph, &str),
+        named: (&Graph, &str),
         verdict: &Verdict,
         embed: bool,
         mut out: impl Write,
     ) -> io::Result<()> {
+        let formatter = lines::Outer::default();
+        let mut serializer = serde_json::Serializer::with_formatter(&mut out, formatter);
+        self.document(named, verdict, embed)
+            .serialize(&mut serializer)?;
+        out.write_all(b"\n")
+    }
+
+    /// The same with the graph, on one line, as files with a certificate a line take it.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write_line(
+        &self,
+        named: (&Graph, &str),
+        verdict: &Verdict,
+        mut out: impl Write,
+    ) -> io::Result<()> {
+        serde_json::to_writer(&mut out, &self.document(named, verdict, true))?;
+        out.write_all(b"\n")
+    }
+
+    fn document<'a>(
+        &'a self,
+        (graph, name): (&'a Graph, &'a str),
+        verdict: &'a Verdict,
+        embed: bool,
+    ) -> IntrinsicsDocument<'a> {
         let of_rules = verdict.contraction.bodies.iter();
         let of_rules = of_rules.filter_map(|body| BodyView::new(body, verdict));
         let by_rank = self.by_rank.iter().map(|body| BodyView {
@@ -59,12 +87,13 @@ impl Certified {
             add: &[],
             merge: body.merge.iter().map(MergeView::new).collect(),
         });
-        let document = IntrinsicsDocument {
+        IntrinsicsDocument {
             format: "viewcert certificate of intrinsics",
             version: 1,
             program: concat!("viewcert ", env!("CARGO_PKG_VERSION")),
             graph: GraphView::new((graph, name), &verdict.sha256, embed),
             classes: self.classes.iter().map(|class| class.word()).collect(),
+            shared: (!self.shared.is_empty()).then_some(&*self.shared),
             claim: self.claim(),
             bodies: of_rules.chain(by_rank).collect(),
             prime: Big(self.draw.prime),
@@ -73,11 +102,7 @@ impl Certified {
             rows: &self.pivots.rows,
             cols: &self.pivots.cols,
             motion: bigs(&self.motion),
-        };
-        let mut serializer =
-            serde_json::Serializer::with_formatter(&mut out, lines::Outer::default());
-        document.serialize(&mut serializer)?;
-        out.write_all(b"\n")
+        }
     }
 
     fn claim(&self) -> IntrinsicsClaim<'_> {

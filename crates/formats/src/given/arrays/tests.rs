@@ -19,6 +19,18 @@ io.savemat(d + 'cameras.mat', {'P': np.moveaxis(p, 0, 2), 'n': 3})
 io.savemat(d + 'centres.mat', {'C': -t}, do_compression=True)
 io.savemat(d + 'two.mat', {'C': -t, 'D': t})
 io.savemat(d + 'none.mat', {'C': t[:2]})
+import h5py
+def hdf5(name, **arrays):
+    with h5py.File(d + name, 'w', userblock_size=512) as file:
+        for key, value in arrays.items():
+            # MATLAB's first index changes fastest, HDF5's last one.
+            file.create_dataset(key, data=value.T).attrs['MATLAB_class'] = np.bytes_(value.dtype.name.replace('float64', 'double'))
+    with open(d + name, 'r+b') as file:
+        file.write(b'MATLAB 7.3 MAT-file, Platform: GLNXA64'.ljust(124) + b'\\0\\2IM')
+hdf5('cameras73.mat', P=np.moveaxis(p, 0, 2), n=np.zeros((1, 1)))
+hdf5('centres73.mat', C=-t)
+hdf5('integers73.mat', C=-t.astype(np.int64))
+hdf5('long73.mat', C=np.full((3, 3), 2**53 + 1))
 ";
 
 fn graph(folder: &Path, text: &str) -> NamedGraph {
@@ -77,6 +89,28 @@ fn arrays_tables_and_lines_say_the_same() {
     }
     for name in ["names.npz", "poses.csv", "matrices.csv", "centres.tsv"] {
         assert_eq!(read(folder, name, &names), Ok(expected), "{name}");
+    }
+}
+
+/// By programs with HDF5; the others say what to do.
+#[test]
+fn matlab_7_3() {
+    let folder = written();
+    let folder = folder.path();
+    let numbers = graph(folder, "0 1\n1 2\n");
+    let expected = read(folder, "centres.npy", &numbers);
+    for name in ["cameras73.mat", "centres73.mat", "integers73.mat"] {
+        let found = read(folder, name, &numbers);
+        if cfg!(feature = "hdf5") {
+            assert_eq!(found, expected, "{name}");
+        } else {
+            let error = found.unwrap_err();
+            assert!(error.contains("build it with it"), "{error}");
+        }
+    }
+    let error = read(folder, "long73.mat", &numbers).unwrap_err();
+    if cfg!(feature = "hdf5") {
+        assert!(error.contains("an integer of 2^53 or beyond"), "{error}");
     }
 }
 

@@ -11,7 +11,7 @@
 use hdf5_reader::messages::datatype::Datatype;
 use hdf5_reader::{Attribute, ByteOrder, Dataset, Hdf5File, OpenOptions};
 
-use super::malformed;
+use super::{RealArray, malformed};
 use crate::edge_list::layout::ListOptions;
 use crate::error::{Fault, Place, Problem};
 use crate::matrix::{List, Matrix, Places, are_pairs};
@@ -201,6 +201,43 @@ pub(super) fn read(
     let variables = variables(bytes, most).map_err(|problem| Place::Input.fault(problem))?;
     let chosen = choose(&variables, variable)?;
     Ok((chosen.name.clone(), chosen.graph(most, options)))
+}
+
+/// The full arrays of real numbers that MATLAB wrote and whose shape is asked for: the first index changes
+/// fastest, as in files of version 5.
+///
+/// # Errors
+/// A damaged file; an integer of 2^53 or beyond, which is not read exactly.
+pub(super) fn real_arrays(
+    bytes: &[u8],
+    is_wanted: &dyn Fn(&[u32]) -> bool,
+) -> Result<Vec<RealArray>, Problem> {
+    let most = bytes.len().saturating_mul(RATIO).min(LIMIT);
+    let mut all = Vec::new();
+    for variable in variables(bytes, most)? {
+        let shape = variable.shape.iter().map(|&count| u32::try_from(count));
+        let Ok(shape) = shape.collect::<Result<Vec<u32>, _>>() else {
+            continue;
+        };
+        let Content::Full(dataset) = &variable.content else {
+            continue;
+        };
+        if !variable.by_matlab || !is_wanted(&shape) {
+            continue;
+        }
+        let numbers: Vec<f64> = Numbers::read(dataset, most)?.values().collect();
+        let is_integer = !matches!(dataset.dtype(), Datatype::FloatingPoint { .. });
+        // 2^53 + 1 is 2^53 by now.
+        if is_integer && numbers.iter().any(|x| x.abs() >= 9_007_199_254_740_992.0) {
+            return Err(malformed("an integer of 2^53 or beyond"));
+        }
+        let entries = variable.shape.iter().product::<u64>();
+        if numbers.len() as u64 != entries {
+            return Err(malformed("an array without all of its entries"));
+        }
+        all.push((variable.name, shape, numbers));
+    }
+    Ok(all)
 }
 
 fn damaged(error: hdf5_reader::error::Error) -> Problem {

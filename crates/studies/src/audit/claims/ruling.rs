@@ -141,6 +141,34 @@ pub enum Ruling {
     NotDecidable(String),
 }
 
+impl Ruling {
+    /// Its name in JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::Refuted(_) => "refuted",
+            Self::NotDecidable(_) => "not decidable",
+        }
+    }
+
+    /// The same where a refutation has to be seen.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Refuted(_) => "REFUTED",
+            other => other.name(),
+        }
+    }
+
+    /// What speaks against the claim; nothing if it is confirmed.
+    pub fn reasons(&self) -> String {
+        match self {
+            Self::Confirmed => String::new(),
+            Self::Refuted(wrong) => wrong.join("; "),
+            Self::NotDecidable(why) => why.clone(),
+        }
+    }
+}
+
 /// The claim of a row.
 ///
 /// # Errors

@@ -1,53 +1,37 @@
 //! Rulings on claims.
 
+use super::json::{GraphLine, write_line};
+use super::text;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
-use viewcert_report::json::{GraphLine, write_line};
-use viewcert_report::text;
 use viewcert_studies::audit::claims::Ruling;
 
 /// The ruling on one row.
 #[derive(Clone, Debug)]
-pub(super) struct Ruled {
+pub struct Ruled {
     /// The row, from 1.
-    pub(super) number: usize,
+    pub number: usize,
     /// Its line in the table, from 1.
-    pub(super) line: usize,
+    pub line: usize,
     /// What was found.
-    pub(super) ruling: Ruling,
+    pub ruling: Ruling,
     /// The graph.
-    pub(super) input: NamedGraph,
+    pub input: NamedGraph,
     /// Its exact verdict.
-    pub(super) exact: Verdict,
+    pub exact: Verdict,
     /// The certificate, where one was written.
-    pub(super) certificate: Option<PathBuf>,
-}
-
-fn word(ruling: &Ruling) -> &'static str {
-    match ruling {
-        Ruling::Confirmed => "confirmed",
-        Ruling::Refuted(_) => "REFUTED",
-        Ruling::NotDecidable(_) => "not decidable",
-    }
-}
-
-fn reasons(ruling: &Ruling) -> String {
-    match ruling {
-        Ruling::Confirmed => String::new(),
-        Ruling::Refuted(wrong) => wrong.join("; "),
-        Ruling::NotDecidable(why) => why.clone(),
-    }
+    pub certificate: Option<PathBuf>,
 }
 
 /// Writes one line.
 ///
 /// # Errors
 /// Those of the writer.
-pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
-    write!(out, "row {:4}  {:13}", ruled.number, word(&ruled.ruling))?;
+pub fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+    write!(out, "row {:4}  {:13}", ruled.number, ruled.ruling.word())?;
     let (input, exact) = (&ruled.input, &ruled.exact);
     write!(
         out,
@@ -60,7 +44,7 @@ pub(super) fn text(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
     )?;
     match &ruled.ruling {
         Ruling::Confirmed => writeln!(out)?,
-        other => writeln!(out, "; {}", reasons(other))?,
+        other => writeln!(out, "; {}", other.reasons())?,
     }
     if let Some(path) = &ruled.certificate {
         writeln!(out, "          certificate {}", path.display())?;
@@ -86,16 +70,13 @@ struct Json<'a> {
 ///
 /// # Errors
 /// Those of the writer.
-pub(super) fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
+pub fn json(out: &mut impl Write, ruled: &Ruled) -> io::Result<()> {
     let (input, exact) = (&ruled.input, &ruled.exact);
     let line = Json {
         row: ruled.number,
         line: ruled.line,
-        ruling: match &ruled.ruling {
-            Ruling::Refuted(_) => "refuted",
-            other => word(other),
-        },
-        reason: reasons(&ruled.ruling),
+        ruling: ruled.ruling.name(),
+        reason: ruled.ruling.reasons(),
         graph: GraphLine::new(input, exact),
         verdict: exact.value.name(),
         strength: exact.value_claim().strength.name(),

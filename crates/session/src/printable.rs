@@ -1,22 +1,11 @@
-//! Names of files, and text from elsewhere.
-
-use std::path::Path;
-
-/// Whether a file holds a certificate a line.
-pub(super) fn is_list(path: &Path) -> bool {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or("");
-    name.ends_with(".jsonl") || name.ends_with(".jsonl.gz")
-}
+//! Text from elsewhere.
 
 /// Longest text from a certificate or a file name that is printed, in characters.
 const LONGEST: usize = 1000;
 
 /// Text from elsewhere without what a terminal would obey: control characters and those that turn
 /// the direction of writing are spelt out; what is too long is cut.
-pub(super) fn printable(text: &str) -> String {
+pub fn printable(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars().take(LONGEST) {
         let turns = matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}')

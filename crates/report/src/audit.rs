@@ -1,43 +1,43 @@
 //! Exact and float side by side.
 
+use super::json::{GraphLine, write_line};
+use super::read::ReadLine;
+use super::{counted, size, text};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
-use viewcert_report::json::{GraphLine, write_line};
-use viewcert_report::read::ReadLine;
-use viewcert_report::{counted, size, text};
 use viewcert_studies::audit::published::Study;
 use viewcert_studies::audit::{FloatVerdict, Outcome};
 
 /// Both sides of one graph.
 #[derive(Clone, Debug)]
-pub(super) struct Audit<'a> {
+pub struct Audit<'a> {
     /// The graph.
-    pub(super) input: &'a NamedGraph,
+    pub input: &'a NamedGraph,
     /// The exact side.
-    pub(super) exact: &'a Verdict,
+    pub exact: &'a Verdict,
     /// Its time.
-    pub(super) exact_time: Duration,
+    pub exact_time: Duration,
     /// The tolerance of the float side.
-    pub(super) tolerance: f64,
+    pub tolerance: f64,
     /// The float side at the first draw.
-    pub(super) outcome: Outcome,
+    pub outcome: Outcome,
     /// Components of the float side; `None` if it is undecided.
-    pub(super) components: Option<usize>,
+    pub components: Option<usize>,
     /// Its time, components included.
-    pub(super) float_time: Duration,
+    pub float_time: Duration,
     /// Whether both sides agree at every draw, and on the number of components at the
     /// first.
-    pub(super) agrees: bool,
+    pub agrees: bool,
     /// How many draws there were.
-    pub(super) draws: usize,
+    pub draws: usize,
     /// At how many of them the float verdict was not the exact one.
-    pub(super) misjudged: usize,
+    pub misjudged: usize,
     /// The published method of components without rounding, where it may be what makes the
     /// difference and does not take too long.
-    pub(super) method: Option<Study>,
+    pub method: Option<Study>,
 }
 
 impl Audit<'_> {
@@ -94,7 +94,7 @@ impl Audit<'_> {
 ///
 /// # Errors
 /// Those of the writer.
-pub(super) fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let graph = &audit.input.graph;
     let exact = audit.exact;
     writeln!(out, "{}", audit.input.name)?;
@@ -213,7 +213,7 @@ struct Float {
 ///
 /// # Errors
 /// Those of the writer.
-pub(super) fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
+pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
     let outcome = &audit.outcome;
     let line = Json {
         graph: GraphLine::new(audit.input, audit.exact),

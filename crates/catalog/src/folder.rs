@@ -1,22 +1,22 @@
 //! What a folder of certificates holds, and whether that is all of it.
 
-use super::names::{is_list, printable};
+use super::manifest::{self, Contents, Manifest};
 use anyhow::{Context, Result, anyhow};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use viewcert_catalog::manifest::{self, Contents, Manifest};
-use viewcert_report::counted;
+use viewcert::wording::counted;
+use viewcert_session::printable;
 
 /// The files at or below a path.
 #[derive(Default)]
-pub(super) struct Listing {
+pub struct Listing {
     /// Those with certificates, in a fixed order, with the folder whose manifest should name them.
-    pub(super) files: Vec<(PathBuf, Option<usize>)>,
+    pub files: Vec<(PathBuf, Option<usize>)>,
     /// Folders with manifests.
     manifests: Vec<(PathBuf, Manifest)>,
     /// What is neither a certificate nor in a manifest, and why it is not looked into.
-    pub(super) skipped: Vec<(PathBuf, &'static str)>,
+    pub skipped: Vec<(PathBuf, &'static str)>,
     visited: BTreeSet<PathBuf>,
 }
 
@@ -25,7 +25,7 @@ impl Listing {
     ///
     /// # Errors
     /// If a folder cannot be read, or a manifest is none.
-    pub(super) fn new(path: &Path) -> Result<Self> {
+    pub fn new(path: &Path) -> Result<Self> {
         let mut listing = Self::default();
         if path.is_dir() {
             listing.folder(path, None)?;
@@ -101,10 +101,7 @@ impl Listing {
     ///
     /// # Errors
     /// If a file cannot be read.
-    pub(super) fn completeness(
-        &self,
-        found: &BTreeMap<&Path, Contents>,
-    ) -> Result<Option<Completeness>> {
+    pub fn completeness(&self, found: &BTreeMap<&Path, Contents>) -> Result<Option<Completeness>> {
         if self.manifests.is_empty() {
             return Ok(None);
         }
@@ -157,15 +154,15 @@ impl Listing {
 }
 
 /// What the manifests say.
-pub(super) struct Completeness {
+pub struct Completeness {
     /// In words.
-    pub(super) lines: Vec<String>,
+    pub lines: Vec<String>,
     /// Whether nothing is missing, extra or changed.
-    pub(super) complete: bool,
+    pub complete: bool,
 }
 
 /// A path for people.
-pub(super) fn name(path: &Path) -> String {
+pub fn name(path: &Path) -> String {
     printable(&path.display().to_string())
 }
 
@@ -186,12 +183,22 @@ fn describe(contents: Option<&Contents>) -> String {
     )
 }
 
+/// Whether a file holds a certificate a line.
+pub fn is_list(path: &Path) -> bool {
+    let name = plain_name(path);
+    name.ends_with(".jsonl") || name.ends_with(".jsonl.gz")
+}
+
 /// Whether a file's name is that of certificates. Other JSON in the folder (a schema, say) is not
 /// named `.json` alone but `.schema.json`.
 fn holds_certificates(path: &Path) -> bool {
-    let name = path
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or("");
+    let name = plain_name(path);
     is_list(path) || (name.ends_with(".json") && !name.ends_with(".schema.json"))
+}
+
+/// The last part of a path, or nothing.
+fn plain_name(path: &Path) -> &str {
+    path.file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or("")
 }

@@ -1,0 +1,177 @@
+"""Verdicts by the thousand."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, overload
+
+from . import _native
+from ._errors import Error
+from ._graph import Graph, as_graph
+from ._progress import Progress, shown
+from ._question import chosen_model, wanted
+from ._types import Counting, Model
+from ._verdict import Verdict
+from ._words import limits, one_of, whole_if
+
+
+@overload
+def verify_all(
+    graphs: Iterable[Any],
+    *,
+    model: Optional[Model] = ...,
+    seed: int = ...,
+    planar: bool = ...,
+    solutions: Optional[Counting] = ...,
+    rational: bool = ...,
+    numerator: int = ...,
+    denominator: int = ...,
+    prime: Optional[int] = ...,
+    contraction: bool = ...,
+    counting: bool = ...,
+    errors: Literal["raise"] = ...,
+    threads: Optional[int] = ...,
+    time_limit: Optional[float] = ...,
+    memory_limit: Optional[int] = ...,
+    progress: Progress = ...,
+) -> List[Verdict[Any]]: ...
+@overload
+def verify_all(
+    graphs: Iterable[Any],
+    *,
+    errors: Literal["return"],
+    model: Optional[Model] = ...,
+    seed: int = ...,
+    planar: bool = ...,
+    solutions: Optional[Counting] = ...,
+    rational: bool = ...,
+    numerator: int = ...,
+    denominator: int = ...,
+    prime: Optional[int] = ...,
+    contraction: bool = ...,
+    counting: bool = ...,
+    threads: Optional[int] = ...,
+    time_limit: Optional[float] = ...,
+    memory_limit: Optional[int] = ...,
+    progress: Progress = ...,
+) -> List[Union[Verdict[Any], Error]]: ...
+def verify_all(
+    graphs: Iterable[Any],
+    *,
+    model: Optional[Model] = None,
+    seed: int = 1,
+    planar: bool = False,
+    solutions: Optional[Counting] = "quick",
+    rational: bool = False,
+    numerator: int = 9,
+    denominator: int = 4,
+    prime: Optional[int] = None,
+    contraction: bool = True,
+    counting: bool = True,
+    errors: Literal["raise", "return"] = "raise",
+    threads: Optional[int] = None,
+    time_limit: Optional[float] = None,
+    memory_limit: Optional[int] = None,
+    progress: Progress = None,
+) -> Any:
+    """Decides many graphs side by side: what :func:`verify` says of each, at the program's rate.
+
+    Parameters
+    ----------
+    graphs : iterable
+        Of what :func:`verify` takes. All are held in memory.
+    model, seed, planar, solutions, rational, numerator, denominator, prime, contraction, counting
+        As of :func:`verify`, for all of them.
+    errors : {'raise', 'return'}
+        Whether a graph that cannot be decided is an error of the whole, or stands as an exception in
+        its place.
+    threads : int, optional
+        How many graphs are decided at a time; by default as many as there are cores.
+    time_limit : float, optional
+        For all of them together, in seconds. What is not decided by then is :class:`TooLarge`.
+    memory_limit : int, optional
+        In bytes, for the large matrices of all threads together.
+    progress : callable or bool, optional
+        As of :func:`verify`; it counts graphs.
+
+    Returns
+    -------
+    list of Verdict
+        In the order of the graphs; one that has no name is called by its place. With ``errors='return'`` also exceptions.
+
+    Raises
+    ------
+    Error
+        Of the first graph that has no verdict; the message begins with its place.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> graphs = [[(0, 1), (1, 2), (0, 2)], [(0, 1), (1, 2), (2, 3), (3, 0)], [(0, 0)]]
+    >>> [verdict.value for verdict in viewcert.verify_all(graphs[:2])]
+    ['solvable', 'not-finite-solvable']
+    >>> viewcert.verify_all(graphs, errors="return")[2]
+    InputError('graph 2: camera 0 is paired with itself; remove the pair ...')
+    """
+    one_of("errors", errors, ("raise", "return"))
+    count = whole_if("threads", threads, 1, 4096)
+    seconds, memory = limits(time_limit, memory_limit)
+    asked = wanted(
+        model or "projective",
+        seed=seed,
+        planar=planar,
+        solutions=solutions,
+        rational=rational,
+        numerator=numerator,
+        denominator=denominator,
+        prime=prime,
+        contraction=contraction,
+        counting=counting,
+    )
+    tracks = {**asked, "model": "calibrated"}
+    found: List[Any] = []
+    # Camera-point graphs are calibrated: by the question that is asked of them.
+    pairs: List[Tuple[int, Graph[Any]]] = []
+    points: List[Tuple[int, Graph[Any]]] = []
+    for place, graph in enumerate(graphs):
+        found.append(None)
+        try:
+            given = as_graph(graph, f"graph {place}")
+            chosen_model(given, model)
+        except Error as error:
+            found[place] = error
+            if errors == "raise":
+                break
+        else:
+            (pairs if given.cameras is None else points).append((place, given))
+    if errors == "return" or not any(found):
+        with shown(progress) as callback:
+            for question, given_all in ((asked, pairs), (tracks, points)):
+                if not given_all:
+                    continue
+                decided = _native.decide_all(
+                    [given._native for _, given in given_all],
+                    question,
+                    threads=count,
+                    time_limit=seconds,
+                    memory_limit=memory,
+                    progress=callback,
+                )
+                kept = {"wanted": question, "parts": None, "displacements": None, "vectors": None}
+                for (place, given), native in zip(given_all, decided):
+                    if isinstance(native, Exception):
+                        found[place] = native
+                    else:
+                        found[place] = Verdict._of(given, native, kept)
+    for place, verdict in enumerate(found):
+        if isinstance(verdict, Error):
+            named = _named(verdict, place)
+            if errors == "raise":
+                raise named from None
+            found[place] = named
+    return found
+
+
+def _named(error: Error, place: int) -> Error:
+    """The error, which says of which graph it is."""
+    said = str(error)
+    return error if said.startswith(f"graph {place}: ") else type(error)(f"graph {place}: {said}")

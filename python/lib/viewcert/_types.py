@@ -1,0 +1,44 @@
+"""The words of questions and answers, as types: a misspelt one is an error before anything runs."""
+
+from __future__ import annotations
+
+from typing import Hashable, Literal, TypeVar
+
+#: What a user calls his images.
+N = TypeVar("N", bound=Hashable)
+
+#: What is known of the cameras.
+Model = Literal["projective", "calibrated", "affine", "focal"]
+
+#: The model that was decided.
+Decided = Literal["projective", "calibrated", "affine"]
+
+#: The answer.
+Value = Literal["solvable", "finite-solvable", "not-finite-solvable"]
+
+#: How strong an answer is.
+Strength = Literal["proof", "error-bound"]
+
+#: How thoroughly solutions are counted.
+Counting = Literal["quick", "full"]
+
+#: Formats of files that hold one graph.
+Format = Literal[
+    "edges", "matlab", "matrix-market", "numpy", "match-list", "glomap", "1dsfm", "openmvg-pairs",
+    "raw-matches", "text-matrix", "g2o", "node-link", "graphml", "gml", "gexf", "dot",
+]
+
+#: Formats of files with a graph on every line.
+Lines = Literal["graph6", "sparse6"]
+
+#: Which mapper's pairs count.
+Pipeline = Literal["incremental", "global"]
+
+#: What is unknown of the intrinsics of a camera.
+Class = Literal["known", "focal", "focal+point", "unknown"]
+
+#: What graphs determine if cameras have classes.
+IntrinsicsValue = Literal["metric", "not-metric", "open"]
+
+#: What frames add where base lines are unknown.
+BaseLinesValue = Literal["solvable", "not-finite-solvable", "open"]

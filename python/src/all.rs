@@ -1,0 +1,71 @@
+//! Verdicts by the thousand: many graphs, decided side by side.
+
+use crate::decided::{Decided, Wanted};
+use crate::errors::of_deciding;
+use crate::graph::Graph;
+use crate::work::{self, Told};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use viewcert::{Known, KnownParts, Verdict, VerdictError};
+use viewcert_formats::{NamedGraph, with_rigs};
+
+/// Why there is no verdict on one of them.
+enum Problem {
+    Question(String),
+    Verdict(VerdictError),
+}
+
+/// Decides graphs, each on one of so many threads (by default as many as there are cores). In the
+/// place of a graph that has no verdict stands the error. Nothing is asked of one graph that is not
+/// asked of all.
+#[pyfunction]
+#[pyo3(signature = (
+    graphs, wanted, *, threads=None, time_limit=None, memory_limit=None, progress=None
+))]
+pub(crate) fn decide_all(
+    py: Python<'_>,
+    graphs: Vec<Py<Graph>>,
+    wanted: Wanted,
+    threads: Option<usize>,
+    time_limit: Option<f64>,
+    memory_limit: Option<u64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Vec<Py<PyAny>>> {
+    let wanted = Arc::new(wanted);
+    let inputs: Vec<Arc<NamedGraph>> = graphs.iter().map(|g| Arc::clone(&g.get().0)).collect();
+    let threads = work::threads_of(threads)?;
+    let watch = work::watch(time_limit, memory_limit)?;
+    let told = Arc::new(Told::expecting("graphs", inputs.len() as u64));
+    let (teller, stop, asked) = (Arc::clone(&told), watch.clone(), Arc::clone(&wanted));
+    let decide = move |input: Arc<NamedGraph>| -> (Arc<NamedGraph>, Result<_, Problem>, Duration) {
+        let start = Instant::now();
+        let known = with_rigs(Known::Parts(KnownParts::default()), &input);
+        let options = known
+            .map_err(|error| error.to_string())
+            .and_then(|known| asked.options(known, stop.clone()));
+        let decided = options
+            .map_err(Problem::Question)
+            .and_then(|options| viewcert::decide(&input.graph, &options).map_err(Problem::Verdict));
+        teller.counted("graphs", 1);
+        (input, decided, start.elapsed())
+    };
+    let progress = progress.as_ref().map(|callback| (callback, &*told));
+    let found: Vec<(_, Result<Verdict, _>, _)> = work::run(py, &watch, progress, move || {
+        threads.install(|| inputs.into_par_iter().map(decide).collect())
+    })?;
+    found
+        .into_iter()
+        .map(|(input, decided, time)| match decided {
+            Ok(verdict) => {
+                let decided = Decided::new(input, verdict, &wanted, time);
+                Ok(Py::new(py, decided)?.into_any())
+            }
+            Err(Problem::Question(why)) => Ok(crate::errors::InputError::new_err(why)
+                .into_value(py)
+                .into_any()),
+            Err(Problem::Verdict(error)) => Ok(of_deciding(&error).into_value(py).into_any()),
+        })
+        .collect()
+}

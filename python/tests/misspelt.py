@@ -1,0 +1,43 @@
+"""What a type checker has to find, and what it has to let pass: mypy reads this file, nobody runs it.
+
+An error that is expected is named behind its line; `strict` refuses such a comment where there is no
+error.
+"""
+
+from __future__ import annotations
+
+from typing import FrozenSet, List, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+import viewcert
+
+names = [("a", "b"), ("b", "c")]
+verdict = viewcert.verify(names)
+
+viewcert.verify(names, model="perspective")  # type: ignore[call-overload]
+viewcert.verify(names, solutions="all")  # type: ignore[call-overload]
+viewcert.verify_all([names], model="focal-length")  # type: ignore[call-overload]
+viewcert.from_database("d.db", pipeline="both")  # type: ignore[arg-type]
+viewcert.read("pairs.txt", format="edge")  # type: ignore[call-overload]
+
+if verdict.value == "solveable":  # type: ignore[comparison-overlap]
+    pass
+if verdict.strength == "proved":  # type: ignore[comparison-overlap]
+    pass
+if viewcert.check(b"").value == "not-solvable":  # type: ignore[comparison-overlap]
+    pass
+
+# Nodes keep their type.
+of_names: List[FrozenSet[str]] = verdict.components
+of_numbers: List[FrozenSet[int]] = verdict.components  # type: ignore[assignment]
+listed: List[Tuple[str, str]] = verdict.pairs_of(0)
+rows: NDArray[np.uint32] = verdict.pairs_of(0, as_array=True)
+wrong: List[Tuple[str, str]] = verdict.pairs_of(0, as_array=True)  # type: ignore[assignment]
+of_tracks: viewcert.Graph[str] = viewcert.read("d.db", tracks=True)
+one: viewcert.Graph[int] = viewcert.read("pairs.txt", format="edges")
+some: Union[viewcert.Graph[int], List[viewcert.Graph[int]]] = viewcert.read("g.g6", format="graph6")
+strings: viewcert.Graph[str] = viewcert.read("g.g6", format="graph6")  # type: ignore[assignment]
+
+all_good: List[viewcert.Verdict[str]] = viewcert.verify_all([names])
+some_good: List[viewcert.Verdict[str]] = viewcert.verify_all([names], errors="return")  # type: ignore[assignment]
