@@ -47,7 +47,8 @@ fn counts(table: &str) -> Vec<[u64; 3]> {
             cell.parse().unwrap()
         }
     };
-    let mut lines = table.lines();
+    // Under the rows stand digests.
+    let mut lines = table.lines().filter(|line| !line.contains(": "));
     let header = lines.next().unwrap();
     let columns = ["candidates", "fin_solv", "unproved"].map(|name| column(header, name));
     lines
@@ -194,7 +195,11 @@ fn shard(out: &Path, shard: &str) -> Command {
 fn lines(out: &Path) -> Vec<String> {
     let mut lines = Vec::new();
     for shard in fs::read_dir(out).unwrap() {
-        for part in fs::read_dir(shard.unwrap().path()).unwrap() {
+        let shard = shard.unwrap().path();
+        if !shard.is_dir() {
+            continue;
+        }
+        for part in fs::read_dir(shard).unwrap() {
             let path = part.unwrap().path();
             if path.extension().is_some_and(|ending| ending == "tsv") {
                 let text = fs::read_to_string(path).unwrap();
@@ -295,34 +300,322 @@ fn a_merge_names_what_is_wrong() {
     good(&shard(out, "1/3").output().unwrap());
     good(&shard(out, "3/3").output().unwrap());
     refused(out, "shards are missing: 2/3");
-    // A shard of another run: another seed.
-    let foreign = shard(out, "2/3").args(["--seed", "2"]).output().unwrap();
-    good(&foreign);
-    refused(out, "different runs");
-    // The right one does not continue the foreign one.
+    // Another seed, another split: refused before any work, and nothing is left of it.
+    for (which, option, why) in [
+        (
+            "2/3",
+            &["--seed", "2"][..],
+            "--seed is 1 there and 2 here; give",
+        ),
+        (
+            "2/4",
+            &[],
+            "the number of shards is 3 there and 4 here; give",
+        ),
+        (
+            "2/3",
+            &["--solutions"],
+            "--solutions is off there and on here; give",
+        ),
+        (
+            "2/3",
+            &["--solvable-only"],
+            "--solvable-only is off there and on here; give",
+        ),
+        (
+            "2/3",
+            &["--certificates"],
+            "--certificates is off there and on here; give",
+        ),
+    ] {
+        let other = shard(out, which).args(option).output().unwrap();
+        assert_eq!(other.status.code(), Some(2));
+        let said = text(&other.stderr);
+        assert!(said.contains("the folder of another run"), "{said}");
+        assert!(said.contains(why), "{said}");
+    }
+    assert_eq!(
+        fs::read_dir(out).unwrap().count(),
+        4,
+        "2 shards, run, kernels"
+    );
+    good(&shard(out, "2/3").output().unwrap());
+    let merge = || good(&verify(&["catalog", "merge", out.to_str().unwrap()]));
+    let whole = merge();
+    let of = out.join("shard-2-of-3");
+    let [zero, one] = ["part-000000.tsv", "part-000001.tsv"].map(|name| of.join(name));
+    let part = fs::read_to_string(&one).unwrap();
+    let other = tempfile::tempdir().unwrap();
+    let seeded = shard(other.path(), "2/3").args(["--seed", "2"]).output();
+    good(&seeded.unwrap());
+    let foreign = fs::read(other.path().join("shard-2-of-3/part-000001.tsv")).unwrap();
+    let middle = part.len() / 2;
+    let row = part.lines().nth(7).unwrap();
+    let first = fs::read_to_string(&zero).unwrap();
+    // What was damaged, swapped, cut off, or is of somebody else is named.
+    for (damaged, why) in [
+        (&part.as_bytes()[..middle], "part-000001.tsv: cut off"),
+        (
+            part.replacen(row, "", 1).as_bytes(),
+            "part-000001.tsv: changed",
+        ),
+        (
+            part.replacen("proof", "2^-99", 1).as_bytes(),
+            "part-000001.tsv: changed",
+        ),
+        (
+            part.replace("\"refuted\":", "\"refuted\":1").as_bytes(),
+            "changed",
+        ),
+        (&[part.as_bytes(), b"\n"].concat(), "part-000001.tsv: "),
+        (b"", "part-000001.tsv: cut off"),
+        (b"\xff\xfe\n", "part-000001.tsv: cut off"),
+        (
+            first.as_bytes(),
+            "part-000001.tsv: it holds part 0 of shard 2/3",
+        ),
+    ] {
+        assert_ne!(damaged, part.as_bytes(), "{why}");
+        fs::write(&one, damaged).unwrap();
+        refused(out, why);
+        refused(out, "run shard 2/3 again, which computes it again");
+        // The next run says so, and makes it again.
+        let again = shard(out, "2/3").output().unwrap();
+        good(&again);
+        assert!(text(&again.stderr).contains("computed again"), "{why}");
+        assert_eq!(fs::read_to_string(&one).unwrap(), part, "{why}");
+        assert_eq!(merge(), whole);
+    }
+    fs::write(&one, foreign).unwrap();
+    refused(
+        out,
+        "part-000001.tsv: of another run than run.json: --seed is 2 there and 1 here",
+    );
     let mixed = shard(out, "2/3").output().unwrap();
     assert_eq!(mixed.status.code(), Some(2));
-    let said = text(&mixed.stderr);
+    assert!(text(&mixed.stderr).contains("--seed is 2 there and 1 here; give"));
+    fs::remove_file(&one).unwrap();
+    refused(out, "part-000001.tsv: is missing");
+    fs::write(&one, &part).unwrap();
+    // Doubled parts and shards.
+    fs::write(of.join("part-000003.tsv"), &part).unwrap();
+    refused(out, "part-000003.tsv: does not belong to the shard");
+    fs::remove_file(of.join("part-000003.tsv")).unwrap();
+    fs::rename(&of, out.join("shard-4-of-3")).unwrap();
+    refused(out, "shard-4-of-3: is no shard of this run");
+    refused(out, "shards are missing: 2/3");
+    fs::rename(out.join("shard-4-of-3"), &of).unwrap();
+    let done = |index: u32| out.join(format!("shard-{index}-of-3/done.json"));
+    let [second, third] = [2, 3].map(|index| fs::read(done(index)).unwrap());
+    fs::write(done(2), &third).unwrap();
+    refused(out, "shard-2-of-3: holds shard 3/3");
+    fs::write(done(2), &second[..second.len() - 9]).unwrap();
+    refused(out, "done.json: cut off");
+    let fewer = text(&second).replace("\"parts\":3", "\"parts\":2");
+    fs::write(done(2), fewer).unwrap();
+    refused(out, "done.json: changed");
+    fs::remove_file(done(2)).unwrap();
+    refused(out, "not finished");
+    fs::write(done(2), &second).unwrap();
+    // What the whole is about.
+    let run = fs::read_to_string(out.join("run.json")).unwrap();
+    fs::write(
+        out.join("run.json"),
+        run.replace("\"seed\":1", "\"seed\":3"),
+    )
+    .unwrap();
+    refused(out, "run.json: changed");
+    let again = shard(out, "2/3").output().unwrap();
+    assert!(text(&again.stderr).contains("run.json: changed"));
+    assert_eq!(fs::read_to_string(out.join("run.json")).unwrap(), run);
+    fs::remove_file(out.join("run.json")).unwrap();
+    refused(out, "shards without run.json");
+    assert_eq!(shard(out, "2/3").output().unwrap().status.code(), Some(2));
+    fs::write(out.join("run.json"), run).unwrap();
+    let kernels = fs::read(out.join("kernels")).unwrap();
+    fs::write(out.join("kernels"), &kernels[..kernels.len() - 1]).unwrap();
+    refused(out, "kernels: cut off");
+    fs::remove_file(out.join("kernels")).unwrap();
+    assert_eq!(merge(), whole);
+}
+
+/// A part whose own digests are right is found by deciding its graphs again, and by its arithmetic.
+#[test]
+fn a_recheck_finds_what_digests_do_not() {
+    use sha2::{Digest, Sha256};
+    let hex = |bytes: &[u8]| -> String { bytes.iter().map(|byte| format!("{byte:02x}")).collect() };
+    let seal = |text: &str| format!("{text}{{\"sha256\":\"{}\"}}\n", hex(&Sha256::digest(text)));
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path();
+    let run = |which: &str| good(&shard(out, which).arg("--certificates").output().unwrap());
+    run("1/2");
+    run("2/2");
+    let merge = |more: &[&str]| {
+        let words = [&["catalog", "merge", out.to_str().unwrap()], more].concat();
+        let run = verify(&words);
+        (run.status.code(), text(&run.stdout), text(&run.stderr))
+    };
+    let path = out.join("shard-1-of-2/part-000001.tsv");
+    let part = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = part.lines().collect();
+    let unsealed = lines[..lines.len() - 1].join("\n") + "\n";
+    assert_eq!(seal(&unsealed), part);
+    for share in ["1%", "50%", "all", "100%"] {
+        let (code, said, _) = merge(&["--recheck", share, "--threads", "1"]);
+        assert_eq!(code, Some(0), "{said}");
+        let last = said.lines().last().unwrap();
+        assert!(
+            last.contains("decided again ") && last.ends_with(" of 433: all agree"),
+            "{last}"
+        );
+        assert_eq!(
+            share.ends_with("l") || share == "100%",
+            last.contains("again 433 of"),
+            "{last}"
+        );
+    }
+    // A verdict alone: the counts do not agree with it.
+    let wrong = unsealed.replacen("not-finite-solvable\tproof", "finite-solvable\tproof", 1);
+    fs::write(&path, seal(&wrong)).unwrap();
+    let (code, _, said) = merge(&[]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("do not add up"), "{said}");
+    // A rank, with the digests of the lines made to fit, in the part and in the end of the shard: only
+    // deciding again finds that.
+    let row = lines[2];
+    let rank = row.split('\t').nth(3).unwrap();
+    let other = row.replacen(&format!("\t{rank}\t"), "\t60\t", 1);
+    assert_ne!((rank, row), ("60", other.as_str()));
+    let digest = |rows: &[&str]| {
+        let mut digest = viewcert_catalog::set_digest::SetDigest::default();
+        rows.iter().for_each(|row| digest.insert(row.as_bytes()));
+        digest.to_string()
+    };
+    let mut rows: Vec<&str> = lines[2..lines.len() - 2].to_vec();
+    let right = digest(&rows);
+    rows[0] = &other;
+    let forged = unsealed
+        .replacen(row, &other, 1)
+        .replace(&right, &digest(&rows));
+    fs::write(&path, seal(&forged)).unwrap();
+    let (code, _, said) = merge(&[]);
+    assert_eq!(code, Some(2));
     assert!(
-        said.contains("another run: --seed is 2 there and 1 here; give"),
+        said.contains("the parts do not add up to what done.json says"),
         "{said}"
     );
-    fs::remove_dir_all(out.join("shard-2-of-3")).unwrap();
-    good(&shard(out, "2/3").output().unwrap());
-    good(&verify(&["catalog", "merge", out.to_str().unwrap()]));
-    // A copy under another name, a missing part, an unfinished shard.
-    let of = out.join("shard-2-of-3");
-    fs::rename(&of, out.join("shard-4-of-3")).unwrap();
-    refused(out, "holds shard 2/3");
-    fs::rename(out.join("shard-4-of-3"), &of).unwrap();
-    let part = fs::read(of.join("part-000001.tsv")).unwrap();
-    fs::remove_file(of.join("part-000001.tsv")).unwrap();
-    refused(out, "part-000001.tsv");
-    fs::write(of.join("part-000001.tsv"), &part[..part.len() / 2]).unwrap();
-    refused(out, "not a part of a catalog");
-    fs::write(of.join("part-000001.tsv"), part).unwrap();
-    fs::remove_file(of.join("done.json")).unwrap();
-    refused(out, "not finished");
+    let done = out.join("shard-1-of-2/done.json");
+    let end = fs::read_to_string(&done).unwrap();
+    let all = lines_of(&out.join("shard-1-of-2"));
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let before: Vec<&str> = all
+        .iter()
+        .map(|line| if *line == other { row } else { line })
+        .collect();
+    fs::write(
+        &done,
+        resealed(&end.replace(&digest(&before), &digest(&all))),
+    )
+    .unwrap();
+    assert_eq!(merge(&[]).0, Some(0), "what digests cannot find");
+    let (code, said, _) = merge(&["--recheck", "all"]);
+    assert_eq!(code, Some(1), "{said}");
+    let graph = row.split('\t').next().unwrap();
+    let contradiction = format!("part-000001.tsv: {graph}: the file says");
+    assert!(
+        said.starts_with("CONTRADICTED ") && said.contains(&contradiction),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 2, "the graph and the counts: {said}");
+    // Certificates are bound, too.
+    fs::write(&path, &part).unwrap();
+    fs::write(&done, &end).unwrap();
+    assert_eq!(merge(&["--recheck", "all"]).0, Some(0));
+    let certificates = out.join("certificates");
+    let check = good(&verify(&["check", certificates.to_str().unwrap()]));
+    assert!(
+        check.starts_with("433 certificates verified, 0 rejected\n433 distinct graphs"),
+        "{check}"
+    );
+    let [one, two] =
+        [0, 1].map(|part| certificates.join(format!("shard-2-of-2-part-00000{part}.jsonl.gz")));
+    let [first, second] = [&one, &two].map(|path| fs::read(path).unwrap());
+    fs::write(&one, &second).unwrap();
+    let (code, _, said) = merge(&[]);
+    assert_eq!(code, Some(2));
+    assert!(
+        said.contains("part-000000.jsonl.gz was changed or cut off"),
+        "{said}"
+    );
+    fs::remove_file(&two).unwrap();
+    assert!(merge(&[]).2.contains("part-000001.jsonl.gz is missing"));
+    run("2/2");
+    assert_eq!(
+        [&one, &two].map(|path| fs::read(path).unwrap()),
+        [first, second]
+    );
+    assert_eq!(merge(&[]).0, Some(0));
+    for bad in ["0%", "1", "x", "101%"] {
+        assert_eq!(merge(&["--recheck", bad]).0, Some(2));
+    }
+}
+
+/// All lines of entries of a shard.
+fn lines_of(shard: &Path) -> Vec<String> {
+    let mut all = Vec::new();
+    for part in fs::read_dir(shard).unwrap() {
+        let text = fs::read_to_string(part.unwrap().path()).unwrap();
+        let inner = text.lines().filter(|line| line.contains("proof\t"));
+        all.extend(inner.map(String::from));
+    }
+    all
+}
+
+/// A sealed file with another content, sealed anew.
+fn resealed(text: &str) -> String {
+    use sha2::{Digest, Sha256};
+    let content = text.strip_prefix("{\"content\":").unwrap();
+    let content = content.rsplit_once(",\"sha256\":").unwrap().0;
+    let digest = Sha256::digest(content);
+    let hex: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("{{\"content\":{content},\"sha256\":\"{hex}\"}}\n")
+}
+
+/// The lines of a run have one digest, however it is cut; a merge after `--solvable-only` rechecks what
+/// is not kept, too.
+#[test]
+fn one_digest_for_all_splits() {
+    let mut digests = std::collections::BTreeSet::new();
+    for (count, part, more) in [(1, "16384", ""), (2, "50", ""), (3, "7", "--solvable-only")] {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().to_str().unwrap();
+        let prepared = ["catalog", "--nodes", "9", "--part", part, "--out", out];
+        for index in 1..=count {
+            let which = format!("{index}/{count}");
+            let mut words = [&prepared[..], &["--shard", &which, "--threads", "1"]].concat();
+            words.extend(Some(more).filter(|more| !more.is_empty()));
+            if index == 1 {
+                assert_eq!(good(&verify(&[&words[..], &["--prepare"]].concat())), "");
+            }
+            good(&verify(&words));
+        }
+        let merged = good(&verify(&["catalog", "merge", out, "--recheck", "all"]));
+        let [.., digest, last] = merged.lines().collect::<Vec<_>>()[..] else {
+            panic!("{merged}");
+        };
+        assert!(
+            last.ends_with("decided again 433 of 433: all agree"),
+            "{last}"
+        );
+        digests.insert(digest.to_owned());
+    }
+    let list = good(&verify(&["catalog", "--nodes", "9", "--list"]));
+    let mut digest = viewcert_catalog::set_digest::SetDigest::default();
+    list.lines()
+        .skip(1)
+        .for_each(|line| digest.insert(line.as_bytes()));
+    let expected = format!("9 nodes, 12 edges, biconnected: lines {digest}");
+    assert_eq!(digests.into_iter().collect::<Vec<_>>(), [expected]);
 }
 
 /// Parts of other candidates are not taken for one's own.
@@ -551,14 +844,65 @@ fn blocks_of_verdicts() {
     fs::remove_file(path(13)).unwrap();
     refused("1 of 14 blocks are missing: 13");
     fs::write(path(0), &first[..first.len() / 2]).unwrap();
-    refused("not a block of verdicts");
+    refused("block-000000.json: cut off");
     let broken = blocks(out, "1/3").output().unwrap();
-    assert_eq!(broken.status.code(), Some(2));
-    fs::write(path(0), &first).unwrap();
+    good(&broken);
+    let said = text(&broken.stderr);
+    assert!(
+        said.contains("block-000000.json: cut off") && said.contains("counted again"),
+        "{said}"
+    );
+    assert_eq!(read(0), first);
+    // Any number of shards goes on with them.
     good(&blocks(out, "1/1").output().unwrap());
     assert_eq!(read(13), last);
+    let second = read(1);
     fs::write(path(1), &first).unwrap();
-    refused("holds block 0");
+    refused("block-000001.json: it holds block 0");
+    let swapped = blocks(out, "2/2").output().unwrap();
+    assert!(text(&swapped.stderr).contains("it holds block 0; counted again"));
+    assert_eq!(read(1), second);
+    fs::write(
+        path(1),
+        text(&second).replacen("\"finite\":", "\"finite\":1", 1),
+    )
+    .unwrap();
+    refused("block-000001.json: changed");
+    let answers = text(&second).replacen("\"by_blocks\":", "\"by_blocks\":1", 1);
+    fs::write(path(1), resealed(&answers)).unwrap();
+    refused("its candidates and its answers do not add up");
+    let kernels = text(&second).replacen("\"kernels_sha256\":\"", "\"kernels_sha256\":\"0", 1);
+    fs::write(path(1), resealed(&kernels)).unwrap();
+    refused("its kernels are not those that there are");
+    // What adds up and is sealed is found by counting again.
+    let digest = text(&second)
+        .split("\"finite_solvable\":\"")
+        .nth(1)
+        .unwrap()[..64]
+        .to_owned();
+    let digit = if digest.starts_with('0') { "1" } else { "0" };
+    let forged = text(&second).replace(&digest, &format!("{digit}{}", &digest[1..]));
+    fs::write(path(1), resealed(&forged)).unwrap();
+    good(&merge());
+    let words = [
+        "catalog",
+        "merge",
+        out.to_str().unwrap(),
+        "--recheck",
+        "all",
+    ];
+    let run = verify(&words);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(text(&run.stdout).starts_with("CONTRADICTED "));
+    fs::write(path(1), &second).unwrap();
+    let said = good(&verify(&words));
+    assert!(
+        said.ends_with("decided again 5898 of 5898: all agree\n"),
+        "{said}"
+    );
+    fs::write(out.join("block-000014.json"), &second).unwrap();
+    refused("block-000014.json: is no block of this run");
+    fs::remove_file(out.join("block-000014.json")).unwrap();
     let other = blocks(out, "1/1").args(["--seed", "2"]).output().unwrap();
     assert_eq!(other.status.code(), Some(2));
     let said = text(&other.stderr);

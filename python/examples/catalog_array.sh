@@ -1,16 +1,72 @@
 #!/usr/bin/env bash
-# The catalog of one size on a cluster with Slurm: task I of K does shard I of K.
+# The catalog of one size on a cluster with Slurm. On a login node:
 #
-#   NODES=12 OUT=/scratch/catalog-12 sbatch --array=1-64 catalog_array.sh
-#   verify catalog merge /scratch/catalog-12
+#   NODES=15 SHARDS=64 OUT=/scratch/catalog-15 bash catalog_array.sh
 #
-# A task that was killed or has run out of time goes on where it was when it is submitted again.
+# submits three jobs: one makes the folder ready (the kernels are found once, and a folder of another run or
+# split is refused before anything else), an array does the shards after it, and the last one merges when all of
+# them are done. OUT is a folder that all nodes see. The table stands in OUT/merge.txt.
+#
+# What was killed, has run out of time or lost its node goes on where it was; part files that were damaged
+# are computed again. Slurm requeues what a dead node had; all else is submitted again by the same command, or
+# any subset of the shards with the same NODES, SHARDS, OPTIONS and OUT by
+#
+#   NODES=15 SHARDS=64 OUT=/scratch/catalog-15 sbatch --array=3,17-19 catalog_array.sh
+#   NODES=15 SHARDS=64 OUT=/scratch/catalog-15 TASK=merge sbatch catalog_array.sh
+#
+# SHARDS  into how many shards the work is cut; the array's indices are among 1 to SHARDS, which is below
+#         MaxArraySize of the cluster (scontrol show config), 1001 unless it is configured
+# OPTIONS of `verify catalog`; without any the finite-solvable graphs are counted, the fast way; for lines and
+#         certificates of all graphs OPTIONS='--certificates'
+# RECHECK how many graphs are decided again by the merge: 1% unless it is set, or all
+# VERIFY  the program, if it is not in the PATH
+# SBATCH  more options of sbatch, for all three jobs, as in '--partition=long --account=mine'
+#
+# Memory: with kernels of up to 8 independent cycles (16 nodes) 170 MB to find them, and 20 to 60 MB a shard.
 #SBATCH --job-name=viewcert-catalog
-#SBATCH --array=1-4
-#SBATCH --cpus-per-task=2
+#SBATCH --cpus-per-task=1
+#SBATCH --mem=500M
 #SBATCH --time=04:00:00
 #SBATCH --requeue
+#SBATCH --open-mode=append
 set -euo pipefail
-export RAYON_NUM_THREADS=${SLURM_CPUS_PER_TASK:-2}
-exec verify catalog --nodes "${NODES:?how many nodes}" --out "${OUT:?a folder for all tasks}" \
-    --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"
+: "${NODES:?how many nodes}" "${OUT:?a folder for all tasks}" "${SHARDS:?into how many shards}"
+options=${OPTIONS---necessary --verdicts}
+verify=${VERIFY:-verify}
+threads=${SLURM_CPUS_PER_TASK:-1}
+
+catalog() {
+    # Options are words.
+    # shellcheck disable=SC2086
+    "$verify" catalog --nodes "$NODES" --out "$OUT" --threads "$threads" $options "$@"
+}
+
+case ${TASK:-${SLURM_ARRAY_TASK_ID:-submit}} in
+prepare)
+    catalog --shard "1/$SHARDS" --prepare
+    ;;
+merge)
+    "$verify" catalog merge "$OUT" --recheck "${RECHECK:-1%}" --threads "$threads" | tee "$OUT/.merge.txt"
+    mv "$OUT/.merge.txt" "$OUT/merge.txt"
+    ;;
+submit)
+    most=$(scontrol show config | sed -n 's/^MaxArraySize *= *//p')
+    if [ -n "$most" ] && [ "$SHARDS" -ge "$most" ]; then
+        echo "SHARDS=$SHARDS: this cluster takes array indices below MaxArraySize=$most; fewer shards will do" >&2
+        exit 2
+    fi
+    mkdir -p "$OUT"
+    export NODES OUT SHARDS
+    submit() {
+        # shellcheck disable=SC2086
+        sbatch --parsable --export=ALL --output="$OUT/slurm-%A-%a.log" ${SBATCH:-} "$@" "$0"
+    }
+    prepared=$(TASK=prepare submit)
+    done=$(submit --dependency="afterok:$prepared" --kill-on-invalid-dep=yes --array="1-$SHARDS")
+    merged=$(TASK=merge submit --dependency="afterok:$done" --kill-on-invalid-dep=yes)
+    echo "submitted: prepare $prepared, shards $done, merge $merged; the table will stand in $OUT/merge.txt"
+    ;;
+*)
+    catalog --shard "$SLURM_ARRAY_TASK_ID/$SHARDS"
+    ;;
+esac

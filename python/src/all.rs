@@ -1,11 +1,10 @@
 //! Verdicts by the thousand: many graphs, decided side by side.
 
 use crate::decided::{Decided, Wanted};
-use crate::errors::{TooLarge, of_deciding};
+use crate::errors::of_deciding;
 use crate::graph::Graph;
 use crate::work::{self, Told};
 use pyo3::prelude::*;
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -36,13 +35,7 @@ pub(crate) fn decide_all(
 ) -> PyResult<Vec<Py<PyAny>>> {
     let wanted = Arc::new(wanted);
     let inputs: Vec<Arc<NamedGraph>> = graphs.iter().map(|g| Arc::clone(&g.get().0)).collect();
-    let threads = match threads {
-        None => work::threads()?,
-        Some(count) => {
-            let pool = ThreadPoolBuilder::new().num_threads(count).build();
-            Arc::new(pool.map_err(|error| TooLarge::new_err(error.to_string()))?)
-        }
-    };
+    let threads = work::threads_of(threads)?;
     let watch = work::watch(time_limit, memory_limit)?;
     let told = Arc::new(Told::expecting("graphs", inputs.len() as u64));
     let (teller, stop, asked) = (Arc::clone(&told), watch.clone(), Arc::clone(&wanted));

@@ -2,14 +2,11 @@
 
 use crate::errors::{InputError, of_any, of_deciding};
 use crate::work;
-use crate::work::Told;
-use anyhow::{Context, bail};
+use anyhow::bail;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use rayon::prelude::*;
-use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use viewcert::graph::graph6;
 use viewcert::linalg::prime::DEFAULT_PRIME;
@@ -17,10 +14,8 @@ use viewcert::watch::{Limits, Watch};
 use viewcert::{Graph, Options, VerdictError};
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
-use viewcert_catalog::work::Listener;
-use viewcert_catalog::{Files, Settings, Shard, Source, Work, merged};
-use viewcert_report::table;
-use viewcert_session::{Outputs, Progress};
+use viewcert_catalog::source::{Certified, Decided};
+use viewcert_catalog::{Settings, Source};
 
 /// Candidates that are decided together.
 const BATCH: usize = 256;
@@ -29,14 +24,14 @@ const BATCH: usize = 256;
 const AHEAD: usize = 2;
 
 /// An entry with its certificate.
-type Certified = (Entry, Vec<u8>);
+type CertifiedEntry = (Entry, Vec<u8>);
 
 enum Problem {
     Verdict(VerdictError),
     Other(anyhow::Error),
 }
 
-type Batch = Result<Vec<Certified>, Problem>;
+type Batch = Result<Vec<CertifiedEntry>, Problem>;
 
 /// The entries of a size, decided while they are taken.
 #[pyclass(frozen, module = "viewcert._native")]
@@ -47,7 +42,7 @@ pub(crate) struct Candidates {
 
 struct Entries {
     batches: Receiver<Batch>,
-    waiting: std::vec::IntoIter<Certified>,
+    waiting: std::vec::IntoIter<CertifiedEntry>,
 }
 
 #[pymethods]
@@ -149,7 +144,7 @@ impl Drop for Candidates {
 }
 
 /// Where candidates come from.
-fn source(
+pub(crate) fn source(
     nodes: usize,
     edges: Option<usize>,
     necessary: bool,
@@ -164,7 +159,7 @@ fn source(
     Source::minimal(nodes)
 }
 
-fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
+pub(crate) fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
     Settings {
         solutions,
         prime: prime.unwrap_or(DEFAULT_PRIME),
@@ -176,7 +171,7 @@ fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
 fn enumerate(source: &Source, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Graph]) -> Batch) {
     let mut waiting = Vec::with_capacity(BATCH);
     let mut open = true;
-    source.for_each(&mut |graph| {
+    let all = source.for_each(&mut |graph| {
         match graph {
             Ok(graph) => waiting.push(graph),
             Err(error) => open = sender.send(Err(Problem::Other(error))).is_ok(),
@@ -189,86 +184,21 @@ fn enumerate(source: &Source, sender: &SyncSender<Batch>, decide: &dyn Fn(&[Grap
     });
     if open {
         // Whoever has gone does not miss it.
-        let _ = sender.send(decide(&waiting));
+        let _ = sender.send(match all {
+            Ok(()) => decide(&waiting),
+            Err(error) => Err(Problem::Other(error)),
+        });
     }
 }
 
 /// The entries of some candidates, with certificates.
 fn entries(graphs: &[Graph], source: &Source, options: &Options) -> Batch {
-    let entry = |graph: &Graph| -> Result<Option<Certified>, VerdictError> {
-        let decided = source.decide(graph, options)?;
-        Ok(decided.map(|(entry, verdict)| {
-            let certificate = verdict.certificate(graph).named(&entry.graph6).compact();
-            let certificate = certificate.to_string().into_bytes();
-            (entry, certificate)
-        }))
-    };
-    let found: Result<Vec<Option<Certified>>, VerdictError> =
-        graphs.par_iter().map(entry).collect();
+    let found = source.decide_all(graphs, options, Certified::All);
+    let with_certificate = |(entry, certificate): Decided| Some((entry, certificate?));
     match found {
-        Ok(found) => Ok(found.into_iter().flatten().collect()),
+        Ok(found) => Ok(found.into_iter().filter_map(with_certificate).collect()),
         Err(error) => Err(Problem::Verdict(error)),
     }
-}
-
-/// Writes one shard of the catalog, or completes it.
-#[pyfunction]
-#[pyo3(signature = (
-    folder, nodes, shard, of, *, edges=None, necessary=false, minimal=false, solutions=false,
-    part=16384, solvable_only=false, prime=None, seed=1, progress=None
-))]
-#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
-pub(crate) fn catalog_shard(
-    py: Python<'_>,
-    folder: PathBuf,
-    nodes: usize,
-    shard: u64,
-    of: u64,
-    edges: Option<usize>,
-    necessary: bool,
-    minimal: bool,
-    solutions: bool,
-    part: u32,
-    solvable_only: bool,
-    prime: Option<u64>,
-    seed: u64,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<()> {
-    let settings = settings(solutions, prime, seed);
-    let files = Files {
-        folder,
-        part,
-        solvable_only,
-    };
-    let watch = Watch::new(Limits::default());
-    let (told, stop, threads) = (Arc::new(Told::default()), watch.clone(), work::threads()?);
-    let teller = told.clone();
-    let what = format!("shard {shard}/{of}");
-    let done = work::run(
-        py,
-        &watch,
-        progress.as_ref().map(|callback| (callback, &*told)),
-        move || {
-            let tell = Box::new(move |more| teller.counted(&what, more));
-            threads.install(|| {
-                let source = source(nodes, edges, necessary, minimal)?;
-                let shard = Shard::new(shard, of);
-                let work = Work {
-                    source: &source,
-                    settings,
-                    shard: shard.context("a shard is one of 1 to the number of shards")?,
-                    files: Some(files),
-                };
-                let listener = Listener {
-                    entry: &mut |_| Ok(()),
-                    malformed: &mut Err,
-                    progress: Progress::to(tell),
-                };
-                work.run(&Outputs::default(), stop, listener).map(drop)
-            })
-        },
-    )?;
-    done.map_err(|error| of_any(&error))
 }
 
 /// The label of a graph, and the greatest line of graph6 of its relabellings; nothing if it has too many nodes.
@@ -287,15 +217,4 @@ pub(crate) fn label_graph6(label: &str) -> PyResult<String> {
     let parsed: Result<Label, _> = label.parse();
     let parsed = parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))?;
     Ok(graph6::encode(&parsed.graph()))
-}
-
-/// The table of all shards in a folder.
-#[pyfunction]
-pub(crate) fn catalog_merge(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
-    let table = || -> anyhow::Result<String> {
-        let mut out = Vec::new();
-        table::write_merged(&mut out, merged(&folder)?)?;
-        Ok(String::from_utf8(out)?)
-    };
-    py.detach(table).map_err(|error| of_any(&error))
 }

@@ -13,6 +13,7 @@ mod errors;
 mod graph;
 mod kept;
 mod places;
+mod shards;
 mod work;
 
 use pyo3::prelude::*;
@@ -23,7 +24,7 @@ mod _native {
     #[pymodule_export]
     use super::all::decide_all;
     #[pymodule_export]
-    use super::catalog::{Candidates, catalog_merge, catalog_shard, label, label_graph6};
+    use super::catalog::{Candidates, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]
@@ -34,6 +35,8 @@ mod _native {
     use super::kept::{about_graph, graph_kept, same_graph};
     #[pymodule_export]
     use super::places::{component_of_pairs, pairs_among};
+    #[pymodule_export]
+    use super::shards::{catalog_merge, catalog_shard};
 
     use super::*;
 

@@ -5,7 +5,7 @@
 //! whether it may go on. What does not ask (reading, checking) is left to itself after a moment: it
 //! holds nothing of Python.
 
-use crate::errors::TooLarge;
+use crate::errors::{InputError, TooLarge};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -29,7 +29,7 @@ pub(crate) fn watch(seconds: Option<f64>, memory: Option<u64>) -> PyResult<Watch
     let time = seconds.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| {
         let seconds = seconds.unwrap_or_default();
-        crate::errors::InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
+        InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
     })?;
     Ok(Watch::new(Limits {
         deadline: time.and_then(|time| Instant::now().checked_add(time)),
@@ -108,6 +108,24 @@ pub(crate) fn threads() -> PyResult<Arc<ThreadPool>> {
         std::mem::forget(of_the_parent);
     }
     Ok(new)
+}
+
+/// So many threads of their own, or else those of this process.
+///
+/// # Errors
+/// If threads cannot be had, or none are wanted.
+pub(crate) fn threads_of(count: Option<usize>) -> PyResult<Arc<ThreadPool>> {
+    match count {
+        None => threads(),
+        Some(0) => Err(InputError::new_err(
+            "threads=0: there is one thread at least",
+        )),
+        Some(count) => {
+            let pool = ThreadPoolBuilder::new().num_threads(count).build();
+            let pool = pool.map_err(|error| TooLarge::new_err(error.to_string()))?;
+            Ok(Arc::new(pool))
+        }
+    }
 }
 
 fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -15,11 +15,11 @@ use viewcert::linalg::prime::DEFAULT_PRIME;
 use viewcert_catalog::mine::{COLUMNS, Entry};
 use viewcert_catalog::shard_files::{CANDIDATES, MOST_CANDIDATES};
 use viewcert_catalog::work::Listener;
-use viewcert_catalog::{Files, Settings, Shard, Source, Work, merged};
+use viewcert_catalog::{Files, Recheck, Sample, Settings, Shard, Source, Work, merged};
 use viewcert_formats::csv;
 use viewcert_report::{counted, table};
 use viewcert_session::Session;
-use viewcert_session::exit::{BAD_INPUT, GOOD};
+use viewcert_session::exit::{BAD_INPUT, GOOD, NOT};
 
 /// Options of the catalog.
 #[derive(Args)]
@@ -63,6 +63,17 @@ pub(super) struct Arguments {
     /// With --out: keep the lines of finite-solvable graphs and of unproved verdicts only.
     #[arg(long, requires = "out")]
     solvable_only: bool,
+    /// With --out: write the certificates of these lines too, for `verify check DIR/certificates`.
+    #[arg(long, requires = "out", conflicts_with = "verdicts")]
+    certificates: bool,
+    /// With --out: only make the folder ready for all shards, which then need not find the kernels
+    /// themselves.
+    #[arg(long, requires = "out")]
+    prepare: bool,
+    /// Compute with so many threads [default: one for each core].
+    #[arg(long, value_name = "N", global = true)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
     /// Count the solutions of the finite-solvable graphs: how many have each number stands under the
     /// table, and the last column of --list and --out has it for each graph: the number, or the least
     /// and the largest one that it can be.
@@ -78,7 +89,7 @@ pub(super) struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Check that all shards of one run are there, and print its table.
+    /// Verify that all shards of one run are there, whole and once each, and print its table.
     Merge(MergeArguments),
 }
 
@@ -87,6 +98,10 @@ enum Command {
 struct MergeArguments {
     /// The folder that was given to `--out`.
     folder: PathBuf,
+    /// Decide a share of the graphs (1%) or all of them again, and hold the files against that; of
+    /// verdicts, blocks.
+    #[arg(long, value_name = "SHARE")]
+    recheck: Option<Sample>,
 }
 
 /// A number of nodes, or a range of them.
@@ -138,14 +153,19 @@ impl Arguments {
             folder,
             part: self.part.unwrap_or(CANDIDATES),
             solvable_only: self.solvable_only,
+            certificates: self.certificates,
         })
     }
 }
 
 /// Decides the candidates and prints the table.
 pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+    if let Some(threads) = arguments.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        pool.build_global().context("--threads")?;
+    }
     if let Some(Command::Merge(arguments)) = &arguments.command {
-        return merge(arguments);
+        return merge(session, arguments);
     }
     // What cannot be asked for is refused before anything is made.
     let options = arguments.settings().options(session.watch())?;
@@ -171,17 +191,31 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
         for nodes in sizes {
             of_size(session, arguments, nodes, &mut found, &mut |_| Ok(()))?;
         }
-        table::write(&mut std::io::stdout().lock(), &found.rows).context("standard output")?;
+        if !arguments.prepare {
+            table::write(&mut std::io::stdout().lock(), &found.rows).context("standard output")?;
+        }
     }
     let code = if found.bad_lines > 0 { BAD_INPUT } else { GOOD };
     Ok(ExitCode::from(code))
 }
 
-/// Checks every shard and prints the table of the whole.
-fn merge(arguments: &MergeArguments) -> Result<ExitCode> {
-    let merged = merged(&arguments.folder)?;
+/// Verifies every shard and prints the table of the whole.
+fn merge(session: &Session, arguments: &MergeArguments) -> Result<ExitCode> {
+    let recheck = arguments.recheck.map(|sample| Recheck {
+        sample,
+        watch: session.watch(),
+        progress: session.progress("graphs", None),
+    });
+    let merged = merged(&arguments.folder, recheck)?;
+    let agrees = merged.agrees();
     table::write_merged(&mut std::io::stdout().lock(), merged).context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(ExitCode::from(if agrees { GOOD } else { NOT }))
+}
+
+/// Says what was damaged and is made again.
+fn note(words: String) {
+    // Nobody is there to be told if it cannot be said.
+    let _ = writeln!(std::io::stderr(), "verify: {words}");
 }
 
 /// What was counted.
@@ -201,13 +235,18 @@ fn of_size(
 ) -> Result<()> {
     let start = Instant::now();
     let source = arguments.source(nodes)?;
-    let own = own_share(arguments.shard, &source)?;
     let work = Work {
         source: &source,
         settings: arguments.settings(),
         shard: arguments.shard,
         files: arguments.files(),
     };
+    // What is kept in the folder says how many candidates there are.
+    work.prepare(session.outputs(), &mut note)?;
+    if arguments.prepare {
+        return Ok(());
+    }
+    let own = own_share(arguments.shard, &source)?;
     let mut solutions = BTreeMap::new();
     let listener = Listener {
         entry: &mut |entry| {
@@ -220,6 +259,7 @@ fn of_size(
             found.bad_lines += 1;
             Ok(writeln!(std::io::stderr(), "verify: {error:#}")?)
         },
+        note: &mut note,
         progress: session.progress("candidates", own),
     };
     let summary = work.run(session.outputs(), session.watch(), listener)?;

@@ -1,6 +1,6 @@
 //! `verify catalog --verdicts`: how many candidates are finite solvable, kernel by kernel.
 
-use super::Arguments;
+use super::{Arguments, note};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::ops::RangeInclusive;
@@ -38,13 +38,17 @@ pub(super) fn run(
             each.try_for_each(|line| writeln!(out, "{line}"))
                 .context("standard output")
         };
+        blocks.prepare(session.outputs(), &mut note)?;
+        if arguments.prepare {
+            return Ok(ExitCode::from(GOOD));
+        }
         let progress = session.progress("kernels", Some(blocks.kernels()));
         let list: Option<&mut dyn FnMut(Vec<String>) -> Result<()>> = if arguments.list {
             Some(&mut print)
         } else {
             None
         };
-        let tally = blocks.count(options, session.outputs(), &progress, list)?;
+        let tally = blocks.count(options, session.outputs(), &progress, &mut note, list)?;
         rows.push(table::VerdictRow {
             name: source.name(),
             tally,

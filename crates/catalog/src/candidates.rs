@@ -2,10 +2,25 @@
 
 use super::grow::grow;
 use super::kernel::{MAX_CYCLES, kernels};
+use super::kernel_file::{self, Counted, KernelFile, Of};
 use super::multigraph::{MAX_NODES, Multigraph};
+use super::shard::Shard;
 use super::subdivide::{Edges, Subdivisions};
+use anyhow::{Result, anyhow, ensure};
+use rayon::prelude::*;
+use std::borrow::Cow;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::OnceLock;
 use viewcert::geometry::model::Model;
 use viewcert::graph::Graph;
+use viewcert_session::Outputs;
+
+/// The name of the file of kernels in a folder of shards.
+pub(crate) const KERNELS: &str = "kernels";
+
+/// Kernels that are read from a file in one go.
+const SLICE: usize = 1024;
 
 /// The least number of edges of a finite-solvable graph with `nodes` >= 2 nodes: an edge
 /// has rank 7, so it is ceil((11 n - 15) / 7).
@@ -57,14 +72,16 @@ pub struct Candidates {
     nodes: usize,
     edges: usize,
     necessary: bool,
-    kernels: Option<Vec<Multigraph>>,
+    by_kernels: bool,
+    made: OnceLock<Vec<Multigraph>>,
+    file: OnceLock<KernelFile>,
 }
 
 impl Candidates {
     /// Prepares the enumeration of the biconnected graphs with `nodes` nodes and `edges`
     /// edges; with `necessary`, of those without adjacent nodes of degree 2 (which are not
     /// finite solvable, except the triangle). With up to 9 independent cycles, m - n + 1 <= 9
-    /// (6 with fewer than 10 nodes), the [`kernels`] are found here and kept; otherwise memory is
+    /// (6 with fewer than 10 nodes), the [`kernels`] are found when they are first asked for, and kept; otherwise memory is
     /// negligible and time grows with the number of connected graphs on `nodes - 1` nodes.
     ///
     /// # Errors
@@ -80,27 +97,110 @@ impl Candidates {
         let cycles = edges + 1 - nodes;
         // There are many kernels with many cycles, and few graphs with few nodes.
         let most_cycles = if nodes < 10 { 6 } else { MAX_CYCLES };
-        let by_kernels = (2..=most_cycles).contains(&cycles);
         Ok(Self {
             nodes,
             edges,
             necessary,
-            kernels: by_kernels.then(|| kernels(cycles, nodes)),
+            by_kernels: (2..=most_cycles).contains(&cycles),
+            made: OnceLock::new(),
+            file: OnceLock::new(),
         })
+    }
+
+    /// The kernels, made if they are not yet.
+    fn made(&self) -> &[Multigraph] {
+        self.made
+            .get_or_init(|| kernels(self.edges + 1 - self.nodes, self.nodes))
+    }
+
+    /// From now on reads the kernels from a file in a folder of shards, which is written if it is not
+    /// there: what is made once takes neither the time nor the memory of all who share the folder.
+    /// With `counted` it says how many candidates each kernel has. Nothing happens if there are no kernels.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn keep_kernels(
+        &self,
+        outputs: &Outputs,
+        folder: &Path,
+        counted: bool,
+        note: &mut dyn FnMut(String),
+    ) -> Result<()> {
+        if !self.by_kernels || self.file.get().is_some() {
+            return Ok(());
+        }
+        let path = folder.join(KERNELS);
+        let of = self.kernels_of_this(counted);
+        let file = if path.exists() {
+            KernelFile::open(&path, &of).map_err(|why| {
+                note(format!("{}: {why}; made again", path.display()));
+            })
+        } else {
+            Err(())
+        };
+        let file = match file {
+            Ok(file) => file,
+            Err(()) => {
+                let count = |kernel: &Multigraph| if counted { self.count_of(kernel) } else { 0 };
+                // They are not kept here: whatever is wanted is read.
+                let kernels = kernels(self.edges + 1 - self.nodes, self.nodes);
+                let kernels = kernels.into_par_iter();
+                let kernels: Vec<Counted> =
+                    kernels.map(|kernel| (kernel, count(&kernel))).collect();
+                outputs.write(&path, |out| kernel_file::write(out, of.clone(), &kernels))?;
+                KernelFile::open(&path, &of).map_err(|why| anyhow!("{}: {why}", path.display()))?
+            }
+        };
+        // Whoever was faster has the same.
+        let _ = self.file.set(file);
+        Ok(())
+    }
+
+    /// As [`Self::keep_kernels`], but only if the file is there.
+    ///
+    /// # Errors
+    /// A file that was changed or cut off.
+    pub fn find_kernels(&self, folder: &Path, counted: bool) -> Result<()> {
+        let path = folder.join(KERNELS);
+        if self.by_kernels && self.file.get().is_none() && path.exists() {
+            let file = KernelFile::open(&path, &self.kernels_of_this(counted));
+            let again = "run any shard again, which makes it anew";
+            let file = file.map_err(|why| anyhow!("{}: {why}; {again}", path.display()))?;
+            // Whoever was faster has the same.
+            let _ = self.file.set(file);
+        }
+        Ok(())
+    }
+
+    fn kernels_of_this(&self, counted: bool) -> Of {
+        Of {
+            program: concat!("viewcert ", env!("CARGO_PKG_VERSION")).into(),
+            nodes: self.nodes,
+            edges: self.edges,
+            necessary: self.necessary,
+            counted,
+        }
+    }
+
+    fn count_of(&self, kernel: &Multigraph) -> u64 {
+        let mut count = 0;
+        self.subdivisions(kernel).for_each(&mut |_| {
+            count += 1;
+            true
+        });
+        count
     }
 
     /// How many candidates there are, where counting them takes no longer than a small
     /// part of deciding them.
     pub fn count(&self) -> Option<u64> {
-        let kernels = self.kernels.as_ref()?;
-        let mut count = 0;
-        for kernel in kernels {
-            self.subdivisions(kernel).for_each(&mut |_| {
-                count += 1;
-                true
-            });
+        if !self.by_kernels {
+            return None;
         }
-        Some(count)
+        let counted = self.file.get().and_then(KernelFile::candidates);
+        Some(
+            counted.unwrap_or_else(|| self.made().iter().map(|kernel| self.count_of(kernel)).sum()),
+        )
     }
 
     /// Numbers of nodes and edges.
@@ -108,9 +208,28 @@ impl Candidates {
         (self.nodes, self.edges)
     }
 
-    /// The kernels that the candidates are made from; `None` if they are made node by node.
-    pub fn kernels(&self) -> Option<&[Multigraph]> {
-        self.kernels.as_deref()
+    /// How many kernels the candidates are made from; `None` if they are made node by node.
+    pub fn kernels(&self) -> Option<usize> {
+        let in_file = || self.file.get().map(KernelFile::len);
+        self.by_kernels
+            .then(|| in_file().unwrap_or_else(|| self.made().len()))
+    }
+
+    /// Some of the [`kernels`](Self::kernels).
+    ///
+    /// # Errors
+    /// If they are read from a file, and cannot be.
+    ///
+    /// # Panics
+    /// If the range goes beyond them, or there are none.
+    pub fn some_kernels(&self, range: Range<usize>) -> Result<Cow<'_, [Multigraph]>> {
+        Ok(match self.file.get() {
+            Some(file) => {
+                let found = file.read(range)?.into_iter();
+                found.map(|(kernel, _)| kernel).collect()
+            }
+            None => Cow::Borrowed(&self.made()[range]),
+        })
     }
 
     /// The candidates of one of the [`kernels`](Self::kernels).
@@ -125,9 +244,9 @@ impl Candidates {
 
     /// Calls `each` for every candidate, in a fixed order, until it returns false.
     pub fn for_each(&self, each: &mut impl FnMut(Graph) -> bool) {
-        match &self.kernels {
-            Some(kernels) => {
-                for kernel in kernels {
+        match self.by_kernels {
+            true => {
+                for kernel in self.made() {
                     let subdivisions = self.subdivisions(kernel);
                     if !subdivisions.for_each(&mut |subdivision| each(subdivision.graph())) {
                         return;
@@ -135,7 +254,7 @@ impl Candidates {
                 }
             }
             // The cycle is the one graph with a single independent cycle.
-            None if self.edges == self.nodes => {
+            false if self.edges == self.nodes => {
                 if self.nodes == 3 || !self.necessary {
                     let n = self.nodes as u32;
                     let cycle = (0..n).map(|v| (v, (v + 1) % n)).collect();
@@ -144,7 +263,7 @@ impl Candidates {
                     }
                 }
             }
-            None => {
+            false => {
                 // Every node to come brings at least one edge.
                 let keep =
                     |graph: &Multigraph| graph.edges() + self.nodes - graph.nodes() <= self.edges;
@@ -156,6 +275,46 @@ impl Candidates {
                 });
             }
         }
+    }
+}
+
+impl Candidates {
+    /// Calls `each` for the candidates of a shard, in the order of [`for_each`](Self::for_each), until it
+    /// returns false. Where a file of kernels says how many candidates each has, those of others are
+    /// passed over kernel by kernel.
+    ///
+    /// # Errors
+    /// If kernels cannot be read, or have other numbers of candidates than their file says.
+    pub fn for_each_of(&self, shard: Shard, each: &mut dyn FnMut(Graph) -> bool) -> Result<()> {
+        let counted = self.file.get().filter(|file| file.candidates().is_some());
+        let mut index = 0;
+        let Some(file) = counted else {
+            self.for_each(&mut |graph| {
+                index += 1;
+                !shard.owns(index - 1) || each(graph)
+            });
+            return Ok(());
+        };
+        for start in (0..file.len()).step_by(SLICE) {
+            for (kernel, count) in file.read(start..(start + SLICE).min(file.len()))? {
+                let next = index + count;
+                if shard.owns_any(index..next) {
+                    let more = self.subdivisions(&kernel).for_each(&mut |subdivision| {
+                        index += 1;
+                        !shard.owns(index - 1) || each(subdivision.graph())
+                    });
+                    if !more {
+                        return Ok(());
+                    }
+                    ensure!(
+                        index == next,
+                        "{KERNELS}: a kernel has another number of candidates"
+                    );
+                }
+                index = next;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -177,77 +336,4 @@ pub fn to_graph(graph: &Multigraph) -> Graph {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::canonical::canonical;
-    use std::collections::BTreeSet;
-
-    fn count(nodes: usize, edges: usize, necessary: bool) -> usize {
-        let mut count = 0;
-        Candidates::new(nodes, edges, necessary)
-            .unwrap()
-            .for_each(&mut |_| {
-                count += 1;
-                true
-            });
-        count
-    }
-
-    /// The number of biconnected graphs with n nodes: OEIS A002218.
-    #[test]
-    fn biconnected_graphs_with_any_number_of_edges() {
-        for (nodes, expected) in [(3, 1), (4, 3), (5, 10), (6, 56), (7, 468)] {
-            let found: usize = (nodes..=nodes * (nodes - 1) / 2)
-                .map(|edges| count(nodes, edges, false))
-                .sum();
-            assert_eq!(found, expected, "{nodes} nodes");
-        }
-    }
-
-    #[test]
-    fn both_ways_of_enumeration_agree() {
-        for (nodes, edges) in [(6, 8), (7, 10), (7, 13), (8, 11)] {
-            let forms = |graph: &Graph| canonical(&Multigraph::from_graph(graph).unwrap()).key;
-            let (mut one, mut two) = (BTreeSet::new(), BTreeSet::new());
-            let mut candidates = Candidates::new(nodes, edges, false).unwrap();
-            candidates.for_each(&mut |graph| one.insert(forms(&graph)));
-            candidates.kernels = None;
-            candidates.for_each(&mut |graph| two.insert(forms(&graph)));
-            assert_eq!(one, two);
-        }
-    }
-
-    #[test]
-    fn necessary_candidates_are_those_without_adjacent_nodes_of_degree_2() {
-        for (nodes, edges) in [(4, 5), (5, 5), (5, 6), (7, 9), (8, 11), (7, 16)] {
-            let mut expected = 0;
-            Candidates::new(nodes, edges, false)
-                .unwrap()
-                .for_each(&mut |graph| {
-                    let graph = Multigraph::from_graph(&graph).unwrap();
-                    expected += usize::from(!has_adjacent_nodes_of_degree_2(&graph));
-                    true
-                });
-            assert_eq!(count(nodes, edges, true), expected, "({nodes}, {edges})");
-        }
-        // The exception: the triangle is finite solvable.
-        assert_eq!(count(3, 3, true), 1);
-    }
-
-    #[test]
-    fn impossible_sizes_are_refused() {
-        let error = |nodes, edges| Candidates::new(nodes, edges, false).err();
-        assert_eq!(error(2, 1), Some(SizeError::Nodes { nodes: 2 }));
-        assert_eq!(error(17, 30), Some(SizeError::Nodes { nodes: 17 }));
-        let edges = |nodes, edges, most| Some(SizeError::Edges { nodes, edges, most });
-        assert_eq!(error(5, 4), edges(5, 4, 10));
-        assert_eq!(error(5, 11), edges(5, 11, 10));
-    }
-
-    /// Edge numbers of the paper's Table 1.
-    #[test]
-    fn least_numbers_of_edges() {
-        let expected = [3, 5, 6, 8, 9, 11, 12, 14];
-        assert_eq!((3..=10).map(least_edges).collect::<Vec<_>>(), expected);
-    }
-}
+mod tests;

@@ -1,89 +1,92 @@
-//! All shards of a run, once each.
+//! All shards of a run, once each, verified.
 
 use crate::counts::{Counts, Merged};
-use crate::mine::Summary;
-use crate::shard_files::{DONE, Done, Shard, part_path, read_part};
+use crate::faults::{listed, refuse};
+use crate::files;
+use crate::merge_parts::Parts;
+use crate::part::CERTIFICATES;
+use crate::recheck::{Recheck, of_entries};
+use crate::run::Run;
+use crate::shard::Shard;
+use crate::shard_files::Totals;
 use crate::verdict_files;
-use anyhow::{Context, Result, bail, ensure};
-use std::collections::BTreeMap;
-use std::fs;
+use anyhow::{Result, ensure};
 use std::path::Path;
 
-/// Checks every shard in a folder: those of one run are there, once each.
+/// Verifies a folder of shards: all of one run are there, once each; every part is as it was written, where
+/// it was written, and adds up; and there are as many candidates as the source has. With `recheck`
+/// graphs are decided again.
 ///
 /// # Errors
-/// Shards that are missing, broken or not finished, or do not belong together.
-pub fn merged(folder: &Path) -> Result<Merged> {
-    if verdict_files::is_here(folder)? {
-        return verdict_files::merged(folder);
+/// Whatever is missing, damaged, unfinished, of another run, or too much, by name. What was decided again
+/// and contradicts is no error, but said in [`Merged::rechecked`].
+pub fn merged(folder: &Path, recheck: Option<Recheck>) -> Result<Merged> {
+    let run = Run::of(folder)?;
+    if run.verdicts {
+        return verdict_files::merged(folder, &run, recheck);
     }
-    let mut shards = BTreeMap::new();
-    let listing = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
-    for item in listing {
-        let path = item.with_context(|| folder.display().to_string())?.path();
-        if path.is_dir() {
-            let done = read_shard(&path)?;
-            shards.insert(done.shard, (path, done));
+    let mut faults = Vec::new();
+    let shards = run.shards.unwrap_or(1);
+    for (name, path) in files::listing(folder)? {
+        let of_this = |shard: Shard| name == shard.folder();
+        let number = name.strip_prefix("shard-").and_then(|rest| {
+            let (index, count) = rest.split_once("-of-")?;
+            Shard::new(index.parse().ok()?, count.parse().ok()?)
+        });
+        let known = number.is_some_and(|shard| shard.count() == shards && of_this(shard));
+        if path.is_dir() && name != CERTIFICATES && !known {
+            faults.push(format!("{}: is no shard of this run", path.display()));
         }
     }
-    let Some((first_path, first)) = shards.values().next() else {
-        bail!("{}: no shards here", folder.display());
-    };
-    for (path, done) in shards.values() {
+    let (mut totals, mut own, mut missing) = (Totals::default(), Vec::new(), Vec::new());
+    for index in 1..=shards {
+        let shard = Shard::new(index, shards).expect("counted from 1");
+        if !folder.join(shard.folder()).is_dir() {
+            missing.push(format!("{index}/{shards}"));
+            continue;
+        }
+        let parts = Parts {
+            folder,
+            shard,
+            run: &run,
+        };
+        if let Some(of_shard) = parts.read(&mut faults)? {
+            totals.add(&of_shard);
+            own.push((shard, of_shard.candidates));
+        }
+    }
+    if !missing.is_empty() {
+        let named = listed(&missing, ", ");
+        faults.push(format!("{}: shards are missing: {named}", folder.display()));
+    }
+    refuse(&faults)?;
+    let whole = known_total(folder, &run)?.unwrap_or(totals.candidates);
+    for (shard, candidates) in own {
+        let share = shard.share(whole);
         ensure!(
-            done.run == first.run && done.of == first.of,
-            "{} and {} belong to different runs",
-            first_path.display(),
-            path.display()
+            candidates == share,
+            "{}: {candidates} candidates, and {share} of {whole} are its own",
+            folder.join(shard.folder()).display()
         );
     }
-    let missing: Vec<String> = (1..=first.of)
-        .filter(|index| !shards.contains_key(index))
-        .map(|index| format!("{index}/{}", first.of))
-        .collect();
-    ensure!(
-        missing.is_empty(),
-        "{}: shards are missing: {}",
-        folder.display(),
-        missing.join(", ")
-    );
-    let mut summary = Summary::default();
-    for (_, done) in shards.values() {
-        summary.add(&done.summary);
-    }
+    let rechecked = match recheck {
+        Some(recheck) => Some(of_entries(folder, &run, &recheck)?),
+        None => None,
+    };
     Ok(Merged {
-        source: first.run.source.clone(),
-        counts: Counts::Entries(summary),
+        source: run.source.name(),
+        counts: Counts::Entries(totals.summary, totals.rows),
+        rechecked,
     })
 }
 
-/// Reads a shard, and checks that its parts are complete and add up.
-fn read_shard(folder: &Path) -> Result<Done> {
-    let path = folder.join(DONE);
-    let text = fs::read_to_string(&path).with_context(|| {
-        format!(
-            "{}: the shard is not finished; run it again to complete it",
-            path.display()
-        )
-    })?;
-    let done: Done = serde_json::from_str(&text)
-        .with_context(|| format!("{}: not the end of a shard", path.display()))?;
-    let (index, count) = (done.shard, done.of);
-    ensure!(
-        folder.file_name().is_some_and(|name| {
-            Shard::new(index, count).is_some_and(|shard| *name == *shard.folder())
-        }),
-        "{}: holds shard {index}/{count}",
-        folder.display(),
-    );
-    let mut summary = Summary::default();
-    for number in 0..done.parts {
-        summary.add(&read_part(&part_path(folder, number), &done.run)?.0);
+/// How many candidates there are, where the folder has their kernels.
+fn known_total(folder: &Path, run: &Run) -> Result<Option<u64>> {
+    // What the file has wrong is said by whoever writes there.
+    if !folder.join(crate::candidates::KERNELS).exists() {
+        return Ok(None);
     }
-    ensure!(
-        summary == done.summary && !part_path(folder, done.parts).exists(),
-        "{}: the parts do not add up to what {DONE} says",
-        folder.display()
-    );
-    Ok(done)
+    let source = run.source.source()?;
+    source.find(folder, true)?;
+    Ok(source.total())
 }

@@ -174,6 +174,17 @@ impl Summary {
         self.components_proved += u64::from(entry.components_strength == Strength::Proof);
     }
 
+    /// Whether every graph has one answer, and no count is of more graphs than there are.
+    pub fn adds_up(&self) -> bool {
+        let answers = u128::from(self.unique)
+            + u128::from(self.finite)
+            + u128::from(self.refuted)
+            + u128::from(self.unproved);
+        answers == u128::from(self.candidates)
+            && self.hub <= self.refuted
+            && self.rank_proved.max(self.components_proved) <= self.candidates
+    }
+
     /// Adds the counts of other graphs.
     pub fn add(&mut self, other: &Self) {
         self.candidates += other.candidates;

@@ -55,4 +55,6 @@ pub struct Files {
     pub part: u32,
     /// Whether only the lines of finite-solvable graphs and of unproved verdicts are kept.
     pub solvable_only: bool,
+    /// Whether the certificates of these lines are written too.
+    pub certificates: bool,
 }

@@ -1,59 +1,43 @@
 //! How many candidates are finite solvable, kernel by kernel, in files.
 //!
-//! The kernels are counted in blocks, a file each: `block-000000.json` holds the
-//! description of the run, which kernels they are, and the counts. A file takes its name only when it is
-//! complete, so a run that is started again goes on where it was stopped. Block k belongs to shard
-//! k modulo their number, and all shards write to one folder (or to several whose files are put
-//! together).
+//! The kernels are counted in blocks, a file each: `block-000000.json` holds the description of the run,
+//! a digest of the kernels, and the counts, sealed. A file takes its name only when it is complete, so a
+//! run that is started again goes on where it was stopped; what is damaged is counted again. Block k
+//! belongs to shard k modulo their number, and all shards write to one folder (or to several whose files
+//! are put together); so the number of shards may change.
 
 use crate::Candidates;
-use crate::counts::{Counts, Merged};
-use crate::shard_files::{PROGRAM, Shard, differences};
+use crate::counts::{Counts, Merged, Rechecked};
+use crate::faults::{listed, refuse};
+use crate::files;
+use crate::multigraph::MAX_NODES;
+use crate::part::Bad;
+use crate::recheck::Recheck;
+use crate::run::{Run, differences};
+use crate::sealed;
+use crate::shard::Shard;
 use crate::source::Source;
 use crate::verdicts::{Tally, tally};
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
-use std::fs;
+use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use viewcert::certificate::hex;
 use viewcert::decide::Options;
 use viewcert_session::{Outputs, Progress};
 
 /// Kernels per block, if nothing else is asked for.
 pub const KERNELS: u32 = 1024;
 
-/// What makes two blocks belong to the same run.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Run {
-    program: String,
-    source: String,
-    seed: u64,
-    kernels: usize,
-    kernels_per_block: u32,
-}
-
-impl Run {
-    /// How many blocks there are: one at least.
-    fn blocks(&self) -> usize {
-        self.kernels
-            .div_ceil(self.kernels_per_block as usize)
-            .max(1)
-    }
-
-    fn kernels_of(&self, block: usize) -> Range<usize> {
-        let size = self.kernels_per_block as usize;
-        (block * size).min(self.kernels)..((block + 1) * size).min(self.kernels)
-    }
-}
-
-/// A file.
+/// A file: the counts of a block, sealed.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Block {
     run: Run,
     block: usize,
+    /// The digest of the kernels that were counted.
+    kernels_sha256: String,
     tally: Tally,
 }
 
@@ -78,32 +62,68 @@ impl<'a> Blocks<'a> {
         let Source::Size { candidates, .. } = source else {
             return None;
         };
-        let run = Run {
-            program: PROGRAM.into(),
-            source: source.name(),
-            seed,
-            kernels: candidates.kernels().map_or(0, <[_]>::len),
-            kernels_per_block: kernels_per_block.max(1),
-        };
         Some(Self {
             candidates,
-            run,
+            run: Run::of_verdicts(source.described(), seed, kernels_per_block),
             shard,
             folder,
         })
     }
 
+    /// Makes the folder this run's, and keeps there what all shards need, the kernels. Without a folder
+    /// nothing happens.
+    ///
+    /// # Errors
+    /// A folder of another run, or one that cannot be written.
+    pub fn prepare(&self, outputs: &Outputs, note: &mut dyn FnMut(String)) -> Result<()> {
+        let Some(folder) = self.folder else {
+            return Ok(());
+        };
+        self.run.claim(outputs, folder, note)?;
+        self.candidates.keep_kernels(outputs, folder, false, note)
+    }
+
+    /// How many blocks there are: one at least.
+    fn blocks(&self) -> usize {
+        let kernels = self.candidates.kernels().unwrap_or(0);
+        kernels.div_ceil(self.run.part as usize).max(1)
+    }
+
+    fn kernels_of(&self, block: usize) -> Range<usize> {
+        let kernels = self.candidates.kernels().unwrap_or(0);
+        let size = self.run.part as usize;
+        (block * size).min(kernels)..((block + 1) * size).min(kernels)
+    }
+
     fn own(&self) -> impl Iterator<Item = usize> {
-        (0..self.run.blocks()).filter(|&block| self.shard.has_turn(block as u64))
+        (0..self.blocks()).filter(|&block| self.shard.has_turn(block as u64))
     }
 
     /// How many kernels they have.
     pub fn kernels(&self) -> u64 {
-        let kernels = self.own().map(|block| self.run.kernels_of(block).len());
+        let kernels = self.own().map(|block| self.kernels_of(block).len());
         kernels.sum::<usize>() as u64
     }
 
-    /// Counts them; `list` takes the finite-solvable graphs of each block as graph6.
+    /// The digest of the kernels of a block.
+    fn digest(&self, block: usize) -> Result<String> {
+        let mut hash = Sha256::new();
+        let range = self.kernels_of(block);
+        if !range.is_empty() {
+            let mut order = [0u8; MAX_NODES];
+            (0..).zip(&mut order).for_each(|(k, place)| *place = k);
+            for kernel in self.candidates.some_kernels(range)?.iter() {
+                let words = kernel.key(&order[..kernel.nodes()]);
+                words
+                    .iter()
+                    .for_each(|word| hash.update(word.to_le_bytes()));
+            }
+        }
+        Ok(hex(&hash.finalize()))
+    }
+
+    /// Counts them; `list` takes the finite-solvable graphs of each block as graph6, those of blocks
+    /// that were counted before excepted; `note` what was damaged and is counted again.
     ///
     /// # Errors
     /// A folder of another run or that cannot be written, those of `list`; if the work is stopped.
@@ -112,26 +132,34 @@ impl<'a> Blocks<'a> {
         options: &Options,
         outputs: &Outputs,
         progress: &Progress,
+        note: &mut dyn FnMut(String),
         mut list: Option<&mut dyn FnMut(Vec<String>) -> Result<()>>,
     ) -> Result<Tally> {
-        if let Some(folder) = self.folder {
-            fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-        }
+        self.prepare(outputs, note)?;
         let mut whole = Tally::default();
         for block in self.own() {
+            let kernels = self.kernels_of(block);
             let path = self.folder.map(|folder| path(folder, block));
             if let Some(path) = path.as_ref().filter(|path| path.exists()) {
-                whole.add(self.read(path, block)?);
-                continue;
+                match self.read(path, block)? {
+                    Ok(tally) => {
+                        whole.add(tally);
+                        progress.done(kernels.len() as u64);
+                        continue;
+                    }
+                    Err(Bad::Foreign(there)) => bail!(
+                        "{}: a block of another run: {}; give the same options, or name another \
+                         folder",
+                        path.display(),
+                        differences(&there, &self.run)
+                    ),
+                    Err(Bad::Damaged(why)) => {
+                        note(format!("{}: {why}; counted again", path.display()));
+                    }
+                }
             }
-            let kernels = self.run.kernels_of(block);
-            let (tally, lines) = tally(
-                self.candidates,
-                kernels,
-                options,
-                list.is_some(),
-                |kernels| progress.done(kernels),
-            )?;
+            let done = |kernels| progress.done(kernels);
+            let (tally, lines) = tally(self.candidates, kernels, options, list.is_some(), done)?;
             if let Some(list) = &mut list {
                 list(lines)?;
             }
@@ -140,11 +168,11 @@ impl<'a> Blocks<'a> {
                 let block = Block {
                     run: self.run.clone(),
                     block,
+                    kernels_sha256: self.digest(block)?,
                     tally,
                 };
                 outputs.write(&path, |out| {
-                    serde_json::to_writer(&mut *out, &block)?;
-                    out.write_all(b"\n")
+                    out.write_all(sealed::sealed(&block).as_bytes())
                 })?;
             }
         }
@@ -152,90 +180,137 @@ impl<'a> Blocks<'a> {
         Ok(whole)
     }
 
-    /// What an earlier run has counted.
-    fn read(&self, path: &Path, block: usize) -> Result<Tally> {
-        let found = read(path)?;
-        ensure!(
-            found.run == self.run && found.block == block,
-            "{}: a block of another run: {}; give the same options, or name another folder",
-            path.display(),
-            differences(&found.run, &self.run)
-        );
-        Ok(found.tally)
+    /// What was counted before, verified.
+    fn read(&self, path: &Path, block: usize) -> Result<Result<Tally, Bad>> {
+        let found: Block = match sealed::read(path)? {
+            Ok(found) => found,
+            Err(why) => return Ok(Err(Bad::Damaged(why))),
+        };
+        let damaged = |why: String| Ok(Err(Bad::Damaged(why)));
+        if found.run != self.run {
+            return Ok(Err(Bad::Foreign(Box::new(found.run))));
+        }
+        if found.block != block {
+            return damaged(format!("it holds block {}", found.block));
+        }
+        if found.kernels_sha256 != self.digest(block)? {
+            return damaged("its kernels are not those that there are".into());
+        }
+        if !found.tally.adds_up() {
+            return damaged("its candidates and its answers do not add up".into());
+        }
+        Ok(Ok(found.tally))
     }
+
+    /// Verifies all blocks of a folder; what is wrong is added to the faults.
+    fn all(&self, folder: &Path, faults: &mut Vec<String>) -> Result<Vec<Tally>> {
+        let (mut tallies, mut missing) = (Vec::new(), Vec::new());
+        for (name, path) in files::listing(folder)? {
+            let number = name.strip_prefix("block-").map(|rest| {
+                let number = rest.strip_suffix(".json")?.parse().ok()?;
+                (number < self.blocks() && path == self::path(folder, number)).then_some(number)
+            });
+            if number == Some(None) {
+                faults.push(format!("{}: is no block of this run", path.display()));
+            }
+        }
+        for block in 0..self.blocks() {
+            let path = path(folder, block);
+            if !path.exists() {
+                missing.push(block.to_string());
+                continue;
+            }
+            match self.read(&path, block)? {
+                Ok(tally) => tallies.push(tally),
+                Err(Bad::Damaged(why)) => faults.push(format!(
+                    "{}: {why}; run the shards again, which counts it again",
+                    path.display()
+                )),
+                Err(Bad::Foreign(there)) => faults.push(format!(
+                    "{}: of another run than run.json: {}",
+                    path.display(),
+                    differences(&there, &self.run)
+                )),
+            }
+        }
+        if !missing.is_empty() {
+            faults.push(format!(
+                "{}: {} of {} blocks are missing: {}; run the shards again to complete them",
+                folder.display(),
+                missing.len(),
+                self.blocks(),
+                listed(&missing, ", ")
+            ));
+        }
+        Ok(tallies)
+    }
+
+    /// Counts the blocks of a sample again.
+    fn again(&self, folder: &Path, tallies: &[Tally], recheck: &Recheck) -> Result<Rechecked> {
+        let options = self.run.settings().options(recheck.watch.clone())?;
+        let mut found = Rechecked {
+            of: tallies.iter().map(|tally| tally.candidates).sum(),
+            ..Rechecked::default()
+        };
+        let names = (0..tallies.len()).map(|block| format!("block {block}"));
+        for block in recheck.sample.of(names) {
+            let range = self.kernels_of(block);
+            let (tally, _) = tally(self.candidates, range, &options, false, |_| ())?;
+            found.graphs += tally.candidates;
+            if tally != tallies[block] {
+                let (path, there) = (path(folder, block), &tallies[block]);
+                found.contradictions.push(format!(
+                    "{}: the file says {}, counted again {}",
+                    path.display(),
+                    in_words(there),
+                    in_words(&tally)
+                ));
+            }
+            recheck.progress.done(tally.candidates);
+        }
+        recheck.progress.finish();
+        Ok(found)
+    }
+}
+
+fn in_words(tally: &Tally) -> String {
+    let (candidates, solvable) = (tally.candidates, tally.count_finite_solvable());
+    let digest = tally.finite_solvable;
+    format!("{solvable} of {candidates} finite solvable ({digest})")
 }
 
 fn path(folder: &Path, block: usize) -> PathBuf {
     folder.join(format!("block-{block:06}.json"))
 }
 
-fn read(path: &Path) -> Result<Block> {
-    let text = fs::read_to_string(path).with_context(|| path.display().to_string())?;
-    serde_json::from_str(&text)
-        .with_context(|| format!("{}: not a block of verdicts", path.display()))
-}
-
-/// The blocks in a folder.
-fn blocks(folder: &Path) -> Result<Vec<PathBuf>> {
-    let listing = fs::read_dir(folder).with_context(|| folder.display().to_string())?;
-    let mut paths = Vec::new();
-    for item in listing {
-        let item = item.with_context(|| folder.display().to_string())?;
-        let name = item.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with("block-") && name.ends_with(".json") {
-            paths.push(item.path());
-        }
-    }
-    paths.sort();
-    Ok(paths)
-}
-
-/// Whether a folder has blocks of verdicts.
-pub(crate) fn is_here(folder: &Path) -> Result<bool> {
-    Ok(!blocks(folder)?.is_empty())
-}
-
-/// Checks that all blocks of one run are there; the whole.
-pub(crate) fn merged(folder: &Path) -> Result<Merged> {
-    let mut found: BTreeMap<usize, Block> = BTreeMap::new();
-    let mut first: Option<Run> = None;
-    for path in blocks(folder)? {
-        let block = read(&path)?;
-        let run = first.get_or_insert_with(|| block.run.clone());
-        ensure!(
-            block.run == *run,
-            "{}: belongs to another run than the first block: {}",
-            path.display(),
-            differences(&block.run, run)
-        );
-        ensure!(
-            path == self::path(folder, block.block) && block.block < run.blocks(),
-            "{}: holds block {}",
-            path.display(),
-            block.block
-        );
-        found.insert(block.block, block);
-    }
-    let Some(run) = first else {
-        bail!("{}: no blocks here", folder.display());
+/// Verifies that all blocks of a run are there, once each; the whole.
+///
+/// # Errors
+/// What is missing, damaged, or of another run.
+pub(crate) fn merged(folder: &Path, run: &Run, recheck: Option<Recheck>) -> Result<Merged> {
+    let source = run.source.source()?;
+    source.find(folder, false)?;
+    let Source::Size { candidates, .. } = &source else {
+        bail!("{}: verdicts are counted of sizes only", folder.display());
     };
-    let missing = (0..run.blocks()).filter(|block| !found.contains_key(block));
-    let missing: Vec<String> = missing.map(|block| block.to_string()).collect();
-    ensure!(
-        missing.is_empty(),
-        "{}: {} of {} blocks are missing: {}; run the shards again to complete them",
-        folder.display(),
-        missing.len(),
-        run.blocks(),
-        missing[..missing.len().min(10)].join(", ")
-    );
-    let mut tally = Tally::default();
-    for block in found.into_values() {
-        tally.add(block.tally);
-    }
+    let blocks = Blocks {
+        candidates,
+        run: run.clone(),
+        shard: Shard::default(),
+        folder: Some(folder),
+    };
+    let mut faults = Vec::new();
+    let tallies = blocks.all(folder, &mut faults)?;
+    refuse(&faults)?;
+    let rechecked = match recheck {
+        Some(recheck) => Some(blocks.again(folder, &tallies, &recheck)?),
+        None => None,
+    };
+    let mut whole = Tally::default();
+    tallies.into_iter().for_each(|tally| whole.add(tally));
     Ok(Merged {
-        source: run.source,
-        counts: Counts::Verdicts(tally),
+        source: run.source.name(),
+        counts: Counts::Verdicts(whole),
+        rechecked,
     })
 }

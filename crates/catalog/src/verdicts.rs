@@ -10,6 +10,7 @@ use super::candidates::Candidates;
 use super::multigraph::Multigraph;
 use super::set_digest::SetDigest;
 use super::siblings::{Proved, Siblings};
+use anyhow::Result;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -50,6 +51,12 @@ impl Tally {
         self.by_one_block + self.by_blocks + self.otherwise
     }
 
+    /// Whether every candidate has one answer.
+    pub fn adds_up(&self) -> bool {
+        let answers = self.count_finite_solvable().checked_add(self.refuted());
+        answers.and_then(|sum| sum.checked_add(self.unproved.len() as u64)) == Some(self.candidates)
+    }
+
     /// Adds the counts of other graphs.
     pub fn add(&mut self, other: Self) {
         self.candidates += other.candidates;
@@ -72,7 +79,7 @@ impl Tally {
 /// [`decide`].
 ///
 /// # Errors
-/// If a graph is not decided, or the work is stopped.
+/// If a graph is not decided, kernels cannot be read, or the work is stopped.
 ///
 /// # Panics
 /// If the range goes beyond the kernels.
@@ -82,10 +89,11 @@ pub fn tally(
     options: &Options,
     list: bool,
     done: impl Fn(u64) + Sync,
-) -> Result<(Tally, Vec<String>), VerdictError> {
+) -> Result<(Tally, Vec<String>)> {
     let (mut tally, left) = match candidates.kernels() {
-        Some(all) => {
-            let found: Vec<(Tally, Vec<Left>)> = all[kernels]
+        Some(_) => {
+            let kernels = candidates.some_kernels(kernels)?;
+            let found: Vec<(Tally, Vec<Left>)> = kernels
                 .par_iter()
                 .map(|kernel| {
                     let found = of_kernel(candidates, kernel, options, list)?;
@@ -256,7 +264,7 @@ mod tests {
                 list.push(entry.graph6);
             }
         }
-        let kernels = 0..candidates.kernels().map_or(0, <[_]>::len);
+        let kernels = 0..candidates.kernels().unwrap_or(0);
         let (tally, lines) = tally(&candidates, kernels, &options, true, |_| ()).unwrap();
         assert_eq!(lines, list, "{nodes} nodes, {edges} edges");
         (summary, list, tally)

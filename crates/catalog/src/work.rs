@@ -1,9 +1,11 @@
 //! A shard of a source, decided batch by batch: counted, or written to part files.
 
 use crate::mine::{Entry, Summary};
+use crate::run::Run;
 use crate::settings::{Files, Settings};
-use crate::shard_files::{MOST_CANDIDATES, Run, Shard, Writer};
-use crate::source::Source;
+use crate::shard::Shard;
+use crate::shard_files::{MOST_CANDIDATES, Writer};
+use crate::source::{Certified, Decided, Source};
 use anyhow::{Error, Result, ensure};
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
@@ -31,11 +33,26 @@ pub struct Listener<'a> {
     pub entry: &'a mut dyn FnMut(&Entry) -> Result<()>,
     /// Learns of every malformed candidate.
     pub malformed: &'a mut dyn FnMut(Error) -> Result<()>,
+    /// Learns of what was damaged and is made again.
+    pub note: &'a mut dyn FnMut(String),
     /// Learns how many candidates have been decided.
     pub progress: Progress,
 }
 
 impl Work<'_> {
+    /// Makes the folder this run's, and keeps there what all shards need, the kernels: whoever does that
+    /// first spares all others the time. Without files nothing happens.
+    ///
+    /// # Errors
+    /// A folder of another run or split, or one that cannot be written.
+    pub fn prepare(&self, outputs: &Outputs, note: &mut dyn FnMut(String)) -> Result<()> {
+        let Some((files, run)) = self.run_of_files()? else {
+            return Ok(());
+        };
+        run.claim(outputs, &files.folder, note)?;
+        self.source.keep(outputs, &files.folder, true, note)
+    }
+
     /// Decides the candidates of the shard, and counts them.
     ///
     /// # Errors
@@ -43,6 +60,7 @@ impl Work<'_> {
     /// listener; if the work is stopped by the watch.
     pub fn run(&self, outputs: &Outputs, watch: Watch, listener: Listener) -> Result<Summary> {
         let options = self.settings.options(watch)?;
+        self.prepare(outputs, listener.note)?;
         let mut miner = Miner {
             work: self,
             options: &options,
@@ -52,18 +70,17 @@ impl Work<'_> {
             summary: Summary::default(),
         };
         let mut failure = None;
-        let mut index = 0;
-        self.source.for_each(&mut |graph| {
-            failure = miner.take(graph, &mut index).err();
+        self.source.for_each_of(self.shard, &mut |graph| {
+            failure = miner.take(graph).err();
             failure.is_none()
-        });
+        })?;
         match failure {
             Some(error) => Err(error),
             None => miner.finish(),
         }
     }
 
-    fn writer<'a>(&self, outputs: &'a Outputs) -> Result<Option<Writer<'a>>> {
+    fn run_of_files(&self) -> Result<Option<(&Files, Run)>> {
         let Some(files) = &self.files else {
             return Ok(None);
         };
@@ -71,8 +88,17 @@ impl Work<'_> {
             (1..=MOST_CANDIDATES).contains(&files.part),
             "a part file has 1 to {MOST_CANDIDATES} candidates"
         );
-        let run = Run::new(self.source.name(), self.settings, files);
-        Ok(Some(Writer::open(outputs, &files.folder, self.shard, run)?))
+        let source = self.source.described();
+        let run = Run::of_entries(source, self.settings, files, self.shard.count());
+        Ok(Some((files, run)))
+    }
+
+    fn writer<'a>(&self, outputs: &'a Outputs) -> Result<Option<Writer<'a>>> {
+        let Some((files, run)) = self.run_of_files()? else {
+            return Ok(None);
+        };
+        let folder = files.folder.clone();
+        Ok(Some(Writer::open(outputs, folder, self.shard, run)?))
     }
 }
 
@@ -87,17 +113,12 @@ struct Miner<'a, 'l> {
 }
 
 impl Miner<'_, '_> {
-    /// Takes a candidate if it is the shard's; `index` counts those that are graphs.
-    fn take(&mut self, graph: Result<Graph>, index: &mut u64) -> Result<()> {
-        let graph = match graph {
-            Ok(graph) => graph,
+    /// Takes a candidate of the shard.
+    fn take(&mut self, graph: Result<Graph>) -> Result<()> {
+        match graph {
+            Ok(graph) => self.batch.push(graph),
             Err(error) => return (self.listener.malformed)(error),
-        };
-        *index += 1;
-        if !self.work.shard.owns(*index - 1) {
-            return Ok(());
         }
-        self.batch.push(graph);
         if self.batch.len() == BATCH {
             self.flush()?;
         }
@@ -107,11 +128,15 @@ impl Miner<'_, '_> {
     fn flush(&mut self) -> Result<()> {
         let graphs = std::mem::take(&mut self.batch);
         let decided = graphs.len();
-        let decide = |graphs: &[Graph]| Ok(self.work.source.decide_all(graphs, self.options)?);
+        let (source, options) = (self.work.source, self.options);
+        let decide = |graphs: &[Graph], certified| -> Result<Vec<Decided>> {
+            Ok(source.decide_all(graphs, options, certified)?)
+        };
         if let Some(parts) = &mut self.parts {
             parts.push(graphs, decide)?;
+            parts.notes().into_iter().for_each(&mut self.listener.note);
         } else {
-            for entry in decide(&graphs)? {
+            for (entry, _) in decide(&graphs, Certified::None)? {
                 self.summary.count(&entry);
                 (self.listener.entry)(&entry)?;
             }
@@ -122,10 +147,13 @@ impl Miner<'_, '_> {
 
     fn finish(mut self) -> Result<Summary> {
         self.flush()?;
-        if let Some(parts) = self.parts.take() {
-            let decide =
-                |graphs: &[Graph]| Ok(self.work.source.decide_all(graphs, self.options)?);
+        if let Some(mut parts) = self.parts.take() {
+            let (source, options) = (self.work.source, self.options);
+            let decide = |graphs: &[Graph], certified| -> Result<Vec<Decided>> {
+                Ok(source.decide_all(graphs, options, certified)?)
+            };
             self.summary = parts.finish(decide)?;
+            parts.notes().into_iter().for_each(&mut self.listener.note);
         }
         self.listener.progress.finish();
         Ok(self.summary)

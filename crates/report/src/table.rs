@@ -113,30 +113,44 @@ pub fn write_verdicts(out: &mut impl Write, rows: &[VerdictRow]) -> io::Result<(
     Ok(())
 }
 
-/// Writes the table of a run whose shards have been put together.
+/// Writes the table of a run whose shards have been put together, the digest of its lines, and what
+/// came of deciding graphs again; only that, if anything contradicts.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_merged(out: &mut impl Write, merged: Merged) -> io::Result<()> {
     let (name, seconds) = (merged.source, None);
+    let rechecked = merged.rechecked.unwrap_or_default();
+    for contradiction in &rechecked.contradictions {
+        writeln!(out, "CONTRADICTED {contradiction}")?;
+    }
+    if !rechecked.contradictions.is_empty() {
+        return Ok(());
+    }
     match merged.counts {
-        Counts::Entries(summary) => {
+        Counts::Entries(summary, rows) => {
             let solutions = BTreeMap::new();
             let row = Row {
-                name,
+                name: name.clone(),
                 summary,
                 solutions,
                 seconds,
             };
-            write(out, &[row])
+            write(out, &[row])?;
+            writeln!(out, "{name}: lines {rows}")?;
         }
         Counts::Verdicts(tally) => {
             let row = VerdictRow {
-                name,
+                name: name.clone(),
                 tally,
                 seconds,
             };
-            write_verdicts(out, &[row])
+            write_verdicts(out, &[row])?;
         }
     }
+    if rechecked.of > 0 {
+        let (graphs, of) = (rechecked.graphs, rechecked.of);
+        writeln!(out, "{name}: decided again {graphs} of {of}: all agree")?;
+    }
+    Ok(())
 }

@@ -16,6 +16,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Mutex, MutexGuard};
+use tempfile::{NamedTempFile, PersistError};
 
 /// The outputs of a run: its temporary files and folders, which are made, and take their names, while
 /// this is locked.
@@ -66,6 +67,27 @@ impl Outputs {
         attempt().with_context(|| format!("{} was not written", path.display()))
     }
 
+    /// Writes a file if none of that name is there yet; says whether there was none. Of several who do
+    /// so at the same time one is first.
+    ///
+    /// # Errors
+    /// As of [`Self::write`].
+    pub fn write_new(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<bool> {
+        let attempt = || -> Result<bool> {
+            Ok(
+                match self.complete(path, None, write, |file| file.persist_noclobber(path)) {
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => false,
+                    written => written.map(|()| true)?,
+                },
+            )
+        };
+        attempt().with_context(|| format!("{} was not written", path.display()))
+    }
+
     /// Removes all temporary files and folders: the program is about to end. While the result is
     /// kept no file takes its name any more.
     pub(crate) fn abandon(&self) -> MutexGuard<'_, BTreeSet<PathBuf>> {
@@ -87,6 +109,17 @@ impl Outputs {
         permissions: Option<Permissions>,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<()> {
+        Ok(self.complete(path, permissions, write, |file| file.persist(path))?)
+    }
+
+    /// Writes a temporary file beside a path, and lets it take its name.
+    fn complete(
+        &self,
+        path: &Path,
+        permissions: Option<Permissions>,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        persist: impl FnOnce(NamedTempFile) -> Result<File, PersistError>,
+    ) -> io::Result<()> {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         {
@@ -103,7 +136,7 @@ impl Outputs {
             file
         };
         let temporary = file.path().to_owned();
-        let written = || -> Result<_> {
+        let written = || -> io::Result<_> {
             let mut out = BufWriter::with_capacity(BUFFER, file);
             write(&mut out)?;
             let file = out.into_inner().map_err(|error| error.into_error())?;
@@ -115,7 +148,7 @@ impl Outputs {
         let written = written();
         let mut pending = unpoisoned(&self.pending);
         pending.remove(&temporary);
-        written?.persist(path)?;
+        persist(written?)?;
         Ok(())
     }
 
@@ -405,6 +438,13 @@ mod tests {
         });
         assert!(done.is_err());
         assert_eq!(count(), 0);
+        let new = |text: &[u8]| outputs.write_new(&path, |out| out.write_all(text)).unwrap();
+        assert!(new(b"first"));
+        assert!(!new(b"second"));
+        assert_eq!(
+            (std::fs::read(&path).unwrap(), count()),
+            (b"first".to_vec(), 1)
+        );
         outputs.write(&path, |out| out.write_all(b"whole")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"whole");
     }

@@ -10,6 +10,7 @@ from . import _native
 from ._errors import InputError, TooLarge
 from ._graph import Path, as_graph
 from ._progress import Progress, shown
+from ._words import noted, whole, whole_if
 
 
 @dataclass(frozen=True)
@@ -99,13 +100,13 @@ def catalog(
     [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
     found = _native.Candidates(
-        nodes,
-        edges=edges,
+        whole("nodes", nodes, 0, 2**31 - 1),
+        edges=whole_if("edges", edges, 0, 2**31 - 1),
         necessary=necessary,
         minimal=minimal,
         solutions=solutions,
-        prime=prime,
-        seed=seed,
+        prime=whole_if("prime", prime, 5, 2**62 - 1),
+        seed=whole("seed", seed, 0, 2**64 - 1),
     )
     return map(_entry, found)
 
@@ -141,18 +142,22 @@ class Shard:
     necessary: bool = False
     minimal: bool = False
     solutions: bool = False
-    part: int = 16384
+    verdicts: bool = False
+    certificates: bool = False
+    part: Optional[int] = None
     solvable_only: bool = False
     prime: Optional[int] = None
     seed: int = 1
+    threads: Optional[int] = None
 
     def run(self, progress: Progress = None) -> str:
-        """Does the work, or what is left of it: parts that an earlier run has finished stay.
+        """Does the work, or what is left of it: parts that an earlier run has finished are verified and
+        stay; what is damaged is computed again, with a :class:`NoteWarning`.
 
         Returns
         -------
         str
-            The folder of the shard.
+            The folder of the shard; with ``verdicts`` that of all shards.
 
         Raises
         ------
@@ -160,21 +165,10 @@ class Shard:
             A folder of another run, or a size without candidates.
         """
         with shown(progress) as callback:
-            _native.catalog_shard(
-                self.folder,
-                self.nodes,
-                self.index,
-                self.count,
-                edges=self.edges,
-                necessary=self.necessary,
-                minimal=self.minimal,
-                solutions=self.solutions,
-                part=self.part,
-                solvable_only=self.solvable_only,
-                prime=self.prime,
-                seed=self.seed,
-                progress=callback,
-            )
+            notes = _native.catalog_shard(self, progress=callback)
+        noted(f"shard {self.index}/{self.count}", notes)
+        if self.verdicts:
+            return self.folder
         return os.path.join(self.folder, f"shard-{self.index}-of-{self.count}")
 
 
@@ -187,13 +181,19 @@ def catalog_shards(
     necessary: bool = False,
     minimal: bool = False,
     solutions: bool = False,
-    part: int = 16384,
+    verdicts: bool = False,
+    certificates: bool = False,
+    part: Optional[int] = None,
     solvable_only: bool = False,
     prime: Optional[int] = None,
     seed: int = 1,
+    threads: Optional[int] = None,
 ) -> List[Shard]:
     """The shares of the work on a size, for many processes or machines with a common folder. They
     write the files of ``verify catalog --shard I/K --out DIR``, byte for byte.
+
+    The folder is made ready here: it is refused if it belongs to another run, and what all shards need
+    (the kernels) is computed once and written there.
 
     Parameters
     ----------
@@ -202,11 +202,24 @@ def catalog_shards(
     nodes, edges, necessary, minimal, solutions, prime, seed
         As of :func:`catalog`.
     count : int
-        How many shares.
-    part : int
-        Candidates in a part file: what is lost at most when a process is killed.
+        How many shares. A folder keeps to it, except with `verdicts`.
+    verdicts : bool
+        Whether the finite-solvable graphs are only counted, a hundred times faster: ``--verdicts``.
+    certificates : bool
+        Whether the certificate of each line is written too, to ``folder/certificates``.
+    part : int, optional
+        Candidates in a part file, 16384 if nothing is said, or kernels in a block with `verdicts`, 1024:
+        what is lost at most when a process is killed.
     solvable_only : bool
         Whether only lines of finite-solvable graphs and of unproved verdicts are kept.
+    threads : int, optional
+        With how many threads each share is computed; by default one for each core. Where a machine has
+        as many workers as cores, 1.
+
+    Raises
+    ------
+    InputError
+        A folder of another run or split, or a size without candidates.
 
     Examples
     --------
@@ -214,12 +227,15 @@ def catalog_shards(
     >>> folder = tempfile.mkdtemp()
     >>> for shard in viewcert.catalog_shards(folder, 7, 2):
     ...     _ = shard.run()
-    >>> print(viewcert.catalog_merge(folder).split()[11:18])
+    >>> print(viewcert.catalog_merge(folder, recheck="all").split()[11:18])
     ['seconds', '7', 'nodes,', '9', 'edges,', 'biconnected', '20']
     """
-    if count < 1:
-        raise InputError(f"count={count}: there is one shard at least")
-    return [
+    count = whole("count", count, 1, 2**63 - 1)
+    nodes, edges = whole("nodes", nodes, 0, 2**31 - 1), whole_if("edges", edges, 0, 2**31 - 1)
+    prime, seed = whole_if("prime", prime, 5, 2**62 - 1), whole("seed", seed, 0, 2**64 - 1)
+    part = whole_if("part", part, 1, 2**32 - 1)
+    threads = whole_if("threads", threads, 1, 2**16 - 1)
+    shards = [
         Shard(
             folder=os.fspath(folder),
             nodes=nodes,
@@ -229,25 +245,53 @@ def catalog_shards(
             necessary=necessary,
             minimal=minimal,
             solutions=solutions,
+            verdicts=verdicts,
+            certificates=certificates,
             part=part,
             solvable_only=solvable_only,
             prime=prime,
             seed=seed,
+            threads=threads,
         )
         for index in range(1, count + 1)
     ]
+    if verdicts and (minimal or solutions or certificates or solvable_only or prime is not None):
+        raise InputError(
+            "verdicts=True counts alone: leave out minimal, solutions, certificates, solvable_only and prime"
+        )
+    noted("catalog_shards", _native.catalog_shard(shards[0], prepare=True))
+    return shards
 
 
-def catalog_merge(folder: Path) -> str:
-    """Checks that all shards of a run are there, and returns the table of the whole: what ``verify
-    catalog merge`` prints, and the same for any number of shards.
+def catalog_merge(
+    folder: Path,
+    *,
+    recheck: Optional[str] = None,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+) -> str:
+    """Verifies that all shards of a run are there, whole and once each, and returns the table of the whole
+    with a digest: what ``verify catalog merge`` prints, and the same for any number of shards.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder of all shards.
+    recheck : str, optional
+        How many graphs are decided again and held against the files: ``'1%'``, or ``'all'``.
+    threads : int, optional
+        With how many threads.
 
     Raises
     ------
     InputError
-        Shards that are missing, unfinished, or of different runs.
+        Shards and parts that are missing, unfinished, damaged, or of different runs.
+    Rejected
+        What was decided again contradicts the files.
     """
-    return _native.catalog_merge(os.fspath(folder))
+    threads = whole_if("threads", threads, 1, 2**16 - 1)
+    with shown(progress) as callback:
+        return _native.catalog_merge(os.fspath(folder), recheck=recheck, threads=threads, progress=callback)
 
 
 def label(graph: Any) -> str:

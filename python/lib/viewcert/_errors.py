@@ -30,7 +30,7 @@ class Undecided(Error):
 
 
 class Rejected(Error):
-    """A certificate that was not verified.
+    """A certificate, or a run of the catalog, that was not verified.
 
     Attributes
     ----------

@@ -7,6 +7,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from ._catalog import Shard
 from ._types import BaseLinesValue, Class, IntrinsicsValue, Strength, Value
 from ._types import Decided as DecidedModel
 
@@ -254,19 +255,15 @@ class Candidates:
     def __next__(self) -> tuple[list[str], bytes]: ...
 
 def catalog_shard(
-    folder: str | os.PathLike[str],
-    nodes: int,
-    shard: int,
-    of: int,
+    share: Shard,
     *,
-    edges: int | None = None,
-    necessary: bool = False,
-    minimal: bool = False,
-    solutions: bool = False,
-    part: int = 16384,
-    solvable_only: bool = False,
-    prime: int | None = None,
-    seed: int = 1,
+    prepare: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
-) -> None: ...
-def catalog_merge(folder: str | os.PathLike[str]) -> str: ...
+) -> list[str]: ...
+def catalog_merge(
+    folder: str | os.PathLike[str],
+    *,
+    recheck: str | None = None,
+    threads: int | None = None,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> str: ...
