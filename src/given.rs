@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use viewcert::here::Centres;
 use viewcert::{Known, Model};
-use viewcert_formats::{NamedGraph, beside};
+use viewcert_formats::{NamedGraph, beside, cameras_beside};
 
 /// The option.
 pub(super) const OPTION: &str = "--given";
@@ -112,6 +112,19 @@ pub(super) fn read_beside<'a>(
             Beside::Known(noted(input, given.notes), given.known)
         }
     })
+}
+
+/// The cameras that a file gives, with the graph that has the notes on it.
+///
+/// # Errors
+/// Those of the file; a camera that the model excludes.
+pub(super) fn read_cameras(
+    path: &Path,
+    input: &NamedGraph,
+    model: Model,
+) -> Result<Option<(NamedGraph, Centres)>> {
+    let found = cameras_beside(path, input, model)?;
+    Ok(found.map(|cameras| (noted(input, cameras.notes).into_owned(), cameras.centres)))
 }
 
 fn noted(input: &NamedGraph, notes: Vec<String>) -> Cow<'_, NamedGraph> {

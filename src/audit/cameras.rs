@@ -1,7 +1,7 @@
 //! `--cameras`: what is so at cameras that somebody brings, and whether floating point found it there.
 
 use super::AuditArguments;
-use crate::given::{Beside, read_beside, too_many};
+use crate::given::{read_cameras, too_many};
 use crate::here;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::collections::BTreeMap;
@@ -140,7 +140,7 @@ fn one(
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
-    let Beside::Cameras(input, centres) = read_beside(Some(path), input, model)? else {
+    let Some((input, centres)) = read_cameras(path, input, model)? else {
         whole::bytes(path)?;
         bail!(
             "{}: no cameras: it takes lines `camera`, `pose` or `centre`, a COLMAP model or an array (verify help given)",

@@ -39,7 +39,7 @@ pub use edge_list::layout::{Columns, ListOptions, NoColumns};
 pub use error::ReadError;
 pub use given::cameras::{cameras_in, read_cameras};
 pub use given::places::{GivenCameras, centre_error};
-pub use given::{Beside, Given, NamedParts, beside, given, read_given, with_rigs};
+pub use given::{Beside, Given, NamedParts, beside, cameras_beside, given, read_given, with_rigs};
 pub use intrinsics::{Intrinsics, read_intrinsics};
 pub use matching::{Matching, OtherPair};
 pub use model::Model;

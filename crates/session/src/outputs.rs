@@ -78,12 +78,14 @@ impl Outputs {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<bool> {
         let attempt = || -> Result<bool> {
-            Ok(
-                match self.complete(path, None, write, |file| file.persist_noclobber(path)) {
-                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => false,
-                    written => written.map(|()| true)?,
-                },
-            )
+            let was_there = |error: &anyhow::Error| {
+                let error = error.downcast_ref::<io::Error>();
+                error.is_some_and(|error| error.kind() == io::ErrorKind::AlreadyExists)
+            };
+            match self.complete(path, None, write, |file| file.persist_noclobber(path)) {
+                Err(error) if was_there(&error) => Ok(false),
+                written => written.map(|()| true),
+            }
         };
         attempt().with_context(|| format!("{} was not written", path.display()))
     }
@@ -109,7 +111,7 @@ impl Outputs {
         permissions: Option<Permissions>,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<()> {
-        Ok(self.complete(path, permissions, write, |file| file.persist(path))?)
+        self.complete(path, permissions, write, |file| file.persist(path))
     }
 
     /// Writes a temporary file beside a path, and lets it take its name.
@@ -119,7 +121,7 @@ impl Outputs {
         permissions: Option<Permissions>,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
         persist: impl FnOnce(NamedTempFile) -> Result<File, PersistError>,
-    ) -> io::Result<()> {
+    ) -> Result<()> {
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         {
@@ -148,7 +150,7 @@ impl Outputs {
         let written = written();
         let mut pending = unpoisoned(&self.pending);
         pending.remove(&temporary);
-        persist(written?)?;
+        persist(written?).map_err(|failed| failed.error)?;
         Ok(())
     }
 

@@ -98,9 +98,7 @@ pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<B
             None => Beside::Known(given(Some(path), input)?),
         });
     }
-    let mut bytes = Vec::new();
-    let read = std::io::stdin().lock().read_to_end(&mut bytes);
-    read.map_err(|error| Place::Input.fault(error.into()).in_file("-"))?;
+    let bytes = standard_input()?;
     if let Some(cameras) = cameras::cameras_in(&bytes, "-", input, model)? {
         return Ok(Beside::Cameras(cameras));
     }
@@ -108,6 +106,28 @@ pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<B
     found.known = with_rigs(found.known, input)
         .map_err(|problem| Place::Input.fault(problem).in_file("-"))?;
     Ok(Beside::Known(found))
+}
+
+/// The cameras that a file gives (`-` is standard input), and nothing else that may be given.
+///
+/// # Errors
+/// As of [`read_cameras`](cameras::read_cameras).
+pub fn cameras_beside(
+    path: &Path,
+    input: &NamedGraph,
+    model: Model,
+) -> Result<Option<GivenCameras>, ReadError> {
+    match path == Path::new("-") {
+        true => cameras::cameras_in(&standard_input()?, "-", input, model),
+        false => cameras::read_cameras(path, input, model),
+    }
+}
+
+fn standard_input() -> Result<Vec<u8>, ReadError> {
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().read_to_end(&mut bytes);
+    read.map_err(|error| Place::Input.fault(error.into()).in_file("-"))?;
+    Ok(bytes)
 }
 
 fn read_named(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
