@@ -73,7 +73,7 @@ fn path(path: &Path) -> &str {
 /// All candidates with 9 nodes in 11 parts; one shard.
 fn run(out: &Path) -> [&str; 7] {
     let out = path(out);
-    ["catalog", "--nodes", "9", "--part", "39", "--out", out]
+    ["catalog", "--nodes", "9", "--part", "43", "--out", out]
 }
 
 /// The complete parts of the shard in `out` are the first ones of a `whole` run, and there

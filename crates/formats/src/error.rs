@@ -139,7 +139,9 @@ pub enum Problem {
     #[error("the line begins with `{}`, not with part, displacement or position", shown(.0))]
     NothingGiven(String),
     /// A camera where none are read: beside other things, or through a pipe.
-    #[error("`{0}` gives a camera, and cameras are read from a file that holds nothing else")]
+    #[error(
+        "`{0}` gives a camera, and cameras are read from a file that holds nothing else, or from standard input (-)"
+    )]
     CamerasBeside(String),
     /// Parts and displacements in one such file.
     #[error("known parts stand beside known displacements, and there is no theorem about both")]

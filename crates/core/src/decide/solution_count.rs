@@ -14,11 +14,11 @@ use std::sync::Arc;
 
 /// The most nodes that the members of a core may share for a quick count, and the most unknown
 /// scales. What a count costs grows with the fourth power of the unknowns and the third one of the
-/// nodes. Measured on random graphs with 12 to 14 nodes, processor time: some milliseconds mostly, half a
-/// second to one where it fails, and two seconds at worst.
+/// nodes. Measured on 4,000 random graphs with 13 to 17 nodes, processor time: 3 to 6 milliseconds in
+/// the middle, 99 % within half a second, and up to 1.6 seconds where it fails.
 const QUICK: Size = Size {
-    nodes: 14,
-    unknowns: 8,
+    nodes: 17,
+    unknowns: 12,
 };
 
 /// What is known of the number of solutions of a finite solvable graph: of the classes of cameras

@@ -197,8 +197,8 @@ impl Unknowns {
             Model::Projective => {
                 let moved: [Integer; 4] = std::array::from_fn(|r| {
                     let mut sum = Integer::zero();
-                    for c in 0..4 {
-                        sum.sub_assign(&entry(4 * r + c).mul(&place[c]));
+                    for (c, x) in place.iter().enumerate() {
+                        sum.sub_assign(&entry(4 * r + c).mul(x));
                     }
                     sum
                 });
