@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import os
 import pathlib
-from typing import Iterable, Iterator
+from typing import Any, Iterable, Iterator
 
 import viewcert
 from dask.distributed import Client
@@ -50,7 +50,7 @@ def rows(path: str) -> Iterator[Row]:
         yield (path, "", "", "", "", "", " ".join(str(error).split()))
 
 
-def graphs(path: str) -> Iterable[viewcert.Graph]:
+def graphs(path: str) -> Iterable[viewcert.Graph[Any]]:
     found = viewcert.read(path)
     return found if isinstance(found, list) else [found]
 

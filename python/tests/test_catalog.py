@@ -95,7 +95,7 @@ def test_it_may_be_left_early() -> None:
     [
         ({"nodes": 2}, "ask for 3 to"),
         ({"nodes": 5, "edges": 99}, "no biconnected graph has"),
-        ({"nodes": 5, "prime": 4}, "prime 4"),
+        ({"nodes": 5, "prime": 4}, "prime=4"),
         ({"nodes": 5, "minimal": True, "edges": 7}, "leave out edges"),
         ({"nodes": 13, "minimal": True}, "3 to 12 nodes"),
     ],
