@@ -1,7 +1,7 @@
 //! The part files of a shard: written whole or not at all, verified and found again by the next run.
 //!
 //! A run splits its candidates into shards, block by block of 64 candidates in turn; a shard splits its
-//! own ones into parts, `shard-I-of-K/part-000000.tsv` and so on ([`part`](crate::part)). Since a part
+//! own ones into parts, `shard-I-of-K/part-000000.tsv` and so on (`part.rs`). Since a part
 //! takes its name only when it is complete, a killed run leaves complete parts; the next one verifies
 //! them, and computes what is missing or damaged. `done.json` says how many parts there are.
 
