@@ -1,6 +1,8 @@
 //! Cameras that `--given` brings: what is determined at these (docs/theory.md, section 16).
 
 use anyhow::{Result, anyhow};
+use std::io::Write;
+use viewcert::Model;
 use viewcert::here::{Centres, Here, HereError, Motion, here};
 use viewcert::watch::Watch;
 use viewcert_formats::{NamedGraph, centre_error};
@@ -17,12 +19,21 @@ pub(super) fn decide(input: &NamedGraph, centres: &Centres, watch: &Watch) -> Re
     })
 }
 
-/// What moves, to be drawn: nothing where it cannot be listed.
+/// What moves, to be drawn: nothing where it cannot be listed, which is said.
 ///
 /// # Errors
 /// If the work is stopped.
 pub(super) fn motions(here: &Here, centres: &Centres, session: &Session) -> Result<Vec<Motion>> {
     let found = here.basis_of_motions(centres, &session.shown_watch());
     session.hide();
-    Ok(found?.unwrap_or_default())
+    let found = found?;
+    if found.is_none() && !here.is_determined() {
+        let why = match here.model {
+            Model::Affine => "affine cameras have their centres at infinity",
+            _ => "too many parts move for exact velocities",
+        };
+        // Whoever does not read it has the picture of the graph.
+        let _ = writeln!(std::io::stderr(), "verify: what moves is not drawn: {why}");
+    }
+    Ok(found.unwrap_or_default())
 }

@@ -220,6 +220,34 @@ fn what_moves_is_drawn() {
     );
 }
 
+/// What cannot be drawn is said, and the picture is that of the graph.
+#[test]
+fn what_is_not_drawn_is_said() {
+    let folder = root().join("examples/degenerate");
+    let [pairs, cameras] = ["desargues-pairs.txt", "desargues-cameras.txt"]
+        .map(|name| folder.join(name).to_str().unwrap().to_owned());
+    let out = tempfile::tempdir().unwrap();
+    let picture = out.path().join("graph.svg");
+    let svg = picture.to_str().unwrap();
+    let run = verify(&[
+        "draw",
+        &pairs,
+        svg,
+        "--model",
+        "affine",
+        "--cameras",
+        &cameras,
+    ]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    let why = "what moves is not drawn: affine cameras have their centres at infinity";
+    assert!(run.err.contains(why), "{}", run.err);
+    assert!(
+        !std::fs::read_to_string(&picture)
+            .unwrap()
+            .contains("motion 1 of")
+    );
+}
+
 #[test]
 fn what_is_refused() {
     let same = Scene::new(

@@ -110,7 +110,7 @@ def famous(program):
         small = full["graph"]["nodes"] <= 16
         name = json.loads(program.run(["label", "--json", "-"], text)) if small else None
         record = Record(line, full, models, name, title=title, about=about, slug=slug)
-        record.certificate = program.file(["GRAPH", "--certificate", "FILE", "--embed-graph"], line + "\n")
+        record.certificate = program.file(["GRAPH", "--certificate", "FILE"], line + "\n")
         records.append(record)
     return records
 

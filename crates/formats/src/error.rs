@@ -565,7 +565,7 @@ impl Problem {
                 "write on each line `part` and cameras whose relative position is known, `displacement` and two cameras, or `position` and a camera"
             }
             Self::CamerasBeside(_) => {
-                "write one camera for each of the graph into a file of their own and name it; standard input and pipes do not do"
+                "write one camera for each of the graph into a file of their own and name it"
             }
             Self::PartsAndDisplacements => "leave out one of the two",
             Self::BesideRigs(_) => "leave the rigs out of account (--no-rigs), or what is given",

@@ -80,9 +80,10 @@ pub fn picture(report: &HereReport, frames: Frames) -> Option<String> {
             .filter(|&v| motion.moves(v))
             .count();
         let words = format!(
-            "motion {} of {all}: {} move",
+            "motion {} of {all}: {} {}",
             k + 1,
-            counted(moving, "centre")
+            counted(moving, "centre"),
+            if moving == 1 { "moves" } else { "move" }
         );
         svg.text([left, top - 16.0], 13, "start", &words);
         panel.draw(&mut svg, report, motion, &labels, frames);

@@ -151,6 +151,19 @@
       html("p", { class: "soft" },
         `This is ${strengthWords(report.strength, report.error_log2)}. It rests on this: ${report.because}.`),
     );
+    // That was about cameras in general position; the given ones may be special.
+    const here = report.at_cameras;
+    if (here) {
+      const box = html("div", { id: "here", class: `${here.determined ? "good" : "bad"}` },
+        html("p", { class: "answer", "data-determined": String(here.determined) },
+          `At the given cameras: ${here.determined ? "determined" : "not determined"}`),
+        html("p", {}, `${here.means[0].toUpperCase()}${here.means.slice(1)}: the rank there is ${
+          grouped(here.rank)} of ${grouped(here.rank_required)}.`),
+        html("p", { class: "soft" },
+          here.strength === "proof" ? "This is proved. " : `This is ${strengthWords(here.strength, here.error_log2)}. `,
+          here.degenerate ? "The answer above is about cameras in general position, and these are degenerate." : ""));
+      element.after(box);
+    }
   };
 
   const showFacts = () => {
