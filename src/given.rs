@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use viewcert::here::Centres;
 use viewcert::{Known, Model};
-use viewcert_formats::{NamedGraph, beside, cameras_beside};
+use viewcert_formats::{NamedGraph, beside};
 
 /// The option.
 pub(super) const OPTION: &str = "--given";
@@ -114,20 +114,8 @@ pub(super) fn read_beside<'a>(
     })
 }
 
-/// The cameras that a file gives, with the graph that has the notes on it.
-///
-/// # Errors
-/// Those of the file; a camera that the model excludes.
-pub(super) fn read_cameras(
-    path: &Path,
-    input: &NamedGraph,
-    model: Model,
-) -> Result<Option<(NamedGraph, Centres)>> {
-    let found = cameras_beside(path, input, model)?;
-    Ok(found.map(|cameras| (noted(input, cameras.notes).into_owned(), cameras.centres)))
-}
-
-fn noted(input: &NamedGraph, notes: Vec<String>) -> Cow<'_, NamedGraph> {
+/// A graph with more notes.
+pub(super) fn noted(input: &NamedGraph, notes: Vec<String>) -> Cow<'_, NamedGraph> {
     if notes.is_empty() {
         return Cow::Borrowed(input);
     }

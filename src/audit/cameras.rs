@@ -1,7 +1,7 @@
 //! `--cameras`: what is so at cameras that somebody brings, and whether floating point found it there.
 
 use super::AuditArguments;
-use crate::given::{read_cameras, too_many};
+use crate::given::{noted, too_many};
 use crate::here;
 use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use viewcert::Model;
 use viewcert::here::{Centres, Here};
-use viewcert_formats::{NamedGraph, whole};
+use viewcert_formats::{NamedGraph, cameras_beside, whole};
 use viewcert_report::at_cameras::AtCameras;
 use viewcert_report::size;
 use viewcert_session::exit::{GOOD, NOT, TooLarge};
@@ -140,18 +140,19 @@ fn one(
 }
 
 fn exact(session: &Session, input: &NamedGraph, path: &Path, model: Model) -> Result<Exact> {
-    let Some((input, centres)) = read_cameras(path, input, model)? else {
+    let Some(cameras) = cameras_beside(path, input, model)? else {
         whole::bytes(path)?;
         bail!(
             "{}: no cameras: it takes lines `camera`, `pose` or `centre`, a COLMAP model or an array (verify help given)",
             path.display()
         );
     };
-    let here = here::decide(&input, &centres, &session.shown_watch())?;
+    let input = noted(input, cameras.notes).into_owned();
+    let here = here::decide(&input, &cameras.centres, &session.shown_watch())?;
     session.hide();
     Ok(Exact {
         input,
-        centres,
+        centres: cameras.centres,
         here,
     })
 }
