@@ -143,6 +143,39 @@ fn from_standard_input() {
     }
 }
 
+/// A pipe, of which what was looked at is gone; and comments that end just before byte 512, where the word of
+/// the first camera is cut if the start of the file is all that is looked at.
+#[test]
+fn from_a_pipe_and_after_long_comments() {
+    let cameras = "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n";
+    let scene = Scene::new(PAIRS, cameras);
+    let expected = scene.run("projective", &["--json"]).json().remove(0);
+    let pairs = scene.file("pairs.txt");
+    let pipe = scene.file("pipe");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    for (text, at_cameras, parts) in [
+        (cameras, &expected["at_cameras"], Value::Null),
+        ("part a b c\n", &Value::Null, 1.into()),
+    ] {
+        let writer = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::write(pipe, text)
+        });
+        let run = verify(&[&pairs, "--cameras", &pipe, "--json"]);
+        writer.join().unwrap().unwrap();
+        let line = run.json().remove(0);
+        assert_eq!((&line["at_cameras"], &line["parts"]), (at_cameras, &parts));
+    }
+    let late = scene.file("late.txt");
+    for comment in 495..515 {
+        std::fs::write(&late, format!("#{}\n{cameras}", "-".repeat(comment))).unwrap();
+        let run = verify(&[&pairs, "--cameras", &late, "--json"]);
+        assert_eq!(run.code, 1, "{comment}: {}", run.err);
+        assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);
+    }
+}
+
 /// A quadrangle in a plane, by hand: the pair a b is held still, c goes along b c by (1, 3), d along a d by
 /// (-1, 2) 17/13, and their difference along c d.
 #[test]

@@ -50,7 +50,7 @@ pub fn read_cameras(
             of_model(&Model::read(path)?, input).map_err(|problem| Place::Input.fault(problem));
         return finished(found, &name, input, model).map(Some);
     }
-    if path == Path::new("-") || !path.is_file() {
+    if !path.is_file() {
         return Ok(None);
     }
     let mut start = [0; 512];
@@ -98,9 +98,11 @@ fn finished(
     Ok(found)
 }
 
-/// Whether a file is of cameras by its start; in one that begins with long comments the whole is looked at.
+/// Whether a file is of cameras by the whole lines of its start; in one that begins with long comments the whole
+/// is looked at. A line that the end of the start cuts says nothing: the cut may be in its first word.
 fn is_text_of_cameras(path: &Path, start: &[u8]) -> bool {
-    is_first_line_of_cameras(start)
+    let end = start.iter().rposition(|&byte| byte == b'\n');
+    is_first_line_of_cameras(&start[..end.unwrap_or(start.len())])
         .or_else(|| is_first_line_of_cameras(&std::fs::read(path).ok()?))
         .unwrap_or(false)
 }

@@ -19,7 +19,7 @@ use std::path::Path;
 use crate::cameras::{for_each_line, read_file};
 use crate::edge_list::fields::split;
 use crate::error::{Fault, Place, Problem, ReadError};
-use crate::{NamedGraph, colmap};
+use crate::{NamedGraph, colmap, whole};
 use viewcert::graph::Displacements;
 use viewcert::{Known, Model};
 
@@ -83,7 +83,7 @@ pub enum Beside {
     Known(Given),
 }
 
-/// The cameras that a file gives (`-` is standard input), see [`read_cameras`](cameras::read_cameras); or what
+/// The cameras that a file gives (`-` is standard input, a pipe is read as that is), see [`read_cameras`](cameras::read_cameras); or what
 /// is given besides the pairs, see [`given`].
 ///
 /// # Errors
@@ -92,20 +92,28 @@ pub fn beside(path: Option<&Path>, input: &NamedGraph, model: Model) -> Result<B
     let Some(path) = path else {
         return given(None, input).map(Beside::Known);
     };
-    if path != Path::new("-") {
+    if !is_read_once(path) {
         return Ok(match cameras::read_cameras(path, input, model)? {
             Some(cameras) => Beside::Cameras(cameras),
             None => Beside::Known(given(Some(path), input)?),
         });
     }
-    let bytes = standard_input()?;
-    if let Some(cameras) = cameras::cameras_in(&bytes, "-", input, model)? {
+    let bytes = whole::bytes(path)?;
+    let name = path.display().to_string();
+    if let Some(cameras) = cameras::cameras_in(&bytes, &name, input, model)? {
         return Ok(Beside::Cameras(cameras));
     }
-    let mut found = read_named(&bytes, "-", input)?;
+    let mut found = read_named(&bytes, &name, input)?;
     found.known = with_rigs(found.known, input)
-        .map_err(|problem| Place::Input.fault(problem).in_file("-"))?;
+        .map_err(|problem| Place::Input.fault(problem).in_file(&name))?;
     Ok(Beside::Known(found))
+}
+
+/// Whether what a path names can be read only once: standard input (`-`), a pipe, a terminal. To look at its
+/// start and then read it would lose the start.
+fn is_read_once(path: &Path) -> bool {
+    let stream = |kind: std::fs::Metadata| !kind.is_file() && !kind.is_dir();
+    path == Path::new("-") || path.metadata().is_ok_and(stream)
 }
 
 /// The cameras that a file gives (`-` is standard input), and nothing else that may be given.
@@ -117,17 +125,13 @@ pub fn cameras_beside(
     input: &NamedGraph,
     model: Model,
 ) -> Result<Option<GivenCameras>, ReadError> {
-    match path == Path::new("-") {
-        true => cameras::cameras_in(&standard_input()?, "-", input, model),
+    match is_read_once(path) {
+        true => {
+            let bytes = whole::bytes(path)?;
+            cameras::cameras_in(&bytes, &path.display().to_string(), input, model)
+        }
         false => cameras::read_cameras(path, input, model),
     }
-}
-
-fn standard_input() -> Result<Vec<u8>, ReadError> {
-    let mut bytes = Vec::new();
-    let read = std::io::stdin().lock().read_to_end(&mut bytes);
-    read.map_err(|error| Place::Input.fault(error.into()).in_file("-"))?;
-    Ok(bytes)
 }
 
 fn read_named(bytes: &[u8], name: &str, input: &NamedGraph) -> Result<Given, ReadError> {
