@@ -1,8 +1,6 @@
 //! What to do about a verdict, through the real binary: joints, weak pairs, suggestions, exports.
 
-mod common;
-
-use common::{Run, cycle, verify, verify_with};
+use crate::common::{Run, cycle, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -1,9 +1,7 @@
 //! The affine model and centres in a plane against matrices and lists of all small graphs: the
 //! published formulation, and Theorem 13.3.
 
-mod common;
-
-use common::{geng_connected, verify_with};
+use crate::common::{geng_connected, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::decide::{Options, decide, plane_rank};
@@ -172,7 +170,7 @@ fn certificates_of_all_small_graphs_are_verified() {
 /// `verify compare --model affine`: the published matrix of the 4-cycle has rank 4 * 4 + 12 of 32.
 #[test]
 fn the_published_matrix_in_the_comparison() {
-    let cycle = common::cycle(4);
+    let cycle = crate::common::cycle(4);
     for field in [&["--rational"][..], &["--prime", "1000003"], &[]] {
         let arguments = [&["compare", "-", "--model", "affine"], field].concat();
         let run = verify_with(cycle.as_bytes(), &arguments);
@@ -194,7 +192,7 @@ fn the_published_matrix_in_the_comparison() {
         assert_eq!((of(0), of(1)), (28, 16));
     }
     let run = verify_with(
-        common::cycle(3).as_bytes(),
+        crate::common::cycle(3).as_bytes(),
         &["compare", "-", "--model", "affine"],
     );
     assert!(

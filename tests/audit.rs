@@ -1,8 +1,6 @@
 //! `verify audit`, through the binary.
 
-mod common;
-
-use common::{Run, data, verify};
+use crate::common::{Run, data, verify};
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,8 +1,6 @@
 //! `verify audit --cameras --float`: floating point at given cameras, through the real binary and against numpy.
 
-mod common;
-
-use common::{Run, root, verify};
+use crate::common::{Run, root, verify};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;

@@ -2,9 +2,7 @@
 //! all kinds: rigs with places that are known, unknown or some of them, images that see nothing, nodes
 //! that are in no pair, known displacements across frames, known parts.
 
-mod common;
-
-use common::{absent, root};
+use crate::common::{absent, root};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeSet;

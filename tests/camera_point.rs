@@ -1,9 +1,7 @@
 //! Camera-point graphs in the calibrated model (docs/theory.md, section 12): answers worked out by
 //! hand, and ranks of the whole matrix beside those that contraction comes to.
 
-mod common;
-
-use common::{verify, verify_with};
+use crate::common::{verify, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha20Rng;
 use serde_json::{Value, json};

@@ -1,7 +1,5 @@
 //! `verify catalog`, through the program.
 
-mod common;
-
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -61,14 +59,16 @@ fn geng(arguments: &[&str]) -> Option<Output> {
     let run = |program| Command::new(program).args(arguments).output().ok();
     let found = ["nauty-geng", "geng"].into_iter().find_map(run);
     if found.is_none() {
-        common::absent("neither geng nor nauty-geng is installed");
+        crate::common::absent("neither geng nor nauty-geng is installed");
     }
     found
 }
 
 #[test]
 fn table_1_as_published() {
-    let Some(data) = common::data() else { return };
+    let Some(data) = crate::common::data() else {
+        return;
+    };
     let published = fs::read_to_string(data.join("table1.csv")).unwrap();
     let expected: Vec<[u64; 3]> = published
         .lines()

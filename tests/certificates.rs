@@ -1,9 +1,7 @@
 //! Certificates through both binaries: what the prover writes the checker verifies, and
 //! nothing else.
 
-mod common;
-
-use common::{Run, TABLE_1, cycle, data, geng, root, verify, verify_with};
+use crate::common::{Run, TABLE_1, cycle, data, geng, root, verify, verify_with};
 use serde_json::{Value, json};
 use std::path::Path;
 

@@ -1,21 +1,19 @@
 //! COLMAP's databases and tracks, as a user meets them: what the facts say of the samples, nothing
 //! left behind, and a message for everything that is wrong.
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::schema::keeps_to;
-use common::{Run, verify, verify_with};
+use crate::common::schema::keeps_to;
+use crate::common::{Run, verify, verify_with};
 use rusqlite::{Connection, params};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 /// The folder with the samples, which is not part of the repository.
 fn samples() -> Option<PathBuf> {
-    let folder = common::data()?.join("colmap");
+    let folder = crate::common::data()?.join("colmap");
     if folder.is_dir() {
         return Some(folder);
     }
@@ -314,7 +312,7 @@ fn a_read_only_file_system() {
         let database = Connection::open(&logged).unwrap();
         database.pragma_update(None, "journal_mode", "wal").unwrap();
     };
-    common::on_read_only(prepare, |place| {
+    crate::common::on_read_only(prepare, |place| {
         for (name, edges) in [("names.db", 21), ("wal/copy.db", 28), ("logged.db", 21)] {
             let path = place.join(name);
             assert_eq!(json_of(&path, &[])["graph"]["edges"], edges, "{name}");
@@ -1088,10 +1086,10 @@ fn certificates_of_camera_point_graphs() {
         let pairs = lines.lines().filter(|line| !line.starts_with('#'));
         assert_eq!(pairs.count(), 9 + cameras - 3);
         assert!(lines.contains("point 1\n"), "{lines}");
-        let first = common::first_checker(&[text(&certificate), text(&graph)]);
+        let first = crate::common::first_checker(&[text(&certificate), text(&graph)]);
         assert_eq!(first.code, 0, "{}", first.err);
         assert_eq!(
-            common::second_checker(&[text(&certificate), text(&graph)]).code,
+            crate::common::second_checker(&[text(&certificate), text(&graph)]).code,
             0
         );
         assert_eq!(check(&[text(&input), "--tracks"]), 0);
@@ -1185,7 +1183,7 @@ fn rigs_hold_parts_together() {
     .concat();
     assert_eq!(verify(&without).code, 1);
     let second =
-        common::second_checker(&[text(&certificate), text(&graph), "--given", text(&given)]);
+        crate::common::second_checker(&[text(&certificate), text(&graph), "--given", text(&given)]);
     assert_eq!(second.code, 0, "{}", second.err);
 }
 
@@ -1435,7 +1433,7 @@ fn certificates_state_unknown_base_lines() {
         assert_eq!(run(&["check", certificate, database, "--no-rigs"]).code, 1);
         let alone = [certificate, text(&graph)];
         let named = [&alone[..], &["--given", text(&given)]].concat();
-        for checker in [common::first_checker, common::second_checker] {
+        for checker in [crate::common::first_checker, crate::common::second_checker] {
             let checked = checker(&named);
             assert!(
                 checked.code == 0 && checked.out.contains(says),
@@ -1572,8 +1570,8 @@ fn pose_priors_are_positions_that_are_asked_for() {
     let check = [&["check", text(&certificate), database], &OF_TWO[..]].concat();
     assert_eq!(verify(&check).code, 1);
     let arguments = [text(&certificate), text(&graph), "--given", text(&known)];
-    assert_eq!(common::first_checker(&arguments).code, 0);
-    assert_eq!(common::second_checker(&arguments).code, 0);
+    assert_eq!(crate::common::first_checker(&arguments).code, 0);
+    assert_eq!(crate::common::second_checker(&arguments).code, 0);
     // Three positions leave the size of the right part open.
     made.execute("delete from pose_priors where corr_data_id = 4");
     let line = json_of(&path, &given);

@@ -1,9 +1,7 @@
 //! `verify compare`, through the binary; and all formulations on all candidates of the
 //! paper's Table 1, in both fields.
 
-mod common;
-
-use common::{TABLE_1, data, geng, verify, verify_with};
+use crate::common::{TABLE_1, data, geng, verify, verify_with};
 use std::path::Path;
 use viewcert::geometry::camera::Camera;
 use viewcert::geometry::draw::{DrawKey, cameras_rational};

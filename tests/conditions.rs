@@ -1,9 +1,7 @@
 //! `verify conditions`, through the binary, against the published counts of Trager,
 //! Osserman and Ponce (ECCV 2018).
 
-mod common;
-
-use common::{Run, TABLE_1, geng, verify_with};
+use crate::common::{Run, TABLE_1, geng, verify_with};
 use serde_json::Value;
 
 fn conditions(graphs: &[u8], arguments: &[&str]) -> Run {
@@ -120,7 +118,7 @@ fn the_format_can_be_said() {
 #[test]
 fn a_long_ring_takes_no_time() {
     let start = std::time::Instant::now();
-    let output = conditions(common::cycle(30_000).as_bytes(), &["--json"]);
+    let output = conditions(crate::common::cycle(30_000).as_bytes(), &["--json"]);
     assert_eq!(output.code, 1, "{}", output.err);
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
     let line = &output.json()[0];

@@ -1,8 +1,6 @@
 //! `verify convert`: what it writes is what both checkers read, and the graph that was read.
 
-mod common;
-
-use common::{Run, first_checker, second_checker, verify, verify_with};
+use crate::common::{Run, first_checker, second_checker, verify, verify_with};
 use std::path::Path;
 use viewcert::graph::sha256;
 use viewcert_check::Graph;

@@ -1,9 +1,7 @@
 //! Independent ways to the same answer, on random graphs around the threshold of
 //! solvability. `VIEWCERT_CASES` scales the volume.
 
-mod common;
-
-use common::{TABLE_1, geng};
+use crate::common::{TABLE_1, geng};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use viewcert::decide::{Arithmetic, Method, Options, Projective, Verdict, decide};

@@ -1,9 +1,7 @@
 //! examples/degenerate: known configurations at which a graph fails, through the real binary. Expected ranks are by hand
 //! (docs/models.md says from what).
 
-mod common;
-
-use common::{first_checker, root, second_checker, verify};
+use crate::common::{first_checker, root, second_checker, verify};
 use serde_json::Value;
 
 /// Name, model, rank there, required, motions.

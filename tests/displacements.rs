@@ -1,8 +1,6 @@
 //! Known displacements: rigs and positions, through the real binary.
 
-mod common;
-
-use common::{Run, cycle, first_checker, second_checker, verify, verify_with};
+use crate::common::{Run, cycle, first_checker, second_checker, verify, verify_with};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;

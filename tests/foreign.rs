@@ -1,8 +1,6 @@
 //! What the program makes of files that others wrote: read as what they mean, or refused by name.
 
-mod common;
-
-use common::{Run, verify, verify_with};
+use crate::common::{Run, verify, verify_with};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -10,13 +10,11 @@
 //! to be, other tests hold against the paper, independent computation or a calculation by hand. A
 //! golden file says that a change elsewhere changed nothing here.
 //!
-//! To change one on purpose: change the code, run `VIEWCERT_GOLDEN=write cargo test --test golden`, and
+//! To change one on purpose: change the code, run `VIEWCERT_GOLDEN=write cargo test --test all golden::`, and
 //! read `git diff tests/golden` as you would read code. A new case is a new line `$ command` in a
 //! transcript; the same run fills in the rest. Lines that begin with `#` are kept.
 
-mod common;
-
-use common::{absent, data};
+use crate::common::{absent, data};
 use flate2::read::MultiGzDecoder;
 use regex::Regex;
 use rusqlite::{Connection, params};
@@ -342,7 +340,7 @@ fn hold(name: &str, folder: &Path) {
         assert!(
             differences.is_empty(),
             "tests/golden/{name}.txt, where - is what it says:\n{differences}\nIf this is on purpose: \
-             VIEWCERT_GOLDEN=write cargo test --test golden, and read the diff"
+             VIEWCERT_GOLDEN=write cargo test --test all golden::, and read the diff"
         );
     }
 }

@@ -1,8 +1,6 @@
 //! Given cameras, through the real binary: ranks against fractions, certificates and both checkers.
 
-mod common;
-
-use common::{Run, first_checker, root, second_checker, verify, verify_with};
+use crate::common::{Run, first_checker, root, second_checker, verify, verify_with};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;

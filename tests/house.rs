@@ -189,6 +189,34 @@ fn a_run_is_a_value() {
     }
 }
 
+/// A file that its package's `tests/all.rs` does not name would never run.
+#[test]
+fn every_test_file_is_in_the_test_program() {
+    for folder in [".", "crates/check", "paper"] {
+        let tests = root().join(folder).join("tests");
+        let program = fs::read_to_string(tests.join("all.rs")).unwrap();
+        let named = program
+            .lines()
+            .filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'));
+        let named: Vec<_> = named
+            .filter(|&name| !["common", "changes"].contains(&name))
+            .collect();
+        let files = fs::read_dir(&tests)
+            .unwrap()
+            .map(|entry| entry.unwrap().path());
+        let files =
+            files.filter(|path| path.extension().is_some_and(|extension| extension == "rs"));
+        let names = files.map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned());
+        // The checker's program is tested from two packages, as a test program of its own.
+        let mut names: Vec<_> = names
+            .filter(|name| !["all", "program"].contains(&&**name))
+            .collect();
+        names.sort();
+        assert!(!names.is_empty());
+        assert_eq!(named, names, "{}", tests.display());
+    }
+}
+
 #[test]
 fn there_is_one_version() {
     let version = env!("CARGO_PKG_VERSION");

@@ -1,8 +1,6 @@
 //! Classes of cameras through the real binary.
 
-mod common;
-
-use common::{Run, verify, verify_with};
+use crate::common::{Run, verify, verify_with};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -157,7 +155,7 @@ fn images_of_one_sensor_calibrate_it() {
 
 #[test]
 fn databases_know_which_camera_took_an_image() {
-    let Some(data) = common::data() else {
+    let Some(data) = crate::common::data() else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
@@ -181,7 +179,7 @@ fn databases_know_which_camera_took_an_image() {
 
 #[test]
 fn databases_know_their_focal_lengths() {
-    let Some(data) = common::data() else {
+    let Some(data) = crate::common::data() else {
         return;
     };
     let database = data.join("colmap/photos_lund.db");

@@ -1,8 +1,8 @@
 //! Certificates of intrinsics, through the real binary and both checkers.
 
-mod common;
-
-use common::{TABLE_1, data, first_checker, geng, run_with, second_checker, verify, verify_with};
+use crate::common::{
+    TABLE_1, data, first_checker, geng, run_with, second_checker, verify, verify_with,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;

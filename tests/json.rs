@@ -1,10 +1,8 @@
 //! What every command prints with `--json` keeps to docs/report.schema.json, each to its own
 //! definition there.
 
-mod common;
-
-use common::schema::keeps_to;
-use common::{verify, verify_with};
+use crate::common::schema::keeps_to;
+use crate::common::{verify, verify_with};
 use serde_json::Value;
 
 const GRAPHS: [&str; 3] = ["house.txt", "psi.txt", "minimal.g6"];

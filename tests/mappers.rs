@@ -1,10 +1,8 @@
 //! What `verify overview` foresees of mappers, beside what pycolmap's did with the samples, and the
 //! places that it says everything hangs on.
 
-mod common;
-
-use common::schema::{schema, valid};
-use common::{data, verify};
+use crate::common::schema::{schema, valid};
+use crate::common::{data, verify};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -12,7 +10,7 @@ use std::path::PathBuf;
 fn sample(name: &str) -> Option<PathBuf> {
     let path = data()?.join("colmap").join(name);
     if !path.is_file() {
-        common::absent(&format!("no sample is at {}", path.display()));
+        crate::common::absent(&format!("no sample is at {}", path.display()));
         return None;
     }
     Some(path)

@@ -1,8 +1,6 @@
 //! The camera models through the real binary: affine, in a plane, focal, and all side by side.
 
-mod common;
-
-use common::{cycle, data, verify, verify_with};
+use crate::common::{cycle, data, verify, verify_with};
 use serde_json::{Value, json};
 use std::path::Path;
 use viewcert::graph::{Adjacency, Graph, biconnected_components};

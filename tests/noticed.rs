@@ -1,10 +1,8 @@
 //! What a graph can notice, through the real binary: what the rest checks of each pair, what may be
 //! lost, what is determined though never matched.
 
-mod common;
-
-use common::schema::keeps_to;
-use common::{verify, verify_with};
+use crate::common::schema::keeps_to;
+use crate::common::{verify, verify_with};
 use serde_json::{Value, json};
 
 /// A complete graph on six images, and on it an image with two pairs, one with one, and a triangle

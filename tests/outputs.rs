@@ -2,9 +2,7 @@
 //! complete that is not.
 #![cfg(unix)]
 
-mod common;
-
-use common::{Run, cycle, verify, verify_with};
+use crate::common::{Run, cycle, verify, verify_with};
 use serde_json::Value;
 use std::fs::{self, File};
 use std::os::unix::fs::{PermissionsExt, symlink};

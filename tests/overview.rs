@@ -1,9 +1,7 @@
 //! `verify overview` against what is known of the samples, and the schema of all JSON lines.
 
-mod common;
-
-use common::schema::{mutilations_are_refused, schema, valid};
-use common::{data, verify, verify_with};
+use crate::common::schema::{mutilations_are_refused, schema, valid};
+use crate::common::{data, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,7 +10,7 @@ use std::path::{Path, PathBuf};
 fn samples() -> Option<PathBuf> {
     let folder = data()?.join("colmap");
     if !folder.is_dir() {
-        common::absent(&format!(
+        crate::common::absent(&format!(
             "no samples of databases are at {}",
             folder.display()
         ));
@@ -338,7 +336,7 @@ fn a_read_only_file_system() {
             std::fs::copy(folder.join(name), place.join(name)).unwrap();
         }
     };
-    common::on_read_only(prepare, |place| {
+    crate::common::on_read_only(prepare, |place| {
         assert_eq!(overviewed(&place.join("names.db")), (21, 7));
         assert_eq!(overviewed(&place.join("wal/copy.db")), (28, 8));
     });

@@ -1,9 +1,7 @@
 //! `verify overview --html`, and the page of `verify split`, in a real browser without a window.
 
-mod common;
-
-use common::browser::Browser;
-use common::{data, verify, verify_with};
+use crate::common::browser::Browser;
+use crate::common::{data, verify, verify_with};
 use std::fs;
 use std::path::Path;
 

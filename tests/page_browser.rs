@@ -1,9 +1,7 @@
 //! `verify draw` through the binary; the page in a real browser without a window.
 
-mod common;
-
-use common::browser::Browser;
-use common::{Run, cycle, data, verify, verify_with};
+use crate::common::browser::Browser;
+use crate::common::{Run, cycle, data, verify, verify_with};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,9 +1,7 @@
 //! Known parts through the real binary, against graphs with all pairs of each part, and
 //! through both checkers.
 
-mod common;
-
-use common::{cycle, first_checker, second_checker, verify, verify_with};
+use crate::common::{cycle, first_checker, second_checker, verify, verify_with};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use std::collections::BTreeSet;
@@ -32,7 +30,7 @@ impl Files {
     }
 
     /// `verify` on the graph with its parts and further options.
-    fn verify(&self, more: &[&str]) -> common::Run {
+    fn verify(&self, more: &[&str]) -> crate::common::Run {
         let (graph, parts) = (self.name("graph.txt"), self.name("parts.txt"));
         let own = [&graph, "--given", &parts];
         verify(&[&own[..], more].concat())

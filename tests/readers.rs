@@ -1,8 +1,6 @@
 //! The readers on the published graphs.
 
-mod common;
-
-use common::{data, verify, verify_with};
+use crate::common::{data, verify, verify_with};
 use std::collections::BTreeMap;
 use std::path::Path;
 

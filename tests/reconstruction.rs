@@ -1,9 +1,7 @@
 //! What COLMAP's own mapper does with clusters of images, against what is said of their tracks
 //! (docs/reconstruction.md).
 
-mod common;
-
-use common::absent;
+use crate::common::absent;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
@@ -129,7 +127,9 @@ fn most_of_what_is_foreseen_happens() {
 /// whole again, with two tries for each join at most in half of them.
 #[test]
 fn advice_on_photographs_can_be_followed() {
-    let Some(data) = common::data() else { return };
+    let Some(data) = crate::common::data() else {
+        return;
+    };
     let photos = ["banana", "monstree", "lund"].map(|name| {
         let path = data.join(format!("colmap/photos_{name}.db"));
         path.into_os_string()

@@ -1,9 +1,7 @@
 //! Long runs: limits of time and memory, signals, and what a terminal shows.
 #![cfg(unix)]
 
-mod common;
-
-use common::{Run, verify};
+use crate::common::{Run, verify};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -351,7 +349,7 @@ fn every_step(folder: &Path) -> Vec<(Graph, Options)> {
         },
         ..Projective::default()
     };
-    let cycle: String = common::cycle(12);
+    let cycle: String = crate::common::cycle(12);
     let path = folder.join("cycle.txt");
     fs::write(&path, cycle).unwrap();
     let cycle = graph(path.to_str().unwrap());

@@ -1,9 +1,7 @@
 //! `verify split`, `verify merge` and `verify lists` through the binary.
 
-mod common;
-
-use common::schema::keeps_to;
-use common::{Run, data, verify};
+use crate::common::schema::keeps_to;
+use crate::common::{Run, data, verify};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,8 +1,6 @@
 //! `verify --table`: many graphs, a line each, and a summary.
 
-mod common;
-
-use common::{data, verify, verify_with};
+use crate::common::{data, verify, verify_with};
 
 /// The complete graph with 4 nodes, and the square.
 const LIST: &[u8] = b"C~\nCl\n";

@@ -1,8 +1,6 @@
 //! `verify GRAPH...` through the real binary.
 
-mod common;
-
-use common::{TABLE_1, cycle, data, geng, verify, verify_with};
+use crate::common::{TABLE_1, cycle, data, geng, verify, verify_with};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -226,7 +224,7 @@ fn table_1_is_proved() {
     }
 }
 
-fn count(run: &common::Run) -> (usize, usize) {
+fn count(run: &crate::common::Run) -> (usize, usize) {
     assert_eq!(run.err, "");
     let lines = run.json();
     let solvable = lines

@@ -1,13 +1,10 @@
 //! `viewcert-paper census`: how many graphs each camera model determines.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::schema::keeps_to;
-use common::{Run, geng, geng_connected, verify_with};
+use crate::common::schema::keeps_to;
+use crate::common::{Run, geng, geng_connected, verify_with};
 
 fn workshop(input: &[u8], arguments: &[&str]) -> Run {
-    common::run_with("viewcert-paper", input, arguments)
+    crate::common::run_with("viewcert-paper", input, arguments)
 }
 
 /// Connected graphs with n nodes, and how many of them are affine solvable, finite solvable and

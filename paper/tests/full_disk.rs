@@ -2,10 +2,7 @@
 //! a final name, and nothing lost that was complete.
 #![cfg(unix)]
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::program;
+use crate::common::program;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -107,7 +104,7 @@ fn finishes(out: &Path, whole: &Path) {
 }
 
 fn house() -> PathBuf {
-    common::root().join("examples/house.txt")
+    crate::common::root().join("examples/house.txt")
 }
 
 /// A small file system in memory; `None`, with a reason, where it may not be mounted.
@@ -119,7 +116,7 @@ impl Small {
     fn new(kibibytes: u32) -> Option<Self> {
         let folder = tempfile::tempdir().unwrap();
         let size = format!("size={kibibytes}k");
-        common::mounted(&["-t", "tmpfs", "-o", &size, "tmpfs"], folder.path())
+        crate::common::mounted(&["-t", "tmpfs", "-o", &size, "tmpfs"], folder.path())
             .then_some(Self(folder))
     }
 

@@ -1,12 +1,9 @@
 //! Completion scripts and manual pages, through the binary.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{Run, verify};
+use crate::common::{Run, verify};
 
 fn workshop(arguments: &[&str]) -> Run {
-    common::run("viewcert-paper", arguments)
+    crate::common::run("viewcert-paper", arguments)
 }
 
 /// The commands that the help lists, and some options of the program itself.

@@ -1,9 +1,6 @@
 //! `viewcert-paper intrinsics`: for which classes and sensors small graphs are metric.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{Run, root};
+use crate::common::{Run, root};
 use std::collections::BTreeMap;
 use std::process::Command;
 
@@ -11,7 +8,7 @@ const PUBLISHED: &str = include_str!("../../docs/intrinsics-census.tsv");
 
 fn workshop(input: &str, arguments: &[&str]) -> Run {
     let arguments = [&["intrinsics", "-"][..], arguments].concat();
-    common::run_with("viewcert-paper", input.as_bytes(), &arguments)
+    crate::common::run_with("viewcert-paper", input.as_bytes(), &arguments)
 }
 
 /// The rows of the published table: graph, question, numbers, least assignments.
@@ -157,7 +154,7 @@ fn every_assignment_has_its_certificate() {
     assert!(claims.eq(decided));
     let count = rows.lines().count() - 1;
     // Both checkers accept all of them.
-    let checked = common::run("verify", &["check", lines]);
+    let checked = crate::common::run("verify", &["check", lines]);
     assert_eq!(checked.code, 0, "{}", checked.out);
     let all = format!("{count} certificates verified, 0 rejected");
     assert!(checked.out.contains(&all), "{}", checked.out);

@@ -1,16 +1,13 @@
 //! Where outputs go, and what ends a run: as in `verify`.
 #![cfg(unix)]
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{Run, program};
+use crate::common::{Run, program};
 use std::process::{Command, Stdio};
 
 const RANDOM: [&str; 5] = ["random", "--density", "0.5", "--samples", "3"];
 
 fn random(more: &[&str]) -> Run {
-    common::run("viewcert-paper", &[&RANDOM[..], more].concat())
+    crate::common::run("viewcert-paper", &[&RANDOM[..], more].concat())
 }
 
 fn refused(run: &Run, why: &str) {
@@ -61,7 +58,7 @@ fn a_closed_pipe_ends_the_run_in_silence() {
 fn a_limit_of_time_ends_the_run() {
     let many = ["random", "--density", "0.2", "--samples", "1000000"];
     let limit = ["--time-limit", "700ms"];
-    let run = common::run("viewcert-paper", &[&many[..], &limit].concat());
+    let run = crate::common::run("viewcert-paper", &[&many[..], &limit].concat());
     assert_eq!((run.code, run.out.as_str()), (3, ""), "{}", run.err);
     assert!(run.err.contains("the time limit "), "{}", run.err);
 }

@@ -1,9 +1,6 @@
 //! docs/paper.md: the commands whose output stands there print it, and it is what was published.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{TABLE_1, absent, data};
+use crate::common::{TABLE_1, absent, data};
 use std::path::Path;
 use std::process::Command;
 
@@ -76,7 +73,7 @@ fn commands_print_what_stands_there() {
             .into_iter()
             .flat_map(|word| expanded(word, folder.path()));
         let words: Vec<String> = words.collect();
-        let run = Command::new(common::program(&words[0]))
+        let run = Command::new(crate::common::program(&words[0]))
             .args(&words[1..])
             .current_dir(folder.path())
             .output()

@@ -1,14 +1,11 @@
 //! `viewcert-paper publish`: the published catalog.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{Run, verify, verify_with};
+use crate::common::{Run, verify, verify_with};
 use std::fs;
 use std::path::PathBuf;
 
 fn workshop(arguments: &[&str]) -> Run {
-    common::run("viewcert-paper", arguments)
+    crate::common::run("viewcert-paper", arguments)
 }
 
 fn good(run: &Run) {

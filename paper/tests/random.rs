@@ -1,13 +1,10 @@
 //! `viewcert-paper random`: random graphs, the paper's Table 2.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::{Run, data};
+use crate::common::{Run, data};
 use std::fs;
 
 fn workshop(arguments: &[&str]) -> Run {
-    common::run("viewcert-paper", arguments)
+    crate::common::run("viewcert-paper", arguments)
 }
 
 fn good(run: &Run) -> String {

@@ -1,12 +1,9 @@
 //! `viewcert-paper solutions` and `thin`: numbers of solutions of many graphs.
 
-#[path = "../../tests/common/mod.rs"]
-mod common;
-
-use common::Run;
+use crate::common::Run;
 
 fn workshop(arguments: &[&str]) -> Run {
-    common::run("viewcert-paper", arguments)
+    crate::common::run("viewcert-paper", arguments)
 }
 
 /// What a command prints, as words of each line.

@@ -1,9 +1,7 @@
 //! Certificates of the affine model: a change for each condition, with the reason that must be
 //! given, as in `conditions.rs`.
 
-mod changes;
-
-use changes::{changed, named, refused, rejection};
+use crate::changes::{changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::{Graph, Model, Verdict, Verified, check};
 

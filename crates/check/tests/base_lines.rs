@@ -2,9 +2,7 @@
 //! must be given, as in `conditions.rs`. They are of the prover, chosen from its random graphs; their ranks
 //! are held against brute force by the second checker's tests.
 
-mod changes;
-
-use changes::{at, changed, named, refused, rejection};
+use crate::changes::{at, changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::{BaseLines, Certificate, Graph, Limits, check};
 

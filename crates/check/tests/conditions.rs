@@ -2,9 +2,7 @@
 //! nothing else; with the reason that must be given. `conditions.py` sees to it that there is one
 //! for each condition.
 
-mod changes;
-
-use changes::{at, changed, named, refused, rejection};
+use crate::changes::{at, changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::{Certificate, Failure, Graph, Limits, check};
 

@@ -1,9 +1,7 @@
 //! Certificates with known displacements: a change for each condition, with the reason that must be
 //! given, as in `conditions.rs`. Their claims come from trying everything (`displaced.py`).
 
-mod changes;
-
-use changes::{changed, named, refused, rejection};
+use crate::changes::{changed, named, refused, rejection};
 use serde_json::{Value, json};
 use std::path::Path;
 use viewcert_check::{Verdict, Verified, check};
@@ -126,7 +124,7 @@ fn section_3_vectors() {
     refused(json!([[twice], [twice]]), wanted);
     // Two nodes of one group at one place.
     let wanted = "vectors.group 0: two nodes are at one place";
-    changes::refused(
+    crate::changes::refused(
         "../displacements/line",
         &[("/vectors", json!([[x, x]]))],
         wanted,

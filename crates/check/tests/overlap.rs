@@ -1,8 +1,6 @@
 //! `overlap` (section 7 of the specification): each of its conditions broken, with the reason.
 
-mod changes;
-
-use changes::{at, changed, named, refused, rejection};
+use crate::changes::{at, changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::check;
 

@@ -1,9 +1,7 @@
 //! Known parts: what is verified, and a change for each condition, with the reason that must be
 //! given, as in `conditions.rs`.
 
-mod changes;
-
-use changes::{changed, named, refused, rejection};
+use crate::changes::{changed, named, refused, rejection};
 use serde_json::{Value, json};
 use viewcert_check::{Graph, Verdict, Verified, check};
 

@@ -1,0 +1,52 @@
+//! All tests of the program, as one program: forty took more than four times as long to build (benches/README.md).
+//!
+//! `cargo test --features hdf5 --test all golden::` runs one file.
+
+mod common;
+
+mod act;
+mod act_outputs;
+mod affine;
+mod affine_certificates;
+mod audit;
+mod audit_cameras;
+mod base_lines;
+mod camera_point;
+mod catalog;
+mod certificates;
+mod colmap;
+mod compare;
+mod conditions;
+mod convert;
+mod cross;
+mod degenerate;
+mod displacements;
+mod foreign;
+mod formulas;
+mod golden;
+mod here;
+mod house;
+mod intrinsics;
+mod intrinsics_certificates;
+mod json;
+mod mappers;
+mod models;
+mod networkx;
+mod noticed;
+mod outputs;
+mod overview;
+mod overview_page;
+mod page_browser;
+mod pages;
+mod parts;
+mod paths;
+mod proof;
+mod readers;
+mod readme;
+mod reconstruction;
+mod running;
+mod solution_certificates;
+mod solutions;
+mod split_merge;
+mod table;
+mod verify;
