@@ -54,10 +54,7 @@ pub(crate) struct Verified {
 impl From<viewcert_check::Verified> for Verified {
     fn from(verified: viewcert_check::Verified) -> Self {
         let (value, strength) = verified.verdict;
-        let (strength, error_log2) = match strength {
-            Strength::Proof => ("proof", None),
-            Strength::ErrorBound(exponent) => ("error-bound", Some(exponent)),
-        };
+        let (strength, error_log2) = of_strength(strength);
         Self {
             value: value.to_string(),
             strength,
@@ -91,10 +88,35 @@ enum Given {
 }
 
 /// Why a certificate was not verified.
-enum Problem {
+pub(crate) enum Problem {
     Failure(Failure),
     Graph(Unreadable),
     File(anyhow::Error),
+}
+
+impl Problem {
+    /// As an exception.
+    pub(crate) fn raised(self) -> PyErr {
+        match self {
+            Self::Failure(failure) => of_checking(failure),
+            Self::Graph(error) => InputError::new_err(error.to_string()),
+            Self::File(error) => of_any(&error),
+        }
+    }
+}
+
+/// A graph as the checker takes it.
+pub(crate) fn for_checker(input: &NamedGraph) -> Result<viewcert_check::Graph, Problem> {
+    let edges = input.graph.edges().iter().copied();
+    viewcert_check::Graph::new(input.graph.nodes(), edges).map_err(Problem::Graph)
+}
+
+/// A strength in a word, and the exponent of its error bound.
+pub(crate) fn of_strength(strength: Strength) -> (&'static str, Option<i64>) {
+    match strength {
+        Strength::Proof => ("proof", None),
+        Strength::ErrorBound(exponent) => ("error-bound", Some(exponent)),
+    }
 }
 
 /// The graph in a file that a certificate is about, of several the one with its hash.
@@ -156,9 +178,7 @@ pub(crate) fn check(
         let graph = match given {
             Given::Held => None,
             Given::Graph(input, parts, known) => {
-                let edges = input.graph.edges().iter().copied();
-                let graph = viewcert_check::Graph::new(input.graph.nodes(), edges);
-                let graph = graph.and_then(|graph| graph.with_parts(parts));
+                let graph = for_checker(&input)?.with_parts(parts);
                 let mut graph = graph.map_err(Problem::Graph)?;
                 if let Some(hash) = input.frames.as_ref().and_then(|frames| frames.sha256()) {
                     graph = graph.with_frames(hex(&hash));
@@ -177,12 +197,7 @@ pub(crate) fn check(
         let checked = threads.install(|| certificate.check_within(graph.as_ref(), &limits));
         checked.map_err(Problem::Failure)
     })?;
-    match checked {
-        Ok(verified) => Ok(verified.into()),
-        Err(Problem::Failure(failure)) => Err(of_checking(failure)),
-        Err(Problem::Graph(error)) => Err(InputError::new_err(error.to_string())),
-        Err(Problem::File(error)) => Err(of_any(&error)),
-    }
+    checked.map(Into::into).map_err(Problem::raised)
 }
 
 /// What a certificate of intrinsics proves.
@@ -235,20 +250,11 @@ pub(crate) fn check_intrinsics(
     let threads = work::threads()?;
     let checked = work::run(py, &Watch::default(), None, move || {
         let certificate = IntrinsicsCertificate::parse(&certificate).map_err(Problem::Failure)?;
-        let graph = input.map(|input| {
-            let edges = input.graph.edges().iter().copied();
-            viewcert_check::Graph::new(input.graph.nodes(), edges).map_err(Problem::Graph)
-        });
-        let graph = graph.transpose()?;
+        let graph = input.map(|input| for_checker(&input)).transpose()?;
         let checked = || certificate.check_within(graph.as_ref(), hash.as_deref(), &limits);
         threads.install(checked).map_err(Problem::Failure)
     })?;
-    match checked {
-        Ok(verified) => Ok(verified.into()),
-        Err(Problem::Failure(failure)) => Err(of_checking(failure)),
-        Err(Problem::Graph(error)) => Err(InputError::new_err(error.to_string())),
-        Err(Problem::File(error)) => Err(of_any(&error)),
-    }
+    checked.map(Into::into).map_err(Problem::raised)
 }
 
 impl From<viewcert_check::VerifiedIntrinsics> for VerifiedIntrinsics {

@@ -57,6 +57,20 @@ impl Decided {
         }
     }
 
+    /// The graph and its verdict.
+    pub(crate) fn answer(&self) -> (Arc<NamedGraph>, Arc<Verdict>) {
+        (Arc::clone(&self.input), Arc::clone(&self.verdict))
+    }
+
+    /// What was asked besides, whether the arithmetic was rational, and how long it took.
+    pub(crate) fn asked(&self) -> (assumptions::Asked, bool, Duration) {
+        let asked = assumptions::Asked {
+            planar: self.planar,
+            focal: self.focal,
+        };
+        (asked, self.rational, self.time)
+    }
+
     /// Classes, by their words.
     fn classes(&self, words: &[String]) -> PyResult<Vec<Class>> {
         if self.verdict.model != Model::Projective {
@@ -248,6 +262,17 @@ pub(crate) fn decide(
     )?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
     Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
+}
+
+/// A report as `json`, `text` or `html`.
+pub(crate) fn written(report: &Report<'_>, kind: &str) -> anyhow::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    match kind {
+        "json" => return Ok(report.json()?),
+        "text" => report.write_text(&mut text)?,
+        _ => return Ok(report.page()?),
+    }
+    Ok(text)
 }
 
 #[pymethods]
@@ -447,13 +472,9 @@ impl Decided {
             margin,
             export,
         };
-        let asked = assumptions::Asked {
-            planar: self.planar,
-            focal: self.focal,
-        };
+        let ((asked, rational, time), seed) = (self.asked(), self.seed);
         let watch = work::watch(None, None)?;
-        let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (seed, rational, time) = (self.seed, self.rational, self.time);
+        let (input, verdict) = self.answer();
         let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             request.check(&[], &[])?;
@@ -486,13 +507,7 @@ impl Decided {
                 proof: None,
                 here: None,
             };
-            let mut text = Vec::new();
-            match &kind[..] {
-                "json" => return Ok(report.json()?),
-                "text" => report.write_text(&mut text)?,
-                _ => return Ok(report.page()?),
-            }
-            Ok(text)
+            written(&report, &kind)
         };
         let answered = work::run(py, &watch, None, move || threads.install(answer))?;
         match answered {

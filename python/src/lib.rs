@@ -11,6 +11,7 @@ mod check;
 mod decided;
 mod errors;
 mod graph;
+mod here;
 mod kept;
 mod places;
 mod shards;
@@ -31,6 +32,8 @@ mod _native {
     use super::decided::{Decided, decide};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
+    #[pymodule_export]
+    use super::here::{AtCameras, Cameras, VerifiedAtCameras, check_at_cameras};
     #[pymodule_export]
     use super::kept::{about_graph, graph_kept, same_graph};
     #[pymodule_export]

@@ -40,6 +40,7 @@ from ._act import (
     weak,
 )
 from ._all import verify_all
+from ._cameras import AtCameras, Special, VerifiedAtCameras, at_cameras, check_at_cameras
 from ._catalog import Entry, Shard, catalog, catalog_merge, catalog_shards, from_label, label
 from ._check import Verified, check
 from ._errors import Error, InputError, NoteWarning, Rejected, TooLarge, Undecided
@@ -62,6 +63,7 @@ from ._native import __version__
 from ._verdict import BaseLines, Joint, Planar, Solutions, Verdict, verify
 
 __all__ = [
+    "AtCameras",
     "BaseLines",
     "Break",
     "Entry",
@@ -82,6 +84,7 @@ __all__ = [
     "Rejected",
     "Shard",
     "Solutions",
+    "Special",
     "Suggestion",
     "Threshold",
     "TooLarge",
@@ -89,13 +92,16 @@ __all__ = [
     "Unused",
     "Verdict",
     "Verified",
+    "VerifiedAtCameras",
     "VerifiedIntrinsics",
     "Weak",
     "__version__",
+    "at_cameras",
     "catalog",
     "catalog_merge",
     "catalog_shards",
     "check",
+    "check_at_cameras",
     "check_intrinsics",
     "explain",
     "export",

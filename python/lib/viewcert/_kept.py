@@ -52,7 +52,8 @@ class Kept:
             "text": found.report("text"),
         }
 
-    def _again(self) -> Found:
+    def again(self) -> Found:
+        """What is decided again, and compared."""
         if self._found is None:
             question = dict(self._question)
             found = _native.decide(self._graph, question.pop("wanted"), **question)
@@ -116,21 +117,21 @@ class Kept:
     def certificate(self, *, embed_graph: bool = False, compact: bool = False) -> bytes:
         if not embed_graph and not compact:
             return bytes(self._said["certificate"])
-        return self._again().certificate(embed_graph=embed_graph, compact=compact)
+        return self.again().certificate(embed_graph=embed_graph, compact=compact)
 
     def certificate_of_intrinsics(
         self, classes: List[str], sensors: List[int], *, embed_graph: bool = False
     ) -> bytes:
-        again = self._again()
+        again = self.again()
         return again.certificate_of_intrinsics(classes, sensors, embed_graph=embed_graph)
 
     def report(self, kind: str, *, list_components: bool = False, **question: Any) -> bytes:
         if kind in ("json", "text") and not list_components and not question:
             return bytes(self._said[kind])
-        return self._again().report(kind, list_components=list_components, **question)
+        return self.again().report(kind, list_components=list_components, **question)
 
     def picture(self) -> str:
-        return self._again().picture()
+        return self.again().picture()
 
     @staticmethod
     def write(path: Union[str, os.PathLike[str]], bytes: bytes) -> None:

@@ -8,20 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._catalog import Shard
-from ._types import BaseLinesValue, Class, IntrinsicsValue, Strength, Value
+from ._types import BaseLinesValue, Class, IntrinsicsValue, Place, Strength, Value
 from ._types import Decided as DecidedModel
 
 __all__ = [
+    "AtCameras",
+    "Cameras",
     "Candidates",
     "Decided",
     "Graph",
     "Verified",
+    "VerifiedAtCameras",
     "VerifiedIntrinsics",
     "__version__",
     "about_graph",
     "catalog_merge",
     "catalog_shard",
     "check",
+    "check_at_cameras",
     "check_intrinsics",
     "component_of_pairs",
     "decide",
@@ -238,6 +242,59 @@ def check_intrinsics(
     sensors: tuple[list[str], list[int]] | None = None,
     max_operations: int | None = None,
 ) -> VerifiedIntrinsics: ...
+@final
+class Cameras:
+    @property
+    def notes(self) -> list[str]: ...
+    @staticmethod
+    def of_numbers(graph: Graph, model: str, numbers: list[str], width: int) -> Cameras: ...
+    @staticmethod
+    def in_file(graph: Graph, model: str, path: str | os.PathLike[str]) -> Cameras: ...
+    def numbers(self) -> tuple[list[str], int]: ...
+    def sha256(self) -> str: ...
+
+@final
+class AtCameras:
+    def __new__(cls, decided: Decided, cameras: Cameras) -> AtCameras: ...
+    def special(self) -> list[tuple[Place, list[int]]]: ...
+    def velocities(self) -> list[list[tuple[str, str, str] | None]] | None: ...
+    def certificate(self, *, embed_graph: bool = False) -> bytes: ...
+    def report(self, kind: str, *, list_components: bool = False) -> bytes: ...
+
+@final
+class VerifiedAtCameras:
+    @property
+    def determined(self) -> bool: ...
+    @property
+    def strength(self) -> Strength: ...
+    @property
+    def error_log2(self) -> int | None: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def required(self) -> int: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def model(self) -> DecidedModel: ...
+    @property
+    def centres_sha256(self) -> str: ...
+    @property
+    def nodes(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def sha256(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+
+def check_at_cameras(
+    certificate: bytes,
+    *,
+    graph: Graph | None = None,
+    centres: str | None = None,
+    max_operations: int | None = None,
+) -> VerifiedAtCameras: ...
 @final
 class Candidates:
     def __new__(

@@ -42,3 +42,6 @@ IntrinsicsValue = Literal["metric", "not-metric", "open"]
 
 #: What frames add where base lines are unknown.
 BaseLinesValue = Literal["solvable", "not-finite-solvable", "open"]
+
+#: Where cameras are that are in a special place.
+Place = Literal["coincident", "collinear", "coplanar"]

@@ -54,7 +54,7 @@ pub fn centre_error(error: CentreError, input: &NamedGraph) -> String {
     let name = |v: u32| input.labels.display(v).to_string();
     match error {
         CentreError::Degenerate(v) => format!(
-            "camera {} has rank below 3, or zero for its direction: it has no centre; mend the file",
+            "camera {} has rank below 3, or zero for its direction: it has no centre; mend it",
             name(v)
         ),
         CentreError::AtInfinity(v) => format!(

@@ -1,0 +1,416 @@
+"""Cameras that are given: what is determined at these, and not at cameras in general position?"""
+
+from __future__ import annotations
+
+import json
+import numbers
+import os
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _native
+from ._act import _decided
+from ._check import of_native, text_of
+from ._convert import Node
+from ._errors import InputError
+from ._graph import Path, as_graph
+from ._kept import Kept
+from ._types import Decided, Place, Strength
+from ._verdict import Verdict
+from ._words import noted, whole_if
+
+#: A matrix of 3 rows and 4 columns, or a centre; or all of them, or a file with them.
+Cameras = Union[Mapping[Node, Any], Sequence[Any], "np.ndarray[Any, Any]", Path]
+
+_Velocity = Tuple[Fraction, Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class VerifiedAtCameras:
+    """What a certificate at given cameras proves. It can be pickled and compared.
+
+    Attributes
+    ----------
+    determined : bool
+        Whether the cameras are determined.
+    strength : {'proof', 'error-bound'}
+        How strong that and the rank are; that they are determined is always proved.
+    error_log2 : int, optional
+        The chance of an error is at most two to this power.
+    rank, required : int
+        The rank at these cameras, and the rank that determines.
+    components : int
+        How many components there are at these cameras.
+    model : str
+        The question: ``'projective'``, ``'calibrated'`` or ``'affine'``.
+    centres_sha256 : str
+        The hash of the centres, as :attr:`AtCameras.centres_sha256`.
+    nodes, edges : int
+        Of the graph.
+    sha256 : str
+        Its hash.
+    text : str
+        All of it in words.
+    """
+
+    determined: bool
+    strength: Strength
+    error_log2: Optional[int]
+    rank: int
+    required: int
+    components: int
+    model: Decided
+    centres_sha256: str
+    nodes: int
+    edges: int
+    sha256: str
+    text: str = field(repr=False)
+
+    def __repr__(self) -> str:
+        size = f"{self.nodes} nodes, {self.edges} pairs"
+        is_so = _is(self.determined, self.strength)
+        return f"<viewcert.VerifiedAtCameras {is_so}: {size}, rank {self.rank} of {self.required}>"
+
+
+@dataclass(frozen=True)
+class Special:
+    """Cameras in a special place.
+
+    Attributes
+    ----------
+    place : {'coincident', 'collinear', 'coplanar'}
+        Whether their centres are at one place, on one line, or in one plane.
+    nodes : frozenset
+        The cameras.
+    """
+
+    place: Place
+    nodes: frozenset[Node]
+
+
+@dataclass(frozen=True)
+class AtCameras:
+    """What a graph determines at given cameras. It can be pickled and compared.
+
+    Attributes
+    ----------
+    determined : bool
+        Whether the cameras are determined there. That they are is proved.
+    means : str
+        What that says of the cameras, in words: that they are the only ones, that they are an isolated
+        solution, that they have a motion of first order, or that there are infinitely many.
+    degenerate : bool
+        Whether the rank is smaller than that of cameras in general position.
+    strength : {'proof', 'error-bound'}
+        How strong the rank is.
+    error_log2 : int, optional
+        The chance of an error is at most two to this power.
+    rank, required : int
+        The rank at these cameras, and the rank that determines.
+    motions : int
+        The dimension of the motions that leave all fundamental matrices as they are.
+    components : tuple of frozenset
+        Nodes of the maximal parts that are rigid at these cameras, the largest first.
+    components_strength : {'proof', 'error-bound'}
+        How strong these are.
+    special : tuple of Special
+        Cameras at one place, on one line or in one plane, the largest sets of each kind first. Lines are
+        looked for among up to 2,000 places, planes among up to 64; one that holds all is always found.
+    centres_sha256 : str
+        The hash of the centres, which certificates name.
+    """
+
+    determined: bool
+    means: str
+    degenerate: bool
+    strength: Strength
+    error_log2: Optional[int]
+    rank: int
+    required: int
+    motions: int
+    components: Tuple[frozenset[Node], ...]
+    components_strength: Strength
+    special: Tuple[Special, ...]
+    centres_sha256: str
+    _verdict: Verdict[Any] = field(repr=False, compare=False)
+    _cameras: Tuple[Tuple[str, ...], int] = field(repr=False, compare=False)
+
+    def __repr__(self) -> str:
+        is_so = _is(self.determined, self.strength)
+        degenerate = ", degenerate" if self.degenerate else ""
+        return f"<viewcert.AtCameras {is_so}: rank {self.rank} of {self.required}{degenerate}>"
+
+    def __getstate__(self) -> Dict[str, Any]:
+        # What the library holds is found again where it is asked for.
+        return {name: value for name, value in self.__dict__.items() if name != "_found"}
+
+    def _at(self) -> _native.AtCameras:
+        found: Optional[_native.AtCameras] = self.__dict__.get("_found")
+        if found is None:
+            texts, width = self._cameras
+            graph, model = self._verdict.graph._native, _model(self._verdict)
+            at = _native.Cameras.of_numbers(graph, model, list(texts), width)
+            found = self.__dict__["_found"] = _there(self._verdict, at)
+        return found
+
+    def certificate(self, *, embed_graph: bool = False) -> bytes:
+        """The certificate, which :func:`check_at_cameras` and two independent programs verify. It holds
+        the cameras.
+
+        Parameters
+        ----------
+        embed_graph : bool
+            Whether a graph of more than 100 nodes is part of it; smaller ones always are.
+        """
+        return self._at().certificate(embed_graph=embed_graph)
+
+    def velocities(self) -> Optional[List[Dict[Node, Optional[_Velocity]]]]:
+        """A basis of the motions that the fundamental matrices allow, exactly.
+
+        Returns
+        -------
+        list of dict, or None
+            For each motion the velocity of the centre of each node, while the largest component is held
+            still; None for a node whose centre has none in space: at infinity, or without pairs. None
+            instead of the list in the affine model, and where too many components move for exact
+            velocities (more than 600 unknowns, 15 for each component but one; calibrated: 4).
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> path = [("a", "b"), ("b", "c")]
+        >>> places = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 1, 0)}
+        >>> found = viewcert.at_cameras(viewcert.verify(path, model="calibrated"), places)
+        >>> [motion["a"] == motion["b"] or motion["b"] == motion["c"] for motion in found.velocities()]
+        [True]
+        """
+        found = self._at().velocities()
+        if found is None:
+            return None
+        nodes = self._verdict.graph.nodes
+        return [
+            {
+                node: None if of_node is None else (Fraction(of_node[0]), Fraction(of_node[1]), Fraction(of_node[2]))
+                for node, of_node in zip(nodes, motion)
+            }
+            for motion in found
+        ]
+
+    def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
+        """What ``verify --given FILE --json`` prints (with `list_components`: and ``--components``)."""
+        found: Dict[str, Any] = json.loads(self._at().report("json", list_components=list_components))
+        return found
+
+    def report(self, *, list_components: bool = False) -> str:
+        """What ``verify --given FILE`` prints for people."""
+        return self._at().report("text", list_components=list_components).decode()
+
+    def page(self) -> str:
+        """The web page of ``verify draw --given FILE``, on which what is left to move does."""
+        return self._at().report("html").decode()
+
+
+def at_cameras(verdict: Any, cameras: Cameras) -> AtCameras:
+    """What a graph determines at given cameras, exactly.
+
+    A verdict is about cameras in general position. Those of a survey may stand on a line, in a plane, or
+    where else a graph determines less. This says what holds where they stand.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Of any model. Or a graph, which is decided first, in the projective model.
+    cameras : mapping, array or path
+        For each node a matrix of 3 rows and 4 columns, or a vector of 3 numbers, its centre (in the affine
+        model its viewing direction). Or an array of them, of shape (n, 3, 4) or (n, 3), in the order of
+        the `graph.nodes` of the verdict. Or the path of a file or folder with them: a COLMAP model, text,
+        ``.csv``, ``.npy``, ``.npz``, ``.mat``. All numbers are taken exactly, floats as the fractions
+        they are, and texts as decimals or fractions; fractions from :mod:`fractions` and sympy are
+        taken too.
+
+    Raises
+    ------
+    InputError
+        If nodes have no camera, or a pair's cameras are at one place and so have no fundamental matrix.
+    TooLarge
+        If it needs more memory than there is.
+
+    Examples
+    --------
+    Three cameras, each of which sees both others, are determined, but not on a line.
+
+    >>> import viewcert
+    >>> triangle = [("a", "b"), ("a", "c"), ("b", "c")]
+    >>> found = viewcert.at_cameras(triangle, {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 1, 0)})
+    >>> found.determined, found.rank, found.required
+    (True, 18, 18)
+    >>> found = viewcert.at_cameras(triangle, {"a": (0, 0, 0), "b": (1, 0, 0), "c": (3, 0, 0)})
+    >>> found.determined, found.degenerate, found.motions
+    (False, True, 4)
+    >>> [(special.place, sorted(special.nodes)) for special in found.special]
+    [('collinear', ['a', 'b', 'c'])]
+    """
+    verdict = _decided(verdict)
+    at = _cameras(verdict, cameras)
+    native = _there(verdict, at)
+    answer = json.loads(native.report("json", list_components=True))["at_cameras"]
+    nodes, by_text = verdict.graph.nodes, verdict.graph._by_text()
+    texts, width = at.numbers()
+    found = AtCameras(
+        components=tuple(
+            frozenset(by_text[text] for text in component["labels"]) for component in answer["components"]
+        ),
+        required=answer["rank_required"],
+        special=tuple(Special(place, frozenset(nodes[k] for k in of)) for place, of in native.special()),
+        _verdict=verdict,
+        _cameras=(tuple(texts), width),
+        **{
+            name: answer[name]
+            for name in (
+                "determined",
+                "means",
+                "degenerate",
+                "strength",
+                "error_log2",
+                "rank",
+                "motions",
+                "components_strength",
+                "centres_sha256",
+            )
+        },
+    )
+    found.__dict__["_found"] = native
+    return found
+
+
+def check_at_cameras(
+    certificate: Union[bytes, bytearray, memoryview, Path, AtCameras],
+    graph: Any = None,
+    cameras: Optional[Cameras] = None,
+    *,
+    max_operations: Optional[int] = None,
+) -> VerifiedAtCameras:
+    """Verifies a certificate at given cameras with the independent checker.
+
+    Parameters
+    ----------
+    certificate : bytes, path or AtCameras
+        The certificate: its bytes, its file, or an answer whose certificate is made first.
+    graph : optional
+        The graph it is about; not needed if the certificate holds it.
+    cameras : optional
+        The cameras it has to be about, as for :func:`at_cameras`, if a verdict is given for the graph.
+        Without them compare `centres_sha256`.
+    max_operations : int, optional
+        What checking may cost, in elementary operations; by default 2 * 10^12.
+
+    Returns
+    -------
+    VerifiedAtCameras
+        What the certificate proves.
+
+    Raises
+    ------
+    Rejected
+        If anything in it does not hold, or it is about other cameras.
+    TooLarge
+        If checking would cost more than the limits allow.
+    InputError
+        If `graph` is no graph, or `cameras` do not go with it.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> verdict = viewcert.verify([("a", "b"), ("a", "c"), ("b", "c")])
+    >>> places = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (0, 1, 0)}
+    >>> certificate = viewcert.at_cameras(verdict, places).certificate()
+    >>> viewcert.check_at_cameras(certificate, verdict, places).determined
+    True
+    >>> viewcert.check_at_cameras(certificate, verdict, {**places, "c": (0, 2, 0)})
+    Traceback (most recent call last):
+    ...
+    viewcert.Rejected: centres: the cameras that are expected have another hash
+    """
+    text = certificate.certificate() if isinstance(certificate, AtCameras) else text_of(certificate)
+    max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
+    if cameras is not None and not isinstance(graph, Verdict):
+        raise InputError(
+            "cameras: which centres they have depends on the model; give the verdict, which says both "
+            "graph and model"
+        )
+    given = None if graph is None else as_graph(graph.graph if isinstance(graph, Verdict) else graph)
+    found = _native.check_at_cameras(
+        text,
+        graph=None if given is None else given._native,
+        centres=None if cameras is None else _cameras(graph, cameras).sha256(),
+        max_operations=max_operations,
+    )
+    return of_native(VerifiedAtCameras, found)
+
+
+def _there(verdict: Verdict[Any], cameras: _native.Cameras) -> _native.AtCameras:
+    native = verdict._native
+    return _native.AtCameras(native.again() if isinstance(native, Kept) else native, cameras)
+
+
+def _is(determined: bool, strength: Strength) -> str:
+    return f"{'determined' if determined else 'not determined'} ({strength})"
+
+
+def _model(verdict: Verdict[Any]) -> str:
+    """What centres are asked for: those of focal lengths that are unknown are those of calibrated cameras."""
+    return verdict._native.model
+
+
+def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
+    """The centres of the nodes of a verdict."""
+    graph, model = verdict.graph, _model(verdict)
+    if isinstance(cameras, (str, os.PathLike)):
+        found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
+        noted(graph.name, found.notes)
+        return found
+    nodes = graph.nodes
+    if isinstance(cameras, Mapping):
+        absent = [node for node in nodes if node not in cameras]
+        if absent:
+            more = f" and {len(absent) - 1} more" if len(absent) > 1 else ""
+            raise InputError(f"cameras: there is none for {absent[0]!r}{more}, which the graph has")
+        each = [cameras[node] for node in nodes]
+    else:
+        each = list(cameras)
+        if len(each) != len(nodes):
+            raise InputError(
+                f"cameras: {len(each)} are given for {len(nodes)} nodes; one for each of `graph.nodes` is needed"
+            )
+    texts: List[str] = []
+    shapes = set()
+    for node, camera in zip(nodes, each):
+        entries = np.asarray(camera, dtype=object)
+        shapes.add(entries.shape)
+        if entries.shape not in ((3, 4), (3,)) or len(shapes) > 1:
+            raise InputError(
+                f"cameras: that of {node!r} has the shape {entries.shape}; all are matrices of 3 rows and 4 "
+                "columns, or all are centres, 3 numbers"
+            )
+        texts.extend(_exact(number) for number in entries.ravel().tolist())
+    width = 12 if shapes == {(3, 4)} else 3
+    return _native.Cameras.of_numbers(graph._native, model, texts, width)
+
+
+def _exact(number: Any) -> str:
+    """A number as it is: a float is a fraction whose denominator is a power of two."""
+    if isinstance(number, (str, Decimal)):
+        return str(number)
+    if isinstance(number, numbers.Rational):
+        return f"{int(number.numerator)}/{int(number.denominator)}"
+    try:
+        above, below = number.as_integer_ratio()
+    except AttributeError:
+        raise InputError(f"cameras: {number!r} is no number") from None
+    except (OverflowError, ValueError):
+        raise InputError(f"cameras: {number!r} is not finite") from None
+    return f"{above}/{below}"

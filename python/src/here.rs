@@ -1,0 +1,320 @@
+//! What is determined at given cameras (docs/theory.md, section 16), and their certificates.
+
+use crate::check::{Problem, for_checker, of_strength};
+use crate::decided::{Decided, written};
+use crate::errors::{InputError, Rejected, of_any, of_deciding, of_reading};
+use crate::graph::Graph;
+use crate::work;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::path::PathBuf;
+use std::sync::Arc;
+use viewcert::Model;
+use viewcert::here::{Centres, Here, HereError, Special, here};
+use viewcert::linalg::rational::Rational;
+use viewcert::watch::Watch;
+use viewcert_advice::Advice;
+use viewcert_check::{HereCertificate, Limits};
+use viewcert_formats::{cameras_beside, centre_error};
+use viewcert_report::Report;
+use viewcert_report::assumptions::Scope;
+use viewcert_report::here::HereReport;
+
+/// The centres of cameras, one a node of a graph.
+#[pyclass(frozen, module = "viewcert._native")]
+pub(crate) struct Cameras {
+    centres: Arc<Centres>,
+    /// What was read, and what of it was left out.
+    #[pyo3(get)]
+    notes: Vec<String>,
+}
+
+#[pymethods]
+impl Cameras {
+    /// Of the nodes of a graph in their order, from numbers as exact texts: twelve a node, row by row, or
+    /// the three of its centre.
+    #[staticmethod]
+    fn of_numbers(
+        graph: &Graph,
+        model: &str,
+        numbers: Vec<String>,
+        width: usize,
+    ) -> PyResult<Self> {
+        let wrong = |why: String| InputError::new_err(format!("cameras: {why}"));
+        let read = |text: &String| {
+            let number = text.parse::<Rational>();
+            number.map_err(|_| wrong(format!("{text:?} is no number")))
+        };
+        let numbers = numbers.iter().map(read).collect::<PyResult<Vec<_>>>()?;
+        let model = of_name(model)?;
+        let centres = match width {
+            3 => Centres::of_points(model, numbers.as_chunks().0),
+            _ => {
+                let rows = numbers.as_chunks::<4>().0;
+                Centres::of_cameras(model, rows.as_chunks().0)
+            }
+        };
+        let centres = centres.map_err(|error| wrong(centre_error(error, &graph.0)))?;
+        Ok(Self {
+            centres: Arc::new(centres),
+            notes: Vec::new(),
+        })
+    }
+
+    /// From a file or a COLMAP model.
+    #[staticmethod]
+    fn in_file(py: Python<'_>, graph: &Graph, model: &str, path: PathBuf) -> PyResult<Self> {
+        let (input, model) = (Arc::clone(&graph.0), of_name(model)?);
+        let shown = path.display().to_string();
+        let watch = work::watch(None, None)?;
+        let found = work::run(py, &watch, None, move || {
+            cameras_beside(&path, &input, model)
+        })?;
+        let none = || InputError::new_err(format!("{shown}: there are no cameras in it"));
+        let found = found
+            .map_err(|error| of_reading(&error))?
+            .ok_or_else(none)?;
+        Ok(Self {
+            centres: Arc::new(found.centres),
+            notes: found.notes,
+        })
+    }
+
+    /// What was given, as [`Cameras::of_numbers`] takes it.
+    fn numbers(&self) -> (Vec<String>, usize) {
+        if let Some(cameras) = self.centres.cameras() {
+            return (
+                cameras.iter().flatten().map(ToString::to_string).collect(),
+                12,
+            );
+        }
+        let of_place = |[x @ .., w]: &[viewcert::linalg::integer::Integer; 4]| {
+            let below = if w.is_zero() {
+                String::new()
+            } else {
+                format!("/{w}")
+            };
+            x.each_ref().map(|x| format!("{x}{below}"))
+        };
+        (self.centres.places().iter().flat_map(of_place).collect(), 3)
+    }
+
+    /// Their hash.
+    fn sha256(&self) -> String {
+        viewcert::certificate::hex(&self.centres.sha256())
+    }
+}
+
+fn of_name(model: &str) -> PyResult<Model> {
+    let wrong = |_| InputError::new_err(format!("model={model:?}: there is no such model"));
+    model.parse().map_err(wrong)
+}
+
+/// What a graph determines at given cameras.
+#[pyclass(frozen, module = "viewcert._native")]
+pub(crate) struct AtCameras {
+    decided: Py<Decided>,
+    centres: Arc<Centres>,
+    here: Arc<Here>,
+}
+
+/// The velocity of a centre, as exact texts.
+type Velocity = [String; 3];
+
+/// A set of nodes in a special place, and what place that is.
+type SpecialSet = (&'static str, Vec<u32>);
+
+#[pymethods]
+impl AtCameras {
+    /// Decides the graph of a verdict there.
+    #[new]
+    fn new(py: Python<'_>, decided: Py<Decided>, cameras: &Cameras) -> PyResult<Self> {
+        let (input, verdict) = decided.get().answer();
+        if !verdict.known_parts.is_empty() || !verdict.displacements.is_empty() {
+            return Err(InputError::new_err(
+                "cameras: nothing else may be given beside them; decide the graph without known parts and displacements",
+            ));
+        }
+        let (centres, watch) = (Arc::clone(&cameras.centres), work::watch(None, None)?);
+        let (threads, at, stop) = (work::threads()?, Arc::clone(&centres), watch.clone());
+        let graph = Arc::clone(&input);
+        let asked = move || here(&graph.graph, &at, &stop);
+        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let here = found.map_err(|error| match error {
+            HereError::Centre(error) => {
+                InputError::new_err(format!("cameras: {}", centre_error(error, &input)))
+            }
+            HereError::Verdict(error) => of_deciding(&error),
+            other => InputError::new_err(other.to_string()),
+        })?;
+        Ok(Self {
+            decided,
+            centres,
+            here: Arc::new(here),
+        })
+    }
+
+    /// Sets of nodes at one place, on a line, in a plane.
+    fn special(&self) -> Vec<SpecialSet> {
+        let of = |special: &Special| {
+            let word = match special {
+                Special::Coincident(_) => "coincident",
+                Special::Collinear(_) => "collinear",
+                Special::Coplanar(_) => "coplanar",
+            };
+            (word, special.nodes().to_vec())
+        };
+        self.here.special.iter().map(of).collect()
+    }
+
+    /// For each motion of a basis the velocity of the centre of each node, if it has one in space; nothing
+    /// where motions are not listed.
+    fn velocities(&self, py: Python<'_>) -> PyResult<Option<Vec<Vec<Option<Velocity>>>>> {
+        let watch = work::watch(None, None)?;
+        let (here, centres, stop) = (self.here.clone(), self.centres.clone(), watch.clone());
+        let threads = work::threads()?;
+        let asked = move || here.basis_of_motions(&centres, &stop);
+        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let found = found.map_err(|stopped| of_any(&stopped.into()))?;
+        let texts = |velocity: &Option<[Rational; 3]>| {
+            velocity
+                .as_ref()
+                .map(|xs| xs.each_ref().map(ToString::to_string))
+        };
+        Ok(found.map(|motions| {
+            let of_motion = motions
+                .iter()
+                .map(|motion| motion.velocities.iter().map(texts));
+            of_motion.map(Iterator::collect).collect()
+        }))
+    }
+
+    /// The certificate.
+    #[pyo3(signature = (*, embed_graph=false))]
+    fn certificate<'py>(
+        &self,
+        py: Python<'py>,
+        embed_graph: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let (input, _) = self.decided.get().answer();
+        let mut bytes = Vec::new();
+        let graph = (&input.graph, &*input.name);
+        self.here
+            .write_certificate(graph, &self.centres, embed_graph, &mut bytes)?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// What the program says: `kind` is `json`, `text` or `html`.
+    #[pyo3(signature = (kind, *, list_components=false))]
+    fn report<'py>(
+        &self,
+        py: Python<'py>,
+        kind: &str,
+        list_components: bool,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let decided = self.decided.get();
+        let (input, verdict) = decided.answer();
+        let (asked, rational, time) = decided.asked();
+        let (here, centres) = (self.here.clone(), self.centres.clone());
+        let watch = work::watch(None, None)?;
+        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
+        let answer = move || -> anyhow::Result<Vec<u8>> {
+            let motions = match &kind[..] {
+                "html" => here.basis_of_motions(&centres, &stop)?.unwrap_or_default(),
+                _ => Vec::new(),
+            };
+            let report = Report {
+                input: &input,
+                verdict: &verdict,
+                rational,
+                list_components,
+                time,
+                advice: &Advice::default(),
+                scope: &Scope::new(&input, &verdict, asked, &stop)?,
+                proof: None,
+                here: Some(HereReport {
+                    input: &input,
+                    verdict: &verdict,
+                    here: &here,
+                    centres: &centres,
+                    motions: &motions,
+                }),
+            };
+            written(&report, &kind)
+        };
+        let answered = work::run(py, &watch, None, move || threads.install(answer))?;
+        let bytes = answered.map_err(|error| of_any(&error))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+}
+
+/// What a certificate at given cameras proves.
+#[pyclass(frozen, get_all, module = "viewcert._native")]
+pub(crate) struct VerifiedAtCameras {
+    /// Whether the cameras are determined.
+    determined: bool,
+    /// `proof` or `error-bound`.
+    strength: &'static str,
+    /// The exponent of the error bound.
+    error_log2: Option<i64>,
+    /// The rank at these cameras.
+    rank: i64,
+    /// The rank that determines.
+    required: i64,
+    /// The number of components there.
+    components: i64,
+    /// The question.
+    model: String,
+    /// The hash of the centres.
+    centres_sha256: String,
+    /// Nodes of the graph.
+    nodes: usize,
+    /// Its pairs.
+    edges: usize,
+    /// Its hash.
+    sha256: String,
+    /// All of it in words.
+    text: String,
+}
+
+/// Verifies a certificate at given cameras, for a graph if it is given, and for centres with a hash.
+#[pyfunction]
+#[pyo3(signature = (certificate, *, graph=None, centres=None, max_operations=None))]
+pub(crate) fn check_at_cameras(
+    py: Python<'_>,
+    certificate: Vec<u8>,
+    graph: Option<&Graph>,
+    centres: Option<String>,
+    max_operations: Option<u64>,
+) -> PyResult<VerifiedAtCameras> {
+    let input = graph.map(|graph| Arc::clone(&graph.0));
+    let mut limits = Limits::default();
+    limits.operations = max_operations.unwrap_or(limits.operations);
+    let threads = work::threads()?;
+    let checked = work::run(py, &Watch::default(), None, move || {
+        let certificate = HereCertificate::parse(&certificate).map_err(Problem::Failure)?;
+        let graph = input.map(|input| for_checker(&input)).transpose()?;
+        let checked = || certificate.check_within(graph.as_ref(), &limits);
+        threads.install(checked).map_err(Problem::Failure)
+    })?;
+    let verified = checked.map_err(Problem::raised)?;
+    if centres.is_some_and(|hash| hash != verified.centres_sha256) {
+        let other = "the cameras that are expected have another hash".to_owned();
+        return Err(Rejected::new_err(("centres".to_owned(), other)));
+    }
+    let strength = of_strength(verified.rank.1);
+    Ok(VerifiedAtCameras {
+        text: verified.to_string(),
+        determined: verified.is_determined,
+        strength: strength.0,
+        error_log2: strength.1,
+        rank: verified.rank.0,
+        required: verified.required,
+        components: verified.components.0,
+        model: verified.model.to_string(),
+        centres_sha256: verified.centres_sha256,
+        nodes: verified.size[0],
+        edges: verified.size[1],
+        sha256: verified.sha256,
+    })
+}
