@@ -1692,3 +1692,29 @@ fn positions_of_photographs() {
         &["give 0 cameras of the graph a position"],
     );
 }
+
+/// SQLite reads files, so the bytes of a database are no input; wherever they come, that is what is said.
+#[test]
+fn a_database_that_is_no_file_is_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("database.db");
+    Connection::open(&path)
+        .unwrap()
+        .execute_batch("CREATE TABLE images (image_id INTEGER);")
+        .unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    let house = "examples/house.txt";
+    for arguments in [
+        &["-"][..],
+        &["/dev/stdin"],
+        &[house, "--given", "-"],
+        &[house, "--given", "/dev/stdin"],
+        &[house, "--intrinsics", "-"],
+    ] {
+        let run = verify_with(&bytes, arguments);
+        assert_eq!(run.code, 2, "{arguments:?}");
+        let why =
+            "an SQLite database can be read only from a file of its own; name the file itself";
+        assert!(run.err.contains(why), "{arguments:?}: {}", run.err);
+    }
+}

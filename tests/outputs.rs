@@ -313,6 +313,21 @@ fn names_that_collide_in_a_folder_are_numbered_and_said() {
 
 /// Every command whose output nobody reads ends without a word and not as if all were good.
 #[test]
+fn a_folder_that_is_not_there_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    for (place, absent) in [("absent/", "absent/"), ("absent/c.json", "absent")] {
+        let path = folder.path().join(place);
+        let run = verify(&["examples/house.txt", "--certificate", text(&path)]);
+        let why = format!(
+            "there is no folder {}; make it",
+            folder.path().join(absent).display()
+        );
+        refused(&run, &why);
+        assert!(names(folder.path()).is_empty());
+    }
+}
+
+#[test]
 fn a_broken_pipe_is_quiet() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| text(&folder.path().join(name)).to_owned();

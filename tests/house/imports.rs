@@ -1,5 +1,6 @@
-//! Which modules of a crate import which, by their `use` declarations.
+//! Which modules of a crate import which, by their `use` declarations and the paths in their code.
 
+use regex::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,7 @@ pub fn imports(src: &Path, files: &[PathBuf]) -> BTreeMap<Module, BTreeSet<Modul
             let product = text.split("#[cfg(test)]\nmod ").next().unwrap();
             let declared = declarations(product);
             let declared = declared.iter().map(String::as_str);
-            let paths = declared.flat_map(expanded);
+            let paths = declared.flat_map(expanded).chain(written_out(product));
             let found = paths.filter_map(|path| target(own, &path, &modules));
             (own.clone(), found.filter(|module| module != own).collect())
         })
@@ -70,6 +71,15 @@ fn declarations(code: &str) -> Vec<String> {
         found.push(tree);
     }
     found
+}
+
+/// The paths from `crate` and `super` that stand in the code itself, which no `use` declares.
+fn written_out(code: &str) -> Vec<String> {
+    let path = Regex::new(r"\b(?:crate|super)(?:::\w+)+").unwrap();
+    let lines = code.lines().map(str::trim_start);
+    let lines = lines.filter(|line| !line.starts_with("//") && !line.contains("use "));
+    let found = lines.flat_map(|line| path.find_iter(line).map(|found| found.as_str().to_owned()));
+    found.collect()
 }
 
 /// The paths of a tree of `use`: `a::{b, c::d}` is `a::b` and `a::c::d`.

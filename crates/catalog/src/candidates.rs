@@ -59,11 +59,13 @@ pub enum SizeError {
     #[error(
         "Laman graphs with {} are not enumerated: ask for 2 to {} nodes",
         viewcert::wording::counted(*.nodes, "node"),
-        super::laman::MOST_NODES
+        .most
     )]
     Laman {
         /// How many were asked for.
         nodes: usize,
+        /// How many there may be.
+        most: usize,
     },
 }
 

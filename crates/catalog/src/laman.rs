@@ -18,7 +18,10 @@ pub const MOST_NODES: usize = 10;
 /// If there are fewer than two nodes, or more than [`MOST_NODES`].
 pub fn for_each(nodes: usize, each: &mut impl FnMut(Graph) -> bool) -> Result<(), SizeError> {
     if !(2..=MOST_NODES).contains(&nodes) {
-        return Err(SizeError::Laman { nodes });
+        return Err(SizeError::Laman {
+            nodes,
+            most: MOST_NODES,
+        });
     }
     grow(nodes, &is_sparse, &mut |graph| {
         graph.edges() != 2 * nodes - 3 || each(to_graph(graph))

@@ -8,6 +8,8 @@ import struct
 
 from notation import Unreadable, distinct
 
+CONVERT = " (`verify convert` writes files that can be read here)"
+
 
 class Graph:
     """Section 2: nodes 0 .. n-1, edges in order, and the hash of the canonical form."""
@@ -61,7 +63,7 @@ def read_graph(data, sha256):
     for k, line in lines_of(data[10:] if data.startswith(b">>graph6<<") else data):
         graphs.append(read_graph6(line.decode("latin-1")))
         if graphs[-1] is None:
-            raise Unreadable(f"line {k}: not graph6")
+            raise Unreadable(f"line {k}: not graph6{CONVERT}")
     if not graphs:
         raise Unreadable("no graph in it")
     return next((graph for graph in graphs if graph.hash.hex() == sha256), graphs[0])
@@ -71,7 +73,7 @@ def numbers_of(line, where):
     """Section 2: the numbers of a line, with a single blank or tab between them."""
     fields = [b""] if re.search(b"[^0-9 \t]", line) else re.split(b"[ \t]", line)
     if not all(re.fullmatch(b"0|[1-9][0-9]{0,9}", field) and int(field) < 2**32 - 1 for field in fields):
-        raise Unreadable(f"{where}: not node numbers with a single blank or tab between them")
+        raise Unreadable(f"{where}: not node numbers with a single blank or tab between them{CONVERT}")
     return [int(field) for field in fields]
 
 

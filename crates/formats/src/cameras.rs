@@ -9,6 +9,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::NamedGraph;
+use crate::colmap::{self, DatabaseError};
 use crate::edge_list::fields::{Field, integer};
 use crate::edge_list::{BYTE_ORDER_MARK, text};
 use crate::error::{Fault, Place, Problem, ReadError};
@@ -92,6 +93,9 @@ pub(crate) fn for_each_line(
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
     if let Some(problem) = own::known(&bytes[..bytes.len().min(SAMPLE)]) {
         return Err(Place::Input.fault(problem));
+    }
+    if bytes.starts_with(colmap::MAGIC) {
+        return Err(Place::Input.fault(DatabaseError::NoFile.into()));
     }
     let cameras = Cameras::new(graph);
     for (number, line) in (1..).zip(bytes.split(|&byte| byte == b'\n')) {

@@ -57,6 +57,10 @@ impl Outputs {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<()> {
         let attempt = || -> Result<()> {
+            let name = path.as_os_str().to_string_lossy();
+            if name.ends_with(std::path::is_separator) && !path.exists() {
+                return Err(no_room(path, &io::ErrorKind::NotFound.into()));
+            }
             match locate(path)? {
                 Place::Standard => through(io::stdout().lock(), write)?,
                 Place::Through(path) => through(File::options().write(true).open(path)?, write)?,
@@ -214,7 +218,6 @@ fn exchange(new: &Path, path: &Path) -> Result<()> {
     Ok(fs::remove_dir_all(&aside)?)
 }
 
-/// The folder that a path is in.
 /// Why nothing can be put into a folder, without the name that it would have had for a while.
 fn no_room(folder: &Path, error: &io::Error) -> anyhow::Error {
     let name = folder.display();
@@ -229,6 +232,7 @@ fn no_room(folder: &Path, error: &io::Error) -> anyhow::Error {
     }
 }
 
+/// The folder that a path is in.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any, Iterable, List, Literal, Optional, Tuple, Union, overload
 
 from . import _native
+from ._arguments import limits, one_of, whole_if
 from ._errors import Error
 from ._graph import Graph, as_graph
 from ._progress import Progress, shown
 from ._question import chosen_model, wanted
 from ._types import Counting, Model
 from ._verdict import Verdict
-from ._words import limits, one_of, whole_if
 
 
 @overload

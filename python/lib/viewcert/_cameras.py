@@ -14,6 +14,7 @@ import numpy as np
 
 from . import _native
 from ._act import _decided
+from ._arguments import whole_if
 from ._check import of_native, text_of
 from ._convert import Node
 from ._errors import InputError
@@ -21,7 +22,7 @@ from ._graph import Path, as_graph
 from ._kept import Kept
 from ._types import Decided, Place, Strength
 from ._verdict import Verdict
-from ._words import noted, whole_if
+from ._words import noted
 
 #: A matrix of 3 rows and 4 columns, or a centre; or all of them, or a file with them.
 Cameras = Union[Mapping[Node, Any], Sequence[Any], "np.ndarray[Any, Any]", Path]

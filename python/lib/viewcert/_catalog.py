@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any, Iterator, List, Optional
 
 from . import _native
+from ._arguments import whole, whole_if
 from ._errors import InputError, TooLarge
 from ._graph import Path, as_graph
 from ._progress import Progress, shown
-from ._words import noted, whole, whole_if
+from ._words import noted
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _native
+from ._arguments import whole_if
 from ._errors import InputError
 from ._convert import Node
 from ._graph import Path, as_graph, numbered
 from ._types import BaseLinesValue, Decided, Strength, Value
 from ._verdict import Number, Verdict, coordinates
-from ._words import whole_if
 
 _T = TypeVar("_T")
 

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._arguments import whole
 from ._errors import InputError
 from ._native import Graph as NativeGraph
-from ._words import whole
 
 Node = Hashable
 

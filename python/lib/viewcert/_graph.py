@@ -27,11 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._arguments import one_of, whole, whole_if
 from ._convert import Node, Wish, converted
 from ._errors import InputError
 from ._native import Graph as NativeGraph
 from ._types import Format, Lines, N, Pipeline
-from ._words import in_python, noted, one_of, shown_notes, whole, whole_if
+from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
     import networkx

@@ -7,13 +7,13 @@ from typing import Any, Dict, Hashable, List, Mapping, Optional, Sequence, Tuple
 
 from . import _native
 from ._act import _asked, _decided
+from ._arguments import whole_if
 from ._errors import InputError
 from ._check import of_native, text_of
 from ._convert import Node
 from ._graph import Path, as_graph
 from ._types import Class, IntrinsicsValue
 from ._verdict import Verdict
-from ._words import whole_if
 
 
 @dataclass(frozen=True)

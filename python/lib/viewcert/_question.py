@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Dict, Optional, get_args
 
+from ._arguments import one_of, whole, whole_if
 from ._errors import InputError
 from ._graph import Graph
 from ._types import Counting, Model
-from ._words import one_of, whole, whole_if
 
 
 def wanted(

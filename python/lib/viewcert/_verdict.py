@@ -33,6 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._arguments import limits
 from ._convert import Node
 from ._errors import InputError
 from ._graph import Graph, Path, as_graph, numbered
@@ -42,7 +43,7 @@ from ._progress import Progress, shown
 from ._question import chosen_model, wanted
 from ._types import BaseLinesValue, Counting, Model, N, Strength, Value
 from ._types import Decided as DecidedModel
-from ._words import in_python, limits, noted, shown_notes
+from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
     import networkx

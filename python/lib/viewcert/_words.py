@@ -1,4 +1,4 @@
-"""Messages in Python's words, notes as warnings, and numbers that are what they have to be.
+"""Messages in Python's words, and notes as warnings.
 
 Messages come from the libraries of the program, which name its options. Here an option becomes the
 argument or the function that does the same.
@@ -6,11 +6,10 @@ argument or the function that does the same.
 
 from __future__ import annotations
 
-import operator
 import re
 import sys
 import warnings
-from typing import Any, Callable, Iterable, List, Match, Optional, Tuple, Union
+from typing import Callable, Iterable, List, Match, Tuple, Union
 
 
 class NoteWarning(UserWarning):
@@ -79,66 +78,3 @@ def shown_notes(notes: List[str]) -> str:
         return ""
     more = f" (and {len(notes) - 1} more notes)" if len(notes) > 1 else ""
     return f"; note: {notes[0]}{more}"
-
-
-def whole(what: str, value: Any, least: int, most: int) -> int:
-    """An integer within bounds.
-
-    Raises
-    ------
-    InputError
-        If it is none, or lies outside.
-    """
-    from ._errors import InputError
-
-    try:
-        number = operator.index(value)
-    except TypeError:
-        raise InputError(f"{what}={value!r}: give an integer") from None
-    if not least <= number <= most:
-        # 2^32 - 1 and the like are said as powers.
-        said = f"2^{(most + 1).bit_length() - 1} - 1" if most >= 2**31 - 1 else f"{most}"
-        raise InputError(f"{what}={number}: give an integer from {least} to {said}")
-    return number
-
-
-def whole_if(what: str, value: Any, least: int, most: int) -> Optional[int]:
-    """The same of what may be left out."""
-    return None if value is None else whole(what, value, least, most)
-
-
-def one_of(what: str, value: Any, words: Iterable[str]) -> None:
-    """Refuses a word that is none of those.
-
-    Raises
-    ------
-    InputError
-        With all words.
-    """
-    from ._errors import InputError
-
-    known = list(words)
-    if value not in known:
-        *others, last = map(repr, known)
-        raise InputError(f"{what}={value!r}: give {', '.join(others)} or {last}")
-
-
-def limits(time_limit: Any, memory_limit: Any) -> Tuple[Optional[float], Optional[int]]:
-    """Limits of time and memory.
-
-    Raises
-    ------
-    InputError
-        If they are negative, or no numbers.
-    """
-    from ._errors import InputError
-
-    seconds = time_limit
-    if seconds is not None:
-        try:
-            seconds = float(seconds)
-        except (TypeError, ValueError):
-            raise InputError(f"time_limit={time_limit!r}: give seconds, or None") from None
-        if not 0 <= seconds < 2.0**60:
-            raise InputError(f"time_limit={time_limit!r}: give seconds from 0 on, or None")
-    return seconds, whole_if("memory_limit", memory_limit, 0, 2**64 - 1)

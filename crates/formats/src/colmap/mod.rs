@@ -51,6 +51,7 @@ pub(crate) use focal::focal_lengths;
 #[cfg(feature = "databases")]
 pub(crate) use positions::pose_priors;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::File;
 use std::io::Read;
@@ -61,7 +62,7 @@ use std::path::Path;
 /// # Errors
 /// Always.
 #[cfg(not(feature = "databases"))]
-pub(crate) fn pose_priors(_: &Path) -> Result<crate::given::PosePriors, DatabaseError> {
+pub(crate) fn pose_priors(_: &Path) -> Result<PosePriors, DatabaseError> {
     Err(DatabaseError::NotBuilt)
 }
 
@@ -72,6 +73,19 @@ pub(crate) fn pose_priors(_: &Path) -> Result<crate::given::PosePriors, Database
 #[cfg(not(feature = "databases"))]
 pub(crate) fn focal_lengths(_: &Path) -> Result<FocalLengths, DatabaseError> {
     Err(DatabaseError::NotBuilt)
+}
+
+/// The positions that the pose priors of a database give.
+#[derive(Default)]
+pub(crate) struct PosePriors {
+    /// The position of every image that has one, by its name, as it stands there.
+    pub(crate) positions: BTreeMap<Box<str>, [f64; 3]>,
+    /// Whether they are latitude, longitude and altitude; else x, y and z.
+    pub(crate) on_earth: bool,
+    /// How many images have a prior without a position: COLMAP writes numbers that are none.
+    pub(crate) unknown: usize,
+    /// The largest standard deviation along an axis, where a covariance is known.
+    pub(crate) deviation: Option<f64>,
 }
 
 /// What a database knows of focal lengths.

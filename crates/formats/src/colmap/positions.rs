@@ -7,10 +7,9 @@ use std::path::Path;
 use rusqlite::Connection;
 use rusqlite::types::ValueRef;
 
-use super::DatabaseError;
 use super::open::Opened;
 use super::tables::{columns, images};
-use crate::given::PosePriors;
+use super::{DatabaseError, PosePriors};
 
 /// COLMAP's number of a system that is not said (`PosePrior::CoordinateSystem::UNDEFINED`).
 const UNDEFINED: i64 = -1;

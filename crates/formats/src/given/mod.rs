@@ -25,7 +25,6 @@ use viewcert::{Known, Model};
 
 pub use parts::NamedParts;
 use places::GivenCameras;
-pub(crate) use priors::PosePriors;
 
 /// What a file gives.
 #[derive(Clone, Debug, PartialEq, Eq)]

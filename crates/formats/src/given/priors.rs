@@ -9,25 +9,12 @@ use std::path::Path;
 
 use crate::NamedGraph;
 use crate::cameras::Cameras;
-use crate::colmap::pose_priors;
+use crate::colmap::{PosePriors, pose_priors};
 use crate::error::{Fault, Place, Problem, ReadError};
 use crate::given::Given;
 use viewcert::Known;
 use viewcert::graph::Displacements;
 use viewcert::wording::counted;
-
-/// The positions that the pose priors of a database give.
-#[derive(Default)]
-pub(crate) struct PosePriors {
-    /// The position of every image that has one, by its name, as it stands there.
-    pub(crate) positions: BTreeMap<Box<str>, [f64; 3]>,
-    /// Whether they are latitude, longitude and altitude; else x, y and z.
-    pub(crate) on_earth: bool,
-    /// How many images have a prior without a position: COLMAP writes numbers that are none.
-    pub(crate) unknown: usize,
-    /// The largest standard deviation along an axis, where a covariance is known.
-    pub(crate) deviation: Option<f64>,
-}
 
 /// The cameras of `graph` to which the database `path` gives a position. O(n log n).
 ///

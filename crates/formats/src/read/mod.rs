@@ -517,7 +517,9 @@ fn database(
         let fault = Place::Input.fault(DatabaseError::NoFile.into());
         fault.in_file(name)
     };
-    let database = Database::open(name, path.ok_or_else(no_file)?, options, unused)?;
+    // A pipe by its path, as /dev/stdin, was read already.
+    let path = path.filter(|path| path.is_file()).ok_or_else(no_file)?;
+    let database = Database::open(name, path, options, unused)?;
     let graph = match options.tracks {
         None => database.pairs(),
         Some(tracks) => database.tracks(tracks)?,
