@@ -6,7 +6,6 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
 use viewcert_formats::NamedGraph;
 use viewcert_report::{bars, comparison};
@@ -63,7 +62,7 @@ enum CameraName {
 }
 
 /// Compares on every graph in turn; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &CompareArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &CompareArguments) -> Result<u8> {
     let field =
         PrimeField::new(arguments.prime).with_context(|| format!("--prime={}", arguments.prime))?;
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
@@ -91,7 +90,7 @@ pub(super) fn run(session: &Session, arguments: &CompareArguments) -> Result<Exi
     let code = arguments
         .input
         .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// Largest matrix whose elimination is not announced: a few seconds, modulo a prime and over Q.

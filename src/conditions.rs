@@ -5,7 +5,6 @@ use anyhow::Result;
 use clap::Args;
 use std::io::BufWriter;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use viewcert_formats::NamedGraph;
 use viewcert_report::conditions as report;
 use viewcert_session::Session;
@@ -27,7 +26,7 @@ pub(super) struct ConditionArguments {
 }
 
 /// Decides the conditions on every graph in turn; a bad one does not stop the others.
-pub(super) fn run(session: &Session, arguments: &ConditionArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ConditionArguments) -> Result<u8> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let each = |out: &mut _, input: &NamedGraph, _| {
         let found = conditions::decide(&input.graph);
@@ -42,5 +41,5 @@ pub(super) fn run(session: &Session, arguments: &ConditionArguments) -> Result<E
     let code = arguments
         .input
         .for_each(session, &arguments.graphs, &|_| None, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }

@@ -7,7 +7,6 @@ use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert::certificate::hex;
 use viewcert::graph::graph6;
 use viewcert_formats::plain::{lines_of, pairs};
@@ -51,7 +50,7 @@ enum To {
 }
 
 /// Reads the graph and writes it.
-pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<u8> {
     let (path, file) = (&arguments.graph, arguments.given.path());
     ensure!(
         file.is_none() || arguments.to != To::Graph6,
@@ -113,7 +112,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
                         graph.name,
                         graph.graph.nodes()
                     )?;
-                    return Ok(ExitCode::from(TOO_LARGE));
+                    return Ok(TOO_LARGE);
                 }
                 text += &graph6::encode(&graph.graph);
                 text.push('\n');
@@ -125,7 +124,7 @@ pub(super) fn run(session: &Session, arguments: &ConvertArguments) -> Result<Exi
     session
         .outputs()
         .write(output, |out| out.write_all(text.as_bytes()))?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }
 
 /// What was guessed, merged or ignored in reading a graph.

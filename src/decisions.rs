@@ -8,7 +8,6 @@ use super::{here, input, intrinsics};
 use anyhow::{Context, Result, ensure};
 use std::io::Write;
 use std::path::Path;
-use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::Known;
 use viewcert::decide as verdict;
@@ -31,7 +30,7 @@ use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::{Outputs, Session, outputs};
 
 /// Decides every graph in turn; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, plan: &Plan) -> Result<u8> {
     let mut out = outputs::text(&plan.products.files().map(|(_, path)| path));
     let table = match plan.form {
         Form::Table(format) => Some(Table::begin(&mut out, format, &plan.graphs)),
@@ -71,7 +70,7 @@ pub(super) fn run(session: &Session, plan: &Plan) -> Result<ExitCode> {
         table.end(&mut out).context("standard output")?;
         out.flush().context("standard output")?;
     }
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// What is asked about beside the verdict on a graph, on which the exit code rests then.

@@ -5,7 +5,6 @@ use super::input::InputArguments;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Command};
 use std::io::Write;
-use std::process::ExitCode;
 use viewcert_session::exit::GOOD;
 
 /// What to explain.
@@ -30,7 +29,7 @@ files of tracks. The first line of every report says how the file was read; docs
 ///
 /// # Errors
 /// A topic that there is not.
-pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<ExitCode> {
+pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<u8> {
     let words: Vec<&str> = arguments.topic.iter().map(String::as_str).collect();
     let text = match words[..] {
         ["input"] => input(),
@@ -43,7 +42,7 @@ pub(super) fn run(mut program: Command, arguments: &HelpArguments) -> Result<Exi
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     written.context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }
 
 fn command(program: &mut Command, words: &[&str]) -> Result<String> {

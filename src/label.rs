@@ -5,7 +5,6 @@ use anyhow::{Context, Result};
 use clap::Args;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert::graph::Labels;
 use viewcert_catalog::label::Label;
 use viewcert_catalog::multigraph::MAX_NODES;
@@ -29,7 +28,7 @@ pub(super) struct LabelArguments {
 }
 
 /// Names every graph; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<u8> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let paths = &arguments.graphs;
     let options = arguments.input.of_pairs()?;
@@ -64,7 +63,7 @@ pub(super) fn run(session: &Session, arguments: &LabelArguments) -> Result<ExitC
         Ok(GOOD)
     };
     let code = for_each_read(session, &read, paths, &|_| None, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// A label in the place of a path.

@@ -38,7 +38,7 @@ pub use limits::LimitArguments;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};
-use std::process::ExitCode;
+use std::ffi::OsString;
 use viewcert_session::Session;
 
 /// Exact, certified solvability of viewing graphs.
@@ -142,9 +142,10 @@ enum Command {
     Help(help::HelpArguments),
 }
 
-/// Runs the program on the process's arguments.
-pub fn main() -> ExitCode {
-    let arguments = CommandLine::parse();
+/// Runs the program on its name and arguments, and returns the exit code. Where these ask for help or are
+/// wrong, the process ends here.
+pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = CommandLine::parse_from(arguments);
     let limits = arguments.limits.limits();
     Session::run("verify", &limits, |session| run(session, &arguments))
 }
@@ -154,7 +155,7 @@ pub fn command() -> clap::Command {
     CommandLine::command()
 }
 
-fn run(session: &Session, arguments: &CommandLine) -> Result<ExitCode> {
+fn run(session: &Session, arguments: &CommandLine) -> Result<u8> {
     match &arguments.command {
         Some(Command::Overview(arguments)) => overview::run(session, arguments),
         Some(Command::Advise(arguments)) => decisions::run(session, &arguments.plan()?),

@@ -5,7 +5,6 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Instant;
 use viewcert::Graph;
@@ -34,7 +33,7 @@ pub(super) struct ListArguments {
 }
 
 /// Reads the graph and the lists, decides each list and what overlaps fix, and reports.
-pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<u8> {
     let start = Instant::now();
     let path = &arguments.graph;
     let options = arguments.input.read_options();

@@ -4,7 +4,6 @@ use super::input::InputArguments;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert_advice::merge;
@@ -32,7 +31,7 @@ pub(super) struct MergeArguments {
 }
 
 /// Reads both models, decides what is between them, and reports.
-pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &MergeArguments) -> Result<u8> {
     let start = Instant::now();
     let models = [
         read(session, &arguments.one)?,

@@ -6,7 +6,6 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::io::BufWriter;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use viewcert::decide::{Draft, Options, Value, Verdict, decide};
 use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
@@ -39,7 +38,7 @@ pub(super) struct ModelsArguments {
 const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
 
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> {
     let mut out = BufWriter::new(std::io::stdout().lock());
     let given = arguments.given.path();
     given::ensure_one_standard_input(given::OPTION, given, &arguments.graphs)?;
@@ -77,5 +76,5 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<Exit
     let code = arguments
         .input
         .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }

@@ -12,7 +12,6 @@ use clap::Args;
 use std::cell::OnceCell;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
@@ -65,7 +64,7 @@ struct Source {
 }
 
 /// Says what every input determines; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8> {
     let page = arguments.html.as_deref();
     let inputs = arguments.inputs.iter().map(PathBuf::as_path);
     outputs::ensure_apart(&[(PAGE, page)], inputs)?;
@@ -97,7 +96,7 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<Ex
         }
     };
     let code = input::for_each_read(session, &read, &arguments.inputs, &too_many, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// Reads the tracks that belong to what was read.

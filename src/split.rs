@@ -3,7 +3,6 @@
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::Known;
 use viewcert::decide::{Calibrated, Options, decide};
@@ -40,7 +39,7 @@ pub(super) struct SplitArguments {
 }
 
 /// Reads the model, decides its tracks, writes the parts and reports.
-pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &SplitArguments) -> Result<u8> {
     let start = Instant::now();
     let path = &arguments.model;
     ensure!(

@@ -57,7 +57,7 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = CommandLine::parse();
     let limits = arguments.limits.limits();
-    Session::run("viewcert-paper", &limits, |session| {
+    let code = Session::run("viewcert-paper", &limits, |session| {
         match &arguments.command {
             Command::Publish(arguments) => command::publish::run(session, arguments),
             Command::Census(arguments) => command::census::run(session, arguments),
@@ -69,5 +69,6 @@ fn main() -> ExitCode {
             Command::Completions(arguments) => command::man::completions(arguments),
             Command::Manpage(arguments) => command::man::manpage(arguments),
         }
-    })
+    });
+    code.into()
 }

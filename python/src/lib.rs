@@ -14,6 +14,7 @@ mod graph;
 mod here;
 mod kept;
 mod places;
+mod program;
 mod shards;
 mod work;
 
@@ -38,6 +39,8 @@ mod _native {
     use super::kept::{about_graph, graph_kept, same_graph};
     #[pymodule_export]
     use super::places::{component_of_pairs, pairs_among};
+    #[pymodule_export]
+    use super::program::{run_checker, run_verify};
     #[pymodule_export]
     use super::shards::{catalog_merge, catalog_shard};
 

@@ -7,7 +7,6 @@ use anyhow::{Context, Result, anyhow, bail, ensure};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
-use std::process::ExitCode;
 use viewcert::Model;
 use viewcert::here::{Centres, Here};
 use viewcert_formats::{NamedGraph, cameras_beside, whole};
@@ -27,7 +26,7 @@ struct Exact {
 }
 
 /// Rules on all rows, or says what is so where there are none.
-pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
     let name = "--cameras";
     let reason = |what: &str| Some(too_many(name, path, what));
     let count = arguments.graphs.len();
@@ -53,7 +52,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     };
     let (input, graphs) = (&arguments.input, &arguments.graphs);
     let code = input.for_each(session, graphs, &reason, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 fn one(

@@ -5,7 +5,6 @@ use super::AuditArguments;
 use anyhow::{Context, Result, anyhow, bail};
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::graph::graph6;
 use viewcert_formats::read::graphs;
@@ -19,7 +18,7 @@ use viewcert_studies::audit::claims;
 use viewcert_studies::audit::claims::{Claim, Named, Row, Ruling};
 
 /// Rules on all rows; a bad one is reported and does not stop the others.
-pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) -> Result<u8> {
     let text = whole::text(path)?;
     let at = |line: usize| format!("{}:{line}", path.display());
     let rows = claims::read_table(&text, &arguments.ignore)
@@ -69,7 +68,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments, path: &Path) ->
     if refuted > 0 {
         worst = worst.max(NOT);
     }
-    Ok(ExitCode::from(worst))
+    Ok(worst)
 }
 
 /// Rules on a row with its number; what is refuted is certified.

@@ -11,7 +11,6 @@ use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 use viewcert::decide;
 use viewcert::decide::Value;
@@ -150,7 +149,7 @@ impl AuditArguments {
 }
 
 /// Audits every graph in turn, or every claim.
-pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
     ensure!(
         arguments.tolerance.is_finite() && arguments.tolerance > 0.0,
         "--tolerance: take a positive number"
@@ -174,7 +173,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitC
     let code = arguments
         .input
         .for_each(session, &arguments.graphs, &too_many, &mut out, each)?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// Audits one graph; whether both sides agree.

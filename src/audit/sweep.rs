@@ -4,7 +4,6 @@ use super::{AuditArguments, failed};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use viewcert::decide;
 use viewcert::decide::Value;
 use viewcert_formats::NamedGraph;
@@ -19,7 +18,7 @@ use viewcert_studies::audit::study;
 use viewcert_studies::audit::study::{Errors, Populations};
 
 /// Sweeps over all graphs together.
-pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<u8> {
     let inputs = arguments.graphs.iter().map(PathBuf::as_path);
     outputs::ensure_apart(&[("--svg", arguments.svg.as_deref())], inputs)?;
     let mut populations = Populations::default();
@@ -49,7 +48,7 @@ pub(super) fn run(session: &Session, arguments: &AuditArguments) -> Result<ExitC
             .outputs()
             .write(path, |out| out.write_all(picture.as_bytes()))?;
     }
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 const COLUMNS: [&str; 7] = [

@@ -2,5 +2,5 @@
 
 /// Runs the program on the process's arguments.
 fn main() -> std::process::ExitCode {
-    viewcert_cli::main()
+    viewcert_cli::main(std::env::args_os()).into()
 }

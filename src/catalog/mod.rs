@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
 use viewcert::linalg::prime::DEFAULT_PRIME;
@@ -159,7 +158,7 @@ impl Arguments {
 }
 
 /// Decides the candidates and prints the table.
-pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     if let Some(threads) = arguments.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
         pool.build_global().context("--threads")?;
@@ -196,11 +195,11 @@ pub(super) fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> 
         }
     }
     let code = if found.bad_lines > 0 { BAD_INPUT } else { GOOD };
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// Verifies every shard and prints the table of the whole.
-fn merge(session: &Session, arguments: &MergeArguments) -> Result<ExitCode> {
+fn merge(session: &Session, arguments: &MergeArguments) -> Result<u8> {
     let recheck = arguments.recheck.map(|sample| Recheck {
         sample,
         watch: session.watch(),
@@ -209,7 +208,7 @@ fn merge(session: &Session, arguments: &MergeArguments) -> Result<ExitCode> {
     let merged = merged(&arguments.folder, recheck)?;
     let agrees = merged.agrees();
     table::write_merged(&mut std::io::stdout().lock(), merged).context("standard output")?;
-    Ok(ExitCode::from(if agrees { GOOD } else { NOT }))
+    Ok(if agrees { GOOD } else { NOT })
 }
 
 /// Says what was damaged and is made again.

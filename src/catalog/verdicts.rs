@@ -4,7 +4,6 @@ use super::{Arguments, note};
 use anyhow::{Context, Result};
 use std::io::Write;
 use std::ops::RangeInclusive;
-use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert_catalog::verdict_files::{Blocks, KERNELS};
@@ -19,7 +18,7 @@ pub(super) fn run(
     arguments: &Arguments,
     sizes: RangeInclusive<usize>,
     options: &Options,
-) -> Result<ExitCode> {
+) -> Result<u8> {
     let mut out = outputs::text(&[]);
     let mut rows = Vec::new();
     for nodes in sizes {
@@ -40,7 +39,7 @@ pub(super) fn run(
         };
         blocks.prepare(session.outputs(), &mut note)?;
         if arguments.prepare {
-            return Ok(ExitCode::from(GOOD));
+            return Ok(GOOD);
         }
         let progress = session.progress("kernels", Some(blocks.kernels()));
         let list: Option<&mut dyn FnMut(Vec<String>) -> Result<()>> = if arguments.list {
@@ -59,5 +58,5 @@ pub(super) fn run(
         table::write_verdicts(&mut out, &rows).context("standard output")?;
     }
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }

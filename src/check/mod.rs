@@ -17,7 +17,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert_catalog::folder::{Listing, is_list, name};
 use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
@@ -64,7 +63,7 @@ pub(super) struct CheckArguments {
 }
 
 /// Checks one certificate, or all of a file or folder.
-pub(super) fn run(arguments: &CheckArguments) -> Result<ExitCode> {
+pub(super) fn run(arguments: &CheckArguments) -> Result<u8> {
     let path = &arguments.certificate;
     ensure!(
         arguments.graph.is_some() || !(arguments.tracks || arguments.input.says_anything()),
@@ -157,7 +156,7 @@ fn say<T>(
     outcome: Result<T, Failure>,
     text: impl Fn(&T) -> String,
     more: impl FnOnce(&mut std::io::StdoutLock, &T) -> Result<u8>,
-) -> Result<ExitCode> {
+) -> Result<u8> {
     let mut out = std::io::stdout().lock();
     let code = match outcome {
         Ok(proved) => {
@@ -180,7 +179,7 @@ fn say<T>(
         }
     };
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(code))
+    Ok(code)
 }
 
 /// Which checkers vouch for the claims, and the exit code.
@@ -221,7 +220,7 @@ fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<
 
 /// Checks every certificate of every file; each must hold its graph. Then, by its manifest, whether
 /// the folder is complete.
-fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
+fn check_files(path: &Path, listing: &Listing) -> Result<u8> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
     let (mut verified, mut rejected, mut undecided) = (0, 0, 0);
@@ -301,11 +300,11 @@ fn check_files(path: &Path, listing: &Listing) -> Result<ExitCode> {
         None => {}
     }
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(match (good, undecided) {
+    Ok(match (good, undecided) {
         (true, 0) => GOOD,
         (true, _) => TOO_LARGE,
         (false, _) => NOT,
-    }))
+    })
 }
 
 /// The certificates of a file, one after another.

@@ -9,7 +9,6 @@ use lexopt::ValueExt;
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::process::ExitCode;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
@@ -114,17 +113,16 @@ impl Stop {
     }
 }
 
-/// The program, on the arguments of this process.
-pub fn run() -> ExitCode {
-    let done = arguments().and_then(|request| match request {
+/// The program, on its name and arguments. Returns the exit code.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let done = arguments(words).and_then(|request| match request {
         Request::Say(text) => print(&text).map(|()| VERIFIED),
         Request::Check(arguments) => check(&arguments),
     });
-    let code = done.unwrap_or_else(|Stop { code, message }| {
+    done.unwrap_or_else(|Stop { code, message }| {
         explain(&message);
         code
-    });
-    ExitCode::from(code)
+    })
 }
 
 /// Nobody who reads the exit code only may take a lost answer for a good one.
@@ -139,9 +137,9 @@ fn explain(message: &str) {
     let _ = writeln!(io::stderr(), "viewcert-check: {message}");
 }
 
-fn arguments() -> Result<Request, Stop> {
+fn arguments(words: impl IntoIterator<Item = OsString>) -> Result<Request, Stop> {
     let usage = |error: lexopt::Error| Stop::no_answer(format!("{error}; see --help"));
-    parse(lexopt::Parser::from_env()).map_err(usage)
+    parse(lexopt::Parser::from_iter(words)).map_err(usage)
 }
 
 fn parse(mut parser: lexopt::Parser) -> Result<Request, lexopt::Error> {

@@ -14,7 +14,6 @@ use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::{Mutex, MutexGuard};
 use tempfile::{NamedTempFile, PersistError};
 
@@ -309,7 +308,7 @@ pub fn answer(
     is_good: bool,
     json: impl FnOnce(&mut Text) -> io::Result<()>,
     words: impl FnOnce(&mut Text) -> io::Result<()>,
-) -> Result<ExitCode> {
+) -> Result<u8> {
     let mut out = text(&[]);
     let written = if is_json {
         json(&mut out)
@@ -318,7 +317,7 @@ pub fn answer(
     };
     let written = written.and_then(|()| out.flush());
     written.context("standard output")?;
-    Ok(ExitCode::from(if is_good { GOOD } else { NOT }))
+    Ok(if is_good { GOOD } else { NOT })
 }
 
 /// Refuses an output that is one of the inputs, by whatever names, or one of the outputs before

@@ -17,7 +17,6 @@ use crate::unpoisoned;
 use anyhow::{Context, Error, Result};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -56,8 +55,8 @@ impl Session {
     pub fn run(
         program: &'static str,
         limits: &RunLimits,
-        work: impl FnOnce(&Self) -> Result<ExitCode>,
-    ) -> ExitCode {
+        work: impl FnOnce(&Self) -> Result<u8>,
+    ) -> u8 {
         let (session, done) = match Self::begin(program, limits) {
             Ok(session) => {
                 let done = work(&session);
@@ -74,7 +73,7 @@ impl Session {
         };
         done.unwrap_or_else(|error| {
             session.say_end(&error);
-            ExitCode::from(session.exit_code(&error))
+            session.exit_code(&error)
         })
     }
 

@@ -5,7 +5,6 @@ use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::graph::Graph;
 use viewcert_formats::csv;
@@ -29,10 +28,10 @@ pub struct Arguments {
 }
 
 /// Decides all graphs in every model, and prints the counts.
-pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let (census, bad_lines) = count(session, &arguments.from)?;
     write(&mut std::io::stdout().lock(), arguments, &census).context("standard output")?;
-    Ok(ExitCode::from(if bad_lines > 0 { BAD_INPUT } else { GOOD }))
+    Ok(if bad_lines > 0 { BAD_INPUT } else { GOOD })
 }
 
 /// Decides all graphs of a file in every model. Lines that are no graphs are reported; how many

@@ -5,7 +5,6 @@ use anyhow::{Context, Result};
 use clap::Args;
 use clap_complete::Shell;
 use std::io::Write;
-use std::process::ExitCode;
 use viewcert_session::exit::GOOD;
 
 /// Options of the completions.
@@ -24,7 +23,7 @@ pub struct ManpageArguments {
 }
 
 /// Prints the completion script of a shell.
-pub fn completions(arguments: &CompletionArguments) -> Result<ExitCode> {
+pub fn completions(arguments: &CompletionArguments) -> Result<u8> {
     let mut command = viewcert_cli::command();
     let name = command.get_name().to_owned();
     // By way of a buffer: the generator panics where its output fails.
@@ -34,7 +33,7 @@ pub fn completions(arguments: &CompletionArguments) -> Result<ExitCode> {
 }
 
 /// Prints a manual page in roff.
-pub fn manpage(arguments: &ManpageArguments) -> Result<ExitCode> {
+pub fn manpage(arguments: &ManpageArguments) -> Result<u8> {
     let mut command = viewcert_cli::command();
     command.build();
     let mut of = &command;
@@ -57,10 +56,10 @@ pub fn manpage(arguments: &ManpageArguments) -> Result<ExitCode> {
     print(&page)
 }
 
-fn print(bytes: &[u8]) -> Result<ExitCode> {
+fn print(bytes: &[u8]) -> Result<u8> {
     let mut out = std::io::stdout().lock();
     out.write_all(bytes)
         .and_then(|()| out.flush())
         .context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }

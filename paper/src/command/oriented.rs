@@ -8,7 +8,6 @@ use anyhow::{Context, Result};
 use clap::Args;
 use std::io::Write;
 use std::ops::RangeInclusive;
-use std::process::ExitCode;
 use viewcert::decide::Options;
 use viewcert::solutions::Number;
 use viewcert_session::Session;
@@ -30,7 +29,7 @@ pub struct Arguments {
 }
 
 /// Looks at the graphs with the fewest pairs that have several solutions.
-pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let options = Options::default().watch(session.watch());
     let mut out = outputs::text(&[]);
     writeln!(
@@ -48,7 +47,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
         }
         out.flush().context("standard output")?;
     }
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }
 
 /// Graphs with a place of each kind, places, and what the other real solutions are.

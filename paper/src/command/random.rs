@@ -5,7 +5,6 @@ use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use viewcert::decide::{CountSolutions, Options, Projective, Strength, Value};
 use viewcert_catalog::mine;
 use viewcert_catalog::mine::Entry;
@@ -69,7 +68,7 @@ struct Published {
 const BATCH: u64 = 1024;
 
 /// Draws and decides graphs, and prints the table.
-pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let (csv, svg) = (arguments.csv.as_deref(), arguments.svg.as_deref());
     let inputs = arguments.compare.as_deref();
     outputs::ensure_apart(&[("--csv", csv), ("--svg", svg)], inputs)?;
@@ -107,7 +106,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     }
     let mut out = outputs::text(&[csv, svg]);
     write_table(&mut out, &columns, &published).context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }
 
 /// The table of `--csv`.

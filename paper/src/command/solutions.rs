@@ -7,7 +7,6 @@ use clap::Args;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::RangeInclusive;
-use std::process::ExitCode;
 use std::time::Instant;
 use viewcert::decide::Options;
 use viewcert::solutions::Number;
@@ -31,7 +30,7 @@ pub struct Arguments {
 
 /// Counts solutions, and lists what the graphs with each number of solutions have of equations
 /// beyond their unknowns, the first of them, and the graphs whose number is not known exactly.
-pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
+pub fn run(session: &Session, arguments: &Arguments) -> Result<u8> {
     let options = Options::default()
         .seed(arguments.seed)
         .watch(session.watch());
@@ -74,7 +73,7 @@ pub fn run(session: &Session, arguments: &Arguments) -> Result<ExitCode> {
     open.into_iter()
         .try_for_each(|graph| write_open(&mut out, graph))?;
     out.flush().context("standard output")?;
-    Ok(ExitCode::from(GOOD))
+    Ok(GOOD)
 }
 
 /// How many graphs have each number of solutions.

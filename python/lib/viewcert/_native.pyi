@@ -37,6 +37,8 @@ __all__ = [
     "label_graph6",
     "pairs_among",
     "read",
+    "run_checker",
+    "run_verify",
     "same_graph",
 ]
 
@@ -311,6 +313,8 @@ class Candidates:
     def __iter__(self) -> Candidates: ...
     def __next__(self) -> tuple[list[str], bytes]: ...
 
+def run_verify(arguments: list[str]) -> int: ...
+def run_checker(arguments: list[str]) -> int: ...
 def catalog_shard(
     share: Shard,
     *,
