@@ -31,13 +31,17 @@ tar -xzf "$out"/sdist/*.tar.gz -C "$out/source" --strip-components 1
 # Its lock file names the workshop too, which is left out there: offline, so that it only gets shorter.
 cargo metadata --quiet --offline --format-version 1 \
     --manifest-path "$(find "$out/source" -path '*python/Cargo.toml')" >/dev/null
+# What is built from it has this package's README, not that of the whole project, and the licences.
+(cd "$out/source" && "$out/build/bin/maturin" pep517 write-dist-info --metadata-directory "$out/metadata" >/dev/null 2>&1)
+grep -qx '# viewcert for Python' "$out"/metadata/*/METADATA
+[ "$(ls "$out"/metadata/*/licenses | wc -l)" = 2 ]
 
 step "the wheel in the clean environment"
 "$out/clean/bin/pip" install --quiet "$out"/wheels/*.whl
 # The package alone, with numpy and nothing else.
 (cd "$out" && clean/bin/python -c 'import viewcert; assert viewcert.verify([(0, 1)]).value == "solvable"')
 "$out/clean/bin/pip" install --quiet networkx rustworkx scipy pycolmap tqdm matplotlib \
-    'dask[distributed]' joblib pandas polars pytest hypothesis mypy
+    'dask[distributed]' joblib pandas polars pyrigi pytest hypothesis mypy
 python=$out/clean/bin/python
 
 step "types"
@@ -47,7 +51,7 @@ step "types"
 step "tests and doctests"
 "$python" -m pytest --quiet
 "$python" -m pytest --quiet --doctest-modules --pyargs viewcert
-"$python" -m pytest --quiet --doctest-glob='README.md' README.md
+"$python" -m pytest --quiet --doctest-glob='*.md' README.md "$root/docs/pyrigi.md"
 
 step "examples"
 (
