@@ -16,12 +16,12 @@ import sys
 import tempfile
 import urllib.parse
 
-from atlas import assets
+from atlas import assets, documentation
 from atlas.program import ROOT
 from chromium import Chromium
 
 AXE = ("axe-core", "4.14.1")
-PAGES = ["index.html", "search.html", "graph.html", "check.html", "graphs/vg.5.6.55.html", "graphs/courtyard.html", "docs/index.html", "docs/symptoms.html", "docs/glossary.html", "docs/statements.html"]
+PAGES = ["index.html", "search.html", "graph.html", "check.html", "graphs/vg.5.6.55.html", "graphs/courtyard.html", "docs/index.html", "docs/symptoms.html", "docs/glossary.html", "docs/statements.html", "docs/api.html"]
 passed = 0
 
 
@@ -33,7 +33,8 @@ def right(condition, what):
 
 
 def pages(site):
-    return sorted(site.rglob("*.html"))
+    """All but what rustdoc made, which looks after its own links."""
+    return sorted(page for page in site.rglob("*.html") if "rust" not in page.relative_to(site).parts)
 
 
 def links(site):
@@ -171,6 +172,18 @@ def numbers(site, verify, seed):
     print(f"numbers: {facts} on 50 pages are those of verify --json; both checkers accept the certificates (seed {seed})")
 
 
+def libraries(browser, site):
+    """All that the Python package exports is on its page; the Rust libraries have pages that ask for nothing from elsewhere."""
+    named = set(re.findall(r'id="viewcert\.(\w+)"', (site / "docs/api.html").read_text()))
+    exported = {name for names in documentation.exported().values() for name in names}
+    right(len(exported) > 50 and named == exported, f"docs/api.html: {named ^ exported}")
+    for crate, name in (("viewcert", "decide"), ("viewcert_check", "Certificate")):
+        browser.open(site / f"rust/{crate}/index.html")
+        right(browser.run("document.body.textContent").count(name) > 0, f"{crate}: {name}")
+        quiet(browser, crate)
+    print(f"libraries: {len(exported)} names of the Python package, {len(documentation.CRATES)} crates")
+
+
 def terms(browser, site):
     """Words of the glossary explain themselves when they are pointed at, by mouse or keyboard."""
     known = assets.terms()
@@ -226,6 +239,7 @@ def main():
         slowest = search(browser, site, asked.largest)
         checks(browser, site, ["vg.5.6.55", "vg.8.11.219482", "psi"])
         terms(browser, site)
+        libraries(browser, site)
         looks(browser, site, asked.cache)
     finally:
         browser.close()

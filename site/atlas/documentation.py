@@ -1,5 +1,6 @@
 """The documentation as pages: docs/ and the READMEs by Sphinx with MyST, formulas by KaTeX as MathML, at build time."""
 
+import ast
 import json
 import pathlib
 import re
@@ -12,6 +13,9 @@ from . import assets, statements
 from .program import ROOT
 
 HERE = pathlib.Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "python/lib"
+# The libraries whose functions have pages, and their folders.
+CRATES = {"viewcert": "crates/core", "viewcert-check": "crates/check"}
 
 # Pages that are not in docs/, by their names on the site.
 BESIDE = {
@@ -19,7 +23,7 @@ BESIDE = {
     "benches/README.md": "benches.md", "CHANGELOG.md": "changelog.md", "crates/check/second/README.md": "second.md", "site/README.md": "site.md",
 }
 ORDER = {
-    "Begin": ["symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "pyrigi"],
+    "Begin": ["symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
     "Atlas": ["catalog", "The published folder <certificates>", "paper", "audit"],
     "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
     "The project": ["benches", "site", "house", "changelog"],
@@ -45,6 +49,56 @@ def put(path, text):
     """Writes what has changed: Sphinx goes by times."""
     if not path.exists() or path.read_text() != text:
         path.write_text(text)
+
+
+def exported():
+    """What the Python package exports: functions, classes and errors, each in their order."""
+    tree = ast.parse((PACKAGE / "viewcert/__init__.py").read_text())
+    [names] = [ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"]
+    errors = re.findall(r"^class (\w+)", (PACKAGE / "viewcert/_errors.py").read_text(), re.M) + ["NoteWarning"]
+    names = [name for name in names if not name.startswith("_")]
+    classes = [name for name in names if name[0].isupper() and name not in errors]
+    return {
+        "Functions": [name for name in names if name[0].islower()],
+        "What they return": classes,
+        "Errors and warnings": [name for name in names if name in errors],
+    }
+
+
+def api():
+    """The page of the Python package, function by function, from its docstrings."""
+    text = "# Python, function by function\n\nAll that `import viewcert` brings. [The package](python.md) at a glance is a page of its own.\n"
+    for title, names in exported().items():
+        text += f"\n## {title}\n\n```{{eval-rst}}\n.. currentmodule:: viewcert\n\n"
+        for name in names:
+            if name[0].islower():
+                text += f".. autofunction:: {name}\n\n"
+            else:
+                text += f".. autoclass:: {name}\n   :members:\n\n"
+        text += "```\n"
+    return text
+
+
+def rust(target):
+    """What rustdoc makes of the two libraries that others build on, without what they depend on. False where there is no cargo."""
+    folder = ROOT / "target/site-rust"
+    words = ["cargo", "doc", "--quiet", "--no-deps", "--target-dir", folder, *(word for name in CRATES for word in ("-p", name))]
+    if not shutil.which("cargo"):
+        print("SKIPPED: the documentation of the libraries: there is no cargo", file=sys.stderr)
+        return False
+    subprocess.run(words, cwd=ROOT, check=True)
+    shutil.copytree(folder / "doc", target, dirs_exist_ok=True)
+    return True
+
+
+def rust_page(made):
+    """Where what rustdoc made is, with the first sentence of each crate."""
+    text = "# Rust, crate by crate\n\n"
+    for name, path in CRATES.items():
+        about = re.search(r'^description = "(.*)"', (ROOT / path / "Cargo.toml").read_text(), re.M)[1]
+        title = f'<a href="../rust/{name.replace("-", "_")}/index.html">{name}</a>' if made else f"`{name}`"
+        text += f"* {title}: {about}.\n"
+    return text + "\nWhich crate may import which others, and what each is for, is on the page of [the house](house.md).\n"
 
 
 class Sources:
@@ -88,13 +142,15 @@ class Sources:
             text = statements.START.sub(lambda m: f"({statements.anchor(m[2])})=\n{m[0]}", text)
         return text
 
-    def write(self, folder):
+    def write(self, folder, made):
         for source, name in self.pages.items():
             text = self.text(source)
             if name == "index.md":
                 text += "\n" + "".join(f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(pages) + "\n```\n\n" for caption, pages in ORDER.items())
             put(folder / name, text)
         put(folder / "statements.md", statements.markdown())
+        put(folder / "api.md", api())
+        put(folder / "rust.md", rust_page(made))
         shutil.copytree(ROOT / "docs/pictures", folder / "pictures", dirs_exist_ok=True)
 
 
@@ -106,10 +162,10 @@ def build(target, cache, given):
         return False
     folder = cache / "docs"
     folder.mkdir(parents=True, exist_ok=True)
-    Sources().write(folder)
+    Sources().write(folder, rust(pathlib.Path(target).parent / "rust"))
     for name in ("conf.py", "formulas.js", "docs.css", "docs.js"):
         put(folder / name, (HERE / "docs" / name).read_text())
-    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "terms": assets.terms()}))
+    put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "terms": assets.terms(), "package": str(PACKAGE)}))
     words = [python, "-m", "sphinx", "-b", "html", "-q", "-j", "2", "-d", cache / "doctrees", folder, target]
     done = subprocess.run(words, capture_output=True, text=True)
     print(done.stderr, file=sys.stderr, end="")

@@ -1,15 +1,24 @@
 """Sphinx: CommonMark by MyST, formulas as MathML."""
 
+import dataclasses
 import json
 import pathlib
 import subprocess
+import sys
 
 HERE = pathlib.Path(__file__).parent
 PLACE = json.loads((HERE / "place.json").read_text())
 
 project = "viewcert"
 author = copyright = "The viewcert developers"
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+# The Python package is read, not run: its native part need not be built, and nothing that it imports be there.
+sys.path.insert(0, PLACE["package"])
+autodoc_mock_imports = ["viewcert._native", "numpy"]
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+napoleon_use_rtype = napoleon_use_param = False
+napoleon_use_ivar = True
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
@@ -71,7 +80,13 @@ def glossary(app, page, template, context, doctree):
     context["body"] = context.get("body", "") + f'<script type="application/json" id="terms">{terms}</script>'
 
 
+def signature(app, what, name, of, options, arguments, returned):
+    """Users make no answers: how these are constructed is nothing to read."""
+    return ("", None) if what == "class" and dataclasses.is_dataclass(of) else None
+
+
 def setup(app):
+    app.connect("autodoc-process-signature", signature)
     app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
     app.connect("html-page-context", glossary)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
