@@ -51,7 +51,7 @@ step "types"
 step "tests and doctests"
 "$python" -m pytest --quiet
 "$python" -m pytest --quiet --doctest-modules --pyargs viewcert
-"$python" -m pytest --quiet --doctest-glob='*.md' README.md "$root/docs/pyrigi.md"
+"$python" -m pytest --quiet --doctest-glob='*.md' README.md "$root/docs/pyrigi.md" "$root/docs/tutorials.md"
 
 step "examples"
 (

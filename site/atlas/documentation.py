@@ -23,7 +23,7 @@ BESIDE = {
     "benches/README.md": "benches.md", "CHANGELOG.md": "changelog.md", "crates/check/second/README.md": "second.md", "site/README.md": "site.md",
 }
 ORDER = {
-    "Begin": ["symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
+    "Begin": ["tutorials", "symptoms", "glossary", "input", "databases", "models", "reconstruction", "python", "api", "pyrigi", "rust"],
     "Atlas": ["catalog", "The published folder <certificates>", "paper", "audit"],
     "Theory and proof": ["theory", "statements", "formulas", "certificate", "proof", "proofs", "second"],
     "The project": ["benches", "site", "house", "changelog"],
