@@ -69,10 +69,7 @@ const PAIRS: &str = "a b\na c\nb c\nc d\na d\n";
 fn a_line_and_a_plane() {
     // By hand: c and d hold together with a; b moves along the line through a and c: 4 in the projective model,
     // where it is a motion of first order (and of all orders, as all centres are in one plane), 1 in the calibrated.
-    let line = Scene::new(
-        PAIRS,
-        "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n",
-    );
+    let line = Scene::new(PAIRS, CAMERAS);
     for (model, rank, required, motions) in [("projective", 25, 29, 4), ("calibrated", 7, 8, 1)] {
         let (here, certificate) = line.decided(model);
         assert_eq!(
@@ -111,18 +108,26 @@ fn a_line_and_a_plane() {
     verified(&certificate);
 }
 
+/// Three of four on a line.
+const CAMERAS: &str = "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n";
+
+/// These cameras in files, the answer there, and the file of the pairs.
+fn of_files() -> (Scene, Value, String) {
+    let scene = Scene::new(PAIRS, CAMERAS);
+    let expected = scene.run("projective", &["--json"]).json().remove(0);
+    let pairs = scene.file("pairs.txt");
+    (scene, expected, pairs)
+}
+
 /// Cameras and what is given besides, from standard input.
 #[test]
 fn from_standard_input() {
-    let cameras = "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n";
-    let scene = Scene::new(PAIRS, cameras);
-    let expected = scene.run("projective", &["--json"]).json().remove(0);
-    let pairs = scene.file("pairs.txt");
-    let run = verify_with(cameras.as_bytes(), &[&pairs, "--cameras", "-", "--json"]);
+    let (_scene, expected, pairs) = of_files();
+    let run = verify_with(CAMERAS.as_bytes(), &[&pairs, "--cameras", "-", "--json"]);
     assert_eq!(run.code, 1, "{}", run.err);
     assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);
     // Comments first, an array, and what is no camera.
-    let long = format!("{}{cameras}", "# comment\n".repeat(100));
+    let long = format!("{}{CAMERAS}", "# comment\n".repeat(100));
     let run = verify_with(long.as_bytes(), &[&pairs, "--given", "-", "--json"]);
     assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);
     let run = verify_with(b"part a b c\n", &[&pairs, "--given", "-", "--json"]);
@@ -145,15 +150,12 @@ fn from_standard_input() {
 /// the first camera is cut if the start of the file is all that is looked at.
 #[test]
 fn from_a_pipe_and_after_long_comments() {
-    let cameras = "centre a 0 0 0\ncentre b 1 0 0\ncentre c 3 0 0\ncentre d 1.5 2 1/3\n";
-    let scene = Scene::new(PAIRS, cameras);
-    let expected = scene.run("projective", &["--json"]).json().remove(0);
-    let pairs = scene.file("pairs.txt");
+    let (scene, expected, pairs) = of_files();
     let pipe = scene.file("pipe");
     let made = std::process::Command::new("mkfifo").arg(&pipe).status();
     assert!(made.unwrap().success());
     for (text, at_cameras, parts) in [
-        (cameras, &expected["at_cameras"], Value::Null),
+        (CAMERAS, &expected["at_cameras"], Value::Null),
         ("part a b c\n", &Value::Null, 1.into()),
     ] {
         let writer = std::thread::spawn({
@@ -167,7 +169,7 @@ fn from_a_pipe_and_after_long_comments() {
     }
     let late = scene.file("late.txt");
     for comment in 495..515 {
-        std::fs::write(&late, format!("#{}\n{cameras}", "-".repeat(comment))).unwrap();
+        std::fs::write(&late, format!("#{}\n{CAMERAS}", "-".repeat(comment))).unwrap();
         let run = verify(&[&pairs, "--cameras", &late, "--json"]);
         assert_eq!(run.code, 1, "{comment}: {}", run.err);
         assert_eq!(run.json()[0]["at_cameras"], expected["at_cameras"]);

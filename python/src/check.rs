@@ -88,7 +88,7 @@ enum Given {
 }
 
 /// Why a certificate was not verified.
-pub(crate) enum Problem {
+enum Problem {
     Failure(Failure),
     Graph(Unreadable),
     File(anyhow::Error),
@@ -96,7 +96,7 @@ pub(crate) enum Problem {
 
 impl Problem {
     /// As an exception.
-    pub(crate) fn raised(self) -> PyErr {
+    fn raised(self) -> PyErr {
         match self {
             Self::Failure(failure) => of_checking(failure),
             Self::Graph(error) => InputError::new_err(error.to_string()),
@@ -106,7 +106,7 @@ impl Problem {
 }
 
 /// A graph as the checker takes it.
-pub(crate) fn for_checker(input: &NamedGraph) -> Result<viewcert_check::Graph, Problem> {
+fn for_checker(input: &NamedGraph) -> Result<viewcert_check::Graph, Problem> {
     let edges = input.graph.edges().iter().copied();
     viewcert_check::Graph::new(input.graph.nodes(), edges).map_err(Problem::Graph)
 }
@@ -170,8 +170,7 @@ pub(crate) fn check(
         (None, Some(file)) => Given::File(file),
         (None, None) => Given::Held,
     };
-    let mut limits = Limits::default();
-    limits.operations = max_operations.unwrap_or(limits.operations);
+    let limits = limits(max_operations);
     let threads = work::threads()?;
     let checked = work::run(py, &Watch::default(), None, move || {
         let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
@@ -244,17 +243,35 @@ pub(crate) fn check_intrinsics(
         Ok(hex(&Sensors::new(of_node, of_words(&words)?).sha256()))
     };
     let hash = sensors.map(hash).transpose()?;
+    let verified = checked(py, graph, max_operations, move |graph, limits| {
+        IntrinsicsCertificate::parse(&certificate)?.check_within(graph, hash.as_deref(), limits)
+    })?;
+    Ok(verified.into())
+}
+
+/// What a check proves that is done for a graph, if it is given, within limits.
+pub(crate) fn checked<T: Send + 'static>(
+    py: Python<'_>,
+    graph: Option<&Graph>,
+    max_operations: Option<u64>,
+    check: impl FnOnce(Option<&viewcert_check::Graph>, &Limits) -> Result<T, Failure> + Send + 'static,
+) -> PyResult<T> {
     let input = graph.map(|graph| Arc::clone(&graph.0));
-    let mut limits = Limits::default();
-    limits.operations = max_operations.unwrap_or(limits.operations);
+    let limits = limits(max_operations);
     let threads = work::threads()?;
     let checked = work::run(py, &Watch::default(), None, move || {
-        let certificate = IntrinsicsCertificate::parse(&certificate).map_err(Problem::Failure)?;
         let graph = input.map(|input| for_checker(&input)).transpose()?;
-        let checked = || certificate.check_within(graph.as_ref(), hash.as_deref(), &limits);
-        threads.install(checked).map_err(Problem::Failure)
+        let checked = threads.install(|| check(graph.as_ref(), &limits));
+        checked.map_err(Problem::Failure)
     })?;
-    checked.map(Into::into).map_err(Problem::raised)
+    checked.map_err(Problem::raised)
+}
+
+/// The limits of a check that may take so many operations.
+fn limits(max_operations: Option<u64>) -> Limits {
+    let mut limits = Limits::default();
+    limits.operations = max_operations.unwrap_or(limits.operations);
+    limits
 }
 
 impl From<viewcert_check::VerifiedIntrinsics> for VerifiedIntrinsics {

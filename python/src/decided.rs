@@ -275,6 +275,17 @@ pub(crate) fn written(report: &Report<'_>, kind: &str) -> anyhow::Result<Vec<u8>
     Ok(text)
 }
 
+/// What some work under a watch answers.
+pub(crate) fn bytes_of<'py>(
+    py: Python<'py>,
+    watch: &Watch,
+    work: impl FnOnce() -> anyhow::Result<Vec<u8>> + Send + 'static,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let answered = work::run(py, watch, None, work)?;
+    let bytes = answered.map_err(|error| of_any(&error))?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
 #[pymethods]
 impl Decided {
     /// The question.
@@ -509,11 +520,7 @@ impl Decided {
             };
             written(&report, &kind)
         };
-        let answered = work::run(py, &watch, None, move || threads.install(answer))?;
-        match answered {
-            Ok(bytes) => Ok(PyBytes::new(py, &bytes)),
-            Err(error) => Err(of_any(&error)),
-        }
+        bytes_of(py, &watch, move || threads.install(answer))
     }
 
     /// The graph with its components in colours, as SVG.

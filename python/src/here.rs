@@ -1,7 +1,7 @@
 //! What is determined at given cameras (docs/theory.md, section 16), and their certificates.
 
-use crate::check::{Problem, for_checker, of_strength};
-use crate::decided::{Decided, written};
+use crate::check::{checked, of_strength};
+use crate::decided::{Decided, bytes_of, written};
 use crate::errors::{InputError, Rejected, of_any, of_deciding, of_reading};
 use crate::graph::Graph;
 use crate::work;
@@ -12,9 +12,8 @@ use std::sync::Arc;
 use viewcert::Model;
 use viewcert::here::{Centres, Here, HereError, Special, here};
 use viewcert::linalg::rational::Rational;
-use viewcert::watch::Watch;
 use viewcert_advice::Advice;
-use viewcert_check::{HereCertificate, Limits};
+use viewcert_check::HereCertificate;
 use viewcert_formats::{cameras_beside, centre_error};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
@@ -156,14 +155,7 @@ impl AtCameras {
 
     /// Sets of nodes at one place, on a line, in a plane.
     fn special(&self) -> Vec<SpecialSet> {
-        let of = |special: &Special| {
-            let word = match special {
-                Special::Coincident(_) => "coincident",
-                Special::Collinear(_) => "collinear",
-                Special::Coplanar(_) => "coplanar",
-            };
-            (word, special.nodes().to_vec())
-        };
+        let of = |special: &Special| (special.name(), special.nodes().to_vec());
         self.here.special.iter().map(of).collect()
     }
 
@@ -242,9 +234,7 @@ impl AtCameras {
             };
             written(&report, &kind)
         };
-        let answered = work::run(py, &watch, None, move || threads.install(answer))?;
-        let bytes = answered.map_err(|error| of_any(&error))?;
-        Ok(PyBytes::new(py, &bytes))
+        bytes_of(py, &watch, move || threads.install(answer))
     }
 }
 
@@ -287,17 +277,9 @@ pub(crate) fn check_at_cameras(
     centres: Option<String>,
     max_operations: Option<u64>,
 ) -> PyResult<VerifiedAtCameras> {
-    let input = graph.map(|graph| Arc::clone(&graph.0));
-    let mut limits = Limits::default();
-    limits.operations = max_operations.unwrap_or(limits.operations);
-    let threads = work::threads()?;
-    let checked = work::run(py, &Watch::default(), None, move || {
-        let certificate = HereCertificate::parse(&certificate).map_err(Problem::Failure)?;
-        let graph = input.map(|input| for_checker(&input)).transpose()?;
-        let checked = || certificate.check_within(graph.as_ref(), &limits);
-        threads.install(checked).map_err(Problem::Failure)
+    let verified = checked(py, graph, max_operations, move |graph, limits| {
+        HereCertificate::parse(&certificate)?.check_within(graph, limits)
     })?;
-    let verified = checked.map_err(Problem::raised)?;
     if centres.is_some_and(|hash| hash != verified.centres_sha256) {
         let other = "the cameras that are expected have another hash".to_owned();
         return Err(Rejected::new_err(("centres".to_owned(), other)));

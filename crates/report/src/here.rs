@@ -161,11 +161,7 @@ impl HereReport<'_> {
             labels: list_components.then(|| labels(&component.nodes())),
         });
         let special = here.special.iter().take(LISTED).map(|special| SpecialLine {
-            kind: match special {
-                Special::Coincident(_) => "coincident",
-                Special::Collinear(_) => "collinear",
-                Special::Coplanar(_) => "coplanar",
-            },
+            kind: special.name(),
             labels: labels(special.nodes()),
         });
         HereLine {

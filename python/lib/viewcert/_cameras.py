@@ -153,7 +153,7 @@ class AtCameras:
         found: Optional[_native.AtCameras] = self.__dict__.get("_found")
         if found is None:
             texts, width = self._cameras
-            graph, model = self._verdict.graph._native, _model(self._verdict)
+            graph, model = self._verdict.graph._native, self._verdict.model
             at = _native.Cameras.of_numbers(graph, model, list(texts), width)
             found = self.__dict__["_found"] = _there(self._verdict, at)
         return found
@@ -336,7 +336,7 @@ def check_at_cameras(
     ...
     viewcert.Rejected: centres: the cameras that are expected have another hash
     """
-    text = certificate.certificate() if isinstance(certificate, AtCameras) else text_of(certificate)
+    text = text_of(certificate)
     max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     if cameras is not None and not isinstance(graph, Verdict):
         raise InputError(
@@ -362,14 +362,9 @@ def _is(determined: bool, strength: Strength) -> str:
     return f"{'determined' if determined else 'not determined'} ({strength})"
 
 
-def _model(verdict: Verdict[Any]) -> str:
-    """What centres are asked for: those of focal lengths that are unknown are those of calibrated cameras."""
-    return verdict._native.model
-
-
 def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
     """The centres of the nodes of a verdict."""
-    graph, model = verdict.graph, _model(verdict)
+    graph, model = verdict.graph, verdict.model
     if isinstance(cameras, (str, os.PathLike)):
         found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
         noted(graph.name, found.notes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, fields
-from typing import Any, Iterable, Mapping, Optional, Sequence, Tuple, Type, TypeVar, Union
+from typing import Any, Iterable, Mapping, Optional, Protocol, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _native
 from ._arguments import whole_if
@@ -78,8 +78,14 @@ class Verified:
         )
 
 
-def text_of(certificate: Union[bytes, bytearray, memoryview, Path]) -> bytes:
-    """The bytes of a certificate, or of its file.
+class _Certified(Protocol):
+    """An answer that has a certificate."""
+
+    def certificate(self) -> bytes: ...
+
+
+def text_of(certificate: Union[bytes, bytearray, memoryview, Path, _Certified]) -> bytes:
+    """The bytes of a certificate, of its file, or of that of an answer.
 
     Raises
     ------
@@ -94,6 +100,8 @@ def text_of(certificate: Union[bytes, bytearray, memoryview, Path]) -> bytes:
             "text.encode()"
         )
     if not isinstance(certificate, (str, os.PathLike)):
+        if hasattr(certificate, "certificate"):
+            return certificate.certificate()
         raise InputError(
             f"{type(certificate).__name__} is no certificate: give its bytes, its file, or a verdict"
         )
@@ -157,15 +165,12 @@ def check(
     ...
     viewcert.Rejected: graph: the graph given is not the one in `graph6`
     """
-    if isinstance(certificate, Verdict):
-        text = certificate.certificate()
-        if graph is None:
-            graph = certificate.graph
-            parts = certificate.parts if parts is None else parts
-            if displacements is None:
-                displacements = certificate.vectors or certificate.displacements
-    else:
-        text = text_of(certificate)
+    text = text_of(certificate)
+    if isinstance(certificate, Verdict) and graph is None:
+        graph = certificate.graph
+        parts = certificate.parts if parts is None else parts
+        if displacements is None:
+            displacements = certificate.vectors or certificate.displacements
     max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     stated = {"parts": parts, "displacements": displacements}
     for what in (what for what, sets in stated.items() if sets is not None):

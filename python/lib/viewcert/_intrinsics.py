@@ -366,10 +366,7 @@ def check_intrinsics(
     ...
     viewcert.Rejected: the classes that are expected have another hash
     """
-    if isinstance(certificate, Intrinsics):
-        text = certificate.certificate()
-    else:
-        text = text_of(certificate)
+    text = text_of(certificate)
     max_operations = whole_if("max_operations", max_operations, 0, 2**64 - 1)
     is_supposed = classes is not None or sensors is not None
     if graph is None and is_supposed:

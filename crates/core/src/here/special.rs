@@ -25,6 +25,15 @@ pub enum Special {
 }
 
 impl Special {
+    /// What it is, in a word: `coincident`, `collinear` or `coplanar`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Coincident(_) => "coincident",
+            Self::Collinear(_) => "collinear",
+            Self::Coplanar(_) => "coplanar",
+        }
+    }
+
     /// The nodes.
     pub fn nodes(&self) -> &[u32] {
         match self {
