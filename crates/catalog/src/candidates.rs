@@ -3,9 +3,9 @@
 use super::grow::grow;
 use super::kernel::{MAX_CYCLES, kernels};
 use super::kernel_file::{self, Counted, KernelFile, Of};
-use super::multigraph::{MAX_NODES, Multigraph};
+use super::multigraph::{MAX_NODES, Multigraph, Packed};
 use super::shard::Shard;
-use super::subdivide::{Edges, Subdivisions};
+use super::subdivide::{Edges, MOST_NODES, Subdivisions};
 use anyhow::{Result, anyhow, ensure};
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -37,10 +37,21 @@ pub fn least_edges(nodes: usize) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SizeError {
     /// Fewer than 3 nodes, or more than the generator takes.
-    #[error("graphs with {} are not enumerated: ask for 3 to {MAX_NODES} nodes", viewcert::wording::counted(*.nodes, "node"))]
+    #[error("graphs with {} are not enumerated: ask for 3 to {MOST_NODES} nodes", viewcert::wording::counted(*.nodes, "node"))]
     Nodes {
         /// How many were asked for.
         nodes: usize,
+    },
+    /// Too many nodes for graphs that are made node by node.
+    #[error(
+        "graphs with {nodes} nodes are made from kernels alone, with up to {most} edges: ask for \
+         these, or for 3 to {MAX_NODES} nodes"
+    )]
+    NodeByNode {
+        /// How many nodes were asked for.
+        nodes: usize,
+        /// The most edges that kernels have.
+        most: usize,
     },
     /// No biconnected simple graph has so few or so many edges.
     #[error(
@@ -75,7 +86,7 @@ pub struct Candidates {
     edges: usize,
     necessary: bool,
     by_kernels: bool,
-    made: OnceLock<Vec<Multigraph>>,
+    made: OnceLock<Vec<Packed>>,
     file: OnceLock<KernelFile>,
 }
 
@@ -89,7 +100,7 @@ impl Candidates {
     /// # Errors
     /// If there are none, or the graphs are too large.
     pub fn new(nodes: usize, edges: usize, necessary: bool) -> Result<Self, SizeError> {
-        if !(3..=MAX_NODES).contains(&nodes) {
+        if !(3..=MOST_NODES).contains(&nodes) {
             return Err(SizeError::Nodes { nodes });
         }
         let most = nodes * (nodes - 1) / 2;
@@ -99,18 +110,23 @@ impl Candidates {
         let cycles = edges + 1 - nodes;
         // There are many kernels with many cycles, and few graphs with few nodes.
         let most_cycles = if nodes < 10 { 6 } else { MAX_CYCLES };
+        let by_kernels = (2..=most_cycles).contains(&cycles);
+        if nodes > MAX_NODES && !by_kernels && cycles > 1 {
+            let most = nodes + MAX_CYCLES - 1;
+            return Err(SizeError::NodeByNode { nodes, most });
+        }
         Ok(Self {
             nodes,
             edges,
             necessary,
-            by_kernels: (2..=most_cycles).contains(&cycles),
+            by_kernels,
             made: OnceLock::new(),
             file: OnceLock::new(),
         })
     }
 
     /// The kernels, made if they are not yet.
-    fn made(&self) -> &[Multigraph] {
+    fn made(&self) -> &[Packed] {
         self.made
             .get_or_init(|| kernels(self.edges + 1 - self.nodes, self.nodes))
     }
@@ -143,7 +159,7 @@ impl Candidates {
         let file = match file {
             Ok(file) => file,
             Err(()) => {
-                let count = |kernel: &Multigraph| if counted { self.count_of(kernel) } else { 0 };
+                let count = |kernel: &Packed| if counted { self.count_of(kernel) } else { 0 };
                 // They are not kept here: whatever is wanted is read.
                 let kernels = kernels(self.edges + 1 - self.nodes, self.nodes);
                 let kernels = kernels.into_par_iter();
@@ -184,9 +200,9 @@ impl Candidates {
         }
     }
 
-    fn count_of(&self, kernel: &Multigraph) -> u64 {
+    fn count_of(&self, kernel: &Packed) -> u64 {
         let mut count = 0;
-        self.subdivisions(kernel).for_each(&mut |_| {
+        self.subdivisions(&kernel.multigraph()).for_each(&mut |_| {
             count += 1;
             true
         });
@@ -224,7 +240,7 @@ impl Candidates {
     ///
     /// # Panics
     /// If the range goes beyond them, or there are none.
-    pub fn some_kernels(&self, range: Range<usize>) -> Result<Cow<'_, [Multigraph]>> {
+    pub fn some_kernels(&self, range: Range<usize>) -> Result<Cow<'_, [Packed]>> {
         Ok(match self.file.get() {
             Some(file) => {
                 let found = file.read(range)?.into_iter();
@@ -249,7 +265,7 @@ impl Candidates {
         match self.by_kernels {
             true => {
                 for kernel in self.made() {
-                    let subdivisions = self.subdivisions(kernel);
+                    let subdivisions = self.subdivisions(&kernel.multigraph());
                     if !subdivisions.for_each(&mut |subdivision| each(subdivision.graph())) {
                         return;
                     }
@@ -301,7 +317,8 @@ impl Candidates {
             for (kernel, count) in file.read(start..(start + SLICE).min(file.len()))? {
                 let next = index + count;
                 if shard.owns_any(index..next) {
-                    let more = self.subdivisions(&kernel).for_each(&mut |subdivision| {
+                    let subdivisions = self.subdivisions(&kernel.multigraph());
+                    let more = subdivisions.for_each(&mut |subdivision| {
                         index += 1;
                         !shard.owns(index - 1) || each(subdivision.graph())
                     });

@@ -19,20 +19,21 @@
 //!   from one with c - 1 by joining two edges, or one edge with itself, by a new one.
 
 use super::canonical::canonical;
-use super::multigraph::{Key, Multigraph};
+use super::multigraph::{MOST_PACKED, Multigraph, Packed};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// The largest number of independent cycles: a cubic kernel then has 16 nodes.
 pub const MAX_CYCLES: usize = 9;
+const _: () = assert!(3 * (MAX_CYCLES - 1) <= MOST_PACKED);
 
 /// All kernels with `cycles` independent cycles and at most `max_nodes` nodes, in canonical
-/// form, by falling number of nodes and then by key. Memory: 72 bytes a kernel (c = 6: 0.1
-/// MB, 7: 1 MB, 8: 20 MB).
+/// form, by falling number of nodes and then by key. Memory: 25 bytes a kernel, and as much again for
+/// those with one number of nodes while they are looked for.
 ///
 /// # Panics
 /// Unless `2 <= cycles <= MAX_CYCLES`.
-pub fn kernels(cycles: usize, max_nodes: usize) -> Vec<Multigraph> {
+pub fn kernels(cycles: usize, max_nodes: usize) -> Vec<Packed> {
     assert!(
         (2..=MAX_CYCLES).contains(&cycles),
         "kernels with {cycles} independent cycles"
@@ -51,7 +52,7 @@ pub fn kernels(cycles: usize, max_nodes: usize) -> Vec<Multigraph> {
                 if let Some(contracted) = kernel.contract(u, v)
                     && contracted.is_biconnected()
                 {
-                    forms.insert(canonical(&contracted).key);
+                    forms.insert(form(&contracted));
                 }
             }
         });
@@ -62,10 +63,10 @@ pub fn kernels(cycles: usize, max_nodes: usize) -> Vec<Multigraph> {
 }
 
 /// The cubic kernels with `cycles` independent cycles, by key.
-fn cubic(cycles: usize) -> Vec<Multigraph> {
+fn cubic(cycles: usize) -> Vec<Packed> {
     let mut theta = Multigraph::new(2);
     theta.add(0, 1, 3);
-    let mut level = vec![theta];
+    let mut level = vec![form(&theta)];
     for _ in 2..cycles {
         level = canonical_forms(&level, |kernel, forms| {
             let edges: Vec<_> = kernel.pairs().map(|(u, v, _)| (u, v)).collect();
@@ -78,12 +79,12 @@ fn cubic(cycles: usize) -> Vec<Multigraph> {
                         let mut other = joined;
                         let b = subdivide(&mut other, two);
                         other.add(a, b, 1);
-                        forms.insert(canonical(&other).key);
+                        forms.insert(form(&other));
                     }
                     if one == two {
                         let b = subdivide(&mut joined, (one.0, a));
                         joined.add(a, b, 1);
-                        forms.insert(canonical(&joined).key);
+                        forms.insert(form(&joined));
                     }
                 }
             }
@@ -97,15 +98,20 @@ fn subdivide(graph: &mut Multigraph, (u, v): (usize, usize)) -> usize {
     graph.add_node(1 << u | 1 << v)
 }
 
+/// The canonical form of a multigraph with no more edges than a cubic kernel has.
+fn form(graph: &Multigraph) -> Packed {
+    Packed::of(&canonical(graph).key).expect("at most 3 (c - 1) edges")
+}
+
 /// The different forms that `children` inserts for all of `parents`, sorted.
 fn canonical_forms(
-    parents: &[Multigraph],
-    children: impl Fn(&Multigraph, &mut HashSet<Key>) + Sync,
-) -> Vec<Multigraph> {
+    parents: &[Packed],
+    children: impl Fn(&Multigraph, &mut HashSet<Packed>) + Sync,
+) -> Vec<Packed> {
     let forms = parents
         .par_iter()
         .fold(HashSet::new, |mut forms, parent| {
-            children(parent, &mut forms);
+            children(&parent.multigraph(), &mut forms);
             forms
         })
         .reduce(HashSet::new, |mut one, mut two| {
@@ -115,9 +121,9 @@ fn canonical_forms(
             one.extend(two);
             one
         });
-    let mut forms: Vec<Key> = forms.into_iter().collect();
+    let mut forms: Vec<Packed> = forms.into_iter().collect();
     forms.par_sort_unstable();
-    forms.iter().map(Multigraph::from_key).collect()
+    forms
 }
 
 #[cfg(test)]
@@ -143,6 +149,7 @@ mod tests {
             let found = kernels(cycles, usize::MAX);
             assert_eq!(found.len(), expected, "{cycles} cycles");
             for kernel in found {
+                let kernel = kernel.multigraph();
                 assert_eq!(kernel.edges() + 1 - kernel.nodes(), cycles);
             }
         }
@@ -166,13 +173,13 @@ mod tests {
             graph: Multigraph,
             pairs: &[(usize, usize)],
             left: usize,
-            forms: &mut HashSet<Key>,
+            forms: &mut HashSet<Packed>,
         ) {
             match pairs {
                 [] => {
                     let dense = (0..graph.nodes()).all(|v| graph.degree(v) >= 3);
                     if left == 0 && dense && graph.is_biconnected() {
-                        forms.insert(canonical(&graph).key);
+                        forms.insert(form(&graph));
                     }
                 }
                 [(u, v), rest @ ..] => {

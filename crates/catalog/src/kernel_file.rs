@@ -1,10 +1,10 @@
 //! Kernels in a file: made once, and read in slices by all who work on them.
 //!
-//! The first line describes them, sealed; then each kernel has a record of 88 bytes, in numbers of 64
-//! bits with the lowest byte first: its key, how many candidates it has (0 if that was not counted), and
-//! the first 8 bytes of the SHA-256 of its place and the 80 bytes before.
+//! The first line describes them, sealed; then each kernel has a record of 41 bytes: the kernel,
+//! [`Packed`]; how many candidates it has (0 if that was not counted), a number of 64 bits with the lowest
+//! byte first; and the first 8 bytes of the SHA-256 of its place and the 33 bytes before.
 
-use crate::multigraph::{Key, Multigraph};
+use crate::multigraph::{PACKED_BYTES, Packed};
 use crate::sealed;
 use anyhow::{Context, Result, anyhow};
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a record.
-const RECORD: usize = 88;
+const RECORD: usize = PACKED_BYTES + 8 + 8;
 
 /// What the kernels are of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ struct Head {
 }
 
 /// A kernel, and how many candidates it has.
-pub(crate) type Counted = (Multigraph, u64);
+pub(crate) type Counted = (Packed, u64);
 
 /// A file of kernels.
 #[derive(Debug)]
@@ -60,14 +60,10 @@ pub(crate) fn write(out: &mut dyn Write, of: Of, kernels: &[Counted]) -> io::Res
         candidates: kernels.iter().map(|(_, count)| count).sum(),
     };
     out.write_all(sealed::sealed(&head).as_bytes())?;
-    let mut order = [0u8; crate::multigraph::MAX_NODES];
-    (0..).zip(&mut order).for_each(|(k, place)| *place = k);
     for (place, (kernel, count)) in kernels.iter().enumerate() {
-        let key = kernel.key(&order[..kernel.nodes()]);
         let mut record = Vec::with_capacity(RECORD);
-        for word in key.iter().chain([count]) {
-            record.extend(word.to_le_bytes());
-        }
+        record.extend(kernel.bytes());
+        record.extend(count.to_le_bytes());
         let check = check(place, &record);
         record.extend(check);
         out.write_all(&record)?;
@@ -158,14 +154,9 @@ fn decoded(place: usize, record: &[u8]) -> Result<Counted, String> {
     if check(place, content) != given {
         return Err(format!("changed: kernel {place} is another one"));
     }
-    let mut words = [0; 10];
-    for (word, bytes) in words.iter_mut().zip(content.chunks_exact(8)) {
-        *word = bytes
-            .iter()
-            .rev()
-            .fold(0u64, |word, &byte| word << 8 | u64::from(byte));
-    }
-    let mut key: Key = [0; 9];
-    key.copy_from_slice(&words[..9]);
-    Ok((Multigraph::from_key(&key), words[9]))
+    let wrong = || format!("kernel {place} is none");
+    let (kernel, count) = content.split_first_chunk().ok_or_else(wrong)?;
+    let kernel = Packed::from_bytes(kernel).ok_or_else(wrong)?;
+    let count = count.first_chunk().ok_or_else(wrong)?;
+    Ok((kernel, u64::from_le_bytes(*count)))
 }

@@ -7,8 +7,13 @@
 //! that the automorphisms of the kernel's nodes carry into each other, the largest counts.
 
 use super::canonical::{canonical, group};
+use super::kernel::MAX_CYCLES;
 use super::multigraph::{MAX_NODES, Multigraph};
 use viewcert::graph::Graph;
+
+/// The most nodes of a subdivision. A kernel has [`MAX_NODES`] at most, and nodes of degree 2 are
+/// never put into sets.
+pub const MOST_NODES: usize = 17;
 
 /// Which subdivisions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,11 +43,11 @@ impl Subdivisions {
     /// Prepares the subdivisions of `kernel` with `nodes` nodes in all.
     ///
     /// # Panics
-    /// With more than [`MAX_NODES`] nodes.
+    /// With more than [`MOST_NODES`] nodes.
     pub fn new(kernel: &Multigraph, nodes: usize, edges: Edges) -> Self {
         assert!(
-            nodes <= MAX_NODES,
-            "{nodes} nodes are more than {MAX_NODES}"
+            nodes <= MOST_NODES,
+            "{nodes} nodes are more than {MOST_NODES}"
         );
         let pairs: Vec<_> = kernel
             .pairs()
@@ -134,6 +139,18 @@ impl Subdivisions {
         }
     }
 
+    /// Calls `each` for every subdivision with adjacent nodes of degree 2 in one edge.
+    pub(crate) fn for_each_other(&self, each: &mut impl FnMut()) {
+        if self.edges == Edges::Any {
+            self.for_each(&mut |subdivision| {
+                if subdivision.subdivided().is_none() {
+                    each();
+                }
+                true
+            });
+        }
+    }
+
     /// Passes the subdivision on if it is the largest of its orbit.
     fn finish(&self, codes: &[Code], each: &mut impl FnMut(Subdivision) -> bool) -> bool {
         let mut stabiliser = 1;
@@ -149,6 +166,93 @@ impl Subdivisions {
             of: self,
             codes,
             stabiliser,
+        })
+    }
+}
+
+/// The subdivisions in which every edge has one node at most, as sets of pairs: of the edges between two
+/// nodes all but the last are subdivided anyway, and the last one is if its pair is chosen.
+pub(crate) struct Once<'a> {
+    of: &'a Subdivisions,
+    /// The edges that are subdivided anyway, as bits in the order of [`Multigraph::edge_list`].
+    pub(crate) forced: u32,
+    /// The last edge of each pair, in the same order.
+    pub(crate) last: Vec<usize>,
+    /// How many pairs are chosen.
+    pub(crate) chosen: usize,
+    /// Each symmetry: where a pair goes.
+    images: Vec<Vec<u8>>,
+}
+
+impl Subdivisions {
+    /// Those in which every edge has one node at most; `None` if there are none.
+    pub(crate) fn once(&self) -> Option<Once<'_>> {
+        let (mut forced, mut edge, mut last) = (0u32, 0, Vec::new());
+        for &(_, _, multiplicity) in &self.pairs {
+            for _ in 1..multiplicity {
+                forced |= 1 << edge;
+                edge += 1;
+            }
+            last.push(edge);
+            edge += 1;
+        }
+        let inner = self.nodes.checked_sub(self.kernel.nodes())?;
+        let chosen = inner.checked_sub(forced.count_ones() as usize)?;
+        let inverse = |symmetry: &Vec<u8>| {
+            let mut image = vec![0; symmetry.len()];
+            (0..)
+                .zip(symmetry)
+                .for_each(|(k, &at)| image[usize::from(at)] = k);
+            image
+        };
+        (chosen <= last.len()).then(|| Once {
+            of: self,
+            forced,
+            last,
+            chosen,
+            images: self.symmetries.iter().map(inverse).collect(),
+        })
+    }
+}
+
+impl Once<'_> {
+    /// Whether all choices give different graphs.
+    pub(crate) fn no_symmetry(&self) -> bool {
+        self.images.is_empty()
+    }
+
+    /// Whether a choice of pairs, as bits, gives a subdivision that counts: the largest of its orbit.
+    pub(crate) fn counts(&self, pairs: u32) -> bool {
+        // The first pair decides, so it has the highest bit.
+        let value = |pairs: u32, image: &dyn Fn(u32) -> u32| {
+            let (mut left, mut value) = (pairs, 0u32);
+            while left != 0 {
+                value |= 1 << (31 - image(left.trailing_zeros()));
+                left &= left - 1;
+            }
+            value
+        };
+        let own = value(pairs, &|pair| pair);
+        let images = self.images.iter();
+        let mut images = images.map(|image| value(pairs, &|pair| u32::from(image[pair as usize])));
+        images.all(|image| image <= own)
+    }
+
+    /// Calls `each` with the subdivision of a choice of pairs, as bits.
+    pub(crate) fn with<T>(&self, pairs: u32, each: impl FnOnce(Subdivision) -> T) -> T {
+        let mut codes = [0; 3 * (MAX_CYCLES - 1)];
+        for ((k, code), &(_, _, multiplicity)) in (0..).zip(&mut codes).zip(&self.of.pairs) {
+            let anyway = (2..=multiplicity).fold(0, |code, _| code << 4 | 2);
+            *code = anyway << 4 | Code::from(1 + (pairs >> k & 1));
+        }
+        let same = self.images.iter().filter(|image| {
+            let moved = (0..).zip(*image).filter(|(k, _)| pairs >> k & 1 == 1);
+            moved.fold(0, |set, (_, &at)| set | 1u32 << at) == pairs
+        });
+        each(Subdivision {
+            of: self.of,
+            codes: &codes[..self.of.pairs.len()],
+            stabiliser: 1 + same.count() as u64,
         })
     }
 }
@@ -173,8 +277,8 @@ fn falling(sum: usize, length: usize, largest: usize, code: Code, each: &mut imp
     }
 }
 
-/// Length of the graph6 of a graph with [`MAX_NODES`] nodes.
-const LINE: usize = 1 + (MAX_NODES * (MAX_NODES - 1) / 2).div_ceil(6);
+/// Length of the graph6 of a graph with [`MOST_NODES`] nodes.
+const LINE: usize = 1 + (MOST_NODES * (MOST_NODES - 1) / 2).div_ceil(6);
 
 /// A graph as graph6.
 #[derive(Clone, Copy, Debug)]
@@ -234,6 +338,24 @@ impl Subdivision<'_> {
         Some(set)
     }
 
+    /// The edges, and on which edge of the kernel each lies, in the order of [`Multigraph::edge_list`].
+    pub(crate) fn lying(&self) -> Vec<((usize, usize), usize)> {
+        let mut on = Vec::with_capacity(2 * self.of.nodes);
+        let mut first = 0;
+        for (&(_, _, multiplicity), &code) in self.of.pairs.iter().zip(self.codes) {
+            // As they are passed: the lowest digit, which is that of the last edge, first.
+            for k in 0..multiplicity {
+                let halves = (code >> (4 * k) & 15) as usize;
+                on.extend(std::iter::repeat_n(first + multiplicity - 1 - k, halves));
+            }
+            first += multiplicity;
+        }
+        let mut on = on.into_iter();
+        let mut lying = Vec::with_capacity(on.len());
+        self.for_each_edge(|i, j| lying.extend(on.next().map(|edge| ((i, j), edge))));
+        lying
+    }
+
     /// The graph: the kernel's nodes first.
     pub fn graph(&self) -> Graph {
         let mut pairs = Vec::with_capacity(2 * self.of.nodes);
@@ -247,22 +369,18 @@ impl Subdivision<'_> {
     /// The same graph as graph6, without a line end: what
     /// [`encode`](viewcert::graph::graph6::encode) makes of it, and no allocation.
     pub fn graph6(&self) -> Line {
-        // Bit j (j - 1) / 2 + i, from the left, is that of the pair i < j.
-        let mut bits = 0u128;
-        self.for_each_edge(|i, j| {
-            let (i, j) = (i.min(j), i.max(j));
-            bits |= 1 << (127 - (j * (j - 1) / 2 + i));
-        });
         let nodes = self.of.nodes;
         let mut line = Line {
-            bytes: [0; LINE],
+            bytes: [63; LINE],
             length: 1 + (nodes * (nodes - 1) / 2).div_ceil(6),
         };
-        line.bytes[0] = 63 + nodes as u8;
-        for byte in &mut line.bytes[1..line.length] {
-            *byte = 63 + (bits >> 122) as u8;
-            bits <<= 6;
-        }
+        line.bytes[0] += nodes as u8;
+        self.for_each_edge(|i, j| {
+            let (i, j) = (i.min(j), i.max(j));
+            // Bit j (j - 1) / 2 + i, six a byte from the left, is that of the pair i < j.
+            let bit = j * (j - 1) / 2 + i;
+            line.bytes[1 + bit / 6] += 32 >> (bit % 6);
+        });
         line
     }
 
@@ -335,6 +453,7 @@ mod tests {
         for (cycles, nodes) in [(3, 7), (4, 8), (5, 8)] {
             let mut keys = BTreeSet::new();
             for kernel in kernels(cycles, nodes) {
+                let kernel = kernel.multigraph();
                 for (graph, order) in graphs(&kernel, nodes, Edges::Any) {
                     assert_eq!(graph.edges().len(), nodes + cycles - 1);
                     let found = canonical(&Multigraph::from_graph(&graph).unwrap());
@@ -350,6 +469,7 @@ mod tests {
     fn graph6_and_subdivided_edges() {
         for (cycles, nodes) in [(3, 7), (4, 8), (5, 8)] {
             for kernel in kernels(cycles, nodes) {
+                let kernel = kernel.multigraph();
                 for edges in [Edges::Once, Edges::Any] {
                     Subdivisions::new(&kernel, nodes, edges).for_each(&mut |subdivision| {
                         let graph = subdivision.graph();
@@ -388,6 +508,17 @@ mod tests {
                     });
                 }
             }
+        }
+    }
+
+    /// The longest paths that there are: 15 inner nodes on three paths, at most one of them without. That
+    /// is 19 partitions of 15 into three parts, and 7 into two.
+    #[test]
+    fn theta_graphs_with_the_most_nodes() {
+        let all = graphs(&theta(3), MOST_NODES, Edges::Any);
+        assert_eq!(all.len(), 19 + 7);
+        for (graph, _) in all {
+            assert_eq!((graph.nodes(), graph.edges().len()), (17, 18));
         }
     }
 

@@ -10,7 +10,6 @@ use crate::Candidates;
 use crate::counts::{Counts, Merged, Rechecked};
 use crate::faults::{listed, refuse};
 use crate::files;
-use crate::multigraph::MAX_NODES;
 use crate::part::Bad;
 use crate::recheck::Recheck;
 use crate::run::{Run, differences};
@@ -110,13 +109,8 @@ impl<'a> Blocks<'a> {
         let mut hash = Sha256::new();
         let range = self.kernels_of(block);
         if !range.is_empty() {
-            let mut order = [0u8; MAX_NODES];
-            (0..).zip(&mut order).for_each(|(k, place)| *place = k);
             for kernel in self.candidates.some_kernels(range)?.iter() {
-                let words = kernel.key(&order[..kernel.nodes()]);
-                words
-                    .iter()
-                    .for_each(|word| hash.update(word.to_le_bytes()));
+                hash.update(kernel.bytes());
             }
         }
         Ok(hex(&hash.finalize()))

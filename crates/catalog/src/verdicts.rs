@@ -1,7 +1,7 @@
 //! How many candidates of a size are finite solvable, and nothing else about them.
 //!
 //! Kernel by kernel: what its subdivisions have in common is computed once ([`siblings`]), and
-//! [`decide`] has a look at the few that this does not decide. Counts and a digest of the
+//! [`decide`] has a look at the few that this does not decide, and at those that may be unique. Counts and a digest of the
 //! finite-solvable graphs are all that is kept.
 //!
 //! [`siblings`]: super::siblings
@@ -9,12 +9,12 @@
 use super::candidates::Candidates;
 use super::multigraph::Multigraph;
 use super::set_digest::SetDigest;
-use super::siblings::{Proved, Siblings};
+use super::siblings::{self, Proved};
 use anyhow::Result;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
-use viewcert::decide::{Options, Strength, Value, VerdictError, decide};
+use viewcert::decide::{Options, Strength, Value, Verdict, VerdictError, decide};
 use viewcert::graph::{Graph, graph6};
 use viewcert::watch::{Stage, Step, Stopped};
 
@@ -96,7 +96,7 @@ pub fn tally(
             let found: Vec<(Tally, Vec<Left>)> = kernels
                 .par_iter()
                 .map(|kernel| {
-                    let found = of_kernel(candidates, kernel, options, list)?;
+                    let found = of_kernel(candidates, &kernel.multigraph(), options, list)?;
                     done(1);
                     Ok(found)
                 })
@@ -149,25 +149,28 @@ enum Left {
     Undecided(Graph),
 }
 
-/// The verdict of one graph, and its line if it is finite solvable.
+/// The verdict of one graph, counted, and its line if it is finite solvable.
 fn by_decide(graph: &Graph, options: &Options) -> Result<(Tally, Option<String>), VerdictError> {
+    Ok(of_verdict(graph, &decide(graph, options)?))
+}
+
+fn of_verdict(graph: &Graph, verdict: &Verdict) -> (Tally, Option<String>) {
     let mut tally = Tally::default();
     let line = graph6::encode(graph);
-    let verdict = decide(graph, options)?;
     match (verdict.value_by_rank(), verdict.value_claim().strength) {
         (Value::Solvable, _) => tally.unique += 1,
         (Value::FiniteSolvable, _) => tally.finite += 1,
         (Value::NotFiniteSolvable, Strength::Proof) => {
             tally.otherwise += 1;
-            return Ok((tally, None));
+            return (tally, None);
         }
         (Value::NotFiniteSolvable, Strength::ErrorBound(_)) => {
             tally.unproved.push(line);
-            return Ok((tally, None));
+            return (tally, None);
         }
     }
     tally.finite_solvable.insert(line.as_bytes());
-    Ok((tally, Some(line)))
+    (tally, Some(line))
 }
 
 /// The subdivisions of one kernel.
@@ -190,32 +193,42 @@ fn of_kernel(
         }));
     }
     let may_contract = may_contract(nodes, edges);
-    let mut siblings = None;
     let mut tally = Tally::default();
     let mut left = Vec::new();
-    candidates
-        .subdivisions(kernel)
-        .for_each(&mut |subdivision| {
-            let siblings =
-                siblings.get_or_insert_with(|| Siblings::new(kernel, nodes, options.seed));
-            tally.candidates += 1;
-            match siblings.decide(&subdivision) {
-                Proved::RefutedByOneBlock => tally.by_one_block += 1,
-                Proved::RefutedByBlocks => tally.by_blocks += 1,
-                Proved::FiniteSolvable if !may_contract => {
-                    tally.finite += 1;
-                    let line = subdivision.graph6();
-                    tally.finite_solvable.insert(&line);
-                    if list {
-                        left.push(Left::Listed(String::from_utf8_lossy(&line).into_owned()));
-                    }
-                }
-                Proved::FiniteSolvable | Proved::Nothing => {
-                    left.push(Left::Undecided(subdivision.graph()));
+    let subdivisions = candidates.subdivisions(kernel);
+    let mut take = |proved: Proved| -> Result<_, VerdictError> {
+        let mut candidates = 1;
+        match proved {
+            Proved::RefutedByOneBlock(count) => {
+                candidates = count;
+                tally.by_one_block += count;
+            }
+            Proved::RefutedByBlocks => tally.by_blocks += 1,
+            Proved::RefutedAlike => tally.otherwise += 1,
+            Proved::FiniteSolvable(subdivision) if may_contract => {
+                left.push(Left::Undecided(subdivision.graph()));
+            }
+            Proved::FiniteSolvable(subdivision) => {
+                tally.finite += 1;
+                let line = subdivision.graph6();
+                tally.finite_solvable.insert(&line);
+                if list {
+                    left.push(Left::Listed(String::from_utf8_lossy(&line).into_owned()));
                 }
             }
-            true
-        });
+            Proved::Nothing(subdivision) => {
+                let verdict = decide(&subdivision.graph(), options)?;
+                let (of_graph, line) = of_verdict(&subdivision.graph(), &verdict);
+                tally.add(of_graph);
+                left.extend(line.map(Left::Listed));
+                tally.candidates += 1;
+                return Ok(Some(verdict));
+            }
+        }
+        tally.candidates += candidates;
+        Ok(None)
+    };
+    siblings::decide_all(kernel, &subdivisions, options.seed, &mut take)?;
     Ok((tally, left))
 }
 

@@ -58,7 +58,15 @@ fn necessary_candidates_are_those_without_adjacent_nodes_of_degree_2() {
 fn impossible_sizes_are_refused() {
     let error = |nodes, edges| Candidates::new(nodes, edges, false).err();
     assert_eq!(error(2, 1), Some(SizeError::Nodes { nodes: 2 }));
-    assert_eq!(error(17, 30), Some(SizeError::Nodes { nodes: 17 }));
+    assert_eq!(error(18, 27), Some(SizeError::Nodes { nodes: 18 }));
+    // Ten cycles: there would be no kernels, and sets of 17 nodes.
+    let node_by_node = SizeError::NodeByNode {
+        nodes: 17,
+        most: 25,
+    };
+    assert_eq!(error(17, 26), Some(node_by_node));
+    assert_eq!(error(17, 25), None);
+    assert_eq!(error(17, 17), None);
     let edges = |nodes, edges, most| Some(SizeError::Edges { nodes, edges, most });
     assert_eq!(error(5, 4), edges(5, 4, 10));
     assert_eq!(error(5, 11), edges(5, 11, 10));

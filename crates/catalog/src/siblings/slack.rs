@@ -5,33 +5,52 @@
 //! refuted as soon as blocks without common edges have a slack of more than e in all. A block
 //! worth looking at is induced by some nodes of the kernel, together with the inner nodes of the
 //! subdivided edges among them: an inner node adds 14 - 11 - 7 = -4 to the slack of the kernel's
-//! edges.
+//! edges. So a block refutes a subdivision iff at least so many subdivided edges are outside of it: with
+//! a graph it refutes all that subdivide more edges of it.
 
 use super::super::multigraph::Multigraph;
-use super::flows::MAX_EDGES;
+use super::conditions::MAX_EDGES;
 
 /// Edges of the kernel that one block may have.
 #[derive(Clone, Copy)]
-struct Block {
+pub(super) struct Block {
     /// The edges, as bits.
-    edges: u32,
+    pub(super) edges: u32,
     /// The slack if none of them is subdivided.
-    slack: i32,
+    pub(super) slack: i32,
+}
+
+/// What one block refutes: whatever has `least` subdivided edges or more among those `outside` of it.
+#[derive(Clone, Copy)]
+struct Outside {
+    outside: u32,
+    least: u32,
 }
 
 /// The blocks of a kernel.
 pub(super) struct Blocks {
     /// What the blocks must exceed.
     spare: i32,
-    /// Those with a positive slack when nothing is subdivided that need not be. The ones that
-    /// refuted last come first.
+    /// Those with a positive slack when nothing is subdivided that need not be.
     blocks: Vec<Block>,
+    outside: Vec<Outside>,
+    /// Those with a positive slack, of the last subdivision that was looked at.
+    positive: Vec<Block>,
+}
+
+/// Which edges complete a set to one that a block refutes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Completing {
+    /// The set is refuted by itself.
+    Any,
+    /// These, as bits.
+    Edges(u32),
 }
 
 impl Blocks {
-    /// The blocks of the subdivisions for which 7 m - (11 n - 15) is `spare`. O(2^n) for a kernel
-    /// with n nodes.
-    pub(super) fn new(kernel: &Multigraph, spare: i32) -> Self {
+    /// The blocks of the subdivisions of so many edges, for which 7 m - (11 n - 15) is `spare`. O(2^n) for
+    /// a kernel with n nodes.
+    pub(super) fn new(kernel: &Multigraph, subdivided: usize, spare: i32) -> Self {
         let ends = kernel.edge_list();
         debug_assert!(ends.len() <= MAX_EDGES);
         let nodes = kernel.nodes();
@@ -67,47 +86,78 @@ impl Blocks {
             }
         }
         blocks.sort_by_key(|block| -block.with(forced));
-        Self { spare, blocks }
+        let outside = |block: &Block| {
+            let outside = all & !block.edges;
+            let missing = spare + 4 * subdivided as i32 - block.slack;
+            let least = (missing.div_euclid(4) + 1).max(0) as u32;
+            (least <= outside.count_ones().min(subdivided as u32))
+                .then_some(Outside { outside, least })
+        };
+        let mut outside: Vec<Outside> = blocks.iter().filter_map(outside).collect();
+        outside.sort_by_key(|one| (one.least, one.outside.count_ones()));
+        let mut needed: Vec<Outside> = Vec::new();
+        for one in outside {
+            // Whatever this one refutes, another one does.
+            let spared = |other: &Outside| {
+                let more = (one.outside & !other.outside).count_ones();
+                one.least >= other.least + more
+            };
+            if !needed.iter().any(spared) {
+                needed.push(one);
+            }
+        }
+        Self {
+            spare,
+            blocks,
+            outside: needed,
+            positive: Vec::new(),
+        }
     }
 
-    /// Whether one block refutes the subdivision.
-    pub(super) fn one_refutes(&mut self, subdivided: u32) -> bool {
-        let spare = self.spare;
-        let found = self
-            .blocks
-            .iter()
-            .position(|block| block.with(subdivided) > spare);
-        if let Some(found) = found.filter(|&found| found > 0) {
-            self.blocks.swap(found, found / 2);
+    /// Whether one block refutes all subdivisions of these edges and others.
+    pub(super) fn one_refutes(&self, subdivided: u32) -> bool {
+        let mut blocks = self.outside.iter();
+        blocks.any(|block| (block.outside & subdivided).count_ones() >= block.least)
+    }
+
+    /// The edges of which one more is enough for one block to refute the subdivision.
+    pub(super) fn completing(&self, subdivided: u32) -> Completing {
+        let mut edges = 0;
+        for block in &self.outside {
+            let count = (block.outside & subdivided).count_ones();
+            if count >= block.least {
+                return Completing::Any;
+            }
+            if count + 1 == block.least {
+                edges |= block.outside;
+            }
         }
-        found.is_some()
+        Completing::Edges(edges)
     }
 
     /// Whether several blocks without common edges do. False says nothing: the search is bounded.
-    pub(super) fn several_refute(&self, subdivided: u32) -> bool {
-        let mut positive: Vec<Block> = self
-            .blocks
-            .iter()
-            .map(|block| Block {
-                edges: block.edges,
-                slack: block.with(subdivided),
-            })
-            .filter(|block| block.slack > 0)
-            .collect();
-        positive.sort_by_key(|block| -block.slack);
-        let left = positive.iter().fold(0, |all, block| all | block.edges);
-        exceed(&positive, left, self.spare, &mut { STEPS })
+    pub(super) fn several_refute(&mut self, subdivided: u32) -> bool {
+        self.positive.clear();
+        let slacks = self.blocks.iter().map(|block| Block {
+            edges: block.edges,
+            slack: block.with(subdivided),
+        });
+        self.positive.extend(slacks.filter(|block| block.slack > 0));
+        self.positive.sort_by_key(|block| -block.slack);
+        let left = self.positive.iter().fold(0, |all, block| all | block.edges);
+        exceed(&self.positive, left, self.spare, &mut { STEPS })
     }
 }
 
 impl Block {
     /// The slack with these edges subdivided.
-    fn with(&self, subdivided: u32) -> i32 {
+    pub(super) fn with(&self, subdivided: u32) -> i32 {
         self.slack - 4 * (self.edges & subdivided).count_ones() as i32
     }
 }
 
-fn slack(edges: u32, nodes: u32) -> i32 {
+/// The slack of edges that have so many nodes.
+pub(super) fn slack(edges: u32, nodes: u32) -> i32 {
     7 * edges.count_ones() as i32 - 11 * nodes as i32 + 15
 }
 
