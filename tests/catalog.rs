@@ -160,9 +160,10 @@ fn malformed_lines_of_a_long_stream_are_named() {
 #[test]
 fn impossible_sizes_are_bad_usage() {
     for (arguments, message) in [
-        (&["--nodes", "2"][..], "3 to 16 nodes"),
-        (&["--nodes", "0"], "3 to 16 nodes"),
-        (&["--nodes", "17"], "3 to 16 nodes"),
+        (&["--nodes", "2"][..], "3 to 17 nodes"),
+        (&["--nodes", "0"], "3 to 17 nodes"),
+        (&["--nodes", "18"], "3 to 17 nodes"),
+        (&["--nodes", "17", "--edges", "26"], "with up to 25 edges"),
         (&["--nodes", "5", "--edges", "11"], "5 to 10 edges"),
         (&["--nodes", "5", "--edges", "4"], "5 to 10 edges"),
         (&["--nodes", "7-5"], "range is empty"),

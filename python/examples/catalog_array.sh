@@ -22,7 +22,7 @@
 # VERIFY  the program, if it is not in the PATH
 # SBATCH  more options of sbatch, for all three jobs, as in '--partition=long --account=mine'
 #
-# Memory: with kernels of up to 8 independent cycles (16 nodes) 170 MB to find them, and 20 to 60 MB a shard.
+# Memory: see docs/catalog.md, On a cluster.
 #SBATCH --job-name=viewcert-catalog
 #SBATCH --cpus-per-task=1
 #SBATCH --mem=500M

@@ -53,6 +53,10 @@ pub(super) struct Conditions {
     /// The first is that of the edges which every subdivision has, each other one of one edge more; none
     /// if their rows are dependent already.
     levels: Vec<Level>,
+    /// That of the last edge but one.
+    reducer: Option<Reducer>,
+    /// The rows of the last edge.
+    last: Vec<u32>,
 }
 
 impl Level {
@@ -66,94 +70,130 @@ impl Level {
         &self.entries[at..at + size]
     }
 
-    /// Whether the rows of an edge are independent.
-    fn independent(&self, edge: usize) -> bool {
-        let stride = self.stride();
-        let mut own = [0; 4 * MOST_COLUMNS];
-        let own = &mut own[..4 * stride];
-        own.copy_from_slice(self.rows(edge));
-        for k in 0..4 {
-            let (done, below) = own.split_at_mut((k + 1) * stride);
-            let row = &done[k * stride..];
-            let Some(at) = row.iter().position(|&entry| entry != 0) else {
-                return false;
-            };
-            for other in below.chunks_exact_mut(stride) {
-                cancel(other, row, at);
-            }
+    /// Takes an edge: the rows of those after it, reduced by its own, without four columns. False if its
+    /// own are dependent. O(4^2 columns) for each edge after it.
+    fn take(&self, edge: usize, next: &mut Self) -> bool {
+        let Some(reducer) = self.reducer(edge) else {
+            return false;
+        };
+        next.first = edge + 1;
+        next.columns = self.columns - 4;
+        let (size, width) = (4 * self.stride(), 4 * next.stride());
+        next.entries.clear();
+        let rows = &self.entries[(next.first - self.first) * size..];
+        next.entries.resize(rows.len() / size * width, 0);
+        for (rows, out) in rows
+            .chunks_exact(size)
+            .zip(next.entries.chunks_exact_mut(width))
+        {
+            reducer.reduce(rows, out);
         }
         true
     }
 
-    /// Takes an edge: the rows of those after it, reduced by its own, without four columns. False if its
-    /// own are dependent. O(4^2 columns) for each edge after it.
-    fn take(&self, edge: usize, next: &mut Self) -> bool {
+    /// What reduces rows by those of an edge; `None` if these are dependent.
+    fn reducer(&self, edge: usize) -> Option<Reducer> {
         let stride = self.stride();
-        let mut own = [0; 4 * MOST_COLUMNS];
-        let own = &mut own[..4 * stride];
-        own.copy_from_slice(self.rows(edge));
+        let mut own = [[0; MOST_COLUMNS]; 4];
+        for (row, entries) in own.iter_mut().zip(self.rows(edge).chunks_exact(stride)) {
+            row[..stride].copy_from_slice(entries);
+        }
         let mut pivots = [0; 4];
         for k in 0..4 {
-            let row = &own[k * stride..(k + 1) * stride];
-            let Some(at) = row.iter().position(|&entry| entry != 0) else {
-                return false;
-            };
+            let row = own[k];
+            let at = row[..stride].iter().position(|&entry| entry != 0)?;
             pivots[k] = at;
-            let mut pivot = [0; MOST_COLUMNS];
-            pivot[..stride].copy_from_slice(row);
-            for (_, other) in (own.chunks_exact_mut(stride).enumerate()).filter(|&(j, _)| j != k) {
-                cancel(other, &pivot[..stride], at);
+            for (_, other) in own.iter_mut().enumerate().filter(|&(j, _)| j != k) {
+                cancel(&mut other[..stride], &row[..stride], at);
             }
         }
-        next.first = edge + 1;
-        next.columns = self.columns - 4;
-        let width = next.stride();
-        // The last columns take the places of those that go, from the right.
         let mut places = pivots;
         places.sort_unstable_by(|a, b| b.cmp(a));
-        let drop_columns = |row: &mut [u32]| {
-            for (last, place) in (next.columns..self.columns).rev().zip(places) {
-                row[place] = row[last];
-                row[last] = 0;
-            }
-        };
         // Without inverses: all rows are multiplied by the product of the pivots, and each of its own by
         // that of the other pivots.
-        let scales: [u32; 4] = std::array::from_fn(|k| own[k * stride + pivots[k]]);
-        let whole = u64::from(scales.into_iter().fold(1, multiply));
-        let mut reducing = [[0u32; MOST_COLUMNS]; 4];
-        for (k, row) in reducing.iter_mut().enumerate() {
+        let scales: [u32; 4] = std::array::from_fn(|k| own[k][pivots[k]]);
+        let mut reducer = Reducer {
+            columns: self.columns,
+            pivots,
+            places,
+            whole: u64::from(scales.into_iter().fold(1, multiply)),
+            rows: own,
+        };
+        for (k, row) in reducer.rows.iter_mut().enumerate() {
             let others = (0..4).filter(|&j| j != k);
             let scale = others.fold(1, |product, j| multiply(product, scales[j]));
-            for (entry, &x) in row.iter_mut().zip(&own[k * stride..(k + 1) * stride]) {
-                *entry = multiply(x, scale);
+            for entry in &mut row[..stride] {
+                *entry = multiply(*entry, scale);
             }
-            drop_columns(row);
+            drop_columns(row, self.columns, places);
         }
-        let [a, b, c, d] = &reducing;
-        let (a, b, c, d) = (&a[..width], &b[..width], &c[..width], &d[..width]);
-        next.entries.clear();
-        let edges = (self.entries.len() / (4 * stride)).saturating_sub(next.first - self.first);
-        next.entries.resize(edges * 4 * width, 0);
-        let rows = &self.entries[(next.first - self.first) * 4 * stride..];
-        let mut before = [0u32; MOST_COLUMNS];
-        let before = &mut before[..stride];
-        for (row, out) in rows
-            .chunks_exact(stride)
-            .zip(next.entries.chunks_exact_mut(width))
-        {
-            before.copy_from_slice(row);
-            let [w, x, y, z] = pivots.map(|at| P - u64::from(row[at]));
-            drop_columns(before);
-            for (k, entry) in out.iter_mut().enumerate() {
-                // Three products are below 2^64; folded, with one more each, the sums stay below 2^63.
-                let sum = w * u64::from(a[k]) + x * u64::from(b[k]) + y * u64::from(c[k]);
-                let sum = fold(sum) + z * u64::from(d[k]);
-                *entry = reduce(u64::from(before[k]) * whole + fold(sum));
-            }
-        }
-        true
+        Some(reducer)
     }
+}
+
+/// The rows of an edge, by which those of others are reduced.
+struct Reducer {
+    /// How many columns they have.
+    columns: usize,
+    /// Where each row has its pivot.
+    pivots: [usize; 4],
+    /// The same from the right.
+    places: [usize; 4],
+    /// The product of the pivots.
+    whole: u64,
+    /// The rows without the columns of pivots, each times the other pivots.
+    rows: [[u32; MOST_COLUMNS]; 4],
+}
+
+impl Reducer {
+    /// The rows of another edge, four of a length, reduced: four that have four columns less.
+    fn reduce(&self, rows: &[u32], out: &mut [u32]) {
+        let (stride, width) = (rows.len() / 4, out.len() / 4);
+        let [a, b, c, d] = self
+            .rows
+            .each_ref()
+            .map(|row| row[..width].as_chunks::<GROUP>().0);
+        let mut before = [0u32; MOST_COLUMNS];
+        for (row, out) in rows.chunks_exact(stride).zip(out.chunks_exact_mut(width)) {
+            before[..stride].copy_from_slice(row);
+            let [w, x, y, z] = self.pivots.map(|at| P - u64::from(row[at]));
+            drop_columns(&mut before, self.columns, self.places);
+            let groups = before.as_chunks::<GROUP>().0.iter();
+            let groups = groups.zip(out.as_chunks_mut::<GROUP>().0).enumerate();
+            for (g, (before, out)) in groups {
+                for k in 0..GROUP {
+                    // Three products are below 2^64; folded, with one more each, the sums stay below 2^63.
+                    let sum = w * u64::from(a[g][k]) + x * u64::from(b[g][k]);
+                    let sum = fold(sum + y * u64::from(c[g][k])) + z * u64::from(d[g][k]);
+                    out[k] = reduce(u64::from(before[k]) * self.whole + fold(sum));
+                }
+            }
+        }
+    }
+}
+
+/// Drops four columns, given from the right: the last ones take their places.
+fn drop_columns(row: &mut [u32], columns: usize, places: [usize; 4]) {
+    for (last, place) in (columns - 4..columns).rev().zip(places) {
+        row[place] = row[last];
+        row[last] = 0;
+    }
+}
+
+/// Whether four rows are independent.
+fn independent(own: &mut [u32]) -> bool {
+    let stride = own.len() / 4;
+    for k in 0..4 {
+        let (done, below) = own.split_at_mut((k + 1) * stride);
+        let row = &done[k * stride..];
+        let Some(at) = row.iter().position(|&entry| entry != 0) else {
+            return false;
+        };
+        for other in below.chunks_exact_mut(stride) {
+            cancel(other, row, at);
+        }
+    }
+    true
 }
 
 impl Conditions {
@@ -170,7 +210,11 @@ impl Conditions {
         let pencils = draw(kernel.nodes(), &ends, random);
         let cotree = outside_of_a_tree(kernel.nodes(), &ends);
         let flows = conserved(kernel.nodes(), &ends, &pencils);
-        let mut conditions = Self { levels: Vec::new() };
+        let mut conditions = Self {
+            levels: Vec::new(),
+            reducer: None,
+            last: Vec::new(),
+        };
         // N of the kernel has full rank, 3 n - 4.
         if flows.len() + 3 * kernel.nodes() != 2 * ends.len() + 4 {
             return conditions;
@@ -240,10 +284,30 @@ impl Conditions {
         from.take(edge, to)
     }
 
+    /// Takes an edge after `depth` others, if only one more is to come: whether all their rows are independent.
+    pub(super) fn take_last_but_one(&mut self, depth: usize, edge: usize) -> bool {
+        let level = &self.levels[depth];
+        self.reducer = level.reducer(edge);
+        self.last.resize(4 * level.stride(), 0);
+        self.reducer.is_some()
+    }
+
     /// Whether the rows of an edge are independent of those of the `depth` edges that were taken: then
     /// the subdivision of all these is finite solvable (Proposition 3.8). Otherwise nothing is proved.
-    pub(super) fn independent(&self, depth: usize, edge: usize) -> bool {
-        self.levels[depth].independent(edge)
+    pub(super) fn independent(&mut self, depth: usize, edge: usize) -> bool {
+        match (&self.reducer, depth.checked_sub(1)) {
+            (Some(reducer), Some(before)) => {
+                let level = &self.levels[before];
+                let width = 4 * (level.columns - 4).max(1).next_multiple_of(GROUP);
+                reducer.reduce(level.rows(edge), &mut self.last[..width]);
+                independent(&mut self.last[..width])
+            }
+            _ => {
+                self.last.clear();
+                self.last.extend_from_slice(self.levels[depth].rows(edge));
+                independent(&mut self.last)
+            }
+        }
     }
 }
 
@@ -451,8 +515,12 @@ mod tests {
                         && match chosen.split_last() {
                             None => true,
                             Some((&last, before)) => {
-                                let mut taken = before.iter().enumerate();
+                                let many = before.len().saturating_sub(1);
+                                let mut taken = before[..many].iter().enumerate();
                                 taken.all(|(depth, &edge)| conditions.take(depth, edge))
+                                    && before[many..]
+                                        .iter()
+                                        .all(|&edge| conditions.take_last_but_one(many, edge))
                                     && conditions.independent(before.len(), last)
                             }
                         };

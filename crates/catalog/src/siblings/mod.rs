@@ -145,8 +145,10 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
         }
         // Without the first pairs first, as they are made.
         for pair in (first..=all - left).rev() {
-            let full_rank =
-                chosen.full_rank && !refuted && self.conditions.take(chosen.pairs, pair);
+            // Before the last edge there may be none that is left to look at.
+            let full_rank = chosen.full_rank
+                && !refuted
+                && (left == 2 || self.conditions.take(chosen.pairs, pair));
             let more = Chosen {
                 pairs: chosen.pairs + 1,
                 set: chosen.set | 1 << pair,
@@ -166,6 +168,7 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
             false => self.blocks.completing(chosen.edges),
         };
         let mut count = 0;
+        let mut full_rank = None;
         for pair in (first..self.once.last.len()).rev() {
             let (set, edge) = (chosen.set | 1 << pair, self.once.last[pair]);
             if !self.once.no_symmetry() && !self.once.counts(set) {
@@ -179,12 +182,18 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
                 count += 1;
                 continue;
             }
+            let full_rank = *full_rank.get_or_insert_with(|| {
+                let before = chosen.pairs.checked_sub(1).zip(first.checked_sub(1));
+                let mut take = |(depth, edge)| self.conditions.take_last_but_one(depth, edge);
+                chosen.full_rank && before.is_none_or(&mut take)
+            });
+            let full_rank = full_rank && self.conditions.independent(chosen.pairs, pair);
             self.one(Chosen {
                 pairs: chosen.pairs + 1,
                 set,
                 edges: chosen.edges | 1 << edge,
                 refuted,
-                full_rank: chosen.full_rank && self.conditions.independent(chosen.pairs, pair),
+                full_rank,
             })?;
         }
         if count > 0 {
