@@ -68,8 +68,20 @@ struct Siblings<'a, F> {
     spare: i32,
     blocks: Blocks,
     conditions: Conditions,
+    /// The pairs that are chosen, all but the last one.
+    path: Vec<usize>,
+    taken: Taken,
     refutations: Vec<Refutation>,
     each: &'a mut F,
+}
+
+/// Of how many chosen pairs the conditions have been taken: not before a subdivision is looked at that no
+/// block refutes.
+#[derive(Clone, Copy, Default)]
+struct Taken {
+    pairs: usize,
+    /// Whether those of the next one depend on them.
+    dependent: bool,
 }
 
 /// Edges that are chosen.
@@ -83,8 +95,6 @@ struct Chosen {
     edges: u32,
     /// Whether one block refutes them.
     refuted: bool,
-    /// Whether N and Lambda have full rank.
-    full_rank: bool,
 }
 
 impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
@@ -109,6 +119,8 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
             spare,
             blocks: Blocks::new(kernel, subdivided, spare),
             conditions: Conditions::new(kernel, &forced, &once.last, &mut random),
+            path: Vec::new(),
+            taken: Taken::default(),
             refutations: Vec::new(),
             ends,
             each,
@@ -121,13 +133,12 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
             set: 0,
             edges: self.once.forced,
             refuted: false,
-            full_rank: self.conditions.hold(),
         };
         if self.once.chosen > 0 {
             return self.below(none, 0);
         }
         let refuted = self.blocks.one_refutes(none.edges);
-        self.one(Chosen { refuted, ..none })
+        self.one(Chosen { refuted, ..none }, self.conditions.hold())
     }
 
     /// Decides the subdivisions of these edges and of pairs from `first` on.
@@ -145,16 +156,19 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
         }
         // Without the first pairs first, as they are made.
         for pair in (first..=all - left).rev() {
-            // Before the last edge there may be none that is left to look at.
-            let full_rank = chosen.full_rank
-                && !refuted
-                && (left == 2 || self.conditions.take(chosen.pairs, pair));
+            self.path.truncate(chosen.pairs);
+            self.path.push(pair);
+            if self.taken.pairs >= chosen.pairs {
+                self.taken = Taken {
+                    pairs: chosen.pairs,
+                    dependent: false,
+                };
+            }
             let more = Chosen {
                 pairs: chosen.pairs + 1,
                 set: chosen.set | 1 << pair,
                 edges: chosen.edges | 1 << self.once.last[pair],
                 refuted,
-                full_rank,
             };
             self.below(more, pair + 1)?;
         }
@@ -182,19 +196,15 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
                 count += 1;
                 continue;
             }
-            let full_rank = *full_rank.get_or_insert_with(|| {
-                let before = chosen.pairs.checked_sub(1).zip(first.checked_sub(1));
-                let mut take = |(depth, edge)| self.conditions.take_last_but_one(depth, edge);
-                chosen.full_rank && before.is_none_or(&mut take)
-            });
-            let full_rank = full_rank && self.conditions.independent(chosen.pairs, pair);
-            self.one(Chosen {
+            let before = *full_rank.get_or_insert_with(|| self.take());
+            let full_rank = before && self.conditions.independent(chosen.pairs, pair);
+            let more = Chosen {
                 pairs: chosen.pairs + 1,
                 set,
                 edges: chosen.edges | 1 << edge,
                 refuted,
-                full_rank,
-            })?;
+            };
+            self.one(more, full_rank)?;
         }
         if count > 0 {
             (self.each)(Proved::RefutedByOneBlock(count))?;
@@ -202,12 +212,28 @@ impl<'a, E, F: FnMut(Proved) -> Result<Option<Verdict>, E>> Siblings<'a, F> {
         Ok(())
     }
 
-    /// Decides one subdivision.
-    fn one(&mut self, chosen: Chosen) -> Result<(), E> {
+    /// Takes the conditions of all pairs that are chosen but the last one: whether they are independent.
+    fn take(&mut self) -> bool {
+        let Some((&last, before)) = self.path.split_last() else {
+            return self.conditions.hold();
+        };
+        let taken = &mut self.taken;
+        taken.dependent |= !self.conditions.hold();
+        while !taken.dependent && taken.pairs < before.len() {
+            match self.conditions.take(taken.pairs, before[taken.pairs]) {
+                true => taken.pairs += 1,
+                false => taken.dependent = true,
+            }
+        }
+        !taken.dependent && self.conditions.take_last_but_one(before.len(), last)
+    }
+
+    /// Decides one subdivision, whose N and Lambda may be known to have full rank.
+    fn one(&mut self, chosen: Chosen, full_rank: bool) -> Result<(), E> {
         let (edges, spare) = (chosen.edges, self.spare);
         if chosen.refuted {
             (self.each)(Proved::RefutedByOneBlock(1))?;
-        } else if chosen.full_rank {
+        } else if full_rank {
             let each = |subdivision: Subdivision| (self.each)(Proved::FiniteSolvable(&subdivision));
             self.once.with(chosen.set, each)?;
         } else if self.blocks.several_refute(edges) {
