@@ -1,7 +1,9 @@
 (* What has to be read: the objects that the proved checker speaks of, and the claims it makes.
 
    Theorem 1.3 of docs/theory.md (a graph is finite solvable iff [full_rank] holds) is not formal. It is cited from
-   the literature, and no name before [solvable] says more than a rank. *)
+   the literature, and no name before [solvable] says more than a rank. That [full_rank] is [directions_determine] is
+   formal (Theorem 4.8, Parallel.v); that affine cameras are determined iff points in a plane are is Theorem 13.2 and
+   is not. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
