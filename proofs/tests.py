@@ -329,6 +329,25 @@ solvable
 end
 """
 
+# Two triangles that share a pair, by scales: links of a tree and two corners
+DIAMOND = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3)]
+DIAMOND_PROOF = """viewcert proof 1
+graph 4 5
+claim 0 29
+unique 4 4 0 2
+0 47658 55560 54360
+1 64119 1151 14969
+2 63796 60163 49194
+3 31981 23705 28284
+pair 0 1 0 0
+pair 1 2 0 0
+pair 0 3 0 0
+corner 0 1 2 0
+corner 1 0 3 0
+solvable
+end
+"""
+
 # Example 5.6: node 1 has five copies, 9 to 13; the hub stands first, so nodes 0 and 1 have changed places.
 GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
 GAMMA_PROOF = """viewcert proof 1
@@ -631,6 +650,30 @@ def by_hand(program):
     case("scales, a corner without ties", 2, k23, scales.replace(SETTLED, "corner 0 2 1 0\n"), "is no pair")
     case("scales, and no claim", 2, k23, scales.replace("solvable\n", ""), "solvable expected")
     case("scales, 10^9 steps", 2, k23, scales.replace("5 3 2 1", "5 3 2 1000000000"), "sizes out of range")
+    # corners; a body by rank, which is not determined, in the place of a pair
+    diamond = text_of(DIAMOND)
+    case("scales, corners", 0, diamond, DIAMOND_PROOF, "solvable: ")
+    case("scales, a corner whose first link is not known", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0", "corner 2 3 0 0"))
+    case("scales, a corner whose second link is not known", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0", "corner 0 3 2 0"))
+    case("scales, a corner left out", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0\n", "").replace("4 4 0 2", "4 4 0 1"))
+    by_rank = "body 2 2 1\n{0} 1 2 3\n{1} 9 8 7\n{0} {1} 127 0\nunique"
+
+    def unsure(proof, i, j, old, new):
+        return proof.replace("unique", by_rank.format(i, j), 1).replace(old, new, 1)
+
+    case("scales, a body that is not used", 0, diamond, unsure(DIAMOND_PROOF, 0, 2, "corner", "corner"), "solvable: ")
+    case("scales, a corner by a body that is not determined", 1, diamond, unsure(DIAMOND_PROOF, 0, 2, "corner 0 1 2 0", "corner 0 1 2 1"))
+    case("scales, a pair by a body that is not determined", 1, k23, unsure(scales, 0, 2, "pair 0 2 0 0", "pair 0 2 0 1"))
+    case("scales, a middle by a body that is not determined", 1, k23, unsure(scales, 0, 3, "middle 0 1 3 0 0", "middle 0 1 3 1 0"))
+    case("scales, a middle by a second one", 1, k23, unsure(scales, 1, 3, "middle 0 1 3 0 0", "middle 0 1 3 0 1"))
+    case("scales, another middle by one", 1, k23, unsure(scales, 0, 4, "middle 0 1 4 0 0", "middle 0 1 4 1 0"))
+    case("scales, a node by a body that is not determined", 1, k23, unsure(scales, 0, 3, "two 3 0 0 1 0", "two 3 0 1 1 0"))
+    case("scales, a node by a second one", 1, k23, unsure(scales, 1, 3, "two 3 0 0 1 0", "two 3 0 0 1 1"))
+    case("scales, links in a ring", 1, k23, scales.replace("pair 0 2 0 0\npair 2 1 0 0", "pair 1 2 0 0\npair 2 1 0 0"))
+    case("scales, a node with two links, another with none", 1, k23, scales.replace("pair 2 1 0 0", "pair 0 2 1 0"))
+    whole = "viewcert proof 1\ngraph 3 3\nclaim 0 18\n" + by_rank.format(0, 1) + " 3 0 0 0\nfree 0\none 1 0 {}\ntwo 2 0 0 1 0\nsolvable\nend\n"
+    case("solvable, set of three", 0, text_of(TRIANGLE), whole.format(0), "solvable: ")
+    case("solvable, begun by a body that is not determined", 1, text_of(TRIANGLE), whole.format(1))
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
