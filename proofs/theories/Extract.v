@@ -29,6 +29,8 @@ Print Assumptions calibrated_determined.
 Print Assumptions affine_determined.
 Print Assumptions full_rank_unique.
 Print Assumptions less_rank_many.
+Print Assumptions full_rank_rays.
+Print Assumptions less_rank_rays.
 Print Assumptions bearing_rank_sound.
 Print Assumptions rule_4.
 Print Assumptions lemma_3_1.

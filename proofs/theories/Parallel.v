@@ -3,7 +3,7 @@
 From mathcomp Require Import all_ssreflect all_algebra zify ring.
 From Viewcert Require Import Statement Skew Motions Generic Counting Rigid Generically Directions Components.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
-Import GRing.Theory Num.Theory.
+Import Order.POrderTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
 Section Given.
@@ -76,22 +76,8 @@ move=> less; have : ~~ (kermx (N E c) <= trivials c)%MS.
 by case/row_subPn=> i ni; exists (vec_mx (row i (kermx (N E c)))); rewrite vec_mxK row_sub.
 Qed.
 
-(* numbers that are no roots *)
-Lemma nonroots (Q : {poly F}) k : Q != 0 -> exists s : seq F, [/\ size s = k, uniq s & all (fun x => ~~ root Q x) s].
-Proof.
-move=> Q0; pose s := [seq i%:R : F | i <- iota 0 (size Q + k)].
-have us : uniq s by rewrite map_inj_uniq ?iota_uniq // => x y /eqP; rewrite eqr_nat => /eqP.
-have le : (k <= size [seq x <- s | ~~ root Q x])%N.
-  have small : (size [seq x <- s | root Q x] < size Q)%N by apply: max_poly_roots; rewrite ?filter_all ?filter_uniq.
-  have := count_predC (root Q) s; rewrite -!size_filter size_map size_iota => e.
-  by move: small e; move: (size _) (size _) (size _) => i j l; lia.
-exists (take k [seq x <- s | ~~ root Q x]); split; first by rewrite size_takel.
-  exact/take_uniq/filter_uniq.
-by apply/allP=> x /mem_take; rewrite mem_filter => /andP [].
-Qed.
-
-Theorem less_rank_many : (\rank (N E c) < d * n - d.+1)%N -> forall k, exists ys : seq (points F n d),
-  [/\ size ys = k, forall y, y \in ys -> same_directions E c y
+Theorem less_rank_near : (\rank (N E c) < d * n - d.+1)%N -> forall k, exists ys : seq (points F n d),
+  [/\ size ys = k, forall y, y \in ys -> forall e, e \in E -> exists2 t, `|t - 1| < 1 & displacement y e = t *: displacement c e
     & forall i j, (i < k)%N -> (j < k)%N -> same_points (nth 0 ys i) (nth 0 ys j) -> i = j].
 Proof.
 move=> /moving [y /andP [ky ny]] k.
@@ -101,14 +87,20 @@ have scale e : e \in E -> exists s, displacement y e == s *: displacement c e.
 pose s_of e : F := if @idP (e \in E) is ReflectT eE then xchoose (scale e eE) else 0.
 have s_ofP e : e \in E -> displacement y e = s_of e *: displacement c e.
   by rewrite /s_of; case: {-}_ / idP => // eE _; apply/eqP/(xchooseP (scale e eE)).
-pose Q : {poly F} := \prod_(e <- E) (1 + s_of e *: 'X).
-have Q0 : Q != 0.
-  rewrite prodf_seq_neq0; apply/allP=> e _ /=; apply: contraTneq (oner_neq0 F) => e0.
-  by have := congr1 (fun p : {poly F} => p.[0]) e0; rewrite hornerD hornerZ hornerX mulr0 addr0 hornerC horner0 => ->; rewrite eqxx.
-have [xs [sx ux nr]] := nonroots k Q0; exists [seq c + x *: y | x <- xs]; split; first by rewrite size_map.
-  move=> _ /mapP [x /(allP nr) + ->] e eE; rewrite /root horner_prod prodf_seq_neq0 => /allP /(_ e eE) /=.
-  rewrite hornerD hornerZ hornerX hornerC => nz; exists (1 + s_of e * x) => //.
-  by rewrite addrC displacementP s_ofP // scalerA -[X in _ + X]scale1r -scalerDl addrC [x * _]mulrC.
+pose S := 1 + \sum_(e <- E) `|s_of e|.
+have S0 : 0 < S by rewrite ltr_spaddl // sumr_ge0.
+pose x_ i : F := (S * i.+1%:R)^-1; have xp i : 0 < x_ i by rewrite invr_gt0 mulr_gt0 // ltr0n.
+pose xs := [seq x_ i | i <- iota 0 k]; have sx : size xs = k by rewrite size_map size_iota.
+have ux : uniq xs.
+  rewrite map_inj_uniq ?iota_uniq // => i j /invr_inj /(mulfI (lt0r_neq0 S0)) /eqP; rewrite eqr_nat eqSS => /eqP.
+  by [].
+exists [seq c + x *: y | x <- xs]; split; first by rewrite size_map.
+  move=> _ /mapP [x /mapP [i _ ->] ->] e eE; exists (1 + s_of e * x_ i); last first.
+    by rewrite addrC displacementP s_ofP // scalerA -[X in _ + X]scale1r -scalerDl addrC [x_ i * _]mulrC.
+  rewrite addrAC subrr add0r normrM (gtr0_norm (xp i)) ltr_pdivr_mulr ?mulr_gt0 ?ltr0n // mul1r.
+  apply: le_lt_trans (_ : `|s_of e| <= S - 1) _.
+    by rewrite /S addrC addKr (big_rem e) //= ler_addl sumr_ge0.
+  by rewrite ltr_subl_addr ltr_spaddr // ler_pmulr // ler1n.
 have row_moved x v : row v (c + x *: y) = row v c + x *: row v y by rewrite linearD /= linearZ.
 move=> i j ik jk; rewrite !(nth_map 0) ?sx // => -[s s0 [t h]].
 set x := nth 0 xs i in h; set x' := nth 0 xs j in h.
@@ -127,7 +119,43 @@ have s1 : s = 1.
   by rewrite scaler_eq0 (negbTE nz).
 by move: x0; rewrite s1 mul1r => /eqP; rewrite nth_uniq ?sx // => /eqP ->.
 Qed.
+
+Theorem less_rank_many : (\rank (N E c) < d * n - d.+1)%N -> forall k, exists ys : seq (points F n d),
+  [/\ size ys = k, forall y, y \in ys -> same_directions E c y
+    & forall i j, (i < k)%N -> (j < k)%N -> same_points (nth 0 ys i) (nth 0 ys j) -> i = j].
+Proof.
+move=> /less_rank_near near k; have [ys [size_ys same diff]] := near k; exists ys; split=> // y /same h e /h [t t1 dt].
+by exists t => //; apply: contraTneq t1 => ->; rewrite sub0r normrN normr1 ltxx.
+Qed.
 End Many.
+
+(* With signs: the directions of rays, not of lines *)
+Section Signs.
+Variables (F : realFieldType) (n d : nat) (E : seq ('I_n * 'I_n)) (c : points F n d).
+Hypotheses (n1 : (1 < n)%N) (d1 : (1 < d)%N).
+Definition same_rays (y : points F n d) := forall e, e \in E -> exists2 t : F, 0 < t & displacement y e = t *: displacement c e.
+
+Theorem full_rank_rays : (d * n - d.+1 <= \rank (N E c))%N -> forall y, same_rays y ->
+  exists2 s : F, 0 < s & exists t : 'rV_d, forall v, row v y = s *: row v c + t.
+Proof.
+move=> full y rays; have [e eE ce] := some_displacement n1 d1 full; have [t t0 et] := rays e eE.
+have [|s _ [u h]] := full_rank_unique n1 d1 full (y := y).
+  by move=> f /rays [x x0 fx]; exists x; rewrite ?lt0r_neq0.
+exists s; last by exists u.
+suff -> : s = t by []; have : (s - t) *: displacement c e == 0 by rewrite scalerBl -(displacement_trivial e h) et subrr.
+by rewrite scaler_eq0 (negbTE ce) orbF subr_eq0 => /eqP.
+Qed.
+
+Theorem less_rank_rays f : (forall e, e \in E -> displacement c e != 0) -> displacement c f != 0 ->
+  (\rank (N E c) < d * n - d.+1)%N -> forall k, exists ys : seq (points F n d),
+  [/\ size ys = k, forall y, y \in ys -> same_rays y
+    & forall i j, (i < k)%N -> (j < k)%N -> same_points (nth 0 ys i) (nth 0 ys j) -> i = j].
+Proof.
+move=> distinct apart less k; have [ys [size_ys same diff]] := less_rank_near n1 d1 distinct apart less k.
+exists ys; split=> // y /same h e /h [t t1 dt]; exists t => //.
+by move: t1; rewrite ltr_distl subrr => /andP [].
+Qed.
+End Signs.
 
 (* ------------------------------------------------------------------ at generic points *)
 Section Generic.
