@@ -2,9 +2,10 @@
 [--mutants N] [--seed S].
 
 By hand: small graphs, hostile files. --catalog: every published graph, proofs written by the example
-`prove`; ranks are those of the published certificates. Mutants of proofs and graphs: what is accepted
-is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone; and the other two
-checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
+`prove`; ranks are those of the published certificates. In the calibrated and the affine model all connected graphs of up
+to seven nodes. Mutants of proofs and graphs: what is accepted
+is true by the rank of J at random cameras, or of N at random points, modulo a prime, computed here from (1.1) and (1.2), or
+from the displacements, alone; and the other two checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
 
 import argparse
 import csv
