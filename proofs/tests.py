@@ -2,9 +2,10 @@
 [--mutants N] [--seed S].
 
 By hand: small graphs, hostile files. --catalog: every published graph, proofs written by the example
-`prove`; ranks are those of the published certificates. Mutants of proofs and graphs: what is accepted
-is true by the rank of J at random cameras modulo a prime, computed here from (1.1) and (1.2) alone; and the other two
-checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
+`prove`; ranks are those of the published certificates. In the calibrated and the affine model all connected graphs of up
+to seven nodes. Mutants of proofs and graphs: what is accepted
+is true by the rank of J at random cameras, or of N at random points, modulo a prime, computed here from (1.1) and (1.2), or
+from the displacements, alone; and the other two checkers accept a certificate that says the same. --data: the published graphs, components as in the paper's table."""
 
 import argparse
 import csv
@@ -53,8 +54,33 @@ def rank(rows):
     return found
 
 
-def generic_rank(n, pairs, draw):
-    """The rank of J at cameras with random entries."""
+MODELS = ("projective", "calibrated", "affine")
+
+
+def required(n, model):
+    """The largest rank that a graph with n nodes can have."""
+    return {"projective": 11 * n - 15, "calibrated": 3 * n - 4, "affine": 2 * n - 3}[model]
+
+
+def displaced(points, pairs, prime):
+    """N at these points: for each pair the minors of its displacement and that of a motion."""
+    n, d = len(points), len(points[0])
+    rows = []
+    for i, j in pairs:
+        u = [(x - y) % prime for x, y in zip(points[i], points[j])]
+        for g, h in itertools.combinations(range(d), 2):
+            row = [0] * (d * n)
+            row[d * i + h], row[d * i + g] = u[g], -u[h] % prime
+            row[d * j + h], row[d * j + g] = -u[g] % prime, u[h]
+            rows.append(row)
+    return rows
+
+
+def generic_rank(n, pairs, draw, model="projective"):
+    """The rank of J at cameras with random entries, or of N at random points."""
+    if model != "projective":
+        points = [[draw.randrange(P) for _ in range({"calibrated": 3, "affine": 2}[model])] for _ in range(n)]
+        return rank(displaced(points, pairs, P))
     cameras = [[[draw.randrange(P) for _ in range(4)] for _ in range(3)] for _ in range(n)]
     rows = []
     for i, j in pairs:
@@ -98,11 +124,16 @@ class Program:
 
 def bounds(text):
     """What a printed theorem says: lower and upper bound, None where it says nothing."""
-    exact = re.search(r"generic rank of J is (\d+)", text)
+    exact = re.search(r"generic rank of [JN] is (\d+)", text)
     if exact:
         return int(exact[1]), int(exact[1])
     low, high = re.search(r"have rank (\d+) at least", text), re.search(r"is at most (\d+)", text)
     return low and int(low[1]), high and int(high[1])
+
+
+def model_of(text):
+    """The model that a printed theorem speaks of."""
+    return next((model for model in MODELS[1:] if f"\n  {model} model: " in text), "projective")
 
 
 def listed(text):
@@ -116,15 +147,17 @@ def listed(text):
     return set(sets)
 
 
-def components(n, pairs, draw):
+def components(n, pairs, draw, model="projective"):
     """The largest sets of nodes whose pairs have full rank among themselves: all sets are tried, the largest first."""
+    each = required(2, model)
     found = []
     for size in range(n, 1, -1):
         for nodes in map(frozenset, itertools.combinations(range(n), size)):
             inside = [pair for pair in pairs if nodes.issuperset(pair)]
-            # 7 for each pair, and Lemma 1.1: most sets are out
-            if 7 * len(inside) >= 11 * size - 15 and not any(nodes <= larger for larger in found):
-                if generic_rank(n, inside, draw) == 11 * size - 15:
+            # what each pair counts, and Lemma 1.1 or 3.4: most sets are out
+            full = required(size, model)
+            if each * len(inside) >= full and not any(nodes <= larger for larger in found):
+                if generic_rank(n, inside, draw, model) == full:
                     found.append(nodes)
     return set(found)
 
@@ -297,6 +330,25 @@ solvable
 end
 """
 
+# Two triangles that share a pair, by scales: links of a tree and two corners
+DIAMOND = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3)]
+DIAMOND_PROOF = """viewcert proof 1
+graph 4 5
+claim 0 29
+unique 4 4 0 2
+0 47658 55560 54360
+1 64119 1151 14969
+2 63796 60163 49194
+3 31981 23705 28284
+pair 0 1 0 0
+pair 1 2 0 0
+pair 0 3 0 0
+corner 0 1 2 0
+corner 1 0 3 0
+solvable
+end
+"""
+
 # Example 5.6: node 1 has five copies, 9 to 13; the hub stands first, so nodes 0 and 1 have changed places.
 GAMMA = [(0, 2), (0, 3), (0, 5), (1, 4), (1, 5), (1, 6), (1, 7), (1, 8), (2, 4), (2, 6), (3, 7), (3, 8)]
 GAMMA_PROOF = """viewcert proof 1
@@ -320,6 +372,114 @@ end
 """
 
 
+def in_model(proof, model, claim):
+    """A proof in another model, with another claim."""
+    return re.sub(r"claim \d+ \d+", f"model {model}\nclaim {claim}", proof)
+
+
+def apart(nodes, model, draw):
+    """The pairs of a cycle, each a component, told apart by a motion at random points modulo 65521."""
+    prime, d = 65521, {"calibrated": 3, "affine": 2}[model]
+    pairs = sorted(tuple(sorted((v, (v + 1) % nodes))) for v in range(nodes))
+    centres = [[draw.randrange(prime) for _ in range(3)] for _ in range(nodes)]
+    matrix = displaced([centre[:d] for centre in centres], pairs, prime)
+    # reduced echelon form, and a motion whose free entries are drawn
+    pivots = {}
+    for row in matrix:
+        for column, pivot in pivots.items():
+            row = [(x - row[column] * y) % prime for x, y in zip(row, pivot)]
+        at = next((k for k, x in enumerate(row) if x), None)
+        if at is not None:
+            row = [x * pow(row[at], -1, prime) % prime for x in row]
+            for column, pivot in pivots.items():
+                pivots[column] = [(x - pivot[at] * y) % prime for x, y in zip(pivot, row)]
+            pivots[at] = row
+    motion = [draw.randrange(prime) for _ in range(d * nodes)]
+    for column, pivot in pivots.items():
+        motion[column] = -sum(x * y for k, (x, y) in enumerate(zip(pivot, motion)) if k not in pivots) % prime
+    assert all(sum(x * y for x, y in zip(row, motion)) % prime == 0 for row in matrix)
+    count = required(2, model) * nodes
+    assert len(pivots) == count < required(nodes, model)
+    lines = ["viewcert proof 1", f"graph {nodes} {nodes}", f"model {model}", f"claim {count} {count}"]
+    for i, j in pairs:
+        lines += ["body 2 0 0", f"free {i}", f"one {j} {i} 0"]
+    mask = 3 if model == "calibrated" else 1
+    core = [f"{v} {' '.join(map(str, centre))}" for v, centre in enumerate(centres)]
+    lines += [f"body {nodes} {nodes} {nodes}", *core, *(f"{i} {j} {mask} 0" for i, j in pairs)]
+    lines += [f"components {nodes} {' '.join(map(str, range(nodes)))}", f"apart {nodes} {' '.join(map(str, range(1, nodes + 1)))}"]
+    lines += [f"{nodes} {nodes} {nodes}", *core, *(f"{i} {j} {mask} {k + 1}" for k, (i, j) in enumerate(pairs))]
+    lines += [" ".join(map(str, motion[d * v : d * v + d])) for v in range(nodes)]
+    return text_of(pairs), "\n".join(lines) + "\nend\n"
+
+
+PENTAGON = apart(5, "calibrated", random.Random(1))
+SQUARE = apart(4, "affine", random.Random(1))
+
+
+def by_hand_directions(case):
+    """The calibrated and the affine model; every condition that is theirs, broken."""
+    t, c = text_of(TRIANGLE), text_of(CYCLE)
+    for model, claim, form in (("calibrated", 5, "3 n - 4"), ("affine", 3, "2 n - 3")):
+        full = in_model(TRIANGLE_PROOF, model, f"{claim} {claim}")
+        case(f"{model} triangle", 0, t, full, f"the generic rank of N is {claim} = {form}: full rank\n  directions determine generic points in")
+        case(f"{model}, more", 1, t, full.replace(f"claim {claim}", f"claim {claim + 1}"))
+        case(f"{model}, the rank of J", 1, t, in_model(TRIANGLE_PROOF, model, "18 18"))
+        case(f"{model}, an open triangle", 1, text_of(TRIANGLE[:2]), in_model(TRIANGLE_PROOF.replace("3 3", "3 2", 1).replace("two 2 0 0 1 0", "one 2 0 0"), model, f"{claim} {claim}"))
+        case(f"{model}, a node joined twice to one", 1, t, full.replace("two 2 0 0 1 0", "two 2 0 0 0 0"))
+        case(f"{model}, nothing claimed", 0, t, in_model(TRIANGLE_PROOF, model, f"0 {claim}"), "nothing is claimed")
+        for word, lines in {
+            "solvable": "solvable\n", "unique": "unique 3 0 0 0\nfree 0\none 1 0 0\ntwo 2 0 0 1 0\nsolvable\n",
+            "hub": "block 3 0 1 2\nhub 0 1\n3 0 1 2\n", "flows": "",
+        }.items():  # fmt: skip
+            proof = full.replace("end", lines + "end")
+            if word == "flows":
+                proof = in_model(FLOW_PROOF, model, f"{claim} {claim}")
+            case(f"{model}, {word}", 2, t, proof, "in the projective model only")
+    for model in ("projective", "planar", "Calibrated", "3"):
+        case(f"model {model}", 2, t, in_model(TRIANGLE_PROOF, model, "5 5"), "calibrated or affine expected")
+    case("two models", 2, t, in_model(in_model(TRIANGLE_PROOF, "calibrated", "5 5"), "affine", "3 3"))
+    # a 4-cycle is rigid in space and not in a plane; a 5-cycle is not rigid in space
+    square = in_model(CYCLE_PROOF.replace("1023", "7"), "calibrated", "8 8")
+    case("calibrated 4-cycle", 0, c, square, "the generic rank of N is 8 = 3 n - 4: full rank")
+    case("calibrated, equal centres", 1, c, square.replace("1 10 22 37", "1 1 2 3"))
+    case("calibrated, centres that are equal modulo the prime", 1, c, square.replace("1 10 22 37", f"1 {1 + 65521} 2 3"))
+    case("calibrated, four centres in a plane", 1, c, re.sub(r"(?m)^(\d+ \d+ \d+) \d+$", r"\1 5", square.replace("0 1 7 0", "0 1 7 x").replace("0 3 7 0", "0 3 7 x").replace("1 2 7 0", "1 2 7 x").replace("2 3 7 0", "2 3 7 x")).replace(" x", " 0"))
+    case("calibrated, a row left out", 1, c, square.replace("0 1 7 0", "0 1 1 0"))
+    case("calibrated, any two of three rows", 0, c, square.replace("0 1 7 0", "0 1 6 0").replace("0 3 7 0", "0 3 5 0"))
+    flat = in_model(CYCLE_PROOF.replace("1023", "1"), "affine", "4 4")
+    case("affine 4-cycle", 0, c, flat, "full rank would be 2 n - 3 = 5: not of full rank\n  directions do not determine generic points in a plane")
+    case("affine, more", 1, c, flat.replace("claim 4 4", "claim 5 5"))
+    case("affine, less", 1, c, flat.replace("claim 4 4", "claim 4 3"))
+    case("affine, the third coordinate is not looked at", 0, c, flat.replace("1 10 22 37", "1 10 22 38"))
+    case("affine, equal points", 1, c, flat.replace("1 10 22 37", "1 1 2 37"))
+    case("affine, no row", 1, c, flat.replace("0 1 1 0", "0 1 2 0"))
+    pentagon, proof = PENTAGON
+    case("calibrated 5-cycle", 0, pentagon, "viewcert proof 1\ngraph 5 5\nmodel calibrated\nclaim 0 10\nend\n", "for all points in space over all fields of characteristic 0 the rank of N is at most 10")
+    case("calibrated 5-cycle, less", 1, pentagon, "viewcert proof 1\ngraph 5 5\nmodel calibrated\nclaim 0 9\nend\n")
+    case("calibrated components", 0, pentagon, proof, "among themselves: 5\n    0 1\n    0 4\n    1 2\n    2 3\n    3 4\n")
+    case("affine components", 0, *SQUARE, "among themselves: 4\n    0 1\n    0 3\n    1 2\n    2 3\n")
+    for (graph, proof), d in ((PENTAGON, 3), (SQUARE, 2)):
+        lines = proof.splitlines()
+        nodes = int(lines[1].split()[1])
+        told = "\n".join(lines[: -nodes - 1]) + "\n"
+        still = "\n".join([" ".join(["7"] * d)] * nodes) + "\nend\n"
+        case("a translation tells nothing apart", 1, graph, told + still)
+        first = lines[-nodes - 1].split()
+        moved = told + "\n".join([" ".join([str((int(first[0]) + 1) % 65521), *first[1:]]), *lines[-nodes:]]) + "\n"
+        case("a motion that a pair forbids", 1, graph, moved)
+        case("a motion cut short", 2, graph, told + "\n".join(lines[-nodes - 1 : -2]) + "\nend\n")
+        case("a motion of another width", 2, graph, told + "\n".join(line + " 0" for line in lines[-nodes - 1 : -1]) + "\nend\n")
+        case("a core that lacks rank", 1, graph, re.sub(r"(?m)^0 1 (\d) 1$", "0 1 0 1", proof))
+        case("a pair in another component", 2, graph, re.sub(r"(?m)^0 1 (\d) 1$", r"0 1 \1 2", proof), "are not both in the component")
+    two = text_of([(0, 1), (0, 2), (0, 3), (0, 4), (1, 2), (3, 4)])
+    bow = in_model(BOW_PROOF.replace("graph 6 7", "graph 5 6").replace("body 6", "body 5").replace("one 5 4 0\n", ""), "calibrated", "10 10")
+    case("calibrated, two triangles", 0, two, bow, "the generic rank of N is 10")
+    case("calibrated, a body that is not rigid", 1, two, bow.replace("two 2 0 0 1 0", "one 2 0 0", 1))
+    case("calibrated, one block", 0, two, bow.replace("claim 10 10", "claim 10 11").replace("block 3 0 1 2\nblock 3 0 3 4", "block 5 0 1 2 3 4"), "some rational points in space have rank 10 at least")
+    case("calibrated, a block with one node", 1, two, bow.replace("block 3 0 1 2", "block 1 0"))
+    case("calibrated, blocks left out", 1, two, bow.replace("block 3 0 1 2\n", ""))
+
+
 def by_hand(program):
     def case(name, code, graph, proof, says=""):
         got, out, err = program.run(graph, proof)
@@ -328,6 +488,7 @@ def by_hand(program):
 
     # what is trusted stands in the README as it is
     assert (HERE / "program" / "graph.ml").read_text() in (HERE / "README.md").read_text()
+    by_hand_directions(case)
     t, c = text_of(TRIANGLE), text_of(CYCLE)
     case("triangle", 0, t, TRIANGLE_PROOF, "the generic rank of J is 18 = 11 n - 15: full rank")
     case("4-cycle", 0, c, CYCLE_PROOF, "the generic rank of J is 28")
@@ -490,6 +651,30 @@ def by_hand(program):
     case("scales, a corner without ties", 2, k23, scales.replace(SETTLED, "corner 0 2 1 0\n"), "is no pair")
     case("scales, and no claim", 2, k23, scales.replace("solvable\n", ""), "solvable expected")
     case("scales, 10^9 steps", 2, k23, scales.replace("5 3 2 1", "5 3 2 1000000000"), "sizes out of range")
+    # corners; a body by rank, which is not determined, in the place of a pair
+    diamond = text_of(DIAMOND)
+    case("scales, corners", 0, diamond, DIAMOND_PROOF, "solvable: ")
+    case("scales, a corner whose first link is not known", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0", "corner 2 3 0 0"))
+    case("scales, a corner whose second link is not known", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0", "corner 0 3 2 0"))
+    case("scales, a corner left out", 1, diamond, DIAMOND_PROOF.replace("corner 0 1 2 0\n", "").replace("4 4 0 2", "4 4 0 1"))
+    by_rank = "body 2 2 1\n{0} 1 2 3\n{1} 9 8 7\n{0} {1} 127 0\nunique"
+
+    def unsure(proof, i, j, old, new):
+        return proof.replace("unique", by_rank.format(i, j), 1).replace(old, new, 1)
+
+    case("scales, a body that is not used", 0, diamond, unsure(DIAMOND_PROOF, 0, 2, "corner", "corner"), "solvable: ")
+    case("scales, a corner by a body that is not determined", 1, diamond, unsure(DIAMOND_PROOF, 0, 2, "corner 0 1 2 0", "corner 0 1 2 1"))
+    case("scales, a pair by a body that is not determined", 1, k23, unsure(scales, 0, 2, "pair 0 2 0 0", "pair 0 2 0 1"))
+    case("scales, a middle by a body that is not determined", 1, k23, unsure(scales, 0, 3, "middle 0 1 3 0 0", "middle 0 1 3 1 0"))
+    case("scales, a middle by a second one", 1, k23, unsure(scales, 1, 3, "middle 0 1 3 0 0", "middle 0 1 3 0 1"))
+    case("scales, another middle by one", 1, k23, unsure(scales, 0, 4, "middle 0 1 4 0 0", "middle 0 1 4 1 0"))
+    case("scales, a node by a body that is not determined", 1, k23, unsure(scales, 0, 3, "two 3 0 0 1 0", "two 3 0 1 1 0"))
+    case("scales, a node by a second one", 1, k23, unsure(scales, 1, 3, "two 3 0 0 1 0", "two 3 0 0 1 1"))
+    case("scales, links in a ring", 1, k23, scales.replace("pair 0 2 0 0\npair 2 1 0 0", "pair 1 2 0 0\npair 2 1 0 0"))
+    case("scales, a node with two links, another with none", 1, k23, scales.replace("pair 2 1 0 0", "pair 0 2 1 0"))
+    whole = "viewcert proof 1\ngraph 3 3\nclaim 0 18\n" + by_rank.format(0, 1) + " 3 0 0 0\nfree 0\none 1 0 {}\ntwo 2 0 0 1 0\nsolvable\nend\n"
+    case("solvable, set of three", 0, text_of(TRIANGLE), whole.format(0), "solvable: ")
+    case("solvable, begun by a body that is not determined", 1, text_of(TRIANGLE), whole.format(1))
     # graphs that are none
     for name, graph in {
         "loop": "0 0\n0 1\n", "turned": "1 0\n", "twice": "0 1\n0 1\n", "gap": "0 2\n", "empty": "", "one node": "0\n",
@@ -576,17 +761,93 @@ def catalog(program, prove, required, draw):
     return [(folder / f"{k}.txt", folder / f"{k}.proof") for k in [*range(400), *hubs * 4, *scales]]
 
 
-def published(program, verify, data):
-    """Table 3 of the paper: 29 graphs, with as many components as it says."""
-    folder = program.place / "published"
+def connected(most):
+    """All connected graphs of 2 to so many nodes, one of each class of isomorphism, as sets of pairs: from those with a
+    node less, since some node can be left out of each."""
+    found = [(2, frozenset([(0, 1)]))]
+    layer = [frozenset([(0, 1)])]
+    for n in range(3, most + 1):
+        seen = {}
+        for pairs in layer:
+            for near in itertools.chain.from_iterable(itertools.combinations(range(n - 1), k) for k in range(1, n)):
+                more = pairs | {(v, n - 1) for v in near}
+                seen.setdefault(canonical(n, more), more)
+        layer = list(seen.values())
+        found += [(n, pairs) for pairs in layer]
+    return found
+
+
+def canonical(n, pairs):
+    """The smallest list of pairs over the orders of nodes that a refinement of degrees leaves."""
+    around = [{j for i, j in pairs if i == v} | {i for i, j in pairs if j == v} for v in range(n)]
+    colour = [0] * n
+    for _ in range(n):
+        key = [(colour[v], sorted(colour[w] for w in around[v])) for v in range(n)]
+        classes = sorted(map(repr, key))
+        colour = [classes.index(repr(k)) for k in key]
+    cells = [[v for v in range(n) if colour[v] == c] for c in sorted(set(colour))]
+    best = None
+    for orders in itertools.product(*(itertools.permutations(cell) for cell in cells)):
+        place = {v: k for k, v in enumerate(itertools.chain(*orders))}
+        now = sorted(tuple(sorted((place[i], place[j]))) for i, j in pairs)
+        best = now if best is None or now < best else best
+    return tuple(best)
+
+
+def graph6(n, pairs):
+    bits = [1 if (i, j) in pairs else 0 for j in range(n) for i in range(j)]
+    bits += [0] * (-len(bits) % 6)
+    return chr(63 + n) + "".join(chr(63 + int("".join(map(str, bits[k : k + 6])), 2)) for k in range(0, len(bits), 6))
+
+
+def small_graphs(program, prove, draw):
+    """All connected graphs of up to seven nodes in the calibrated and the affine model: rank, verdict and components
+    against the rank of N at random points. Returns proofs."""
+    graphs = connected(7)
+    assert [sum(n == k for n, _ in graphs) for k in range(2, 8)] == [1, 2, 6, 21, 112, 853]
+    files = []
+    for model in MODELS[1:]:
+        folder = program.place / f"small-{model}"
+        folder.mkdir()
+        text = "".join(graph6(n, pairs) + "\n" for n, pairs in graphs)
+        done = subprocess.run([prove, folder, model], input=text, capture_output=True, text=True, check=True)
+        assert not done.stdout, done.stdout
+        code, out, err = program.list(folder / "list")
+        assert code == 0, (code, err)
+        full = several = 0
+        verdicts = out.split(str(folder) + "/")[1:]
+        assert len(verdicts) == len(graphs)
+        for verdict in verdicts:
+            number = int(verdict.split(".")[0])
+            n, pairs = graphs[number]
+            value, most = generic_rank(n, pairs, draw, model), required(n, model)
+            assert "VERIFIED" in verdict and model_of(verdict) == model and bounds(verdict) == (value, value), (verdict, value)
+            assert ("  directions determine generic points" in verdict) == (value == most), verdict
+            assert ("  directions do not determine" in verdict) == (value < most), verdict
+            found = listed(verdict)
+            assert (found is None) == (value == most), verdict
+            full += value == most
+            if found and (n < 7 or number % 8 == 0):
+                assert found == components(n, pairs, draw, model), verdict
+                several += 1
+        files += [(folder / f"{k}.txt", folder / f"{k}.proof") for k in range(len(graphs))]
+        print(f"{model}: {len(graphs)} connected graphs of up to 7 nodes, {full} of full rank, {several} times components")
+    return files
+
+
+def published(program, verify, data, model="projective"):
+    """Table 3 of the paper: 29 graphs, with as many components as it says. In the other models rank and components are
+    those of a certificate."""
+    folder = program.place / f"published-{model}"
     folder.mkdir()
     rows = list(csv.DictReader((data / "table3.csv").open()))
     for row in rows:
         graph, proof = (folder / f"{row['file']}.{end}" for end in ("txt", "proof"))
         done = subprocess.run([verify, "convert", data / "table3" / row["file"], "-o", graph], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
-        done = subprocess.run([verify, graph, "--proof", proof], capture_output=True, text=True)
+        done = subprocess.run([verify, graph, "--model", model, "--proof", proof, "--json"], capture_output=True, text=True)
         assert done.returncode in (0, 1) and proof.exists(), done.stderr
+        row["said"] = json.loads(done.stdout)
     (folder / "list").write_text("".join(f"{folder}/{row['file']}.txt {folder}/{row['file']}.proof\n" for row in rows))
     start = time.time()
     code, out, err = program.list(folder / "list")
@@ -594,15 +855,19 @@ def published(program, verify, data):
     verdicts = out.split(str(folder) + "/")[1:]
     assert code == 0 and len(verdicts) == len(rows) == 29, (code, err)
     several = unique = 0
+    times = 4 if model == "affine" else 1
     for row, verdict in zip(rows, verdicts):
-        found, parts = listed(verdict), int(row["components_edge_based"])
+        found, said = listed(verdict), row["said"]
+        parts = int(row["components_edge_based"]) if model == "projective" else len(said["components"])
         low, high = bounds(verdict)
-        assert verdict.startswith(row["file"]) and "VERIFIED" in verdict and low == high, verdict[:400]
-        assert (1 if found is None else len(found)) == parts and (found is None) == ("full rank\n" in verdict and "not of" not in verdict), (row, verdict[:400])
+        assert verdict.startswith(row["file"]) and "VERIFIED" in verdict and low == high == said["rank"] / times, verdict[:400]
+        full = "full rank\n" in verdict and "not of" not in verdict
+        assert model_of(verdict) == model and full == (said["rank"] == said["rank_required"]), verdict[:400]
+        assert (1 if found is None else len(found)) == parts and (found is None) == full, (row, verdict[:400])
         several += parts > 1
-        unique += "  solvable: " in verdict
-    assert several == 5 and unique == 24
-    print(f"published: 29 graphs, rank, verdict and components, {seconds:.1f} s; {unique} solvable")
+        unique += "  solvable: " in verdict or "  directions determine " in verdict
+    assert model != "projective" or (several, unique) == (5, 24)
+    print(f"published, {model}: 29 graphs, rank, verdict and components, {seconds:.1f} s; {unique} solvable")
 
 
 def large(program, verify, draw):
@@ -642,18 +907,23 @@ def both(program, verify, folder):
     def check(*arguments):
         return subprocess.run([verify, "check", certificate, graph, "--proved", proof, *arguments], capture_output=True, text=True, env=path)
 
-    for pairs, said in (
-        (CYCLE, [f"not-finite-solvable: {two}", f"rank 28: {two}", f"components 4: {two}"]),
-        (TRIANGLE, [f"solvable: {two}", f"finite-solvable: {two}", f"rank 18: {two}", f"components 1: {two}"]),
+    for pairs, model, said in (
+        (CYCLE, "affine", [f"not-finite-solvable: {two}", f"rank 16: {two}", f"components 4: {two}"]),
+        (CYCLE, "calibrated", [f"solvable: {two}", f"finite-solvable: {two}", f"rank 8: {two}", f"components 1: {two}"]),
+        (CYCLE, "projective", [f"not-finite-solvable: {two}", f"rank 28: {two}", f"components 4: {two}"]),
+        (TRIANGLE, "projective", [f"solvable: {two}", f"finite-solvable: {two}", f"rank 18: {two}", f"components 1: {two}"]),
     ):
         graph.write_text(text_of(pairs))
-        subprocess.run([verify, graph, "--certificate", certificate, "--proof", proof], capture_output=True)
+        subprocess.run([verify, graph, "--model", model, "--certificate", certificate, "--proof", proof], capture_output=True)
         done = check()
         assert done.returncode == 0 and done.stdout.split("CHECKED ")[1:] == [line + "\n" for line in said], done
     whole = proof.read_text()
     proof.write_text(whole.replace("claim 18", "claim 19"))
     done = check()
     assert done.returncode == 1 and "REJECTED" in done.stdout and "CHECKED" not in done.stdout, done
+    proof.write_text(in_model(TRIANGLE_PROOF, "calibrated", "5 5"))
+    done = check()
+    assert done.returncode == 2 and "a proof of another model" in done.stderr and "CHECKED" not in done.stdout, done
     proof.write_text("garbage")
     done = check()
     assert done.returncode == 2 and "viewcert expected" in done.stderr and "CHECKED" not in done.stdout, done
@@ -669,16 +939,19 @@ def others_agree(program, checkers, graph, out):
     verify, check = checkers
     pairs, certificate = program.place / "graph.txt", program.place / "certificate.json"
     pairs.write_text(graph)
-    done = subprocess.run([verify, pairs, "--certificate", certificate], capture_output=True, text=True)
+    model = model_of(out)
+    done = subprocess.run([verify, pairs, "--model", model, "--certificate", certificate], capture_output=True, text=True)
     assert done.returncode in (0, 1), (graph, done.stderr)
     second = HERE.parent / "crates" / "check" / "second" / "check.py"
     for command in ([check], [sys.executable, second]):
         done = subprocess.run([*command, certificate], capture_output=True, text=True)
         assert done.returncode == 0, (graph, done.stdout, done.stderr)
     claim = json.loads(certificate.read_text())["claim"]
-    low, high = bounds(out)
+    times = 4 if model == "affine" else 1
+    low, high = (bound and bound * times for bound in bounds(out))
     found = listed(out)
-    assert "  solvable: " not in out or claim["verdict"]["value"] == "solvable", (graph, out, claim)
+    unique = "  solvable: " in out or "  directions determine " in out
+    assert not unique or claim["verdict"]["value"] == "solvable", (graph, out, claim)
     assert (low or 0) <= claim["rank"]["value"] and (high is None or claim["rank"]["value"] <= high), (graph, out, claim)
     assert (claim["verdict"]["value"] == "not-finite-solvable") or "not of full rank" not in out, (graph, out, claim)
     assert found is None or len(found) == claim["components"]["value"], (graph, out, claim)
@@ -688,6 +961,7 @@ def mutants(program, base, count, draw, checkers):
     """Changed files: never a crash, and what is accepted is true."""
     accepted = {0: 0, 1: 0, 2: 0}
     parts = unique = 0
+    models = dict.fromkeys(MODELS, 0)
     for _ in range(count):
         graph, proof = draw.choice(base)
         if draw.random() < 0.2:
@@ -700,7 +974,10 @@ def mutants(program, base, count, draw, checkers):
         if code == 0:
             pairs = [tuple(map(int, line.split())) for line in graph.splitlines()]
             n = 1 + max(max(pair) for pair in pairs)
-            true = generic_rank(n, [pair for pair in pairs if len(pair) == 2], draw)
+            model = model_of(out)
+            models[model] += 1
+            true = generic_rank(n, [pair for pair in pairs if len(pair) == 2], draw, model)
+            assert ("  directions determine " not in out) or true == required(n, model) > 0, (graph, proof, out)
             low, high = bounds(out)
             assert (low or 0) <= true and (high is None or true <= high), (graph, proof, out, true)
             if "  solvable: " in out:
@@ -712,10 +989,11 @@ def mutants(program, base, count, draw, checkers):
                 others_agree(program, checkers, graph, out)
             found = listed(out)
             if found is not None and n < 8:
-                assert found == components(n, [pair for pair in pairs if len(pair) == 2], draw), (graph, proof, out)
+                assert found == components(n, [pair for pair in pairs if len(pair) == 2], draw, model), (graph, proof, out)
                 parts += 1
-    print(f"{count} mutants: {accepted[0]} accepted and true, {accepted[1]} rejected, {accepted[2]} unreadable; {parts} times components, {unique} times solvable")
-    assert accepted[0] and accepted[1] and accepted[2]
+    said = ", ".join(f"{number} {model}" for model, number in models.items())
+    print(f"{count} mutants: {accepted[0]} accepted and true ({said}), {accepted[1]} rejected, {accepted[2]} unreadable; {parts} times components, {unique} times solvable")
+    assert accepted[0] and accepted[1] and accepted[2] and all(models.values())
 
 
 def browser(program, page, name):
@@ -795,11 +1073,17 @@ def main():
     base = [(text_of(TRIANGLE), TRIANGLE_PROOF), (text_of(CYCLE), CYCLE_PROOF), (text_of(BOW), BOW_PROOF)]
     base += [(text_of(GAMMA), GAMMA_PROOF)] * 5 + [(text_of(KITE), KITE_PROOF), (text_of(BOW), BOW_APART), (text_of(CYCLE), PAIRS_PROOF), (text_of(TRIANGLE), FLOW_PROOF)]
     base += [(text_of(TRIANGLE), TRIANGLE_PROOF.replace("end", "solvable\nend"))] * 3
+    directed = [PENTAGON, SQUARE, (text_of(CYCLE), in_model(CYCLE_PROOF.replace("1023", "7"), "calibrated", "8 8"))]
+    directed.append((text_of(TRIANGLE), in_model(TRIANGLE_PROOF, "affine", "3 3")))
+    base += directed * 4
     if asked.catalog:
         files = catalog(program, asked.catalog, 6525, draw)
         base += [(g.read_text(), p.read_text()) for g, p in files if g.exists()]
+        files = small_graphs(program, asked.catalog, draw)
+        base += [(g.read_text(), p.read_text()) for g, p in draw.sample(files, 400)]
     if asked.data:
-        published(program, asked.checkers[0], asked.data)
+        for model in MODELS:
+            published(program, asked.checkers[0], asked.data, model)
     mutants(program, base, asked.mutants, draw, asked.checkers)
     if asked.page:
         browser(program, asked.page, asked.browser)

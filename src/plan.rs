@@ -230,12 +230,7 @@ impl Plan {
 
     /// What is written has to be there to be written.
     fn check_products(&self) -> Result<()> {
-        let is_projective = self.draft.model == Model::Projective;
         if self.products.proof.is_some() {
-            ensure!(
-                is_projective,
-                "{PROOF}: explicit proofs are written in the projective model alone; leave out one of the two"
-            );
             ensure!(
                 self.given.is_none(),
                 "{PROOF}: explicit proofs rest on pairs alone; leave out {}",

@@ -268,10 +268,7 @@ fn what_knows_nothing_of_displacements_refuses_by_name() {
             &["--method", "matrix"],
             "the matrix of the whole graph has none",
         ),
-        (
-            &["--proof", "p.txt"],
-            "explicit proofs are written in the projective",
-        ),
+        (&["--proof", "p.txt"], "explicit proofs rest on pairs alone"),
         (
             &["--solutions=full"],
             "the calibrated model has one or infinitely many",

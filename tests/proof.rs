@@ -53,8 +53,8 @@ fn what_has_no_proof_is_refused_by_name() {
     std::fs::write(&graph, HUB).unwrap();
     let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
     for (more, why) in [
-        (&["--model", "calibrated"][..], "projective model"),
-        (&[graph], "2 graphs"),
+        (&[graph][..], "2 graphs"),
+        (&["--given", graph], "rest on pairs alone"),
     ] {
         let run = verify(&[&[graph, "--proof", file], more].concat());
         assert_eq!(run.status.code(), Some(2), "{}", text(&run.stderr));
@@ -63,6 +63,27 @@ fn what_has_no_proof_is_refused_by_name() {
     }
     let run = verify(&[graph, "--proof", graph]);
     assert_eq!(run.status.code(), Some(2));
+}
+
+/// The 4-cycle is rigid in space, and in a plane it is not; a proof says of which it speaks.
+#[test]
+fn other_models_have_proofs() {
+    let folder = tempfile::tempdir().unwrap();
+    let [graph, proof] = ["graph.txt", "proof"].map(|name| folder.path().join(name));
+    std::fs::write(&graph, "0 1\n1 2\n2 3\n0 3\n").unwrap();
+    let [graph, file] = [&graph, &proof].map(|path| path.to_str().unwrap());
+    for (model, code, rank, shown) in [
+        ("calibrated", 0, 8, "(rank 8 at least, 8 at most; solvable)"),
+        ("affine", 1, 4, "(rank 4 at least, 4 at most; 4 components)"),
+    ] {
+        let run = verify(&[graph, "--model", model, "--proof", file]);
+        assert_eq!(run.status.code(), Some(code), "{}", text(&run.stderr));
+        assert!(text(&run.stdout).contains(shown), "{}", text(&run.stdout));
+        let written = std::fs::read_to_string(&proof).unwrap();
+        assert!(written.starts_with(&format!(
+            "viewcert proof 1\ngraph 4 4\nmodel {model}\nclaim {rank} {rank}\n"
+        )));
+    }
 }
 
 /// What takes a hub to refute has a proof with its copies and cells.

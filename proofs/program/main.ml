@@ -5,15 +5,28 @@
 let say = Printf.printf
 
 (* what verify_sound and its corollaries say of these numbers *)
-let theorem n lower upper solvable =
-  let full = (11 * n) - 15 in
-  if lower = full then say "  the generic rank of J is %d = 11 n - 15: full rank\n" full
-  else if lower = upper then say "  the generic rank of J is %d\n" lower
+let theorem model n lower upper solvable =
+  let full = Checker.required model n in
+  let matrix, cameras, form =
+    match model with
+    | Checker.Projective -> ("J", "cameras", "11 n - 15")
+    | Calibrated -> ("N", "points in space", "3 n - 4")
+    | Affine -> ("N", "points in a plane", "2 n - 3")
+  in
+  (match model with
+   | Projective -> ()
+   | Calibrated -> say "  calibrated model: directions of points in space\n"
+   | Affine -> say "  affine model: directions of points in a plane\n");
+  if lower = full then say "  the generic rank of %s is %d = %s: full rank\n" matrix full form
+  else if lower = upper then say "  the generic rank of %s is %d\n" matrix lower
   else begin
-    if lower > 0 then say "  some rational cameras have rank %d at least\n" lower;
-    if upper < full then say "  for all cameras over all fields of characteristic 0 the rank of J is at most %d\n" upper
+    if lower > 0 then say "  some rational %s have rank %d at least\n" cameras lower;
+    if upper < full then say "  for all %s over all fields of characteristic 0 the rank of %s is at most %d\n" cameras matrix upper
   end;
-  if upper < full then say "  full rank would be 11 n - 15 = %d: not of full rank\n" full;
+  if upper < full then say "  full rank would be %s = %d: not of full rank\n" form full;
+  (* what calibrated_determined and affine_determined say *)
+  if model <> Projective && lower = full then say "  directions determine generic %s, up to scale and translation\n" cameras;
+  if model <> Projective && upper < full then say "  directions do not determine generic %s, up to scale and translation\n" cameras;
   (* what verify_solvable says *)
   if solvable then say "  solvable: fundamental matrices determine generic cameras, up to factors and one projectivity\n"
   else if lower = 0 && upper >= full then say "  nothing is claimed\n"
@@ -45,7 +58,7 @@ let check graph_path proof_path =
   let place k = bound.place [| first k; second k |] in
   let accepted =
     (proof.lower = 0 || Array.length proof.bodies > 0)
-    && Checker.verify n m first second by_pair
+    && Checker.verify proof.model n m first second by_pair
          (fun b -> proof.bodies.(b)) proof.owner last proof.lower
          (fun c -> bound.blocks.(c)) bound.half bound.shared (Array.length bound.blocks) place proof.upper
     &&
@@ -60,14 +73,14 @@ let check graph_path proof_path =
     | None -> true
     | Some c ->
         proof.lower > 0
-        && Checker.components_ok n m first second
+        && Checker.components_ok proof.model n m first second
              (fun b -> proof.bodies.(b)) last proof.owner c.in_owner (Array.length c.numbers)
              (fun k -> c.numbers.(k)) c.pair_at c.steps
   in
   say "%s: %d nodes, %d pairs, SHA-256 of the file %s: %s\n" graph_path n m graph.sha256
     (if accepted then "VERIFIED" else "REJECTED: the proof does not show its claim");
   if accepted then begin
-    theorem n proof.lower proof.upper proof.solvable;
+    theorem proof.model n proof.lower proof.upper proof.solvable;
     Option.iter (fun c -> components (Array.map (fun b -> proof.bodies.(b)) c.Proof.numbers)) proof.components
   end;
   if accepted then 0 else 1
@@ -98,6 +111,8 @@ let () =
     | _ -> prerr_endline "usage: viewcert-proved GRAPH PROOF, or viewcert-proved --list FILE"; exit 2
   in
   if pairs = [] then (prerr_endline "viewcert-proved: an empty list"; exit 2);
-  say "Statements are about the matrix J of proofs/theories/Statement.v. A graph is finite solvable iff it has full rank:\n\
-       that is Theorem 1.3 of docs/theory.md, which is cited and not proved here. Solvable is as Statement.v defines it.\n";
+  say "Statements are about the matrices J and N of proofs/theories/Statement.v. A graph is finite solvable iff J has full rank:\n\
+       that is Theorem 1.3 of docs/theory.md, which is cited and not proved here. Solvable is as Statement.v defines it.\n\
+       Directions, of N, are those of calibrated cameras whose rotations are known. That a graph is affine solvable iff they\n\
+       determine points in a plane is Theorem 13.2, which is cited.\n";
   exit (List.fold_left (fun worst (graph, proof) -> max worst (guarded graph proof)) 0 pairs)

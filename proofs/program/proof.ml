@@ -19,6 +19,7 @@ type components = {
 }
 
 type t = {
+  model : Checker.model;
   lower : int;
   upper : int;
   bodies : Checker.body array;
@@ -88,7 +89,13 @@ type reader = {
   node : unit -> int;
   fail : 'a. string -> 'a;
   nodes : int;
+  model : Checker.model;
 }
+
+(* entries of the motion of a node *)
+let width = function Checker.Projective -> 12 | Calibrated -> 3 | Affine -> 2
+
+let projective reader word = if reader.model <> Checker.Projective then reader.fail (word ^ " in the projective model only")
 
 let key reader k v = Natural.add (Natural.mul k reader.nodes) v
 
@@ -147,6 +154,7 @@ let body ({ passed; number; node; fail; nodes = n; _ } as reader) reason =
   let flows =
     if not (passed "flows") then []
     else
+      let () = projective reader "flows" in
       let count = number () in
       if rows = 0 || count > 1 lsl 24 then fail "sizes out of range" else List.init count flow
   in
@@ -292,6 +300,7 @@ let bound reader first =
     let hub =
       if not (passed "hub") then begin cell 0 nodes; None end
       else
+        let () = projective reader "hub" in
         let cells, split = split reader size in
         let home x = nodes.(if x < size then x else 0) in
         if size > 0 then Array.iteri (fun d members -> cell d (Array.map home members)) cells;
@@ -358,7 +367,7 @@ let apart reader lo hi ends nodes =
     | _ -> fail (Printf.sprintf "%d and %d are not both in the component" i j)
   in
   let frame = body reader reason in
-  let motion = Array.init (12 * frame.core_size) (fun _ -> number ()) in
+  let motion = Array.init (width reader.model * frame.core_size) (fun _ -> number ()) in
   let bound, next = bound reader (word ()) in
   let position = Table.create 64 in
   for q = 0 to frame.body_size - 1 do Table.replace position (frame.node q) q done;
@@ -394,7 +403,7 @@ let apart reader lo hi ends nodes =
     !core
   in
   let tells (i, _) (j, _) =
-    not (Checker.solved Checker.the_prime frame.centre (fun c -> motion.(c)) i j Checker.entries10)
+    not (Checker.allows reader.model frame.centre (fun c -> motion.(c)) i j)
   in
   let cores = Array.init (hi - lo) (fun k -> core_of (lo + k)) in
   let witness c d =
@@ -507,6 +516,13 @@ let read path (graph : Graph.t) =
   expect "graph";
   let n' = number () in
   let m' = number () in
+  let model =
+    if not (passed "model") then Checker.Projective
+    else match word () with
+      | "calibrated" -> Calibrated
+      | "affine" -> Affine
+      | _ -> fail "calibrated or affine expected"
+  in
   if n' <> n || m' <> m then fail (Printf.sprintf "a proof for a graph with %d nodes and %d pairs" n' m');
   expect "claim";
   let lower = number () in
@@ -516,7 +532,7 @@ let read path (graph : Graph.t) =
     if v >= n then fail "no such node";
     v
   in
-  let reader = { word; passed; number; node; fail; nodes = n } in
+  let reader = { word; passed; number; node; fail; nodes = n; model } in
   let pair_number = Table.create (2 * m) in
   for k = 0 to m - 1 do Table.replace pair_number (key reader graph.first.(k) graph.second.(k)) k done;
   let body_at = Table.create 1024 in
@@ -552,6 +568,7 @@ let read path (graph : Graph.t) =
   let bound, next = bound reader next in
   let uniques, next = all "unique" read_unique [] next in
   let solvable = next = "solvable" in
+  if solvable || Array.length uniques > 0 then projective reader "solvable";
   if Array.length uniques > 0 && not solvable then fail "solvable expected";
   let components =
     match next with
@@ -567,4 +584,4 @@ let read path (graph : Graph.t) =
     | Some (owner, components) -> ((fun b -> owner.(b)), Some components)
   in
   let sure = if solvable then Array.append (determined bodies) (Array.make (Array.length uniques) true) else [||] in
-  { lower; upper; bodies; owner; bound; components; sure = (fun b -> sure.(b)); uniques; solvable }
+  { model; lower; upper; bodies; owner; bound; components; sure = (fun b -> sure.(b)); uniques; solvable }

@@ -1,9 +1,7 @@
 (* The program, and what its answer means. Arrays come in as functions, so that nothing is supposed about arrays. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Elimination Flows Hub.
+From Viewcert Require Import Statement Motions Generic Counting Rigid Models Elimination Flows Hub Cores.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
-
-Definition the_prime : nat := 2 ^ 16 - 15.
 
 (* ------------------------------------------------------------------ the program *)
 
@@ -31,7 +29,7 @@ Record body := Body {
 Record block := Block { block_size : nat; block_node : nat -> nat; hub : option split }.
 
 Section Program.
-Variables (n m : nat) (first second : nat -> nat).
+Variables (M : model) (n m : nat) (first second : nat -> nat).
 
 Fixpoint pairs_ok (k : nat) : bool :=
   if k is k'.+1 then
@@ -66,14 +64,14 @@ Fixpoint joined (d acc : nat) : option nat :=
     | [::] => joined d' acc
     | [:: (t, why)] =>
       if t < s then
-        if allowed (node B s) (node B t) why then joined d' (7 + acc) else None
+        if allowed (node B s) (node B t) why then joined d' (one M + acc) else None
       else None
     | [:: (t, why); (t', why')] =>
       if t < s then
         if t' < s then
           if eqn t t' then None
           else if allowed (node B s) (node B t) why then
-            if allowed (node B s) (node B t') why' then joined d' (11 + acc) else None
+            if allowed (node B s) (node B t') why' then joined d' (two M + acc) else None
           else None
         else None
       else None
@@ -90,7 +88,7 @@ Definition body_rank : option nat :=
       if increasing (body_size B) (by_node B) (node B) (body_size B) then
         if core_ok (core B) then
           joined (body_size B - core_size B)
-            (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B))
+            (core_rank_in M (centre B) (core_size B) (core_rows (core B)) (flows B))
         else None
       else None
     else None
@@ -121,7 +119,7 @@ Definition pair_ok (mate : nat -> bool) b x y (why : reason) : bool :=
 Variable owner : nat -> nat.
 Definition rigid b : bool :=
   if 1 < body_size (bodies b) then
-    if body_rank (pair_ok (fun c => eqn (owner c) (owner b)) b) (bodies b) is Some r then 11 * body_size (bodies b) - 15 <= r else false
+    if body_rank (pair_ok (fun c => eqn (owner c) (owner b)) b) (bodies b) is Some r then required M (body_size (bodies b)) <= r else false
   else false.
 Fixpoint all_rigid b : bool := if b is b'.+1 then if rigid b' then all_rigid b' else false else true.
 
@@ -141,8 +139,8 @@ Fixpoint block_ok (B : block) (k : nat) : bool :=
   if k is k'.+1 then if block_node B k' < n then block_ok B k' else false else true.
 Definition block_bound (B : block) : option nat :=
   if block_ok B (block_size B) then
-    if hub B is Some H then split_bound (block_size B) H
-    else if 1 < block_size B then Some (11 * block_size B - 15) else None
+    if hub B is Some H then if M is Projective then split_bound (block_size B) H else None
+    else if 1 < block_size B then Some (required M (block_size B)) else None
   else None.
 Fixpoint blocks_sum (b acc : nat) : option nat :=
   if b is b'.+1 then
@@ -161,7 +159,7 @@ Fixpoint in_cell (B : block) (d : nat) (at_ : nat -> nat) (k s : nat) : bool :=
 Fixpoint placed (b k acc : nat) : option nat :=
   if k is k'.+1 then
     match place k' with
-    | None => if 1 < set_size k' then placed b k' (11 * set_size k' - 15 + acc) else None
+    | None => if 1 < set_size k' then placed b k' (required M (set_size k') + acc) else None
     | Some (c, d, at_) =>
       if c < b then
         if d < cells_of (blocks c) then
@@ -193,25 +191,20 @@ Definition upper_ok b r : bool :=
 End Upper.
 End Program.
 
-(* The whole check: a lower bound of 0 and an upper one of 11 n - 15 need no proof. *)
-Definition lower_part n m first second bodies owner b r : bool :=
-  if eqn r 0 then true else lower_ok n m first second bodies owner b r.
+(* The whole check: a lower bound of 0 and the largest upper one need no proof. *)
+Definition lower_part M n m first second bodies owner b r : bool :=
+  if eqn r 0 then true else lower_ok M n m first second bodies owner b r.
 Definition end_of (first second : nat -> nat) k s : nat := if eqn s 0 then first k else second k.
-Definition upper_part n m first second blocks half shared c place r : bool :=
-  if 11 * n - 15 <= r then true
-  else upper_ok n m (fun _ => 2) (end_of first second) blocks half shared place c r.
-Definition verify n m first second by_pair bodies owner b lower blocks half shared c place upper : bool :=
+Definition upper_part M n m first second blocks half shared c place r : bool :=
+  if required M n <= r then true
+  else upper_ok M n m (fun _ => 2) (end_of first second) blocks half shared place c r.
+Definition verify M n m first second by_pair bodies owner b lower blocks half shared c place upper : bool :=
   if graph_ok n m first second by_pair then
-    if lower_part n m first second bodies owner b lower then upper_part n m first second blocks half shared c place upper
+    if lower_part M n m first second bodies owner b lower then upper_part M n m first second blocks half shared c place upper
     else false
   else false.
 
 (* ------------------------------------------------------------------ its soundness *)
-
-Lemma the_prime_is_prime : prime the_prime.
-Proof. by vm_compute. Qed.
-Lemma the_prime_is_odd : 2 < the_prime.
-Proof. by vm_compute. Qed.
 
 Lemma increasingP s at_ key : increasing s at_ key s -> uniq (mkseq key s).
 Proof.
@@ -252,7 +245,7 @@ Qed.
 End Graph.
 
 Section Sound.
-Variables (n m : nat) (first second : nat -> nat) (bodies : nat -> body).
+Variables (M : model) (n m : nat) (first second : nat -> nat) (bodies : nat -> body).
 Local Notation G := (pairs m first second).
 Hypothesis good : well_formed n G.
 Lemma n_positive : 0 < n. Proof. by case/and3P: good => n1 _ _; apply: ltnW. Qed.
@@ -320,20 +313,20 @@ Lemma N_in k i : i < k -> N i \in mkseq N k.
 Proof. by move=> ik; apply: map_f; rewrite mem_iota. Qed.
 
 Definition shown k r := exists T : seq ('I_n * 'I_n),
-  [/\ all (inside (mkseq N k)) T, all (either (U)) T & attained T r].
+  [/\ all (inside (mkseq N k)) T, all (either (U)) T & attained M T r].
 
 Lemma shown_S k r : shown k r -> shown k.+1 r.
 Proof. by case=> T [i e a]; exists T; split=> //; apply: sub_all i => e'; apply: inside_S. Qed.
 
 Lemma joinedP l d acc r : shown (core_size B) l -> core_size B + d <= body_size B ->
-  joined allowed B d acc = Some r ->
+  joined M allowed B d acc = Some r ->
   exists2 v, r = v + acc & shown (core_size B + d) (l + v).
 Proof.
 move=> base; elim: d acc => [|d ih] acc le /=; first by move=> [<-]; exists 0; rewrite ?addn0.
 rewrite addnS in le *; set s := core_size B + d in le *.
 case: (joins B s) => [|[t why] [|[t' why'] [|? ?]]] //.
 - by case/(ih _ (ltnW le)) => v -> h; exists v => //; apply: shown_S.
-- case: ifP => // ts; case: ifP => // ok /(ih _ (ltnW le)) [v -> [T [iT eT aT]]]; exists (v + 7); first by lia.
+- case: ifP => // ts; case: ifP => // ok /(ih _ (ltnW le)) [v -> [T [iT eT aT]]]; exists (v + one M); first by rewrite addnA.
   exists ((N s, N t) :: T); split.
   + rewrite /= {1}/inside /= !N_in // ?(ltnW ts) ?(leqW ts) //=; apply: sub_all iT => e'; exact: inside_S.
   + by apply/andP; split; [exact: allowedP ok | exact: eT].
@@ -341,7 +334,7 @@ case: (joins B s) => [|[t why] [|[t' why'] [|? ?]]] //.
       exact: N_neq.
     by apply: sub_all iT => e'; apply: inside_out.
 - case: ifP => // ts; case: ifP => // ts'; case: eqnP => // tt; case: ifP => // ok; case: ifP => // ok'.
-  case/(ih _ (ltnW le)) => v -> [T [iT eT aT]]; exists (v + 11); first by lia.
+  case/(ih _ (ltnW le)) => v -> [T [iT eT aT]]; exists (v + two M); first by rewrite addnA.
   exists ((N s, N t) :: (N s, N t') :: T); split.
   + rewrite /= {1 2}/inside /= !N_in ?(leqW ts) ?(leqW ts') //=; apply: sub_all iT => e'; exact: inside_S.
   + by apply/and3P; split; [exact: allowedP ok | exact: allowedP ok' | exact: eT].
@@ -361,9 +354,9 @@ case/ih => lt el; rewrite /= lt; split=> // e; rewrite inE => /predU1P [-> | /el
 Qed.
 
 Lemma core_shown : core_size B <= body_size B -> core_ok allowed B (core B) ->
-  shown (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B)).
+  shown (core_size B) (core_rank_in M (centre B) (core_size B) (core_rows (core B)) (flows B)).
 Proof.
-move=> le /core_okP [lt el]; have a := core_rank_sound the_prime_is_prime the_prime_is_odd (centre B) (flows B) lt.
+move=> le /core_okP [lt el]; have a := core_sound M (centre B) (flows B) lt.
 pose s (i : 'I_(core_size B)) := N i.
 have s_inj : injective s.
   by move=> i j /N_inj ij; apply/val_inj/ij; apply: leq_trans le.
@@ -381,7 +374,7 @@ elim: k => [|k ih] //=; case: ifP => // kn /ih {}ih i.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih].
 Qed.
 
-Lemma body_rankP r : body_rank n allowed B = Some r -> shown (body_size B) r.
+Lemma body_rankP r : body_rank M n allowed B = Some r -> shown (body_size B) r.
 Proof.
 rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
 case: ifP => // ok; have base := core_shown u lt le ok.
@@ -391,21 +384,21 @@ End Machine.
 
 (* A motion that all pairs of the core allow, but that of its nodes i and j does not: that pair raises the rank. *)
 Lemma body_motionP (allowed : nat -> nat -> reason -> bool) B U motion i j r :
-  (forall x y why, allowed x y why -> either U (V x, V y)) -> body_rank n allowed B = Some r ->
-  all_solved the_prime (centre B) motion (core_rows (core B)) -> i < core_size B -> j < core_size B ->
-  ~~ solved the_prime (centre B) motion i j entries10 ->
+  (forall x y why, allowed x y why -> either U (V x, V y)) -> body_rank M n allowed B = Some r ->
+  all_allow M (centre B) motion (core_rows (core B)) -> i < core_size B -> j < core_size B ->
+  ~~ allows M (centre B) motion i j ->
   exists T, [/\ all (inside (mkseq (fun k => V (node B k)) (body_size B))) T,
-    all (either ((V (node B i), V (node B j)) :: U)) T & attained T r.+1].
+    all (either ((V (node B i), V (node B j)) :: U)) T & attained M T r.+1].
 Proof.
 move=> ok; rewrite /body_rank; case: ifP => // le; case: ifP => // /nodes_okP lt; case: ifP => // /increasingP u.
 case: ifP => // cok.
 move=> jo sol ic jc nij; set U' := _ :: U; have le' : core_size B + (body_size B - core_size B) <= body_size B by rewrite subnKC.
 have ok' x y why : allowed x y why -> either U' (V x, V y).
   by move/ok; rewrite /either !inE => /orP [] ->; rewrite ?orbT.
-suff base : shown B U' (core_size B) (core_rank the_prime (centre B) (core_size B) (core_rows (core B)) (flows B)).+1.
+suff base : shown B U' (core_size B) (core_rank_in M (centre B) (core_size B) (core_rows (core B)) (flows B)).+1.
   by have [v -> h] := joinedP ok' u lt base le' jo; move: h; rewrite subnKC // addSn addnC.
 have [clt el] := core_okP ok' cok.
-have a := motion_sound the_prime_is_prime (i := Ordinal ic) (j := Ordinal jc) (core_rank_modp the_prime_is_prime the_prime_is_odd (centre B) (flows B) clt) sol nij.
+have a := core_motion (i := Ordinal ic) (j := Ordinal jc) (flows B) clt sol nij.
 pose s (k : 'I_(core_size B)) := V (node B k).
 have s_inj : injective s.
   by move=> k k' /(N_inj u lt) kk; apply/val_inj/kk; apply: leq_trans le.
@@ -418,20 +411,20 @@ exists (moved s ((Ordinal ic, Ordinal jc) :: edges (core_size B) (pairs_of (core
 - exact: attained_moved s_inj a.
 Qed.
 
-Lemma all_rigidP owner b r : all_rigid n m first second bodies owner b -> attained (usable b) r -> attained (edges n G) r.
+Lemma all_rigidP owner b r : all_rigid M n m first second bodies owner b -> attained M (usable b) r -> attained M (edges n G) r.
 Proof.
 elim: b => //= b ih; case: ifP => // rig /ih {}ih a; apply: ih; move: rig; rewrite /rigid.
-case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT [P aT]]] := body_rankP (@pair_okP _ b) e.
-apply: (theorem_4_1 (T := T) (b := nodes b)) a => //; first by rewrite size_mkseq.
+case: ifP => // s1; case e: body_rank => [s|//] les; have [T [iT eT aT]] := body_rankP (@pair_okP _ b) e.
+apply: (full (T := T) (b := nodes b)) a => //; first by rewrite size_mkseq.
 - by apply/allP=> _ /allpairsP [[x y] [xb yb ->]]; rewrite /inside xb.
-- by exists P; rewrite size_mkseq; apply: leq_trans les aT.
+- by rewrite size_mkseq; apply: attained_less aT.
 Qed.
 
-Theorem lower_ok_sound owner b r : lower_ok n m first second bodies owner b r -> rank_at_least n G r.
+Theorem lower_ok_sound owner b r : lower_ok M n m first second bodies owner b r -> rank_at_least M n G r.
 Proof.
 rewrite /lower_ok; case: ifP => // rig; case e: body_rank => [s|//] rs.
-have [T [_ eT aT]] := body_rankP (@pair_okP _ b) e; have [P h] := all_rigidP rig (attained_either eT aT).
-by exists P; apply: leq_trans rs h.
+have [T [_ eT aT]] := body_rankP (@pair_okP _ b) e.
+exact: attained_less rs (all_rigidP rig (attained_either eT aT)).
 Qed.
 
 Lemma edges_V e : e \in edges n G -> exists2 k, k < m & e = (V (first k), V (second k)).
@@ -442,18 +435,18 @@ by congr (_, _); apply: val_inj; rewrite valV.
 Qed.
 
 (* Pairs in some sets have this rank at most, at all cameras. *)
-Definition bounded (D : seq (seq 'I_n)) (u : nat) : Prop := forall (F : numFieldType) (P : cameras F n)
-  (E : seq ('I_n * 'I_n)), all (fun e : 'I_n * 'I_n => has (fun b => inside b e) D) E -> \rank (J E P) <= u.
+Definition bounded (D : seq (seq 'I_n)) (u : nat) : Prop := forall E : seq ('I_n * 'I_n),
+  all (fun e : 'I_n * 'I_n => has (fun b => inside b e) D) E -> at_most M E u.
 Lemma bounded_nil : bounded [::] 0.
-Proof. by move=> F P [|e E] //; rewrite J_nil. Qed.
-Lemma bounded_set b : 1 < size b -> bounded [:: b] (11 * size b - 15).
-Proof. by move=> s1 F P E cov; apply: rank_inside => //; apply: sub_all cov => e /=; rewrite orbF. Qed.
+Proof. by case=> [|e E] // _; exact: at_most_nil. Qed.
+Lemma bounded_set b : 1 < size b -> bounded [:: b] (required M (size b)).
+Proof. by move=> s1 E cov; apply: at_most_inside => //; apply: sub_all cov => e /=; rewrite orbF. Qed.
 Lemma bounded_cat D1 D2 u1 u2 : bounded D1 u1 -> bounded D2 u2 -> bounded (D1 ++ D2) (u1 + u2).
 Proof.
-move=> h1 h2 F P E /allP cov; pose E' D := [seq e : 'I_n * 'I_n <- E | has (fun b => inside b e) D].
-apply: leq_trans (_ : \rank (J (E' D1 ++ E' D2) P) <= _).
-  by apply: J_mono => e eE; have := cov e eE; rewrite has_cat mem_cat !mem_filter eE !andbT.
-by apply: leq_trans (J_cat _ _ _) (leq_add (h1 _ _ _ (filter_all _ _)) (h2 _ _ _ (filter_all _ _))).
+move=> h1 h2 E /allP cov; pose E' D := [seq e : 'I_n * 'I_n <- E | has (fun b => inside b e) D].
+apply: (@at_most_mono _ _ _ (E' D1 ++ E' D2)) => [e eE|].
+  by have := cov e eE; rewrite has_cat mem_cat !mem_filter eE !andbT.
+exact: at_most_cat (h1 _ (filter_all _ _)) (h2 _ (filter_all _ _)).
 Qed.
 Lemma bounded_flatten (I : Type) (L : seq I) D u : (forall i, bounded (D i) (u i)) ->
   bounded (flatten [seq D i | i <- L]) (\sum_(i <- L) u i).
@@ -470,10 +463,10 @@ Definition of_block c : seq (seq 'I_n) := [seq cell c d | d <- iota 0 (cells_of 
 Definition set_ k : seq 'I_n := mkseq (fun i => V (member k i)) (set_size k).
 Local Notation A L := (flatten [seq of_block c | c <- L]).
 
-Lemma of_blockP c u : block_bound n (blocks c) = Some u -> bounded (of_block c) u.
+Lemma of_blockP c u : block_bound M n (blocks c) = Some u -> bounded (of_block c) u.
 Proof.
 rewrite /block_bound /of_block /cell /cells_of /size_in /node_in; case: ifP => // _; case e: (hub (blocks c)) => [H|].
-  move=> b F P E cov; apply: (split_boundP (node := fun i => V (block_node (blocks c) i))) b _.
+  rewrite /bounded /at_most; case: M => // b E cov F P; apply: (split_boundP (node := fun i => V (block_node (blocks c) i))) b _.
   by apply: sub_all cov => f; rewrite has_map.
 case: ifP => // s1 [<-]; have := @bounded_set (mkseq (fun i => V (block_node (blocks c) i)) (block_size (blocks c))).
 by rewrite size_mkseq => /(_ s1).
@@ -482,12 +475,12 @@ Qed.
 Lemma iotaS b : iota 0 b.+1 = rcons (iota 0 b) b.
 Proof. by rewrite -[b.+1]addn1 iotaD cats1. Qed.
 
-Definition count c := odflt 0 (block_bound n (blocks c)).
-Lemma blocks_sumP b acc r : blocks_sum n blocks b acc = Some r ->
+Definition count c := odflt 0 (block_bound M n (blocks c)).
+Lemma blocks_sumP b acc r : blocks_sum M n blocks b acc = Some r ->
   (forall c, c < b -> bounded (of_block c) (count c)) /\ r = \sum_(c <- iota 0 b) count c + acc.
 Proof.
 elim: b acc => [|b ih] acc; first by move=> [<-]; rewrite big_nil.
-rewrite [blocks_sum _ _ _ _]/=; case e: block_bound => [u|//] /ih [a ->].
+rewrite [blocks_sum _ _ _ _ _]/=; case e: block_bound => [u|//] /ih [a ->].
 rewrite iotaS -cats1 big_cat big_seq1 /= /count e /= addnA; split=> // c.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /a //]; rewrite e; apply: of_blockP.
 Qed.
@@ -502,7 +495,7 @@ Qed.
 Lemma in_A c d L : c \in L -> d < cells_of (blocks c) -> cell c d \in A L.
 Proof. by move=> cL dc; apply/flattenP; exists (of_block c); rewrite map_f // mem_iota. Qed.
 
-Lemma placedP b k acc r : placed set_size member blocks place b k acc = Some r -> exists L : seq (seq 'I_n), exists2 u,
+Lemma placedP b k acc r : placed M set_size member blocks place b k acc = Some r -> exists L : seq (seq 'I_n), exists2 u,
   r = u + acc & bounded L u /\ forall i, i < k -> exists2 B, B \in A (iota 0 b) ++ L & {subset set_ i <= B}.
 Proof.
 elim: k acc => [|k ih] acc /=; first by move=> [<-]; exists [::], 0; rewrite ?add0n //; split=> //; apply: bounded_nil.
@@ -510,7 +503,7 @@ case: (place k) => [[[c d] at_]|].
   case: ifP => // cb; case: ifP => // dc; case: ifP => // /in_cellP sub.
   case/ih=> L [u -> [bd cov]]; exists L, u => //; split=> // i; rewrite ltnS leq_eqVlt => /predU1P [-> | /cov //].
   by exists (cell c d) => //; rewrite mem_cat in_A // mem_iota.
-case: ifP => // s1 /ih [L [u -> [bd cov]]]; exists (set_ k :: L), (11 * set_size k - 15 + u); first by lia.
+case: ifP => // s1 /ih [L [u -> [bd cov]]]; exists (set_ k :: L), (required M (set_size k) + u); first by rewrite addnCA addnA.
 split.
   have := bounded_cat (@bounded_set (set_ k) _) bd; rewrite size_mkseq; apply.
   exact: s1.
@@ -551,12 +544,11 @@ by case/andP=> /hasP [B BA /andP [xB yB]] /hasP [B' BA' /andP [xB' yB']]; apply/
 Qed.
 
 Theorem upper_ok_sound c r (E : seq ('I_n * 'I_n)) :
-  upper_ok n sets set_size member blocks half shared place c r ->
-  (forall e, e \in E -> exists2 k, k < sets & inside (set_ k) e) ->
-  forall (F : numFieldType) (P : cameras F n), \rank (J E P) <= r.
+  upper_ok M n sets set_size member blocks half shared place c r ->
+  (forall e, e \in E -> exists2 k, k < sets & inside (set_ k) e) -> at_most M E r.
 Proof.
 rewrite /upper_ok; case e: blocks_sum => [acc|//]; have [bc ->{acc e}] := blocks_sumP e => /=.
-case e: placed => [s|//]; have [L [u -> [bL cov]]] := placedP e => {e s} + EC F P; rewrite addn0.
+case e: placed => [s|//]; have [L [u -> [bL cov]]] := placedP e => {e s} + EC; rewrite addn0.
 have cover f : f \in E -> has (fun B => inside B f) (A (iota 0 c) ++ L).
   by move/EC=> [] k /cov [B BA sub] /andP [xk yk]; apply/hasP; exists B; rewrite // /inside !sub.
 have bounds l : {subset l <= iota 0 c} -> bounded (A l) (\sum_(k <- l) count k).
@@ -564,58 +556,62 @@ have bounds l : {subset l <= iota 0 c} -> bounded (A l) (\sum_(k <- l) count k).
   rewrite big_cons; apply: bounded_cat; last by apply: ih => x xl; apply: lc; rewrite inE xl orbT.
   by apply: bc; have := lc k (mem_head _ _); rewrite mem_iota.
 case: ifP => [hc|_ le]; last first.
-  apply: leq_trans le; rewrite addnC; apply: (bounded_cat (bounds _ _) bL) => //.
+  apply: at_most_less le _; rewrite addnC; apply: (bounded_cat (bounds _ _) bL) => //.
   exact/allP.
-case e: body_rank => [l|//] le; have [T [_ eT [P0 aT]]] := body_rankP (@both_okP c) e.
+case e: body_rank => [l|//] le; have [T [_ eT aT]] := body_rankP (@both_okP c) e.
 have cA : iota 0 c = iota 0 half ++ iota half (c - half) by rewrite -iotaD subnKC // ltnW.
 have T1 : {subset T <= within_some (first_list ++ L)}.
   by move=> f /(allP eT)/either_both; rewrite bothE within_someE has_cat => /andP [->].
 have T2 : {subset T <= within_some (second_list c)}.
   by move=> f /(allP eT)/either_both; rewrite bothE within_someE => /andP [_ ->].
-have lT : l <= \rank (J T (map_mx (ratr : rat -> F) P0 : cameras F n)).
-  by rewrite -(map_J (ratr_rmorphism F)) mxrank_map.
-have within D v : bounded D v -> forall Q : cameras F n, \rank (J (within_some D) Q) <= v.
-  by move=> bD Q; apply: bD; apply: filter_all.
+have within D v : bounded D v -> at_most M (within_some D) v by move=> bD; apply: bD; apply: filter_all.
 have s1 : {subset iota 0 half <= iota 0 c} by move=> x; rewrite cA mem_cat => ->.
 have s2 : {subset iota half (c - half) <= iota 0 c} by move=> x; rewrite cA mem_cat orbC => ->.
-have h := corollary_5_11 T1 T2 lT (within _ _ (bounded_cat (bounds _ s1) bL)) (within _ _ (bounds _ s2)) P.
+have h := overlap T1 T2 aT (within _ _ (bounded_cat (bounds _ s1) bL)) (within _ _ (bounds _ s2)).
 have sub : {subset E <= within_some (first_list ++ L) ++ within_some (second_list c)}.
   move=> f /cover; rewrite cA map_cat flatten_cat mem_cat !within_someE !has_cat.
   by case/orP=> [/orP [->|->]|->]; rewrite ?orbT.
-have := J_mono P sub; move: h le; rewrite cA big_cat /=.
-move: (\sum_(k <- _) _) (\sum_(k <- iota half _) _) (\rank _) (\rank _) => x y z t; lia.
+apply: at_most_less (at_most_mono sub h); move: le; rewrite cA big_cat /=.
+by move: (\sum_(k <- _) _) (\sum_(k <- iota half _) _) => x y; lia.
 Qed.
 End Upper.
 End Sound.
 
-Theorem verify_sound n m first second by_pair bodies owner b lower blocks half shared c place upper :
-  verify n m first second by_pair bodies owner b lower blocks half shared c place upper ->
+(* no graph has a larger rank *)
+Lemma at_most_all M n G : well_formed n G -> at_most M (edges n G) (required M n).
+Proof.
+case/and3P=> n1 _ _; have := @at_most_inside M n (enum 'I_n) (edges n G); rewrite size_enum_ord; apply=> //.
+by apply/allP=> e _; rewrite /inside !mem_enum.
+Qed.
+
+Theorem verify_sound M n m first second by_pair bodies owner b lower blocks half shared c place upper :
+  verify M n m first second by_pair bodies owner b lower blocks half shared c place upper ->
   let G := pairs m first second in
-  [/\ well_formed n G, rank_at_least n G lower & rank_at_most n G upper].
+  [/\ well_formed n G, rank_at_least M n G lower & rank_at_most M n G upper].
 Proof.
 rewrite /verify; case: ifP => // /graph_ok_sound good; case: ifP => // lo up; split=> //.
-  move: lo; rewrite /lower_part; case: eqnP => [-> _|_]; first by exists 0%R.
+  move: lo; rewrite /lower_part; case: eqnP => [-> _|_]; first exact: attained_zero.
   exact: (lower_ok_sound good).
-move: up; rewrite /upper_part; case: ifP => [le _ F P | _ up F P]; last first.
+move: up; rewrite /upper_part; case: ifP => [le _ | _ up]; last first.
   apply: (upper_ok_sound (good := good) up) => _ /(edges_V good) [k km ->]; exists k => //.
   by rewrite /inside /set_ /= !inE !eqxx orbT.
-by apply: leq_trans le; apply: lemma_1_1; case/and3P: good.
+by have := at_most_less le (at_most_all M good).
 Qed.
 
 (* What the program prints, in the words of Statement.v *)
 Section Corollaries.
-Variables (n : nat) (G : seq (nat * nat)).
+Variables (M : model) (n : nat) (G : seq (nat * nat)).
 
-Corollary exact_rank r : [/\ well_formed n G, rank_at_least n G r & rank_at_most n G r] -> generic_rank n G r.
+Corollary exact_rank r : [/\ well_formed n G, rank_at_least M n G r & rank_at_most M n G r] -> generic_rank M n G r.
 Proof. by []. Qed.
 
 Corollary has_full_rank u :
-  [/\ well_formed n G, rank_at_least n G (11 * n - 15) & rank_at_most n G u] -> full_rank n G.
-Proof. by case=> good low _; split=> // F P; apply: lemma_1_1; case/and3P: good. Qed.
+  [/\ well_formed n G, rank_at_least M n G (required M n) & rank_at_most M n G u] -> full_rank M n G.
+Proof. by case=> good low _; split=> //; have := at_most_all M good. Qed.
 
-Corollary lacks_full_rank l u : u < 11 * n - 15 ->
-  [/\ well_formed n G, rank_at_least n G l & rank_at_most n G u] -> ~ full_rank n G.
+Corollary lacks_full_rank l u : u < required M n ->
+  [/\ well_formed n G, rank_at_least M n G l & rank_at_most M n G u] -> ~ full_rank M n G.
 Proof.
-by move=> lt [_ _ up] [_ [P low] _]; have := leq_trans low (up _ P); rewrite leqNgt lt.
+by move=> lt [_ _ up] [_ low _]; have := @at_most_attained M n (edges n G) _ _ up low; rewrite leqNgt lt.
 Qed.
 End Corollaries.

@@ -4,16 +4,16 @@
    pairs of both kinds. And if x and y are nodes of two components that one part meets in a pair each, the pair (x, y)
    does not raise the rank, wherever else it is known not to be larger. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic Counting Rigid.
+From Viewcert Require Import Statement Counting Rigid Models.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Section Parts.
-Variables (n : nat) (E : seq ('I_n * 'I_n)).
+Variables (M : model) (n : nat) (E : seq ('I_n * 'I_n)).
 Hypothesis loopfree : forall e, e \in E -> e.1 != e.2.
 Implicit Types (b c d : seq 'I_n) (e f : 'I_n * 'I_n).
 
 Definition induced b : seq ('I_n * 'I_n) := [seq e <- E | inside b e].
-Definition rigid_part b := [/\ 1 < size b, uniq b & attained (induced b) (11 * size b - 15)].
+Definition rigid_part b := [/\ 1 < size b, uniq b & attained M (induced b) (required M (size b))].
 
 (* x is an end of a pair in b of this kind *)
 Definition touches b (kind : pred ('I_n * 'I_n)) (x : 'I_n) : bool :=
@@ -24,7 +24,7 @@ Theorem two_kinds b (p1 p2 : pred ('I_n * 'I_n)) : rigid_part b ->
   has (fun e => inside b e && p1 e) E -> has (fun e => inside b e && p2 e) E ->
   exists x y, [/\ x != y, touches b p1 x && touches b p2 x & touches b p1 y && touches b p2 y].
 Proof.
-case=> sb ub [P full] kinds h1 h2; pose A p := [seq x <- b | touches b p x].
+case=> sb ub full kinds h1 h2; pose A p := [seq x <- b | touches b p x].
 have inA (p : pred ('I_n * 'I_n)) e : e \in E -> inside b e -> p e -> inside (A p) e.
   move=> eE be pe; have /andP [b1 b2] := be; rewrite /inside !mem_filter b1 b2 !andbT.
   by apply/andP; split; apply/hasP; exists e; rewrite // be pe eqxx ?orbT.
@@ -32,15 +32,16 @@ have size_A (p : pred ('I_n * 'I_n)) : has (fun e => inside b e && p e) E -> 1 <
   case/hasP=> e eE /andP [be pe]; have /andP [i1 i2] := inA p e eE be pe.
   apply: (@uniq_leq_size _ [:: e.1; e.2]) => [|x]; first by rewrite /= inE loopfree.
   by rewrite !inE => /orP [/eqP ->|/eqP ->].
-have bound : \rank (J (induced b) P) <= \sum_(B <- [:: A p1; A p2]) (11 * size B - 15).
-  apply: theorem_5_1; first by rewrite /= !size_A.
-  apply/allP=> e; rewrite mem_filter => /andP [be eE] /=.
-  by case/orP: (kinds e eE be) => pe; rewrite (inA _ _ eE be pe) ?orbT.
-rewrite !big_cons big_nil addn0 in bound.
+have bound : at_most M (induced b) (required M (size (A p1)) + required M (size (A p2))).
+  pose E' p := [seq e <- induced b | inside (A p) e].
+  apply: (@at_most_mono _ _ _ (E' p1 ++ E' p2)) => [e eb|].
+    have /andP [be eE] : inside b e && (e \in E) by rewrite -mem_filter.
+    rewrite mem_cat; case/orP: (kinds e eE be) => pe; apply/orP; [left | right]; rewrite mem_filter eb andbT; exact: inA.
+  by apply: at_most_cat; apply: at_most_inside (filter_all _ _); exact: size_A.
 pose D := [seq x <- b | touches b p1 x && touches b p2 x].
 have sizes : size (A p1) + size (A p2) <= size D + size b.
   rewrite !size_filter -count_predUI addnC leq_add2l; exact: count_size.
-have D2 : 1 < size D by have := size_A p1 h1; have := size_A p2 h2; lia.
+have D2 : 1 < size D := two_shared (size_A p1 h1) (size_A p2 h2) (at_most_attained bound full) sizes.
 have uD : uniq D by apply: filter_uniq.
 case e: D D2 uD => [|x [|y s]] // _ /andP [xy _]; exists x, y.
 have xD : x \in D by rewrite e mem_head.
@@ -65,9 +66,9 @@ by apply: ih => z zw; apply: wd; rewrite inE zw orbT.
 Qed.
 
 Lemma attained_joins b w e S s : e.1 != e.2 -> inside b e -> uniq w -> all (fun x => x \notin b) w ->
-  all (inside b) S -> attained S s -> attained (joins w e ++ S) (s + 11 * size w).
+  all (inside b) S -> attained M S s -> attained M (joins w e ++ S) (s + two M * size w).
 Proof.
-move=> e12 /andP [b1 b2] + + Sb a; elim: w => [|x w ih] /=; first by rewrite addn0.
+move=> e12 /andP [b1 b2] + + Sb a; elim: w => [|x w ih] /=; first by rewrite muln0 addn0.
 case/andP=> xw uw /andP [xb wb]; rewrite mulnS addnCA addnC; apply: grow_two (ih uw wb) => //.
 - by apply: contraNneq xb => ->.
 - by apply: contraNneq xb => ->.
@@ -81,40 +82,37 @@ have nx z : z \in w \/ z \in b -> z != x by case=> zx; [apply: contraNneq xw => 
 by rewrite !nx.
 Qed.
 
-Lemma full_size i j k : 1 < k -> 11 * (j + (i + k)) - 15 = 11 * k - 15 + 11 * i + 11 * j.
-Proof. lia. Qed.
-
 (* D: pairs of the graph, those of the part b and of the components c, d among them *)
 Theorem together (D : seq ('I_n * 'I_n)) r b c d e f x y :
   rigid_part b -> rigid_part c -> rigid_part d ->
   {subset induced b <= D} -> {subset induced c <= D} -> {subset induced d <= D} ->
-  (forall P : cameras rat_comRing n, \rank (J D P : 'M[rat]_(_, _)) <= r) ->
+  at_most M D r ->
   e \in E -> inside b e -> inside c e -> f \in E -> inside b f -> inside d f -> x \in c -> y \in d ->
-  ~ attained ((x, y) :: D) r.+1.
+  ~ attained M ((x, y) :: D) r.+1.
 Proof.
 move=> rb rc rd bD cD dD le eE be ce fE bf df xc yd up.
-have drop g X s : rigid_part g -> {subset induced g <= X} -> attained (all_pairs g ++ X) s -> attained X s.
-  case=> sg _ full gX; apply: (theorem_4_1 (T := induced g) (b := g)) => //.
+have drop g X s : rigid_part g -> {subset induced g <= X} -> attained M (all_pairs g ++ X) s -> attained M X s.
+  case=> sg _ fullg gX; apply: (full (T := induced g) (b := g)) => //.
   - by apply/allP=> h /gX hX; rewrite /either hX.
   - exact: filter_all.
   - by apply/allP=> h; rewrite all_pairsE.
-suff : attained D r.+1 by case=> P; rewrite ltnNge le.
+suff : attained M D r.+1 by move/(at_most_attained le); rewrite ltnn.
 apply: (drop d) => //; apply: (drop c) => //; first by move=> g /cD gD; rewrite mem_cat gD orbT.
 apply: (drop b) => //; first by move=> g /bD gD; rewrite !mem_cat gD !orbT.
 set D' := all_pairs b ++ _.
 have D'b g : inside b g -> g \in D' by rewrite /D' mem_cat all_pairsE => ->.
 have D'c g : inside c g -> g \in D' by rewrite /D' !mem_cat !all_pairsE => ->; rewrite orbT.
 have D'd g : inside d g -> g \in D' by rewrite /D' !mem_cat !all_pairsE => ->; rewrite !orbT.
-have upD : attained ((x, y) :: D') r.+1.
+have upD : attained M ((x, y) :: D') r.+1.
   apply: attained_mono up => g; rewrite !inE => /orP [->|gD] //; apply/orP; right.
   by rewrite /D' !mem_cat gD !orbT.
-case: rb => sb ub full; clear bD cD dD up drop; clearbody D'.
+case: rb => sb ub fullb; clear bD cD dD up drop; clearbody D'.
 pose w1 := [seq z <- undup c | z \notin b]; pose b1 := w1 ++ b.
 pose w2 := [seq z <- undup d | z \notin b1]; pose u := w2 ++ b1.
-have full1 : attained (joins w1 e ++ all_pairs b) (11 * size b - 15 + 11 * size w1).
+have full1 : attained M (joins w1 e ++ all_pairs b) (required M (size b) + two M * size w1).
   apply: (attained_joins (b := b)); rewrite ?loopfree ?filter_uniq ?undup_uniq ?filter_all //.
     by apply/allP=> g; rewrite all_pairsE.
-  by apply: attained_mono full => g; rewrite mem_filter all_pairsE => /andP [].
+  by apply: attained_mono fullb => g; rewrite mem_filter all_pairsE => /andP [].
 have b1f : inside b1 f by case/andP: bf => f1 f2; rewrite /inside !mem_cat f1 f2 !orbT.
 have w1c : {subset w1 <= c} by move=> z; rewrite mem_filter mem_undup => /andP [].
 have w2d : {subset w2 <= d} by move=> z; rewrite mem_filter mem_undup => /andP [].
@@ -124,11 +122,11 @@ have in1 : all (inside b1) (joins w1 e ++ all_pairs b).
   rewrite -all_pairsE; apply: joins_sub; first by move=> z zw; rewrite mem_cat zw.
   by case/andP: be => e1 e2; rewrite /inside !mem_cat e1 e2 !orbT.
 have full2 := attained_joins (loopfree fE) b1f _ _ in1 full1.
-have {full2} full2 : attained (joins w2 f ++ joins w1 e ++ all_pairs b) (11 * size u - 15).
-  have -> : 11 * size u - 15 = 11 * size b - 15 + 11 * size w1 + 11 * size w2.
-    by rewrite !size_cat full_size.
+have {full2} full2 : attained M (joins w2 f ++ joins w1 e ++ all_pairs b) (required M (size u)).
+  have -> : required M (size u) = required M (size b) + two M * size w1 + two M * size w2.
+    by rewrite !size_cat required_more.
   by apply: full2; rewrite ?filter_uniq ?undup_uniq ?filter_all.
-apply: (theorem_4_1 (T := joins w2 f ++ joins w1 e ++ all_pairs b) (K := [:: (x, y)]) (b := u)) full2 upD.
+apply: (full (T := joins w2 f ++ joins w1 e ++ all_pairs b) (K := [:: (x, y)]) (b := u)) full2 upD.
 - by rewrite !size_cat; do 2!apply: ltn_addl.
 - apply/allP=> g gT; apply/orP; left; move: gT; rewrite !mem_cat => /or3P [/(joins_sub w2d df) | /(joins_sub w1c ce) |];
     rewrite all_pairsE; [exact: D'd | exact: D'c | exact: D'b].
@@ -211,9 +209,9 @@ Qed.
 (* Theorem 6.4, without the lifting: candidates that share a node are told apart by some pair that raises the rank *)
 Definition pairs_of_kind q := [seq e <- E | kind q e].
 Theorem separated q q' r : closed q -> (forall k, q' k -> q k) ->
-  (forall P : cameras rat_comRing n, \rank (J (pairs_of_kind q) P : 'M[rat]_(_, _)) <= r) ->
+  at_most M (pairs_of_kind q) r ->
   (forall k l v, k < t -> l < t -> q' k -> q l -> ~~ q' l -> v \in comp k -> v \in comp l ->
-    exists x y, [/\ x \in comp k, y \in comp l & attained ((x, y) :: pairs_of_kind q) r.+1]) -> closed q'.
+    exists x y, [/\ x \in comp k, y \in comp l & attained M ((x, y) :: pairs_of_kind q) r.+1]) -> closed q'.
 Proof.
 move=> cq sub le sep; apply: (closed_part cq sub) => b rb kinds x x2 _.
 case/touchesP=> k [e [[kt qk] eE be ke xe]] _ /touchesP [l [f [[lt /andP [ql nl]] fE bf lf xf]]] _.
@@ -233,7 +231,8 @@ Hypothesis apart : forall k, k < t -> closed (pred1 k).
 
 Lemma pair_in b : rigid_part b -> exists2 e, e \in E & inside b e.
 Proof.
-case=> sb _ [P]; case e: (induced b) => [|f s]; first by rewrite J_nil; lia.
+case=> sb _; case e: (induced b) => [|f s].
+  by move/(at_most_attained (at_most_nil _ _)); rewrite leqNgt required_positive.
 have : f \in induced b by rewrite e mem_head.
 by rewrite mem_filter => /andP [bf fE] _; exists f.
 Qed.
@@ -244,7 +243,7 @@ move=> rb; have [e eE be] := pair_in rb; have [k kt ke] := comp_cover eE; exists
 have allk f : f \in E -> inside b f -> inside (comp k) f.
   move=> fE bf; have [l lt lf] := comp_cover fE; case: (l =P k) => [<- //|/eqP nlk].
   by case: (apart kt rb kt lt (eqxx k) nlk); apply/hasP; [exists e | exists f]; rewrite // ?be ?bf.
-have [sb ub [P full]] := rb; set b' := [seq x <- b | x \in comp k].
+have [sb ub fullb] := rb; set b' := [seq x <- b | x \in comp k].
 have inb' : all (inside b') (induced b).
   apply/allP=> f; rewrite mem_filter => /andP [bf fE]; have /andP [f1 f2] := allk f fE bf.
   by case/andP: bf => b1 b2; rewrite /inside !mem_filter f1 f2 b1 b2.
@@ -252,8 +251,7 @@ have sb' : 1 < size b'.
   have /andP [e1 e2] : inside b' e by apply: (allP inb'); rewrite mem_filter be.
   apply: (@uniq_leq_size _ [:: e.1; e.2]) => [|x]; first by rewrite /= inE loopfree.
   by rewrite !inE => /orP [/eqP ->|/eqP ->].
-have := leq_trans full (rank_inside P sb' inb') => le.
-have le' : size b <= size b' by move: (size b) (size b') le sb' sb {inb'} => i j; lia.
+have le' : size b <= size b' := required_mono sb sb' (at_most_attained (at_most_inside M sb' inb') fullb).
 suff : all (fun x => x \in comp k) b by move/allP.
 by rewrite all_count eqn_leq count_size -size_filter.
 Qed.
@@ -269,20 +267,14 @@ End Candidates.
 End Parts.
 
 (* ------------------------------------------------------------------ in the words of Statement.v *)
-Lemma edgesE n G (e : 'I_n * 'I_n) : (e \in edges n G) = ((val e.1, val e.2) \in G).
-Proof.
-rewrite mem_pmap; apply/mapP/idP => [[[x y] xyG /=] | eG]; last by exists (val e.1, val e.2) => //=; rewrite !valK; case: e eG.
-by case: insubP => // i _ ix; case: insubP => // j _ jy [->] /=; rewrite ix jy.
-Qed.
-
-Lemma rigid_partP n G (b : seq 'I_n) : part n G (map val b) <-> rigid_part (edges n G) b.
+Lemma rigid_partP M n G (b : seq 'I_n) : part M n G (map val b) <-> rigid_part M (edges n G) b.
 Proof.
 have same : edges n (within (map val b) G) =i induced (edges n G) b.
   by move=> e; rewrite mem_filter !edgesE mem_filter /inside /= !(mem_map val_inj).
 rewrite /part size_map (map_inj_uniq val_inj); split.
-  by case=> sb ub _ a; split=> //; apply: attained_mono a => e; rewrite same.
+  by case=> sb ub _ a; split=> //; apply: (@attained_mono M _ _ _ _ _ a) => e; rewrite same.
 case=> sb ub a; split=> //; first by apply/allP=> _ /mapP [v _ ->]; exact: ltn_ord.
-by apply: attained_mono a => e; rewrite same.
+by apply: (@attained_mono M _ _ _ _ _ a) => e; rewrite same.
 Qed.
 
 Lemma as_nodes n (b : seq nat) : all (fun v => v < n) b -> exists b' : seq 'I_n, map val b' = b.
@@ -291,19 +283,19 @@ elim: b => [|x b ih] /=; first by exists [::].
 by case/andP=> xn /ih [b' <-]; exists (Ordinal xn :: b').
 Qed.
 
-Theorem components_are n G t (comp : nat -> seq 'I_n) : well_formed n G ->
-  (forall k, k < t -> rigid_part (edges n G) (comp k)) ->
+Theorem components_are M n G t (comp : nat -> seq 'I_n) : well_formed n G ->
+  (forall k, k < t -> rigid_part M (edges n G) (comp k)) ->
   (forall e, e \in edges n G -> exists2 k, k < t & inside (comp k) e) ->
-  (forall k, k < t -> closed (edges n G) t comp (pred1 k)) ->
-  components n G [seq map val (comp k) | k <- iota 0 t].
+  (forall k, k < t -> closed M (edges n G) t comp (pred1 k)) ->
+  components M n G [seq map val (comp k) | k <- iota 0 t].
 Proof.
 case/and3P=> _ /allP lt _ rig cov apart.
 have loopfree (e : 'I_n * 'I_n) : e \in edges n G -> e.1 != e.2.
   by rewrite edgesE => /lt /andP [/= e12 _]; rewrite -val_eqE neq_ltn e12.
-have part_in b : part n G b -> exists2 k, k < t & {subset b <= map val (comp k)}.
+have part_in b : part M n G b -> exists2 k, k < t & {subset b <= map val (comp k)}.
   move=> pb; have [_ _ /as_nodes [b' eb] _] := pb; move: pb; rewrite -eb => /rigid_partP.
   case/(largest loopfree cov apart) => k kt sub; exists k => // _ /mapP [x /sub xk ->]; exact: map_f.
-have comp_component k : k < t -> component n G (map val (comp k)).
+have comp_component k : k < t -> component M n G (map val (comp k)).
   move=> kt; split=> [|b pb sub]; first by apply/rigid_partP/rig.
   have [l lt' bl] := part_in b pb; suff -> : k = l by [].
   apply: (antichain rig apart) => // x xk; rewrite -(mem_map val_inj); apply/bl/sub; exact: map_f.

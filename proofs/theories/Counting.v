@@ -5,6 +5,12 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
 
+Lemma edgesE n G (e : 'I_n * 'I_n) : (e \in edges n G) = ((val e.1, val e.2) \in G).
+Proof.
+rewrite mem_pmap; apply/mapP/idP => [[[x y] xyG /=] | eG]; last by exists (val e.1, val e.2) => //=; rewrite !valK; case: e eG.
+by case: insubP => // i _ ix; case: insubP => // j _ jy [->] /=; rewrite ix jy.
+Qed.
+
 Section Modular.
 Variables (F : numFieldType) (n : nat).
 Implicit Types (E : seq ('I_n * 'I_n)) (P : cameras F n).

@@ -2,7 +2,7 @@
    number above 2^30 comes in; the largest product is n first + second < 2^60). *)
 From Coq Require Import Extraction ExtrOcamlBasic ExtrOcamlNatInt.
 From mathcomp Require Import all_ssreflect.
-From Viewcert Require Import Statement Differential Generic Counting Rigid Components Elimination Flows Hub Checker Separation Generically Unique Scales Solvable Sanity.
+From Viewcert Require Import Statement Differential Generic Counting Rigid Directions Parallel Models Components Elimination Bearing Flows Hub Cores Checker Separation Generically Unique Scales Solvable Sanity.
 
 Extract Inlined Constant muln => "Natural.mul".
 Extract Inlined Constant addn => "Natural.add".
@@ -11,7 +11,7 @@ Extract Inlined Constant leq => "Natural.leq".
 Extract Inlined Constant eqn => "Natural.eq".
 Extract Inlined Constant modn => "Natural.modulo".
 Extract Inlined Constant divn => "Natural.div".
-Extraction "checker.ml" graph_ok verify solvable_ok components_ok cells solved the_prime entries10.
+Extraction "checker.ml" graph_ok verify solvable_ok components_ok cells allows required.
 
 Print Assumptions verify_sound.
 Print Assumptions verify_components.
@@ -24,6 +24,15 @@ Print Assumptions lemma_1_2.
 Print Assumptions differential.
 Print Assumptions kernel_of_map.
 Print Assumptions proposition_1_4.
+Print Assumptions lemma_3_4.
+Print Assumptions calibrated_determined.
+Print Assumptions affine_determined.
+Print Assumptions full_rank_unique.
+Print Assumptions less_rank_many.
+Print Assumptions full_rank_rays.
+Print Assumptions less_rank_rays.
+Print Assumptions bearing_rank_sound.
+Print Assumptions rule_4.
 Print Assumptions lemma_3_1.
 Print Assumptions corollary_3_3.
 Print Assumptions theorem_4_1.
@@ -58,3 +67,9 @@ Print Assumptions triangle.
 Print Assumptions triangle_solvable.
 Print Assumptions no_pair_unsolvable.
 Print Assumptions four_cycle.
+Print Assumptions N_kernel.
+Print Assumptions parallel.
+Print Assumptions triangle_determined.
+Print Assumptions five_cycle_undetermined.
+Print Assumptions four_cycle_undetermined.
+Print Assumptions no_pair_undetermined.

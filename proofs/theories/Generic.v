@@ -42,10 +42,11 @@ case/boolP: (all (root Q) s) => [al | /allPn [_ /mapP [k _ ->] h]]; last by exis
 by have := max_poly_roots n0 al us; rewrite size_map size_iota ltnn.
 Qed.
 
-Variable n : nat.
-Implicit Types P : cameras F n.
+(* of n cameras, or n points: matrices with n rows *)
+Variables n k : nat.
+Implicit Types P : 'M[F]_(n, k).
 
-Definition line P0 P1 : cameras [comRingType of {poly F}] n := map_mx polyC P0 + 'X *: map_mx polyC (P1 - P0).
+Definition line P0 P1 : 'M[[comRingType of {poly F}]]_(n, k) := map_mx polyC P0 + 'X *: map_mx polyC (P1 - P0).
 
 Lemma ev_line P0 P1 t : ev t (line P0 P1) = P0 + t *: (P1 - P0).
 Proof.
@@ -56,35 +57,40 @@ by apply: map_mx_id_in => i j /=; rewrite hornerC.
 Qed.
 
 (* Two matrices of polynomials in the cameras: some cameras have for both at least the rank that they have at P0, P1. *)
-Lemma both p1 q1 p2 q2 (A1 : forall R : comRingType, cameras R n -> 'M[R]_(p1, q1))
-    (A2 : forall R : comRingType, cameras R n -> 'M[R]_(p2, q2)) (P0 P1 : cameras F n) :
+Lemma both p1 q1 p2 q2 (A1 : forall R : comRingType, 'M[R]_(n, k) -> 'M[R]_(p1, q1))
+    (A2 : forall R : comRingType, 'M[R]_(n, k) -> 'M[R]_(p2, q2)) P0 P1 :
   (forall t, ev t (A1 _ (line P0 P1)) = A1 F (ev t (line P0 P1))) ->
   (forall t, ev t (A2 _ (line P0 P1)) = A2 F (ev t (line P0 P1))) ->
   exists P, (\rank (A1 F P0) <= \rank (A1 F P))%N /\ (\rank (A2 F P1) <= \rank (A2 F P))%N.
 Proof.
 move=> m1 m2; have [Q1 [n1 h1]] := rank_open (A1 _ (line P0 P1)) 0.
 have [Q2 [n2 h2]] := rank_open (A2 _ (line P0 P1)) 1.
-have [k] : exists k : nat, (Q1 * Q2).[k%:R] != 0 by apply: nonroot; rewrite mulf_neq0.
+have [i] : exists i : nat, (Q1 * Q2).[i%:R] != 0 by apply: nonroot; rewrite mulf_neq0.
 rewrite hornerM mulf_eq0 negb_or => /andP [/h1 r1 /h2 r2].
 rewrite !m1 !ev_line scale0r addr0 in r1; rewrite !m2 !ev_line scale1r addrC subrK in r2.
-by exists (P0 + k%:R *: (P1 - P0)).
+by exists (P0 + i%:R *: (P1 - P0)).
 Qed.
+End Line.
+
+Section Cameras.
+Variables (F : numFieldType) (n : nat).
+Implicit Types P : cameras F n.
 
 Lemma both_J E1 E2 (P0 P1 : cameras F n) :
   exists P, (\rank (J E1 P0) <= \rank (J E1 P))%N /\ (\rank (J E2 P1) <= \rank (J E2 P))%N.
 Proof.
-by apply: (@both _ _ _ _ (fun R U => J E1 U) (fun R U => J E2 U) P0 P1) => t; rewrite map_J.
+by apply: (@both F n _ _ _ _ _ (fun R U => J E1 U) (fun R U => J E2 U) P0 P1) => t; rewrite map_J.
 Qed.
 
 (* cameras with trivial motions of dimension d: then rank J <= 12 n - d everywhere *)
 Lemma rank_everywhere E (P0 P : cameras F n) : (\rank (J E P) <= n * 12 - \rank (T P0))%N.
 Proof.
-have [||Q [r1 r2]] := @both _ _ _ _ (fun R U => T U) (fun R U => J E U) P0 P.
+have [||Q [r1 r2]] := @both F n _ _ _ _ _ (fun R (U : cameras R n) => T U) (fun R U => J E U) P0 P.
 - by move=> t; rewrite map_T.
 - by move=> t; rewrite map_J.
 by have := mulmx0_rank_max (T_J E Q); lia.
 Qed.
-End Line.
+End Cameras.
 
 (* Lemma 1.1. Explicit cameras with n + 15 trivial motions: [I | -c_v], c_0 = 0, all others e_1. *)
 Section Bound.

@@ -398,7 +398,7 @@ Theorem theorem_5_2 E (P : cameras F k) :
   (\rank (J E P) + (q + 12 * b + 4) <= 9 * (\sum_(B <- cells) size B) + size roots + 3 * k)%N.
 Proof.
 move=> cov; have [P1 ap1] := some_apart k F.
-have [||Q [r0 r1]] := @both F _ _ _ _ _ (fun R U => J E U) (fun R U => (all_apart U)%:M : 'M_1) P P1.
+have [||Q [r0 r1]] := @both F _ _ _ _ _ _ (fun R U => J E U) (fun R U => (all_apart U)%:M : 'M_1) P P1.
 - by move=> t; rewrite map_J.
 - by move=> t; rewrite map_scalar_mx map_apart.
 have apQ : all_apart Q != 0.

@@ -213,7 +213,7 @@ Lemma grow W d v E r (P1 : cameras rat_comRing n) : all (fun e => (e.1 != v) && 
   attained E r -> attained (W ++ E) (r + d).
 Proof.
 move=> out hd [P0 h0].
-have [||P [r1 r2]] := @both [numFieldType of rat] _ _ _ _ _ (fun R U => J E U) (fun R U => alone v R *m J W U) P0 P1.
+have [||P [r1 r2]] := @both [numFieldType of rat] _ _ _ _ _ _ (fun R U => J E U) (fun R U => alone v R *m J W U) P0 P1.
 - by move=> t; rewrite map_J.
 - by move=> t; rewrite map_mxM map_J map_alone.
 by exists P; apply: leq_trans (extend W P out); apply: leq_add; [exact: leq_trans r1 | exact: leq_trans r2].

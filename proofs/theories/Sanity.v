@@ -1,6 +1,6 @@
 (* Is Statement.v about what it should be about? What a sceptic may want to see before he believes it. *)
 From mathcomp Require Import all_ssreflect all_algebra zify ring.
-From Viewcert Require Import Statement Skew Motions Differential Generic NormalForm Counting Rigid Checker Generically Unique Solvable.
+From Viewcert Require Import Statement Skew Motions Differential Generic NormalForm Counting Rigid Directions Models Checker Generically Parallel Unique Solvable.
 From Viewcert Require Scales.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
@@ -61,21 +61,21 @@ Theorem rank_of_set (F : fieldType) n (E1 E2 : seq ('I_n * 'I_n)) (P : cameras F
   E1 =i E2 -> \rank (J E1 P) = \rank (J E2 P).
 Proof. by move=> e; apply/eqP; rewrite eqn_leq !J_mono // => x; rewrite e. Qed.
 
-Theorem turned (R : comRingType) n (P dP : cameras R n) i j : equation P (j, i) dP = equation P (i, j) dP.
+Theorem either_way (R : comRingType) n (P dP : cameras R n) i j : equation P (j, i) dP = equation P (i, j) dP.
 Proof. exact: equation_swap. Qed.
 
 Theorem loop (R : comRingType) (A : 'M[R]_(3, 4)) : fund A A = 0.
 Proof. exact: fund_loop. Qed.
 
 (* There is at most one generic rank, and full rank is the largest there can be. *)
-Theorem one_rank n G r s : generic_rank n G r -> generic_rank n G s -> r = s.
+Theorem one_rank M n G r s : generic_rank M n G r -> generic_rank M n G s -> r = s.
 Proof.
-move=> [_ [P1 a1] b1] [_ [P2 a2] b2]; apply/eqP; rewrite eqn_leq.
-by rewrite (leq_trans a1 (b2 _ _)) // (leq_trans a2 (b1 _ _)).
+move=> [_ a1 b1] [_ a2 b2]; apply/eqP; rewrite eqn_leq.
+by rewrite (@at_most_attained M n (edges n G) _ _ b2 a1) (@at_most_attained M n (edges n G) _ _ b1 a2).
 Qed.
 
-Theorem largest n G r : generic_rank n G r -> (r <= 11 * n - 15)%N.
-Proof. by case=> /and3P [n1 _ _] [P a] _; apply: leq_trans a (lemma_1_1 _ _ n1). Qed.
+Theorem largest M n G r : generic_rank M n G r -> (r <= required M n)%N.
+Proof. by case=> good a _; exact: (at_most_attained (at_most_all M good) a). Qed.
 
 (* There is one. Natural numbers suffice as entries of cameras, whatever the field, *)
 Lemma on_line (F : numFieldType) n E (P D : cameras F n) (c : F) :
@@ -118,10 +118,10 @@ by move: le; rewrite e -(map_J (ratr_rmorphism F)) mxrank_map.
 Qed.
 
 (* and it cannot be that no number is the generic rank. (Which one it is takes a search; no axiom is used here.) *)
-Theorem a_rank n G : well_formed n G -> ~ (forall r, ~ generic_rank n G r).
+Theorem a_rank n G : well_formed n G -> ~ (forall r, ~ generic_rank Projective n G r).
 Proof.
 move=> good none; have n1 : (1 < n)%N by case/and3P: good.
-suff no d r : (r + d)%N = (11 * n - 15)%N -> ~ rank_at_least n G r by apply: (no (11 * n - 15)%N 0%N); [| exists 0].
+suff no d r : (r + d)%N = (11 * n - 15)%N -> ~ rank_at_least Projective n G r by apply: (no (11 * n - 15)%N 0%N); [| exists 0].
 elim: d r => [|d ih] r e low; apply: (none r); split=> // F P.
   by rewrite -[r]addn0 e; exact: lemma_1_1.
 rewrite leqNgt; apply/negP=> more; have [Q le] := rational_cameras (edges n G) P.
@@ -152,36 +152,36 @@ have := mxrankS k; rewrite rank_rV n0 mxrank_ker; have := rank_leq_row (T P); li
 Qed.
 
 Theorem only_trivial_motions n G : well_formed n G ->
-  full_rank n G <-> exists P : cameras rat_comRing n, (kermx (J (edges n G) P : 'M[rat]_(_, _)) == T P)%MS.
+  full_rank Projective n G <-> exists P : cameras rat_comRing n, (kermx (J (edges n G) P : 'M[rat]_(_, _)) == T P)%MS.
 Proof.
 move=> good; have n1 : (1 < n)%N by case/and3P: good.
 have TJ (P : cameras rat_comRing n) : (T P <= kermx (J (edges n G) P : 'M[rat]_(_, _)))%MS by apply/sub_kermxP; exact: T_J.
 split=> [[_ [P0 low] _] | [P /eqmxP ker]]; last first.
   split=> // [|F Q]; last exact: lemma_1_1.
   exists P; have := rank_T (P : cameras [numFieldType of rat] n); rewrite -ker mxrank_ker.
-  have := rank_leq_row (J (edges n G) P : 'M[rat]_(_, _)); lia.
+  have := rank_leq_row (J (edges n G) P : 'M[rat]_(_, _)); rewrite /required; lia.
 case: n n1 G good P0 low TJ => [|[|n]] // _ G good P0 low TJ.
-have [||P [r1 r2]] := @Generic.both [numFieldType of rat] _ _ _ _ _ (fun R U => T U) (fun R U => J (edges _ G) U) (@Generic.good [numFieldType of rat] n) P0.
+have [||P [r1 r2]] := @Generic.both [numFieldType of rat] _ _ _ _ _ _ (fun R U => T U) (fun R U => J (edges _ G) U) (@Generic.good [numFieldType of rat] n) P0.
 - by move=> t; rewrite map_T.
 - by move=> t; rewrite map_J.
 exists P; rewrite andbC -(geq_leqif (mxrank_leqif_eq (TJ P))) mxrank_ker.
 apply: leq_trans (leq_trans (@rank_good [numFieldType of rat] n) r1).
 rewrite leq_subLR; apply: leq_trans (leq_add (leq_trans low r2) (leqnn _)).
-by clear; lia.
+by clear; rewrite /required; lia.
 Qed.
 
 Local Close Scope ring_scope.
 
 (* A graph of full rank is one component. *)
-Theorem full_rank_component n G : full_rank n G -> components n G [:: iota 0 n].
+Theorem full_rank_component M n G : full_rank M n G -> components M n G [:: iota 0 n].
 Proof.
 case=> /and3P [n1 /allP lt _] low _.
 have in_iota x : (x \in iota 0 n) = (x < n) by rewrite mem_iota.
-have whole : part n G (iota 0 n).
+have whole : part M n G (iota 0 n).
   split; rewrite ?size_iota ?iota_uniq //; first by apply/allP=> x; rewrite in_iota.
   suff -> : within (iota 0 n) G = G by [].
   by apply/all_filterP/allP=> e /lt /andP [e12 en]; rewrite !in_iota en (ltn_trans e12 en).
-have sub b : part n G b -> {subset b <= iota 0 n} by case=> _ _ /allP bn _ x /bn; rewrite in_iota.
+have sub b : part M n G b -> {subset b <= iota 0 n} by case=> _ _ /allP bn _ x /bn; rewrite in_iota.
 split=> [b | b [pb maxb]]; first by rewrite inE => /eqP ->; split=> // b' /sub.
 by exists (iota 0 n); rewrite ?mem_head // => x; apply/idP/idP=> [/(maxb _ whole (sub _ pb))|/(sub _ pb)].
 Qed.
@@ -193,32 +193,76 @@ Definition chain (k : nat) (joins : nat -> seq (nat * reason)) (_ : nat) : body 
 Definition no_block (_ : nat) : block := Block 0 id None.
 Definition nothing : body := chain 0 (fun _ => [::]) 0.
 
-Theorem pair : full_rank 2 [:: (0, 1)]%N.
+Theorem pair : full_rank Projective 2 [:: (0, 1)]%N.
 Proof.
 apply: (has_full_rank (u := 7)); pose G := [:: (0, 1)]%N.
-have := @verify_sound 2 1 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+have := @verify_sound Projective 2 1 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
   (chain 2 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]] s)) id 0 7 no_block 0 nothing 0 (fun _ => None) 7.
 by apply; vm_compute.
 Qed.
 
-Theorem one_pair_has_rank_7 : generic_rank 2 [:: (0, 1)]%N 7.
+Theorem one_pair_has_rank_7 : generic_rank Projective 2 [:: (0, 1)]%N 7.
 Proof. exact: pair. Qed.
 
-Theorem triangle : full_rank 3 [:: (0, 1); (0, 2); (1, 2)]%N.
+Theorem triangle : full_rank Projective 3 [:: (0, 1); (0, 2); (1, 2)]%N.
 Proof.
 apply: (has_full_rank (u := 18)); pose G := [:: (0, 1); (0, 2); (1, 2)]%N.
-have := @verify_sound 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+have := @verify_sound Projective 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
   (chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s)) id 0 18
   no_block 0 nothing 0 (fun _ => None) 18.
 by apply; vm_compute.
 Qed.
 
-Theorem four_cycle : ~ full_rank 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
+Theorem four_cycle : ~ full_rank Projective 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
 Proof.
-apply: (@lacks_full_rank 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
-have := @verify_sound 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+apply: (@lacks_full_rank Projective 4 _ 0 28) => //; pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
+have := @verify_sound Projective 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
   (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 28.
 by apply; vm_compute.
+Qed.
+
+(* N: its kernel; where displacements are not zero, it asks that those of a motion are multiples of them. *)
+Theorem N_kernel (F : fieldType) n d (E : seq ('I_n * 'I_n)) (c : points F n d) (u : 'rV_(n * d)) :
+  (u <= kermx (N E c))%MS = all (fun e => turned c e (vec_mx u) == 0%R) E.
+Proof. exact: N_kerP. Qed.
+Theorem parallel (F : fieldType) n d (c y : points F n d) e : displacement c e != 0%R ->
+  turned c e y = 0%R <-> exists s, displacement y e = (s *: displacement c e)%R.
+Proof. by move=> ce; split=> [/(turned_zero ce) | [s]]; [| exact: turned_multiple]. Qed.
+
+(* Directions determine a triangle in space and in a plane. A 5-cycle is not determined in space, nor a 4-cycle in a
+   plane, nor two points by nothing. *)
+Theorem triangle_determined : directions_determine 3 3 [:: (0, 1); (0, 2); (1, 2)]%N /\ directions_determine 2 3 [:: (0, 1); (0, 2); (1, 2)]%N.
+Proof.
+pose G := [:: (0, 1); (0, 2); (1, 2)]%N; pose bodies := chain 3 (fun s => nth [::] [:: [::]; [:: (0, Pair 0)]; [:: (0, Pair 1); (1, Pair 2)]] s).
+have h M := @verify_sound M 3 3 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id bodies id 0 (required M 3)
+  no_block 0 nothing 0 (fun _ => None) (required M 3).
+have good : well_formed 3 G by [].
+split; [apply/(calibrated_determined good) | apply/(affine_determined good)].
+  by apply: (h Calibrated); vm_compute.
+by apply: (h Affine); vm_compute.
+Qed.
+
+Lemma undetermined M n G u : u < required M n -> well_formed n G -> rank_at_most M n G u -> ~ full_rank M n G.
+Proof. by move=> lt good up; apply: (lacks_full_rank (l := 0) lt); split=> //; exact: (@attained_zero M n (edges n G)). Qed.
+Theorem five_cycle_undetermined : ~ directions_determine 3 5 [:: (0, 1); (0, 4); (1, 2); (2, 3); (3, 4)]%N.
+Proof.
+pose G := [:: (0, 1); (0, 4); (1, 2); (2, 3); (3, 4)]%N; have good : well_formed 5 G by [].
+move/(calibrated_determined good); apply: (undetermined (u := 10)) => //.
+have := @verify_sound Calibrated 5 5 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+  (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 10.
+by case=> //; vm_compute.
+Qed.
+Theorem four_cycle_undetermined : ~ directions_determine 2 4 [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N.
+Proof.
+pose G := [:: (0, 1); (0, 3); (1, 2); (2, 3)]%N; have good : well_formed 4 G by [].
+move/(affine_determined good); apply: (undetermined (u := 4)) => //.
+have := @verify_sound Affine 4 4 (fun k => (at_ G k).1) (fun k => (at_ G k).2) id
+  (chain 0 (fun _ => [::])) id 0 0 no_block 0 nothing 0 (fun _ => None) 4.
+by case=> //; vm_compute.
+Qed.
+Theorem no_pair_undetermined : ~ directions_determine 3 2 [::].
+Proof.
+have good : well_formed 2 [::] by []; move/(calibrated_determined good); exact: (undetermined (u := 0)).
 Qed.
 
 (* A triangle is solvable, as the program checks it; two nodes without a pair are not. *)

@@ -312,10 +312,10 @@ Proof. by move=> pA i j; apply: poly_eq (poly_opp (pA i j)) => R P; rewrite mxE.
 Lemma poly_z v : polynomial_matrix (fun R (P : cameras R n) => z_of P v).
 Proof.
 move=> i k; case: v => [a why|m why why'] /=.
-  by apply: poly_eq (poly_number n ((k == a :> nat) : nat)%:Z) => R P; rewrite mxE -pmulrn.
+  by apply: poly_eq (poly_number n (3 * 4) ((k == a :> nat) : nat)%:Z) => R P; rewrite mxE -pmulrn.
 have d : is_polynomial (fun R (P : cameras R n) => \det (col' k (cam P (V m)))).
-  by apply: poly_det => r c; apply: poly_eq (poly_entry (V m) r (lift k c)) => R P; rewrite [RHS]mxE.
-apply: poly_eq (poly_opp (poly_mul (poly_number n ((-1) ^+ k)) d)) => R P.
+  by apply: poly_det => r c; apply: poly_eq (poly_camera (V m) r (lift k c)) => R P; rewrite [RHS]mxE.
+apply: poly_eq (poly_opp (poly_mul (poly_number n (3 * 4) ((-1) ^+ k)) d)) => R P.
 by rewrite rmorphX rmorphN rmorph1 mxE.
 Qed.
 Lemma poly_from l : polynomial_matrix (fun R (P : cameras R n) => from_line P l).
@@ -331,7 +331,7 @@ Qed.
 Lemma poly_part s (a : forall R : comRingType, cameras R n -> 'rV[R]_3) : polynomial_matrix a ->
   polynomial_matrix (fun R P => at_node s (a R P)).
 Proof.
-move=> pa c i; have e (h : 'I_3) := poly_mul (poly_number n ((c == 3 * s + h :> nat)%N : nat)%:Z) (pa 0 h).
+move=> pa c i; have e (h : 'I_3) := poly_mul (poly_number n (3 * 4) ((c == 3 * s + h :> nat)%N : nat)%:Z) (pa 0 h).
 apply: poly_eq (poly_sum (index_enum _) e) => R P; rewrite mxE.
 by apply: eq_bigr => h _; rewrite -pmulrn.
 Qed.
@@ -399,7 +399,7 @@ Lemma map_forms n m q (A : forall R : comRingType, cameras R n -> 'M[R]_(m, q)) 
 Proof. by move=> pA; apply/matrixP=> i j; rewrite mxE; have [e eE] := pA i j; rewrite -!eE map_evaluate. Qed.
 
 Lemma generic_mod_p n m q (A : forall R : comRingType, cameras R n -> 'M[R]_(m, q)) cs r : polynomial_matrix A ->
-  (r <= \rank (A _ (normal n (csF p cs))))%N -> @generically n (fun F P => (r <= \rank (A F P))%N).
+  (r <= \rank (A _ (normal n (csF p cs))))%N -> @generically n (3 * 4) (fun F P => (r <= \rank (A F P))%N).
 Proof.
 move=> pA h; pose cZ v k : int := (cs v k)%:Z.
 have e (R : comRingType) : normal n (fun v k => (cZ v k)%:~R : R) = map_mx intr (normal n cZ).
@@ -484,7 +484,7 @@ by move: kL; rewrite !map_id !inE !mem_iota add1n.
 Qed.
 
 Theorem shown_generic L r : (forall t, fine (link_of (tnth (in_tuple L) t))) -> (r <= size (pivots_of p (3 * C) (form_rows node_at p cs L)) + 4)%N ->
-  @generically n (fun F P => (r <= \rank (forms_mx V C node_at P L) + 4)%N).
+  @generically n (3 * 4) (fun F P => (r <= \rank (forms_mx V C node_at P L) + 4)%N).
 Proof.
 move=> fL le.
 have h : (size (pivots_of p (3 * C) (form_rows node_at p cs L)) <= \rank (forms_mx V C node_at P0 L))%N.
@@ -748,11 +748,11 @@ by apply: fine_learn => //; exact: link_ok_fine.
 Qed.
 
 Theorem demands_generic D : every (fun d : demand => every good d.1) D -> all_shown C node_at p cs D ->
-  @generically n (fun F P => every (holds V C node_at P) D).
+  @generically n (3 * 4) (fun F P => every (holds V C node_at P) D).
 Proof.
 elim: D => [|[L r] D ih] /=; first by move=> _ _; exact: generically_true.
 move=> [gL gD]; case: ifP => // le /(ih gD) rest.
-have first : @generically n (fun F P => (r <= \rank (forms_mx V C node_at P L) + 4)%N).
+have first : @generically n (3 * 4) (fun F P => (r <= \rank (forms_mx V C node_at P L) + 4)%N).
   apply: (shown_generic valV nodes_lt p_prime _ le) => t.
   by case: L gL t {le} => [|f L] gL t; [case: t | rewrite (tnth_nth f); apply: (proj1 (every_nth _ f (f :: L)) gL)].
 exact: generically_and first rest.

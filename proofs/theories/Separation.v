@@ -3,7 +3,7 @@
    Components are numbered so that those that are told apart last stand together. At first all of them are one interval;
    each step cuts an interval into smaller ones, until every component is alone. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic NormalForm Counting Rigid Components Elimination Checker.
+From Viewcert Require Import Statement Counting Rigid Models Components Elimination Cores Checker.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 (* Intervals that share one node at most with those before (Theorem 4.3). For every node the interval in which it occurs
@@ -24,7 +24,7 @@ Record told_apart := ToldApart {
 Inductive step := Cut of seq nat & shared_nodes | Apart of seq nat & told_apart.
 
 Section Program.
-Variables (n m : nat) (first second : nat -> nat) (bodies : nat -> body) (b : nat).
+Variables (M : model) (n m : nat) (first second : nat -> nat) (bodies : nat -> body) (b : nat).
 Variables (owner : nat -> nat) (in_owner : nat -> nat -> nat).
 Variables (t : nat) (comp : nat -> nat) (pair_at : nat -> nat * nat * nat).
 
@@ -99,7 +99,7 @@ Definition differ c d : bool :=
       if j < core_size (frame K) then
         if holds c s (node (frame K) i) then
           if holds d s' (node (frame K) j) then
-            if solved the_prime (centre (frame K)) (motion K) i j entries10 then false else true
+            if allows M (centre (frame K)) (motion K) i j then false else true
           else false
         else false
       else false
@@ -112,10 +112,10 @@ Fixpoint differ_ok q : bool :=
   if q is q'.+1 then if differ_at q' (meeting K q') then differ_ok q' else false else true.
 
 Definition apart_ok xs : bool :=
-  if body_rank n pair_in (frame K) is Some r then
-    if upper_ok n (hi - a) (fun k => size_of (a + k)) (fun k => node_of (a + k)) (blocks_ K) (half_ K) (shared_ K) (in_ K)
+  if body_rank M n pair_in (frame K) is Some r then
+    if upper_ok M n (hi - a) (fun k => size_of (a + k)) (fun k => node_of (a + k)) (blocks_ K) (half_ K) (shared_ K) (in_ K)
          (block_count K) r then
-      if all_solved the_prime (centre (frame K)) (motion K) (core_rows (core (frame K))) then
+      if all_allow M (centre (frame K)) (motion K) (core_rows (core (frame K))) then
         if labels_ok a xs then
           if positions_ok (hi - a) then differ_ok (body_size (frame K)) else false
         else false
@@ -149,7 +149,7 @@ End Program.
 
 (* ------------------------------------------------------------------ its soundness *)
 Section Sound.
-Variables (n m : nat) (first second : nat -> nat) (bodies : nat -> body) (b : nat).
+Variables (M : model) (n m : nat) (first second : nat -> nat) (bodies : nat -> body) (b : nat).
 Variables (owner : nat -> nat) (in_owner : nat -> nat -> nat).
 Variables (t : nat) (comp : nat -> nat) (pair_at : nat -> nat * nat * nat).
 Local Notation G := (pairs m first second).
@@ -160,9 +160,9 @@ Local Notation nodes := (nodes bodies good).
 Local Notation nodes_of k := (nodes (comp k)).
 Local Notation all_pairs := Components.all_pairs.
 
-Hypothesis all_rig : all_rigid n m first second bodies owner b.
+Hypothesis all_rig : all_rigid M n m first second bodies owner b.
 
-Lemma rigidP c : c < b -> rigid n m first second bodies owner c.
+Lemma rigidP c : c < b -> rigid M n m first second bodies owner c.
 Proof.
 elim: b all_rig => //= k ih; case: ifP => // rk /ih {}ih.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih].
@@ -212,23 +212,23 @@ Proof. by move=> cb /andP [c1 c2]; apply/andP; split; apply: in_ownerP. Qed.
 
 (* what a body shows holds for the pairs of the graph in its owner, and the earlier bodies there *)
 Lemma shown_in o c : c < b -> owner c = o -> exists T, [/\ all (inside (nodes c)) T,
-  all (either (owned o c ++ induced E (nodes o))) T & Generic.attained T (11 * size (nodes c) - 15)].
+  all (either (owned o c ++ induced E (nodes o))) T & attained M T (required M (size (nodes c)))].
 Proof.
 move=> cb oc; have := rigidP cb; rewrite /rigid; case: ifP => // _; case e: body_rank => [s|//] le.
-have [T [iT eT [P aT]]] := body_rankP (fun x y why => @mate_okP o c x y why oc) e.
-exists T; split=> //; last by exists P; rewrite size_mkseq; apply: leq_trans aT.
+have [T [iT eT aT]] := body_rankP (fun x y why => @mate_okP o c x y why oc) e.
+exists T; split=> //; last by rewrite size_mkseq; exact: attained_less aT.
 apply/allP=> f fT; have fo : inside (nodes o) f by rewrite -oc inside_owner // (allP iT).
 have := allP eT f fT; rewrite /either !mem_cat !mem_filter fo.
 by have -> : inside (nodes o) (swap f) by rewrite /inside andbC.
 Qed.
 
-Lemma owned_drop o k r : k <= b -> Generic.attained (owned o k ++ induced E (nodes o)) r ->
-  Generic.attained (induced E (nodes o)) r.
+Lemma owned_drop o k r : k <= b -> attained M (owned o k ++ induced E (nodes o)) r ->
+  attained M (induced E (nodes o)) r.
 Proof.
 elim: k => //= k ih kb a; apply: ih; first exact: ltnW.
 move: a; case: eqP => // ok; rewrite -catA => a.
 have [T [iT eT aT]] := shown_in kb ok; have [s1 _ _] := body_factsP kb.
-apply: (theorem_4_1 (T := T) (b := nodes k)) a => //; first by rewrite size_mkseq.
+apply: (full (T := T) (b := nodes k)) a => //; first by rewrite size_mkseq.
 by apply/allP=> f; rewrite all_pairsE.
 Qed.
 
@@ -239,7 +239,7 @@ elim: t comps => //= i ih; case: ifP => // ib; case: eqnP => // oi /ih {}ih.
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih].
 Qed.
 
-Lemma comp_rigid k : k < t -> rigid_part E (nodes_of k).
+Lemma comp_rigid k : k < t -> rigid_part M E (nodes_of k).
 Proof.
 case/compP=> kb ok; have [s1 u _] := body_factsP kb; have [T [_ eT aT]] := shown_in kb ok.
 split; rewrite ?size_mkseq //; move: aT; rewrite size_mkseq => /(attained_either eT).
@@ -259,7 +259,7 @@ elim: j {k km} => //= i ih; case: (pair_at i) => [[c s] s']; case: ifP => // ct;
 by rewrite ltnS leq_eqVlt => /predU1P [-> | /ih //]; exists c; rewrite // /inside h1.
 Qed.
 
-Local Notation closed := (closed E t (fun k => nodes_of k)).
+Local Notation closed := (closed M E t (fun k => nodes_of k)).
 Definition between lo hi : pred nat := fun k => lo <= k < hi.
 Lemma loopfree (e : 'I_n * 'I_n) : e \in E -> e.1 != e.2.
 Proof. by rewrite edgesE; case/and3P: good => _ /allP lt _ /lt /andP [/= e12 _]; rewrite -val_eqE neq_ltn e12. Qed.
@@ -340,13 +340,13 @@ apply/orP; left; apply/flattenP; exists (all_pairs (nodes_of c)); last by rewrit
 by apply: map_f; apply: in_span; rewrite /between ac.
 Qed.
 
-Lemma drop_span X r : {subset D <= X} -> Generic.attained (U ++ X) r -> Generic.attained X r.
+Lemma drop_span X r : {subset D <= X} -> attained M (U ++ X) r -> attained M X r.
 Proof.
 have : all (fun k => k \in iota a (hi - a)) (iota a (hi - a)) by apply/allP.
 elim: {2 3}(iota a (hi - a)) => //= k ks ih /andP [kin ksin] DX; rewrite -catA => h; apply: ih => //.
 have kh := spanned kin; have kt : k < t by case/andP: kh => _ /leq_trans; apply.
-have [s1 _ full] := comp_rigid kt.
-apply: (theorem_4_1 (T := induced E (nodes_of k)) (b := nodes_of k)) full h => //.
+have [s1 _ fullk] := comp_rigid kt.
+apply: (full (T := induced E (nodes_of k)) (b := nodes_of k)) fullk h => //.
 - apply/allP=> e; rewrite mem_filter => /andP [ke eE]; rewrite /either mem_cat DX ?orbT //.
   by rewrite mem_filter eE andbT; apply/kindP; exists k.
 - exact: filter_all.
@@ -389,8 +389,8 @@ elim: (size_of _ _ _) ok => //= s' ih'; case: ifP => // q1; case: eqnP => // q2;
 by move/ih' => {}ih'; rewrite ltnS leq_eqVlt => /predU1P [-> | /ih'].
 Qed.
 
-Lemma differ_okP Q : differ_ok bodies comp K Q -> forall q i j, q < Q -> i < meeting K q -> j < i ->
-  differ bodies comp K (there K q i) (there K q j).
+Lemma differ_okP Q : differ_ok M bodies comp K Q -> forall q i j, q < Q -> i < meeting K q -> j < i ->
+  differ M bodies comp K (there K q i) (there K q j).
 Proof.
 elim: Q => //= Q ih; case: ifP => // ok /ih {}ih q i j; rewrite ltnS leq_eqVlt => /predU1P [-> {q ih}|qQ]; last exact: ih.
 elim: (meeting K Q) ok => //= k ih; case: ifP => // ok /ih {}ih; rewrite ltnS leq_eqVlt => /predU1P [-> {i ih}|]; last exact: ih.
@@ -398,7 +398,7 @@ move: (there K Q k) ok => c; elim: k => //= k ih; case: ifP => // ok /ih {}ih.
 by rewrite ltnS leq_eqVlt => /predU1P [-> //|/ih].
 Qed.
 
-Theorem apart_okP xs : apart_ok n bodies comp a hi K xs -> closed span ->
+Theorem apart_okP xs : apart_ok M n bodies comp a hi K xs -> closed span ->
   forall c, c \in all_cells a xs -> closed (between c.1 c.2).
 Proof.
 rewrite /apart_ok; case e: body_rank => [r|//]; case: ifP => // up; case: ifP => // sol.
@@ -406,12 +406,12 @@ case: ifP => // /labels_okP [ah _ cells]; case: ifP => // /positions_okP pos /di
 have [ac cc chi lab] := cells c cin.
 have facts k : k < t -> forall s, s < size_of bodies comp k -> node_of bodies comp k s < n.
   by case/compP=> kb _; case: (body_factsP kb).
-have le (P : cameras rat_comRing n) : \rank (J D P : 'M[rat]_(_, _)) <= r.
-  apply: (upper_ok_sound (good := good) up _ (F := [numFieldType of rat])) => f; rewrite mem_filter.
+have le : at_most M D r.
+  apply: (upper_ok_sound (good := good) up) => f; rewrite mem_filter.
   case/andP=> /kindP [k [kt /andP [ak kh] kf]] _; exists (k - a); first by rewrite ltn_sub2r // (leq_ltn_trans ak).
   by rewrite /set_ subnKC.
-have raised k l : k < t -> l < t -> differ bodies comp K k l -> interval K k != interval K l ->
-    exists x y, [/\ x \in nodes_of k, y \in nodes_of l & Generic.attained ((x, y) :: D) r.+1].
+have raised k l : k < t -> l < t -> differ M bodies comp K k l -> interval K k != interval K l ->
+    exists x y, [/\ x \in nodes_of k, y \in nodes_of l & attained M ((x, y) :: D) r.+1].
   move=> kt lt; rewrite /differ; case: eqnP => [->|_]; first by rewrite eqxx.
   case: witness => [[[i s] j] s']; case: ifP => // ic; case: ifP => // jc; case: ifP => // h1; case: ifP => // h2.
   case: ifP => // /negbT nij _ _; exists (V (node (frame K) i)), (V (node (frame K) j)); split; [exact: holds_in h1 | exact: holds_in h2 |].
@@ -483,7 +483,7 @@ case: (ltnP d.1.+1 d.2) => dd; first by right; exists d; rewrite // cells_in mem
 left; apply: closed_ext (cl d din) => j; move: kd dd; rewrite /between /= => /andP [] *; apply/idP/eqP; lia.
 Qed.
 
-Theorem steps_okP S P : steps_ok n bodies comp S P -> progress P -> forall k, k < t -> alone k.
+Theorem steps_okP S P : steps_ok M n bodies comp S P -> progress P -> forall k, k < t -> alone k.
 Proof.
 elim: S P => [|st S ih] [|[lo hi] P] //=.
   by move=> _ [_ every] k /every [|[]].
@@ -496,10 +496,10 @@ by move: ok; rewrite /apart_ok; case: body_rank => // r; case: ifP => // _; case
 Qed.
 End Sound.
 
-Theorem components_ok_sound n m first second bodies b owner in_owner t comp pair_at S :
-  well_formed n (pairs m first second) -> all_rigid n m first second bodies owner b ->
-  components_ok n m first second bodies b owner in_owner t comp pair_at S ->
-  components n (pairs m first second)
+Theorem components_ok_sound M n m first second bodies b owner in_owner t comp pair_at S :
+  well_formed n (pairs m first second) -> all_rigid M n m first second bodies owner b ->
+  components_ok M n m first second bodies b owner in_owner t comp pair_at S ->
+  components M n (pairs m first second)
     [seq mkseq (node (bodies (comp k))) (body_size (bodies (comp k))) | k <- iota 0 t].
 Proof.
 move=> good rig; rewrite /components_ok; case: ifP => // own; case: ifP => // cmp; case: ifP => // cov ok.
@@ -510,7 +510,7 @@ have -> : [seq mkseq (node (bodies (comp k))) (body_size (bodies (comp k))) | k 
 apply: components_are => // [k kt | e eE | ].
 - exact: (comp_rigid good rig own cmp kt).
 - exact: (comp_cover good cov eE).
-suff pr : progress bodies t comp good (cells 0 [:: t] [::]) by move=> k kt; exact: (steps_okP rig own cmp cov ok pr kt).
+suff pr : progress M bodies t comp good (cells 0 [:: t] [::]) by move=> k kt; exact: (steps_okP rig own cmp cov ok pr kt).
 split=> [c | k kt].
   by rewrite /=; case: ifP => // _; rewrite inE => /eqP ->; split=> // B k l _ _ lt _; rewrite /between /= lt.
 rewrite /=; case: ifP => t1; first by right; exists (0, t); rewrite ?inE.
@@ -518,10 +518,10 @@ left=> B j l _ jt lt /eqP jk /eqP lk; lia.
 Qed.
 
 (* The program: bounds, and then components. *)
-Theorem verify_components n m first second by_pair bodies owner b lower blocks half shared c place upper in_owner t comp pair_at S :
-  verify n m first second by_pair bodies owner b lower blocks half shared c place upper -> 0 < lower ->
-  components_ok n m first second bodies b owner in_owner t comp pair_at S ->
-  components n (pairs m first second)
+Theorem verify_components M n m first second by_pair bodies owner b lower blocks half shared c place upper in_owner t comp pair_at S :
+  verify M n m first second by_pair bodies owner b lower blocks half shared c place upper -> 0 < lower ->
+  components_ok M n m first second bodies b owner in_owner t comp pair_at S ->
+  components M n (pairs m first second)
     [seq mkseq (node (bodies (comp k))) (body_size (bodies (comp k))) | k <- iota 0 t].
 Proof.
 rewrite /verify; case: ifP => // /graph_ok_sound good; case: ifP => // + _ l0.

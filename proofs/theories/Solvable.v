@@ -2,7 +2,7 @@
    takes an edge, a node that is joined to two of the nodes before it (rules 2 and 3), and pairs of nodes of an earlier body
    (rule 4); a body may begin with a core whose scales are settled by Theorem 10.6. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From Viewcert Require Import Statement Skew Motions Generic Counting Rigid Checker Generically Unique Scales.
+From Viewcert Require Import Statement Skew Motions Generic Counting Rigid Cores Checker Generically Unique Scales.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 (* Why the scales of a core are one: centres of nodes, links of a tree, and what is settled one after the other *)
@@ -91,7 +91,7 @@ Local Notation ok b := (pair_ok m first second bodies sure b).
 Definition ranks_hold (F : numFieldType) (P : cameras F n) b : Prop :=
   if core_demands n (ok b) (bodies b) (settled_by b) is Some D then every (holds V (core_size (bodies b)) (node (bodies b)) P) D else True.
 
-Lemma determined_generic b : determined n (ok b) (bodies b) (settled_by b) -> @generically n (fun F P => ranks_hold P b).
+Lemma determined_generic b : determined n (ok b) (bodies b) (settled_by b) -> @generically n (3 * 4) (fun F P => ranks_hold P b).
 Proof.
 rewrite /determined /ranks_hold; set B := bodies b; case: ifP => // _; case: ifP => // /nodes_okP lt; case: ifP => // _.
 case E: core_demands => [D|//]; case: ifP => // shown _; move: E; rewrite /core_demands; case: eqnP => [_ [<-]|_].
@@ -103,7 +103,7 @@ exact: demands_fine (hanging_fine tok) E.
 Qed.
 
 Lemma all_determined_generic b : all_determined n m first second bodies sure settled_by b ->
-  @generically n (fun F P => forall c, (c < b)%N -> sure c -> ranks_hold P c).
+  @generically n (3 * 4) (fun F P => forall c, (c < b)%N -> sure c -> ranks_hold P c).
 Proof.
 elim: b => [_|b ih] /=; first exact: generically_true.
 case: ifP => [sb | nb].
@@ -238,7 +238,7 @@ Theorem verify_solvable n m first second by_pair bodies sure settled_by b :
   graph_ok n m first second by_pair -> solvable_ok n m first second bodies sure settled_by b -> solvable n (pairs m first second).
 Proof.
 move=> /graph_ok_sound good ok; split=> //.
-have ranks : @generically n (fun F P => forall c, (c < b.+1)%N -> sure c -> ranks_hold bodies sure settled_by good P c).
+have ranks : @generically n (3 * 4) (fun F P => forall c, (c < b.+1)%N -> sure c -> ranks_hold bodies sure settled_by good P c).
   by apply: all_determined_generic; move: ok; rewrite /solvable_ok; case: ifP => // _; case: eqnP.
 apply: generically_impl (generically_and (generic_cameras n) ranks) => F P [nice ranksP] Q rankQ same.
 exact: (corollary_4_2 nice rankQ same ok ranksP).

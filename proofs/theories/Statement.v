@@ -1,7 +1,9 @@
 (* What has to be read: the objects that the proved checker speaks of, and the claims it makes.
 
    Theorem 1.3 of docs/theory.md (a graph is finite solvable iff [full_rank] holds) is not formal. It is cited from
-   the literature, and no name before [solvable] says more than a rank. *)
+   the literature, and no name before [solvable] says more than a rank. That [full_rank] is [directions_determine] is
+   formal (Theorem 4.8, Parallel.v); that affine cameras are determined iff points in a plane are is Theorem 13.2 and
+   is not. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -29,6 +31,31 @@ Definition J (E : seq ('I_n * 'I_n)) (P : cameras) :=
   lin_mx (fun dP : cameras => \matrix_(k < size E) mxvec (equation P (tnth (in_tuple E) k) dP)).
 End Equations.
 
+(* ------------------------------------------------------------------ known directions
+   n points in d dimensions, of which pairs tell in which direction one sees the other: centres of calibrated cameras
+   whose rotations are known (d = 3), and the points of the affine model (d = 2; sections 4 and 13 of docs/theory.md). *)
+Section Directions.
+Variables (R : comRingType) (n d : nat).
+
+(* row v is the point c_v *)
+Definition points := 'M[R]_(n, d).
+Definition displacement (c : points) (e : 'I_n * 'I_n) : 'rV[R]_d := row e.1 c - row e.2 c.
+
+(* zero iff, over a field, the displacement of y is a multiple of that of c, or that of c is zero *)
+Definition turned (c : points) (e : 'I_n * 'I_n) (y : points) : 'M[R]_d :=
+  let u := displacement c e in let w := displacement y e in u^T *m w - w^T *m u.
+
+(* N: the matrix of the linear map y |-> (turned c e y) for all e in E *)
+Definition N (E : seq ('I_n * 'I_n)) (c : points) :=
+  lin_mx (fun y : points => \matrix_(k < size E) mxvec (turned c (tnth (in_tuple E) k) y)).
+End Directions.
+
+(* The models, and the largest rank that a graph with n nodes can have in each: of J, or of N for points in space or in a
+   plane *)
+Inductive model := Projective | Calibrated | Affine.
+Definition required M n : nat :=
+  match M with Projective => 11 * n - 15 | Calibrated => 3 * n - 4 | Affine => 2 * n - 3 end%N.
+
 (* The graph with nodes 0 .. n-1 and m pairs, the k-th of which is (first k, second k) *)
 Definition pairs m (first second : nat -> nat) : seq (nat * nat) :=
   [seq (first k, second k) | k <- iota 0 m].
@@ -41,28 +68,37 @@ Definition well_formed n (G : seq (nat * nat)) : bool :=
 Definition edges n (G : seq (nat * nat)) : seq ('I_n * 'I_n) :=
   pmap (fun e => if insub e.1 is Some i then if insub e.2 is Some j then Some (i, j) else None else None) G.
 
-(* Some rational cameras reach rank r. *)
-Definition rank_at_least n (G : seq (nat * nat)) (r : nat) : Prop :=
-  exists P : cameras rat_comRing n, (r <= \rank (J (edges n G) P : 'M[rat]_(_, _)))%N.
+(* Some rational cameras (points) reach rank r. *)
+Definition rank_at_least M n (G : seq (nat * nat)) (r : nat) : Prop :=
+  match M with
+  | Projective => exists P : cameras rat_comRing n, (r <= \rank (J (edges n G) P : 'M[rat]_(_, _)))%N
+  | Calibrated => exists c : points rat_comRing n 3, (r <= \rank (N (edges n G) c : 'M[rat]_(_, _)))%N
+  | Affine => exists c : points rat_comRing n 2, (r <= \rank (N (edges n G) c : 'M[rat]_(_, _)))%N
+  end.
 
-(* No cameras over any field of numbers (numFieldType: the rationals, real, complex numbers, ..) exceed it. *)
-Definition rank_at_most n (G : seq (nat * nat)) (r : nat) : Prop :=
-  forall (F : numFieldType) (P : cameras F n), (\rank (J (edges n G) P) <= r)%N.
+(* None over any field of numbers (numFieldType: the rationals, real, complex numbers, ..) exceed it. *)
+Definition rank_at_most M n (G : seq (nat * nat)) (r : nat) : Prop :=
+  forall F : numFieldType,
+  match M with
+  | Projective => forall P : cameras F n, (\rank (J (edges n G) P) <= r)%N
+  | Calibrated => forall c : points F n 3, (\rank (N (edges n G) c) <= r)%N
+  | Affine => forall c : points F n 2, (\rank (N (edges n G) c) <= r)%N
+  end.
 
-Definition generic_rank n G r : Prop := [/\ well_formed n G, rank_at_least n G r & rank_at_most n G r].
+Definition generic_rank M n G r : Prop := [/\ well_formed n G, rank_at_least M n G r & rank_at_most M n G r].
 
-(* the criterion of Theorem 1.3 *)
-Definition full_rank n G : Prop := generic_rank n G (11 * n - 15).
+(* the criterion of Theorem 1.3, of Theorem 4.8 and of Theorem 13.2 *)
+Definition full_rank M n G : Prop := generic_rank M n G (required M n).
 
 (* Sets of two nodes or more whose pairs have full rank among themselves, *)
 Definition within (b : seq nat) (G : seq (nat * nat)) := [seq e <- G | (e.1 \in b) && (e.2 \in b)].
-Definition part n G b : Prop :=
-  [/\ (1 < size b)%N, uniq b, all (fun v => v < n)%N b & rank_at_least n (within b G) (11 * size b - 15)].
+Definition part M n G b : Prop :=
+  [/\ (1 < size b)%N, uniq b, all (fun v => v < n)%N b & rank_at_least M n (within b G) (required M (size b))].
 
 (* the largest of them, and all of these *)
-Definition component n G b : Prop := part n G b /\ forall b', part n G b' -> {subset b <= b'} -> {subset b' <= b}.
-Definition components n G (C : seq (seq nat)) : Prop :=
-  (forall b, b \in C -> component n G b) /\ (forall b, component n G b -> exists2 c, c \in C & c =i b).
+Definition component M n G b : Prop := part M n G b /\ forall b', part M n G b' -> {subset b <= b'} -> {subset b' <= b}.
+Definition components M n G (C : seq (seq nat)) : Prop :=
+  (forall b, b \in C -> component M n G b) /\ (forall b, component M n G b -> exists2 c, c \in C & c =i b).
 
 (* Cameras Q have the fundamental matrices of P, up to factors; they are P, up to factors and one projectivity. *)
 Definition same_matrices (F : fieldType) n (E : seq ('I_n * 'I_n)) (P Q : cameras F n) : Prop :=
@@ -70,13 +106,13 @@ Definition same_matrices (F : fieldType) n (E : seq ('I_n * 'I_n)) (P Q : camera
 Definition same_cameras (F : fieldType) n (P Q : cameras F n) (b : seq 'I_n) : Prop :=
   exists2 H : 'M[F]_4, H \in unitmx & forall v, v \in b -> exists2 t : F, t != 0 & cam Q v = t *: (cam P v *m H).
 
-(* polynomials with integer coefficients in the entries of n cameras *)
-Inductive polynomial n :=
+(* polynomials with integer coefficients in the entries of an n x k matrix, such as n cameras *)
+Inductive polynomial n k :=
   | Number of int
-  | Entry of 'I_n & 'I_(3 * 4)
-  | Plus of polynomial n & polynomial n
-  | Times of polynomial n & polynomial n.
-Fixpoint evaluate (R : comRingType) n (P : cameras R n) (q : polynomial n) : R :=
+  | Entry of 'I_n & 'I_k
+  | Plus of polynomial n k & polynomial n k
+  | Times of polynomial n k & polynomial n k.
+Fixpoint evaluate (R : comRingType) n k (P : 'M[R]_(n, k)) (q : polynomial n k) : R :=
   match q with
   | Number c => c%:~R
   | Entry v k => P v k
@@ -85,10 +121,20 @@ Fixpoint evaluate (R : comRingType) n (P : cameras R n) (q : polynomial n) : R :
   end.
 
 (* What holds for generic cameras: wherever some polynomial that is not zero everywhere is not zero. *)
-Definition generically n (C : forall F : numFieldType, cameras F n -> Prop) : Prop :=
-  exists2 q : polynomial n, (exists P : cameras rat_comRing n, evaluate P q != 0) &
-    forall (F : numFieldType) (P : cameras F n), evaluate P q != 0 -> C F P.
+Definition generically n k (C : forall F : numFieldType, 'M[F]_(n, k) -> Prop) : Prop :=
+  exists2 q : polynomial n k, (exists P : 'M[rat_comRing]_(n, k), evaluate P q != 0) &
+    forall (F : numFieldType) (P : 'M[F]_(n, k)), evaluate P q != 0 -> C F P.
 
 (* Fundamental matrices determine generic cameras (section 1 of docs/theory.md). *)
-Definition solvable n G : Prop := well_formed n G /\ @generically n (fun F P =>
+Definition solvable n G : Prop := well_formed n G /\ @generically n (3 * 4) (fun F P =>
   forall Q, (forall v, \rank (cam Q v) = 3%N) -> same_matrices (edges n G) P Q -> same_cameras P Q (enum 'I_n)).
+
+(* Points y have the directions of c, as lines; they are c, up to scale and translation. *)
+Definition same_directions (F : fieldType) n d (E : seq ('I_n * 'I_n)) (c y : points F n d) : Prop :=
+  forall e, e \in E -> exists2 t : F, t != 0 & displacement y e = t *: displacement c e.
+Definition same_points (F : fieldType) n d (c y : points F n d) : Prop :=
+  exists2 s : F, s != 0 & exists t : 'rV_d, forall v, row v y = s *: row v c + t.
+
+(* Directions determine generic points. *)
+Definition directions_determine d n G : Prop := well_formed n G /\ @generically n d (fun F c =>
+  forall y, same_directions (edges n G) c y -> same_points c y).

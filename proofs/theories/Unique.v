@@ -319,30 +319,30 @@ Section Nice.
 Variable n : nat.
 
 Lemma poly_cam v : polynomial_matrix (fun R (P : cameras R n) => cam P v).
-Proof. by move=> h k; exact: poly_entry. Qed.
+Proof. by move=> h k; exact: poly_camera. Qed.
 
 Lemma poly_fund i j : polynomial_matrix (fun R (P : cameras R n) => fund (cam P i) (cam P j)).
 Proof.
 move=> h k; have d : is_polynomial (fun R (P : cameras R n) => \det (col_mx (row' k (cam P i)) (row' h (cam P j)) : 'M_4)).
   apply: poly_det => r c; case: (@split_ordP 2 2 r) => s ->.
-    apply: poly_eq (poly_entry i (lift k s) c) => R P.
+    apply: poly_eq (poly_camera i (lift k s) c) => R P.
     by rewrite -[RHS]/(col_mx (row' k (cam P i)) (row' h (cam P j)) (lshift 2 s) c) col_mxEu [RHS]mxE.
-  apply: poly_eq (poly_entry j (lift h s) c) => R P.
+  apply: poly_eq (poly_camera j (lift h s) c) => R P.
   by rewrite -[RHS]/(col_mx (row' k (cam P i)) (row' h (cam P j)) (rshift 2 s) c) col_mxEd [RHS]mxE.
-apply: poly_eq (poly_mul (poly_number n ((-1) ^+ (h + k))) d) => R P.
+apply: poly_eq (poly_mul (poly_number n (3 * 4) ((-1) ^+ (h + k))) d) => R P.
 by rewrite rmorphX rmorphN rmorph1 [RHS]mxE.
 Qed.
 
 Lemma poly_independence i j k : polynomial_matrix (fun R (P : cameras R n) => independence (cam P i) (cam P j) (cam P k)).
 Proof.
-have zero : is_polynomial (fun R (P : cameras R n) => 0) by apply: poly_eq (poly_number n 0) => R P.
+have zero : is_polynomial (fun R (P : cameras R n) => 0) by apply: poly_eq (poly_number n (3 * 4) 0) => R P.
 move=> r c; case: (@split_ordP 4 4 r) => s ->; case: (@split_ordP (3 + 3) 3 c) => t ->; try (case: (@split_ordP 3 3 t) => u ->).
-- by apply: poly_eq (poly_entry i u s) => R P; rewrite /independence col_mxEu !row_mxEl [RHS]mxE.
+- by apply: poly_eq (poly_camera i u s) => R P; rewrite /independence col_mxEu !row_mxEl [RHS]mxE.
 - by apply: poly_eq zero => R P; rewrite /independence col_mxEu row_mxEl row_mxEr mxE.
-- by apply: poly_eq (poly_entry k t s) => R P; rewrite /independence col_mxEu row_mxEr [RHS]mxE.
+- by apply: poly_eq (poly_camera k t s) => R P; rewrite /independence col_mxEu row_mxEr [RHS]mxE.
 - by apply: poly_eq zero => R P; rewrite /independence col_mxEd row_mxEl row_mxEl mxE.
-- by apply: poly_eq (poly_entry j u s) => R P; rewrite /independence col_mxEd row_mxEl row_mxEr [RHS]mxE.
-- by apply: poly_eq (poly_entry k t s) => R P; rewrite /independence col_mxEd row_mxEr [RHS]mxE.
+- by apply: poly_eq (poly_camera j u s) => R P; rewrite /independence col_mxEd row_mxEl row_mxEr [RHS]mxE.
+- by apply: poly_eq (poly_camera k t s) => R P; rewrite /independence col_mxEd row_mxEr [RHS]mxE.
 Qed.
 End Nice.
 
@@ -400,20 +400,20 @@ by rewrite (all4 x) // (all4 y) // row_mx0.
 Qed.
 
 (* Generic cameras are so. *)
-Theorem generic_cameras : @generically n (fun F P => no_three_on_a_line P).
+Theorem generic_cameras : @generically n (3 * 4) (fun F P => no_three_on_a_line P).
 Proof.
-have rows : @generically n (fun F P => forall v, v \in enum 'I_n -> (3 <= \rank (cam P v))%N).
-  apply: (@generically_all n _ _ (fun v F P => (3 <= \rank (cam P v))%N)) => v _.
+have rows : @generically n (3 * 4) (fun F P => forall v, v \in enum 'I_n -> (3 <= \rank (cam P v))%N).
+  apply: (@generically_all n (3 * 4) _ _ (fun v F P => (3 <= \rank (cam P v))%N)) => v _.
   apply: (rank_generically (P0 := normal n (fun _ _ => 0)) (@poly_cam n v)).
   by rewrite (eqP (normal_free _ v)).
-have funds : @generically n (fun F P => forall e, e \in enum {: 'I_n * 'I_n} -> e.1 != e.2 -> (1 < \rank (fund (cam P e.1) (cam P e.2)))%N).
-  apply: (@generically_all n _ _ (fun e F P => e.1 != e.2 -> (1 < \rank (fund (cam P e.1) (cam P e.2)))%N)) => -[i j] _ /=.
+have funds : @generically n (3 * 4) (fun F P => forall e, e \in enum {: 'I_n * 'I_n} -> e.1 != e.2 -> (1 < \rank (fund (cam P e.1) (cam P e.2)))%N).
+  apply: (@generically_all n (3 * 4) _ _ (fun e F P => e.1 != e.2 -> (1 < \rank (fund (cam P e.1) (cam P e.2)))%N)) => -[i j] _ /=.
   case: (eqVneq i j) => [_|ij]; first exact: generically_true.
   apply: generically_impl (rank_generically (@poly_fund n i j) (spread_fund ij)) => F P h _.
   exact: h.
-have lines : @generically n (fun F P => forall e, e \in enum {: 'I_n * 'I_n * 'I_n} ->
+have lines : @generically n (3 * 4) (fun F P => forall e, e \in enum {: 'I_n * 'I_n * 'I_n} ->
     e.1.1 != e.1.2 -> e.1.1 != e.2 -> e.1.2 != e.2 -> (8 <= \rank (independence (cam P e.1.1) (cam P e.1.2) (cam P e.2)))%N).
-  apply: (@generically_all n _ _ (fun e F P => e.1.1 != e.1.2 -> e.1.1 != e.2 -> e.1.2 != e.2 ->
+  apply: (@generically_all n (3 * 4) _ _ (fun e F P => e.1.1 != e.1.2 -> e.1.1 != e.2 -> e.1.2 != e.2 ->
     (8 <= \rank (independence (cam P e.1.1) (cam P e.1.2) (cam P e.2)))%N)) => -[[i j] k] _ /=.
   case: (eqVneq i j) => [_|ij]; first exact: generically_true.
   case: (eqVneq i k) => [_|ik]; first exact: generically_true.

@@ -21,8 +21,8 @@ pub(super) struct Proved {
     pub(super) solutions: Option<String>,
     /// All of it in words, on several lines.
     pub(super) text: String,
-    /// Whether it is about the projective model with nothing given.
-    pub(super) is_projective: bool,
+    /// The model, if it is about pairs alone, with nothing given.
+    pub(super) of_pairs: Option<Model>,
     /// The generic rank.
     pub(super) rank: i64,
     /// The rank at which the graph is finite solvable.
@@ -38,9 +38,8 @@ impl Proved {
             verdict: verified.verdict.0.to_string(),
             solutions: solutions(verified),
             text: verified.to_string(),
-            is_projective: verified.model == Model::Projective
-                && verified.parts == 0
-                && verified.displacements.is_none(),
+            of_pairs: (verified.parts == 0 && verified.displacements.is_none())
+                .then_some(verified.model),
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0,
@@ -53,7 +52,7 @@ impl Proved {
             verdict: verified.verdict.into(),
             solutions: None,
             text: verified.to_string(),
-            is_projective: false,
+            of_pairs: None,
             rank: verified.rank[0],
             required: verified.required,
             components: verified.components.as_ref().map_or(0, Vec::len),
@@ -71,7 +70,7 @@ impl Proved {
             verdict: is.into(),
             solutions: None,
             text: verified.to_string(),
-            is_projective: false,
+            of_pairs: None,
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0 as usize,

@@ -10,14 +10,16 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::Path;
 use std::process::Command;
+use viewcert_check::Model;
 
 const PROGRAM: &str = "viewcert-proved";
 const BOTH: &str = "viewcert-check, viewcert-proved";
 const ONE: &str = "viewcert-check";
 
 /// What the program has printed of one graph.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, PartialEq, Eq)]
 struct Answer {
+    model: Model,
     at_least: Option<i64>,
     at_most: Option<i64>,
     components: Option<usize>,
@@ -27,24 +29,40 @@ struct Answer {
 impl Answer {
     /// From the sentences of `proofs/program/main.ml`.
     fn of(text: &str) -> Self {
-        let mut answer = Self::default();
+        let mut answer = Self {
+            model: Model::Projective,
+            at_least: None,
+            at_most: None,
+            components: None,
+            solvable: false,
+        };
         for line in text.lines().map(str::trim) {
-            let number = |before: &str| {
+            let number = |before: &str| -> Option<i64> {
                 let rest = line.split_once(before)?.1;
                 rest.split(' ').next()?.parse().ok()
             };
-            if let Some(rank) = number("the generic rank of J is ") {
+            if line.starts_with("calibrated model: ") {
+                answer.model = Model::Calibrated;
+            } else if line.starts_with("affine model: ") {
+                answer.model = Model::Affine;
+            }
+            // An affine certificate has four times the rank of N.
+            let times = if answer.model == Model::Affine { 4 } else { 1 };
+            let rank = |before: &str| number(before).map(|rank| times * rank);
+            let matrix = ["J", "N"];
+            let exact = matrix.map(|m| rank(&format!("the generic rank of {m} is ")));
+            if let Some(rank) = exact.into_iter().flatten().next() {
                 (answer.at_least, answer.at_most) = (Some(rank), Some(rank));
             }
-            answer.at_least = answer
-                .at_least
-                .or(number("some rational cameras have rank "));
-            answer.at_most = answer.at_most.or(number("the rank of J is at most "));
+            answer.at_least = answer.at_least.or(rank(" have rank "));
+            let most = matrix.map(|m| rank(&format!("the rank of {m} is at most ")));
+            answer.at_most = answer.at_most.or(most.into_iter().flatten().next());
             answer.solvable |= line.starts_with("solvable: ");
-            let components = "full rank among themselves: ";
+            answer.solvable |= line.starts_with("directions determine ");
+            let components = number("full rank among themselves: ");
             answer.components = answer
                 .components
-                .or(number(components).and_then(|count| count.try_into().ok()));
+                .or(components.and_then(|count| count.try_into().ok()));
         }
         answer
     }
@@ -56,10 +74,11 @@ impl Answer {
 /// # Errors
 /// If the program is not there, cannot read one of the files, or contradicts the other checker.
 pub(super) fn vouch(proved: &Proved, graph: &Path, proof: &Path) -> Result<Result<String, String>> {
-    ensure!(
-        proved.is_projective,
-        "--proved: explicit proofs are about the projective model without anything given; leave it out"
-    );
+    let Some(model) = proved.of_pairs else {
+        bail!(
+            "--proved: explicit proofs are about pairs alone, without anything given; leave it out"
+        )
+    };
     let run = Command::new(program()?).arg(graph).arg(proof).output();
     let run = match run {
         Err(error) if error.kind() == ErrorKind::NotFound => bail!(
@@ -70,7 +89,15 @@ pub(super) fn vouch(proved: &Proved, graph: &Path, proof: &Path) -> Result<Resul
     };
     let text = String::from_utf8_lossy(&run.stdout);
     match run.status.code() {
-        Some(0) => Ok(Ok(words(proved, &Answer::of(&text))?)),
+        Some(0) => {
+            let answer = Answer::of(&text);
+            ensure!(
+                answer.model == model,
+                "{}: a proof of another model than that of the certificate",
+                proof.display()
+            );
+            Ok(Ok(words(proved, &answer)?))
+        }
         Some(1) => Ok(Err(format!(
             "{}: {PROGRAM}: the proof does not show its claim",
             proof.display()
@@ -154,7 +181,7 @@ mod tests {
             verdict: verdict.into(),
             solutions: None,
             text: String::new(),
-            is_projective: true,
+            of_pairs: Some(Model::Projective),
             rank,
             required: 40,
             components,
@@ -187,6 +214,29 @@ mod tests {
         assert!(unique.starts_with(&format!("solvable: {BOTH}\nfinite-solvable: {BOTH}\n")));
         // more than one solution, and one
         assert!(words(&proved("finite-solvable", 40, 1), &Answer::of(&determined)).is_err());
+    }
+
+    /// Four times the rank of N is that of an affine certificate.
+    #[test]
+    fn other_models_are_understood() {
+        let affine = "  affine model: directions of points in a plane\n  the generic rank of N is 7 = 2 n - 3: full rank\n  \
+            directions determine generic points in a plane, up to scale and translation\n";
+        let answer = Answer::of(affine);
+        assert_eq!((answer.model, answer.at_least), (Model::Affine, Some(28)));
+        let claim = Proved {
+            required: 28,
+            ..proved("solvable", 28, 1)
+        };
+        let lines = words(&claim, &answer).unwrap();
+        assert!(lines.starts_with(&format!(
+            "solvable: {BOTH}\nfinite-solvable: {BOTH}\nrank 28: {BOTH}"
+        )));
+        let least = "  calibrated model: directions of points in space\n  some rational points in space have rank 10 at least\n";
+        let answer = Answer::of(least);
+        assert_eq!(
+            (answer.model, answer.at_least, answer.at_most),
+            (Model::Calibrated, Some(10), None)
+        );
     }
 
     #[test]

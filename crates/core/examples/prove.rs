@@ -1,19 +1,26 @@
 //! Explicit proofs of many graphs: graph6 lines on standard input; a file of pairs and a proof for
-//! each of them in the folder that is named, and `list`, which names them all.
+//! each of them in the folder that is named, and `list`, which names them all. A second word is the
+//! model, the projective one by default.
 //!
 //! `viewcert-proved --list FOLDER/list` verifies them (docs/proof.md).
 
 use std::fmt::Write as _;
 use std::io::BufRead;
 use std::path::PathBuf;
-use viewcert::decide::{CountSolutions, Projective};
+use viewcert::decide::{CountSolutions, Projective, Question};
 use viewcert::graph::graph6;
-use viewcert::{Options, decide};
+use viewcert::{Model, Options, decide};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args_os().nth(1).ok_or("which folder?")?;
     let folder = PathBuf::from(folder);
-    let options = Options::default().question(Projective::with_solutions(CountSolutions::Off));
+    let model = std::env::args().nth(2);
+    let model: Model = model.map_or(Ok(Model::Projective), |word| word.parse())?;
+    let question: Question = match model {
+        Model::Projective => Projective::with_solutions(CountSolutions::Off).into(),
+        model => model.into(),
+    };
+    let options = Options::default().question(question);
     let mut list = String::new();
     for (k, line) in std::io::stdin().lock().lines().enumerate() {
         let line = line?;

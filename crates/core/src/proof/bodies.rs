@@ -6,20 +6,18 @@ use super::core::eliminate;
 use super::eliminated::Eliminated;
 use super::listed::{Listed, Reason};
 use crate::contract::{Contraction, Members, Merge, Part, Seed};
+use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::collections::{BTreeMap, HashSet};
-
-/// The rank of a K_{2,3}.
-const BICLIQUE_RANK: usize = 40;
 
 /// Nodes, all pairs of which may be used for the reason given.
 pub(super) type Set = (Vec<u32>, Reason);
 
 /// A body that has the rank `rank` at least: a core of the nodes that lie in two sets (those
 /// that hang on one node left aside), then the others.
-pub(super) fn of_sets(sets: &[Set], rank: usize) -> Result<Listed, Unproved> {
-    let frame = Frame::of(sets)?;
-    let found = eliminate(&frame.graph, frame.of_core(rank), |_| true);
+pub(super) fn of_sets(model: Model, sets: &[Set], rank: usize) -> Result<Listed, Unproved> {
+    let frame = Frame::of(model, sets)?;
+    let found = eliminate(model, &frame.graph, frame.of_core(rank), |_| true);
     Ok(frame.listed(&found.ok_or(Unproved::Unlucky)?))
 }
 
@@ -27,11 +25,12 @@ pub(super) fn of_sets(sets: &[Set], rank: usize) -> Result<Listed, Unproved> {
 /// are in one interval: for some nodes of the core in the one and in the other, the pair of these
 /// forbids it.
 pub(super) fn of_sets_told_apart(
+    model: Model,
     sets: &[Set],
     rank: usize,
     interval: impl Fn(usize) -> usize,
 ) -> Result<(Listed, Vec<u32>), Unproved> {
-    let frame = Frame::of(sets)?;
+    let frame = Frame::of(model, sets)?;
     let cores: Vec<Vec<usize>> = sets.iter().map(|(nodes, _)| frame.places(nodes)).collect();
     let mut of_node = vec![Vec::new(); frame.core.len()];
     for (k, core) in cores.iter().enumerate() {
@@ -51,13 +50,14 @@ pub(super) fn of_sets_told_apart(
                 .all(|(at, &k)| near[..at].iter().all(|&l| differ(k, l)))
         })
     };
-    let found = eliminate(&frame.graph, frame.of_core(rank), told_apart);
+    let found = eliminate(model, &frame.graph, frame.of_core(rank), told_apart);
     let found = found.ok_or(Unproved::Unlucky)?;
     Ok((frame.listed(&found), found.motion()))
 }
 
 /// The core of some sets, and the other nodes.
 struct Frame {
+    model: Model,
     /// Nodes that lie in two sets, increasing.
     core: Vec<u32>,
     /// On their places: as many pairs in each set as it takes to make its nodes one body.
@@ -67,7 +67,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn of(sets: &[Set]) -> Result<Self, Unproved> {
+    fn of(model: Model, sets: &[Set]) -> Result<Self, Unproved> {
         let Ends { core, leaves } = Ends::of(sets);
         if core.len() > super::LARGEST_CORE {
             return Err(Unproved::Core(core.len()));
@@ -97,6 +97,7 @@ impl Frame {
         }
         let graph = Graph::new(core.len() as u32, pairs.keys().copied());
         Ok(Self {
+            model,
             graph: graph.expect("pairs of core nodes"),
             reasons: pairs.into_values().collect(),
             core,
@@ -115,7 +116,7 @@ impl Frame {
         let added = self
             .joins
             .iter()
-            .map(|(_, before)| [0, 7, 11][before.len()]);
+            .map(|(_, before)| self.model.joined()[before.len()]);
         rank.saturating_sub(added.sum())
     }
 
@@ -252,6 +253,7 @@ impl Growing {
 
 /// Bodies of the contraction in the making, and those of the proof.
 pub(super) struct Record {
+    model: Model,
     edges: Vec<(u32, u32)>,
     growing: Vec<Option<Growing>>,
     number: Vec<Option<Reason>>,
@@ -260,9 +262,14 @@ pub(super) struct Record {
 
 impl Record {
     /// The bodies of a contraction, the final ones written down.
-    pub(super) fn of(graph: &Graph, contraction: &Contraction) -> Result<Self, Unproved> {
+    pub(super) fn of(
+        model: Model,
+        graph: &Graph,
+        contraction: &Contraction,
+    ) -> Result<Self, Unproved> {
         let bodies = contraction.bodies.len();
         let mut record = Self {
+            model,
             edges: graph.edges().to_vec(),
             growing: (0..bodies).map(|_| None).collect(),
             number: vec![None; bodies],
@@ -295,7 +302,11 @@ impl Record {
             self.reason(Part::Body(k))?;
         }
         let nodes = self.nodes(members);
-        let listed = of_sets(&self.sets(members), super::required(&nodes))?;
+        let listed = of_sets(
+            self.model,
+            &self.sets(members),
+            self.model.full(nodes.len()),
+        )?;
         Ok(Growing {
             listed,
             inside: nodes.into_iter().collect(),
@@ -334,7 +345,7 @@ impl Record {
         let nodes = self.nodes(members);
         let body = match &members.edges[..] {
             &[(i, j)] if members.bodies.is_empty() => Growing::edge(i, j).listed,
-            _ => of_sets(&sets, super::required(&nodes))?,
+            _ => of_sets(self.model, &sets, self.model.full(nodes.len()))?,
         };
         Ok((nodes, self.push(body)))
     }
@@ -392,7 +403,8 @@ impl Record {
                 body.take_in(&of_b, [b, c], why_b);
             }
             Merge::Biclique { parts, at } => self.biclique(body, parts, at)?,
-            Merge::Scaled { .. } | Merge::Cycle { .. } => return Err(Unproved::Model),
+            Merge::Cycle { parts, at } => self.cycle(body, parts, at)?,
+            Merge::Scaled { .. } => return Err(Unproved::Known),
         }
         Ok(())
     }
@@ -404,36 +416,63 @@ impl Record {
         parts: [Part; 5],
         [a, b, v1, v2, v3]: [u32; 5],
     ) -> Result<(), Unproved> {
-        let is_edge = self.edges.binary_search(&(a.min(v1), a.max(v1))).is_ok();
+        let pairs = [(a, v1), (v1, b), (a, v2), (v2, b), (a, v3), (v3, b)];
+        self.around(body, &parts, &[a, b, v1, v2, v3], &pairs)
+    }
+
+    /// Rule 5 of Theorem 4.9: the four nodes are a body by rank, and share two with this one.
+    fn cycle(
+        &mut self,
+        body: &mut Growing,
+        parts: [Part; 3],
+        [a, b, c, d]: [u32; 4],
+    ) -> Result<(), Unproved> {
+        let pairs = [(d, a), (a, b), (b, c), (c, d)];
+        self.around(body, &parts, &[a, b, c, d], &pairs)
+    }
+
+    /// Some nodes are a body by the rank of these pairs, of which this body holds the first, and each
+    /// part one of the others.
+    fn around(
+        &mut self,
+        body: &mut Growing,
+        parts: &[Part],
+        hinges: &[u32],
+        pairs: &[(u32, u32)],
+    ) -> Result<(), Unproved> {
+        let (i, j) = pairs[0];
+        let is_edge = self.edges.binary_search(&(i.min(j), i.max(j))).is_ok();
         let own = if is_edge {
             0
         } else {
             self.push(body.listed.clone())
         };
-        let mut whys = [own; 6];
-        let mut nodes: [Vec<u32>; 5] = Default::default();
-        for (k, part) in parts.into_iter().enumerate() {
-            (nodes[k], whys[k + 1]) = self.part(part)?;
+        let mut whys = vec![own];
+        let mut held = Vec::new();
+        for &part in parts {
+            let (nodes, why) = self.part(part)?;
+            held.push(nodes);
+            whys.push(why);
         }
-        let pairs = [(a, v1), (v1, b), (a, v2), (v2, b), (a, v3), (v3, b)];
-        let five = [a, b, v1, v2, v3];
-        let local =
-            Graph::new(5, [(0, 2), (1, 2), (0, 3), (1, 3), (0, 4), (1, 4)]).expect("K_{2,3}");
-        let found = eliminate(&local, BICLIQUE_RANK, |_| true).ok_or(Unproved::Unlucky)?;
+        let place = |v: u32| hinges.iter().position(|&x| x == v).expect("a hinge") as u32;
+        let local = pairs.iter().map(|&(i, j)| (place(i), place(j)));
+        let local = Graph::new(hinges.len() as u32, local).expect("pairs of the hinges");
+        let rank = self.model.full(hinges.len());
+        let found = eliminate(self.model, &local, rank, |_| true).ok_or(Unproved::Unlucky)?;
         let row = |(&(i, j), &mask): (&(u32, u32), &u32)| {
-            let (i, j) = (five[i as usize], five[j as usize]);
+            let (i, j) = (hinges[i as usize], hinges[j as usize]);
             let at = pairs
                 .iter()
                 .position(|&(x, y)| (x, y) == (i, j) || (x, y) == (j, i));
-            (i, j, mask, whys[at.expect("one of the six")])
+            (i, j, mask, whys[at.expect("one of the pairs")])
         };
         let why = self.push(Listed {
-            core: found.core(|v| five[v as usize]),
+            core: found.core(|v| hinges[v as usize]),
             rows: local.edges().iter().zip(&found.masks).map(row).collect(),
             ..Listed::default()
         });
-        body.take_in(&five, [a, v1], why);
-        for (k, nodes) in nodes.iter().enumerate() {
+        body.take_in(hinges, [i, j], why);
+        for (k, nodes) in held.iter().enumerate() {
             body.take_in(nodes, pairs[k + 1].into(), whys[k + 1]);
         }
         Ok(())

@@ -6,21 +6,23 @@
 //! Where no block has a hub, bounds need no blocks: those of a bound that is the rank are rigid, so
 //! components count as much.
 
+use super::Unproved;
 use super::bodies::{Record, Set, of_sets_told_apart};
 use super::listed::Reason;
 use super::text::{Components, Step};
 use super::upper::{self, Blocks};
-use super::{Unproved, required};
 use crate::contract::Body;
 use crate::contract::piece::Members;
 use crate::decide::Verdict;
 use crate::decide::evidence::{Class, ClassKind, Evidence, PieceVerdict};
+use crate::geometry::model::Model;
 use std::collections::{BTreeMap, VecDeque};
 
 /// The components of a verdict that proves them, with their bodies in the record.
 pub(super) fn of(verdict: &Verdict, record: &mut Record) -> Result<Components, Unproved> {
     let root = Tree::cut(&verdict.rigid, &verdict.pieces);
     let mut made = Made {
+        model: verdict.model,
         record,
         bodies: &verdict.contraction.bodies,
         components: Components::default(),
@@ -78,6 +80,7 @@ struct Span<'a> {
 
 /// What is made so far.
 struct Made<'a> {
+    model: Model,
     record: &'a mut Record,
     bodies: &'a [Body],
     components: Components,
@@ -155,8 +158,8 @@ impl Made<'_> {
         let step = if let Some(piece) = span.piece {
             let sets = &self.sets[span.begin..span.end];
             let interval = |k: usize| ends.partition_point(|&end| end <= k + span.begin);
-            let (rank, blocks) = bound(piece, self.bodies, sets)?;
-            let (frame, motion) = of_sets_told_apart(sets, rank, interval)?;
+            let (rank, blocks) = bound(self.model, piece, self.bodies, sets)?;
+            let (frame, motion) = of_sets_told_apart(self.model, sets, rank, interval)?;
             Step::Apart {
                 ends,
                 frame,
@@ -175,13 +178,18 @@ impl Made<'_> {
 }
 
 /// What components of a piece count, and the blocks that they are in.
-fn bound(piece: &PieceVerdict, bodies: &[Body], sets: &[Set]) -> Result<(usize, Blocks), Unproved> {
-    let alone = sets.iter().map(|(nodes, _)| required(nodes)).sum();
-    if piece.upper >= alone {
+fn bound(
+    model: Model,
+    piece: &PieceVerdict,
+    bodies: &[Body],
+    sets: &[Set],
+) -> Result<(usize, Blocks), Unproved> {
+    let alone = sets.iter().map(|(nodes, _)| model.full(nodes.len())).sum();
+    let upper = piece.upper / model.times();
+    if upper >= alone {
         return Ok((alone, Blocks::default()));
     }
-    let blocks = upper::of_piece(piece, bodies)?;
+    let blocks = upper::of_piece(model, piece, bodies)?;
     let held = sets.iter().all(|(nodes, _)| blocks.hold(nodes));
-    held.then_some((piece.upper, blocks))
-        .ok_or(Unproved::UpperBound)
+    held.then_some((upper, blocks)).ok_or(Unproved::UpperBound)
 }

@@ -1,8 +1,9 @@
-//! Rows of J_P at centres modulo 65521 that are independent, in an order of nodes with little
-//! fill; of larger cores what plane flows need instead.
+//! Rows of J_P or N at centres modulo 65521 that are independent, in an order of nodes with little
+//! fill; of larger cores of J_P what plane flows need instead.
 
-use super::eliminated::{ENTRIES, Eliminated, PRIME, Row, entry_row, next};
+use super::eliminated::{Eliminated, PRIME, Row, next, row_of};
 use super::flows;
+use crate::geometry::model::Model;
 use crate::graph::Graph;
 use std::collections::BTreeSet;
 
@@ -16,6 +17,7 @@ const SMALL_CORE: usize = 100;
 /// Looks for centres at which the rank is `rank` at least, and for so many independent rows there,
 /// and a motion, that are accepted. `None` if some centres fail.
 pub(super) fn eliminate(
+    model: Model,
     graph: &Graph,
     rank: usize,
     accepts: impl Fn(&Eliminated) -> bool,
@@ -29,12 +31,13 @@ pub(super) fn eliminate(
         let mut state = seed;
         let centres = place.iter().map(|_| [(); 3].map(|()| next(&mut state)));
         let centres: Vec<[u64; 3]> = centres.collect();
-        if graph.nodes() > SMALL_CORE {
+        if model == Model::Projective && graph.nodes() > SMALL_CORE {
             let found = flows::eliminate(graph, &place, centres, rank, &mut state)?;
             return accepts(&found).then_some(found);
         }
-        let (masks, pivots) = independent(graph, &place, &centres, rank)?;
+        let (masks, pivots) = independent(model, graph, &place, &centres, rank)?;
         let found = Eliminated {
+            model,
             masks,
             flows: Vec::new(),
             place: place.clone(),
@@ -93,12 +96,13 @@ fn order(graph: &Graph) -> Vec<u32> {
 /// For every edge its rows that are independent of those before, if they are `rank` in all or more,
 /// and the pivots.
 fn independent(
+    model: Model,
     graph: &Graph,
     place: &[usize],
     centres: &[[u64; 3]],
     rank: usize,
 ) -> Option<(Vec<u32>, Vec<Option<Row>>)> {
-    let mut pivots: Vec<Option<Row>> = vec![None; 12 * graph.nodes()];
+    let mut pivots: Vec<Option<Row>> = vec![None; model.width() * graph.nodes()];
     let mut found = 0;
     let mut masks = vec![0; graph.edges().len()];
     let mut edges: Vec<usize> = (0..graph.edges().len()).collect();
@@ -112,8 +116,9 @@ fn independent(
     });
     for e in edges {
         let (i, j) = ends(e);
-        for (bit, &(a, b)) in ENTRIES.iter().enumerate() {
-            let row = reduce(entry_row(i, j, centres[i], centres[j], a, b), &pivots);
+        for (bit, &entry) in model.entries().iter().enumerate() {
+            let row = row_of(model, [i, j], [centres[i], centres[j]], entry);
+            let row = reduce(row, &pivots);
             if let Some(&(column, x)) = row.first() {
                 let scale = power(x, PRIME - 2);
                 let scaled = row

@@ -1,27 +1,16 @@
 //! A core that was eliminated: its rows or flows, and a motion.
 
+use crate::geometry::model::Model;
+
 /// The prime of the checker.
 pub(super) const PRIME: u64 = 65521;
-
-/// Entries of the symmetric 4 x 4 matrix of an equation, in the order of the bits of a mask.
-pub(super) const ENTRIES: [(usize, usize); 10] = [
-    (0, 0),
-    (0, 1),
-    (0, 2),
-    (0, 3),
-    (1, 1),
-    (1, 2),
-    (1, 3),
-    (2, 2),
-    (2, 3),
-    (3, 3),
-];
 
 /// A row: columns and entries, by increasing columns.
 pub(super) type Row = Vec<(u32, u64)>;
 
 /// A core with the rank that was asked for, or a larger one.
 pub(super) struct Eliminated {
+    pub(super) model: Model,
     /// For every edge of the graph the rows that are used.
     pub(super) masks: Vec<u32>,
     /// Flows, each with two weights for every edge; none if the rows are those of J_P.
@@ -44,7 +33,7 @@ impl Eliminated {
     }
 
     /// A motion that all edges of the graph allow: entry `12 k + 4 h + b` is that in row h and column b of
-    /// dP for the k-th node in the order.
+    /// dP for the k-th node in the order; of N it is `3 k + h`, or `2 k + h`.
     pub(super) fn motion(&self) -> Vec<u32> {
         self.motion.iter().map(|&x| x as u32).collect()
     }
@@ -52,8 +41,13 @@ impl Eliminated {
     /// Whether the pair of two nodes of the graph allows the motion as well.
     pub(super) fn allows(&self, x: usize, y: usize) -> bool {
         let (i, j) = (self.place[x], self.place[y]);
-        ENTRIES.iter().all(|&(a, b)| {
-            let row = entry_row(i, j, self.centres[i], self.centres[j], a, b);
+        self.model.entries().iter().all(|&entry| {
+            let row = row_of(
+                self.model,
+                [i, j],
+                [self.centres[i], self.centres[j]],
+                entry,
+            );
             let terms = row
                 .iter()
                 .map(|&(k, x)| x * self.motion[k as usize] % PRIME);
@@ -70,31 +64,17 @@ pub(super) fn next(state: &mut u64) -> u64 {
     (z ^ (z >> 31)) % PRIME
 }
 
-/// Entry (a, b) of the equation of nodes i, j at cameras [I | -c] (docs/theory.md, 2.1).
-pub(super) fn entry_row(i: usize, j: usize, ci: [u64; 3], cj: [u64; 3], a: usize, b: usize) -> Row {
-    let d: [u64; 3] = std::array::from_fn(|k| (ci[k] + PRIME - cj[k]) % PRIME);
-    let minus = |x: u64| (PRIME - x) % PRIME;
-    let f = [
-        [0, d[2], minus(d[1])],
-        [minus(d[2]), 0, d[0]],
-        [d[1], minus(d[0]), 0],
-    ];
-    let m = |a: usize, h: usize| match f.get(a) {
-        Some(row) => row[h],
-        None => minus((0..3).map(|k| cj[k] * f[k][h] % PRIME).sum::<u64>() % PRIME),
+/// The row of an entry (see [`Model::entries`]) for two nodes and their centres.
+pub(super) fn row_of(
+    model: Model,
+    nodes: [usize; 2],
+    centres: [[u64; 3]; 2],
+    entry: (usize, usize),
+) -> Row {
+    let mut row = match model {
+        Model::Projective => equation(nodes, centres, entry),
+        Model::Calibrated | Model::Affine => minor(model.width(), nodes, centres, entry),
     };
-    let column = |v: usize, h: usize, b: usize| (12 * v + 4 * h + b) as u32;
-    let mut row: Row = (0..3)
-        .flat_map(|h| {
-            let (x, y) = (m(a, h), m(b, h));
-            [
-                (column(i, h, b), x),
-                (column(i, h, a), y),
-                (column(j, h, b), minus(x)),
-                (column(j, h, a), minus(y)),
-            ]
-        })
-        .collect();
     row.sort_unstable_by_key(|&(k, _)| k);
     row.dedup_by(|next, before| {
         let same = next.0 == before.0;
@@ -105,4 +85,51 @@ pub(super) fn entry_row(i: usize, j: usize, ci: [u64; 3], cj: [u64; 3], a: usize
     });
     row.retain(|&(_, x)| x != 0);
     row
+}
+
+fn minus(x: u64) -> u64 {
+    (PRIME - x) % PRIME
+}
+
+/// The displacement of two centres.
+fn displacement([ci, cj]: [[u64; 3]; 2]) -> [u64; 3] {
+    std::array::from_fn(|k| (ci[k] + PRIME - cj[k]) % PRIME)
+}
+
+/// The minor of coordinates g and h of this displacement and that of the motion (docs/theory.md, 3.6).
+fn minor(width: usize, [i, j]: [usize; 2], centres: [[u64; 3]; 2], (g, h): (usize, usize)) -> Row {
+    let d = displacement(centres);
+    let column = |v: usize, k: usize| (width * v + k) as u32;
+    vec![
+        (column(i, g), minus(d[h])),
+        (column(i, h), d[g]),
+        (column(j, g), d[h]),
+        (column(j, h), minus(d[g])),
+    ]
+}
+
+/// Entry (a, b) of the equation of nodes i, j at cameras [I | -c] (docs/theory.md, 2.1).
+fn equation([i, j]: [usize; 2], centres: [[u64; 3]; 2], (a, b): (usize, usize)) -> Row {
+    let (d, cj) = (displacement(centres), centres[1]);
+    let f = [
+        [0, d[2], minus(d[1])],
+        [minus(d[2]), 0, d[0]],
+        [d[1], minus(d[0]), 0],
+    ];
+    let m = |a: usize, h: usize| match f.get(a) {
+        Some(row) => row[h],
+        None => minus((0..3).map(|k| cj[k] * f[k][h] % PRIME).sum::<u64>() % PRIME),
+    };
+    let column = |v: usize, h: usize, b: usize| (12 * v + 4 * h + b) as u32;
+    (0..3)
+        .flat_map(|h| {
+            let (x, y) = (m(a, h), m(b, h));
+            [
+                (column(i, h, b), x),
+                (column(i, h, a), y),
+                (column(j, h, b), minus(x)),
+                (column(j, h, a), minus(y)),
+            ]
+        })
+        .collect()
 }

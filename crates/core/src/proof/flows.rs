@@ -5,6 +5,7 @@
 //! edge, the flows, and a motion. N has a quarter as many columns as J_P, and Lambda fewer still.
 
 use super::eliminated::{Eliminated, PRIME, next};
+use crate::geometry::model::Model;
 use crate::geometry::plane_flow::PlaneFlows;
 use crate::graph::Graph;
 use crate::linalg::matrix::Matrix;
@@ -81,6 +82,7 @@ fn of_centres(
         }
     }
     Ok(Some(Eliminated {
+        model: Model::Projective,
         masks,
         // Without any, the rows would be taken for those of J_P.
         flows: match found.flows {

@@ -7,6 +7,7 @@
 mod bodies;
 mod components;
 mod core;
+mod count;
 mod eliminated;
 mod flows;
 mod links;
@@ -32,8 +33,6 @@ const LARGEST_CORE: usize = 1000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unproved {
-    /// Another model than the projective one.
-    Model,
     /// Known parts or displacements.
     Known,
     /// A graph with one node.
@@ -53,7 +52,6 @@ pub enum Unproved {
 impl fmt::Display for Unproved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Model => f.write_str("only verdicts of the projective model"),
             Self::Known => f.write_str("not with known parts or displacements"),
             Self::OneNode => f.write_str("a graph with one node has nothing to prove"),
             Self::UpperBound => f.write_str("an upper bound that no blocks show"),
@@ -89,16 +87,14 @@ impl Verdict {
     /// # Errors
     /// If the verdict rests on evidence that has no explicit proof yet.
     pub fn proof(&self, graph: &Graph) -> Result<Proof, Unproved> {
-        if self.model != Model::Projective {
-            return Err(Unproved::Model);
-        }
+        let model = self.model;
         if !self.known_parts.is_empty() || !self.displacements.is_empty() {
             return Err(Unproved::Known);
         }
         if graph.nodes() < 2 {
             return Err(Unproved::OneNode);
         }
-        let full = Model::Projective.required(graph.nodes());
+        let full = model.full(graph.nodes());
         let refuted = self.value == Value::NotFiniteSolvable;
         let (upper, blocks) = if refuted {
             upper::of(self)?
@@ -108,13 +104,13 @@ impl Verdict {
         if refuted && upper >= full {
             return Err(Unproved::ErrorBound);
         }
-        let mut record = Record::of(graph, &self.contraction)?;
+        let mut record = Record::of(model, graph, &self.contraction)?;
         let last = record.last(&self.contraction);
         let wanted = refuted && self.components_claim().is_proved();
-        let mut lower = self.rank;
+        let mut lower = self.rank / model.times();
         let mut components = None;
         if !last.is_empty() {
-            match bodies::of_sets(&last, self.rank) {
+            match bodies::of_sets(model, &last, lower) {
                 Ok(whole) => {
                     components = wanted
                         .then(|| components::of(self, &mut record).ok())
@@ -128,13 +124,15 @@ impl Verdict {
                 Err(unproved) => return Err(unproved),
             }
         }
-        let by_rules = !refuted && listed::determine_all(&record.done, graph.nodes());
-        let uniques = if refuted || by_rules {
-            None
-        } else {
+        let cameras = model == Model::Projective && !refuted;
+        let by_rules = cameras && listed::determine_all(&record.done, graph.nodes());
+        let uniques = if cameras && !by_rules {
             unique::determine_all(graph.edges(), graph.nodes(), record.done.len() as u32 + 1)
+        } else {
+            None
         };
         Ok(Proof {
+            model,
             nodes: graph.nodes(),
             pairs: graph.edges().len(),
             lower,
@@ -146,11 +144,6 @@ impl Verdict {
             components,
         })
     }
-}
-
-/// What a set of nodes has to have to be of full rank.
-fn required(nodes: &[u32]) -> usize {
-    Model::Projective.required(nodes.len())
 }
 
 #[cfg(test)]

@@ -70,10 +70,6 @@ fn parts_that_overlap_are_written() {
 #[test]
 fn what_has_no_proof_yet_is_refused_by_name() {
     let pair = Graph::new(2, [(0, 1)]).unwrap();
-    assert_eq!(
-        proof_of(&pair, Model::Affine.into()).unwrap_err(),
-        Unproved::Model
-    );
     let known = KnownParts::new(2, [vec![0, 1]]).unwrap();
     let known = Question::with_parts(Model::Projective, known);
     assert_eq!(proof_of(&pair, known).unwrap_err(), Unproved::Known);
@@ -202,4 +198,75 @@ fn scales_are_settled_where_there_is_one_solution() {
     let two = graph6::decode(b"H?{QHIB").unwrap();
     let proof = proof_of(&two, Question::default()).unwrap();
     assert!(!proof.is_solvable() && !proof.to_string().contains("unique"));
+}
+
+/// The same triangle in each model: 11 n - 15, 3 n - 4, 2 n - 3.
+#[test]
+fn other_models_are_named() {
+    let triangle = Graph::new(3, [(0, 1), (0, 2), (1, 2)]).unwrap();
+    for (model, rank) in [(Model::Calibrated, 5), (Model::Affine, 3)] {
+        let proof = proof_of(&triangle, model.into()).unwrap();
+        assert_eq!((proof.lower(), proof.upper()), (rank, rank));
+        assert!(proof.is_solvable());
+        let text = proof.to_string();
+        assert!(text.starts_with(&format!(
+            "viewcert proof 1\ngraph 3 3\nmodel {model}\nclaim {rank} {rank}\nbody 3 0 0\nfree "
+        )));
+        assert!(!text.contains("solvable"));
+    }
+}
+
+/// Rule 5 of Theorem 4.9: four bodies around a cycle, the first of which is a pair or is not, are one with
+/// a core of their four hinges, of rank 3 * 4 - 4.
+#[test]
+fn four_bodies_around_a_cycle_are_a_core() {
+    let pairs = [(0, 1), (1, 2), (2, 3), (0, 3)];
+    let cycle = Graph::new(4, pairs).unwrap();
+    let triangles = pairs
+        .iter()
+        .zip(4..)
+        .flat_map(|(&(i, j), v)| [(i, v), (j, v)]);
+    let tents = Graph::new(8, pairs.into_iter().chain(triangles)).unwrap();
+    // the pairs of the cycle left out: pairs of nodes of four bodies
+    let diagonals = [(0, 1), (1, 2), (2, 3), (0, 3)]
+        .into_iter()
+        .zip((4..).step_by(2))
+        .flat_map(|((i, j), v)| [(i, v), (i, v + 1), (j, v), (j, v + 1), (v, v + 1)]);
+    let bodies = Graph::new(12, diagonals).unwrap();
+    for (graph, rank) in [(cycle, 8), (tents, 20), (bodies, 32)] {
+        let proof = proof_of(&graph, Model::Calibrated.into()).unwrap();
+        assert_eq!((proof.lower(), proof.upper()), (rank, rank));
+        assert!(proof.is_solvable());
+        assert!(proof.to_string().contains("\nbody 4 4 4\n"));
+        let plane = proof_of(&graph, Model::Affine.into()).unwrap();
+        assert!(!plane.is_solvable() && plane.lower() == plane.upper());
+    }
+}
+
+/// The pairs of a 5-cycle are told apart by a motion of three numbers a node, those of a 4-cycle in a plane
+/// by one of two.
+#[test]
+fn directions_tell_components_apart() {
+    for (nodes, model, width) in [(5, Model::Calibrated, 3), (4, Model::Affine, 2)] {
+        let cycle = Graph::new(nodes, (0..nodes).map(|v| (v, (v + 1) % nodes))).unwrap();
+        let proof = proof_of(&cycle, model.into()).unwrap();
+        let count = (width - 1) * nodes as usize;
+        assert_eq!((proof.lower(), proof.upper()), (count, count));
+        assert_eq!(proof.components(), Some(nodes as usize));
+        assert!(!proof.is_solvable());
+        let text = proof.to_string();
+        let motion = text.lines().rev().skip(1).take(nodes as usize);
+        assert!(motion.clone().all(|line| line.split(' ').count() == width));
+    }
+}
+
+/// Cores of N have no flows, however large.
+#[test]
+fn a_large_core_of_directions_has_rows() {
+    let nodes = 122;
+    let around = (0..nodes).flat_map(|v| [1, 11].map(|step| (v, (v + step) % nodes)));
+    let graph = Graph::new(nodes, around).unwrap();
+    let proof = proof_of(&graph, Model::Affine.into()).unwrap();
+    assert_eq!((proof.lower(), proof.upper()), (241, 241));
+    assert!(!proof.to_string().contains("flows"));
 }

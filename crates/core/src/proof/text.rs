@@ -3,11 +3,13 @@
 use super::links::{Link, Step as Settled, Unique, Via};
 use super::listed::{Join, Listed};
 use super::upper::{Block, Blocks};
+use crate::geometry::model::Model;
 use std::fmt;
 
 /// An explicit proof: bounds for the generic rank, and why they hold.
 #[derive(Clone, Debug)]
 pub struct Proof {
+    pub(super) model: Model,
     pub(super) nodes: usize,
     pub(super) pairs: usize,
     pub(super) lower: usize,
@@ -63,10 +65,14 @@ impl Proof {
         components.map(|components| components.bodies.len())
     }
 
-    /// Whether it is proved that fundamental matrices determine the cameras uniquely: where edges,
-    /// common nodes and triangles do (Theorem 4.1), or scales that linear algebra settles (Theorem 10.6).
+    /// Whether it is proved that the answer is unique: fundamental matrices determine the cameras where edges,
+    /// common nodes and triangles do (Theorem 4.1), or scales that linear algebra settles (Theorem 10.6);
+    /// in the calibrated and the affine model directions determine points at full rank (Theorem 4.8).
     pub fn is_solvable(&self) -> bool {
-        self.solvable
+        match self.model {
+            Model::Projective => self.solvable,
+            model => self.lower == model.full(self.nodes),
+        }
     }
 }
 
@@ -144,6 +150,9 @@ impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "viewcert proof 1")?;
         writeln!(f, "graph {} {}", self.nodes, self.pairs)?;
+        if self.model != Model::Projective {
+            writeln!(f, "model {}", self.model)?;
+        }
         writeln!(f, "claim {} {}", self.lower, self.upper)?;
         for body in &self.bodies {
             write!(f, "body {body}")?;
@@ -175,7 +184,8 @@ impl fmt::Display for Step {
             } => {
                 numbers(f, "apart", ends)?;
                 write!(f, "{frame}")?;
-                for node in motion.chunks(12) {
+                let width = motion.len() / frame.core.len().max(1);
+                for node in motion.chunks(width.max(1)) {
                     let node: Vec<String> = node.iter().map(u32::to_string).collect();
                     writeln!(f, "{}", node.join(" "))?;
                 }

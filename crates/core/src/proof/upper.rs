@@ -5,13 +5,14 @@
 //! Without hubs, parts that overlap and added pairs never give less than a partition does: the
 //! smallest sum over partitions is submodular in the pairs, and grows with them.
 
+use super::Unproved;
 use super::bodies::{Set, of_sets};
 use super::listed::Listed;
-use super::{Unproved, required};
 use crate::contract::Body;
 use crate::contract::piece::Members;
 use crate::decide::evidence::{Block as Counted, Bound, Evidence, Hub, PieceVerdict, Upper};
 use crate::decide::{Counting, Overlap, Verdict};
+use crate::geometry::model::Model;
 
 /// Nodes, or cells of a split graph of them.
 #[derive(Clone, Debug)]
@@ -100,10 +101,10 @@ impl Split {
 pub(super) fn of(verdict: &Verdict) -> Result<(usize, Blocks), Unproved> {
     let bodies = &verdict.contraction.bodies;
     let mut sum = 0;
-    let mut found = Found::default();
+    let mut found = Found::new(verdict.model);
     for part in verdict.rigid.singles() {
         let nodes = part.nodes(bodies);
-        sum += required(&nodes);
+        sum += verdict.model.full(nodes.len());
         found.first.push(Block { nodes, split: None });
     }
     for piece in &verdict.pieces {
@@ -113,15 +114,19 @@ pub(super) fn of(verdict: &Verdict) -> Result<(usize, Blocks), Unproved> {
 }
 
 /// The bound of a piece alone.
-pub(super) fn of_piece(piece: &PieceVerdict, bodies: &[Body]) -> Result<Blocks, Unproved> {
-    let mut found = Found::default();
+pub(super) fn of_piece(
+    model: Model,
+    piece: &PieceVerdict,
+    bodies: &[Body],
+) -> Result<Blocks, Unproved> {
+    let mut found = Found::new(model);
     found.piece(piece, bodies)?;
     found.blocks()
 }
 
 /// Both lists, and the sets and the rank of what they have in common.
-#[derive(Default)]
 struct Found {
+    model: Model,
     first: Vec<Block>,
     second: Vec<Block>,
     shared: Vec<Set>,
@@ -129,15 +134,27 @@ struct Found {
 }
 
 impl Found {
+    fn new(model: Model) -> Self {
+        Self {
+            model,
+            first: Vec::new(),
+            second: Vec::new(),
+            shared: Vec::new(),
+            rank: 0,
+        }
+    }
+
+    /// What a piece counts.
     fn piece(&mut self, piece: &PieceVerdict, bodies: &[Body]) -> Result<usize, Unproved> {
         let nodes = piece.members.nodes(bodies);
-        if piece.upper >= required(&nodes) {
-            let required = required(&nodes);
+        let full = self.model.full(nodes.len());
+        let upper = piece.upper / self.model.times();
+        if upper >= full {
             self.first.push(Block { nodes, split: None });
-            return Ok(required);
+            return Ok(full);
         }
         let bounds = piece.evidence.iter().filter_map(|evidence| match evidence {
-            Evidence::Upper(upper) if bound_of(upper) == piece.upper => Some(upper),
+            Evidence::Upper(by) if bound_of(by) == piece.upper => Some(by),
             _ => None,
         });
         match &bounds
@@ -148,7 +165,7 @@ impl Found {
             Bound::Counting(counting) => self.first.extend(blocks_of(counting, bodies)),
             Bound::Overlap(overlap) => self.overlap(overlap, bodies),
         }
-        Ok(piece.upper)
+        Ok(upper)
     }
 
     fn overlap(&mut self, overlap: &Overlap, bodies: &[Body]) {
@@ -175,7 +192,7 @@ impl Found {
                 ..Blocks::default()
             });
         }
-        let shared = Some(of_sets(&self.shared, self.rank)?);
+        let shared = Some(of_sets(self.model, &self.shared, self.rank)?);
         Ok(Blocks {
             first: self.first,
             second: self.second,
