@@ -461,10 +461,10 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
 /// do not in others. First in all unknowns at once, which costs little in a chart.
 fn other_charts(members: &Members, effort: Effort, draws: &Draws<'_>, best: &mut Solutions) {
     let unknowns = Core::new(members, 0).map_or(0, |core| core.unknowns);
-    if unknowns > MOST_UNKNOWNS {
+    let effort = effort.for_unknowns(unknowns);
+    if unknowns > MOST_UNKNOWNS || effort.charts <= ROTATED {
         return;
     }
-    let effort = effort.for_unknowns(unknowns);
     for chart in 0..effort.charts {
         let Some(core) = Core::new(members, chart) else {
             return;
