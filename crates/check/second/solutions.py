@@ -930,7 +930,8 @@ class Spurious:
 
 def check_lower(value, core, where, meter):
     """(S19) to (S23): the number of solutions at least."""
-    chart, centres, points = members(value, "chart centres points", where)
+    optional = " relations" * (type(value) is dict and "relations" in value)
+    chart, centres, points, *relations = members(value, "chart centres points" + optional, where)
     chart = Chart(chart, core, f"{where}: chart", meter)
     rows = Rows(chart, centres, f"{where}: centres", meter)
     check_independent(rows, where)
@@ -941,13 +942,46 @@ def check_lower(value, core, where, meter):
         need(len(point) == len(chart.unknowns), f"{where}: point {k} has another number of residues")
     need(parsed and distinct(parsed), f"{where}: (S23) there is no point, or two are the same")
     families = [check_point(rows, values, f"{where}: point {k}") for k, values in enumerate(parsed)]
-    excess = sum(11 * size - 15 for size in chart.sizes) - (11 * len(chart.all_nodes) - 15)
-    need(excess == 0, f"{where}: (S23) the core is not tight")
+    if relations:
+        lists = a_list(relations[0], f"{where}: relations")
+        need(len(lists) == len(parsed), f"{where}: (S23a) not a list of relations for each point")
+        for k, (values, own) in enumerate(zip(parsed, lists)):
+            check_relations(own, rows, values, f"{where}: relations {k}")
+    else:
+        excess = sum(11 * size - 15 for size in chart.sizes) - (11 * len(chart.all_nodes) - 15)
+        need(excess == 0, f"{where}: (S23) the core is not tight")
     identity = tuple(1 for _ in chart.unknowns)
     if identity not in parsed:
         families.append({node: [[1, 0, 0, -c[0]], [0, 1, 0, -c[1]], [0, 0, 1, -c[2]]] for node, c in rows.centres.items()})
     check_cameras(rows, families, where)
     return len(families)
+
+
+def check_relations(value, rows, values, where):
+    """(S23a) at a point: as many relations as the rank is short of, and as many equations as unknowns."""
+    p, chart, meter = rows.p, rows.chart, rows.meter
+    matrix, width = rows.matrix(values), chart.width
+    lists = a_list(value, where)
+    need(len(lists) == len(matrix) - (width - 4), f"{where}: (S23a) another number of relations")
+    vectors, equations = [], 0
+    for k, one in enumerate(lists):
+        at = f"{where}: {k}"
+        own, hub = members(one, "rows hub", at)
+        own = [an_int(row, f"{at}: rows", 0, len(matrix)) for row in a_list(own, f"{at}: rows")]
+        increasing(own, f"{at}: (S23a) rows")
+        found = left_kernel([matrix[row] for row in own], width, p, meter)
+        need(len(found) == 1, f"{at}: (S23a) the rows have {len(found)} relations, not one")
+        vectors.append({row: w for row, w in zip(own, found[0]) if w})
+        touched = [{c // 3 for side in rows.sides[row] for c in side.entries} for row in own]
+        nodes = set().union(*touched)
+        if hub is not None:
+            need(type(hub) is int and chart.place.get(hub) in nodes, f"{at}: (S23a) the rows have no side at the hub")
+            scaled = [near for row, near in zip(own, touched) if rows.unknowns_of(row)]
+            need(all(chart.place[hub] in near for near in scaled), f"{at}: (S23a) a row with an unknown is not at the hub")
+        equations += 3 * len(nodes) - len(own) + 1 - (hub is not None)
+    need(rank_of(vectors, p, meter) == len(vectors), f"{where}: (S23a) the relations are not independent")
+    square = equations == len(chart.unknowns)
+    need(square, f"{where}: (S23a) {equations} equations in {len(chart.unknowns)} unknowns")
 
 
 def check_independent(rows, where):

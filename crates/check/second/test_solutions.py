@@ -1051,6 +1051,40 @@ class Lower(Case):
         lower = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}
         self.rejects(BICLIQUE, "(S23) the core is not tight", lower=lower)
 
+    def test_s23a(self):
+        """The graph of theory, 10.22: the first relation has all rows but those at 8, the second all but those at 9."""
+        with open(os.path.join(HERE, "../tests/solutions/repeated.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        edges, lower = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["lower"]
+        self.assertEqual(bound(edges, lower=lower), (2, None))
+        first, second = lower["relations"][0]
+        rows = range(16)
+        self.assertEqual(first, {"hub": 10, "rows": [row for row in rows if row not in (2, 3, 10, 11)]})
+        self.assertEqual(second, {"hub": 11, "rows": [row for row in rows if row not in (4, 5, 12, 13)]})
+        changed = lambda new, **changes: {**lower, "relations": [[{**first, **changes}, new]]}
+        for other, words in [
+            ({**lower, "relations": []}, "(S23a) not a list of relations for each point"),
+            ({**lower, "relations": lower["relations"] * 2}, "(S23a) not a list of relations for each point"),
+            ({**lower, "relations": [[first]]}, "(S23a) another number of relations"),
+            (changed(first), "(S23a) the relations are not independent"),
+            (changed(second, rows=[]), "0: (S23a) the rows have 0 relations, not one"),
+            (changed(second, rows=first["rows"][1:]), "0: (S23a) the rows have 0 relations, not one"),
+            (changed(second, rows=list(rows)), "0: (S23a) the rows have 2 relations, not one"),
+            (changed(second, rows=[1, 0]), "0: (S23a) rows is not increasing"),
+            (changed(second, rows=[16]), "rows: 16 is out of range"),
+            (changed(second, hub=None), "(S23a) 7 equations in 6 unknowns"),
+            (changed(second, hub=8), "(S23a) the rows have no side at the hub"),
+            (changed(second, hub=0), "(S23a) the rows have no side at the hub"),
+            (changed(second, hub=[]), "(S23a) the rows have no side at the hub"),
+            (changed(second, hub=11), "(S23a) a row with an unknown is not at the hub"),
+            ({name: lower[name] for name in ("chart", "centres", "points")}, "(S23) the core is not tight"),
+        ]:
+            self.rejects(edges, words, lower=other)
+        # K_{2,3} with one relation and a hub: 3 equations in 2 unknowns.
+        of_one = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}
+        relation = {"rows": [0, 1, 2], "hub": 1}
+        self.rejects(BICLIQUE, "(S23a) 3 equations in 2 unknowns", lower={**of_one, "relations": [[relation]]})
+
     def test_both_bounds(self):
         lower = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}
         self.rejects(BICLIQUE, "neither upper nor lower, and 6 members are left")

@@ -104,7 +104,7 @@ fn members_are_unique() {
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
     // One more is that of `oriented.rs`.
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 10);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 11);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -115,6 +115,7 @@ fn all_are_verified() {
         ("product", 4),
         ("pairs", 1),
         ("spurious", 1),
+        ("repeated", 2),
     ] {
         let text = text_of(name).to_string();
         let verified =
@@ -1103,6 +1104,89 @@ fn s20_to_s22_points_with_a_fault() {
         "part",
         &[("N/upper/centres", json!({"prime": "5", "values": values}))],
         "N.upper.u = 1: the point is not simple",
+    );
+}
+
+/// The rows of `repeated` are those of the pairs 67, 78, 69, 7 10, 6 11, two each, and of the half-edges
+/// between 8 and 11, 9 and 10, 10 and 11, two each. The first relation leaves out 8, the second 9.
+#[test]
+fn s23a_relations_at_a_point() {
+    let relations = value_at("repeated", "L/relations/0");
+    let within = "L.points[0].relations";
+    let mut one_sided = text_of("repeated");
+    let lower = at(&mut one_sided, "L").as_object_mut().unwrap();
+    lower.remove("relations");
+    let wanted = "solutions.lower: the core is not tight, but has an excess of 2";
+    assert!(reason(&one_sided).starts_with(wanted));
+    for (pointer, new, wanted) in [
+        (
+            "",
+            json!([relations, relations]),
+            "L: 2 lists of relations for 1 points",
+        ),
+        ("", json!([]), "L: 0 lists of relations for 1 points"),
+        (
+            "/0",
+            json!([relations[0]]),
+            ": 1 of them, and 16 rows of rank 14",
+        ),
+        (
+            "/0",
+            json!([relations[0], relations[0]]),
+            ": they are not independent",
+        ),
+        ("/0/0/hub", json!(null), ": 7 equations in 6 unknowns"),
+        ("/0/1/hub", json!(null), ": 7 equations in 6 unknowns"),
+        ("/0/0/rows/1", json!(0), ".0: `rows` is not an increasing"),
+        ("/0/0/rows/11", json!(16), ".0: `rows` is not an increasing"),
+        (
+            "/0/1/rows",
+            json!((0..16).collect::<Vec<_>>()),
+            ".1: the rows have 2 relations, not one",
+        ),
+        (
+            "/0/1/rows",
+            json!([]),
+            ".1: the rows have 0 relations, not one",
+        ),
+        (
+            "/0/1/rows/0",
+            json!(1),
+            ".1: `rows` is not an increasing list",
+        ),
+        // 8 is not among the nodes of the first, 0 is eliminated, 12 is no node.
+        ("/0/0/hub", json!(8), ".0: the rows have no side at the hub"),
+        ("/0/0/hub", json!(0), ".0: the rows have no side at the hub"),
+        (
+            "/0/0/hub",
+            json!(12),
+            ".0: the rows have no side at the hub",
+        ),
+        // The half-edges between 9 and 10 are not at 11, those between 8 and 11 not at 10.
+        (
+            "/0/0/hub",
+            json!(11),
+            ".0: a row with an unknown has no side at the hub",
+        ),
+        (
+            "/0/1/hub",
+            json!(10),
+            ".1: a row with an unknown has no side at the hub",
+        ),
+    ] {
+        let wanted = match wanted.strip_prefix("L") {
+            Some(wanted) => format!("solutions.lower{wanted}"),
+            None => format!("{within}{wanted}"),
+        };
+        let pointer = format!("L/relations{pointer}");
+        refused("repeated", &[(&pointer, new)], &wanted);
+    }
+    // Without the first row of the pair 67 none of the others depends on the rest.
+    let fewer = relations[1]["rows"].as_array().unwrap()[1..].to_vec();
+    refused(
+        "repeated",
+        &[("L/relations/0/1/rows", json!(fewer))],
+        &format!("{within}.1: the rows have 0 relations, not one"),
     );
 }
 

@@ -26,7 +26,11 @@ objects! {
     Chart { chains: Vec<Vec<u32>>, half_edges: Vec<[u32; 3]>, unknowns: Vec<[u32; 2]> }
     Centres { prime: Big<u64>, values: Vec<Vec<Big<u64>>> }
     Upper { chart: Chart, centres: Centres, steps: Vec<Step>, points: Option<Points> }
-    Lower { chart: Chart, centres: Centres, points: Vec<Vec<Big<u64>>> }
+    Lower {
+        chart: Chart, centres: Centres, points: Vec<Vec<Big<u64>>>,
+        relations: Optional<Vec<Vec<Relation>>>,
+    }
+    Relation { rows: Vec<usize>, hub: Option<u32> }
     Minor { rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize> }
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,

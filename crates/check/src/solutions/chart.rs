@@ -11,6 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) struct Chart {
     /// How many nodes members share.
     pub nodes: usize,
+    /// Their names.
+    names: Vec<u32>,
     /// The nodes of each member that is no half-edge, in the order of its chain.
     pub chains: Vec<Vec<usize>>,
     /// `[v, a, b]`: v is eliminated.
@@ -38,6 +40,7 @@ impl Chart {
         let half_edges = text.half_edges.iter().map(|nodes| nodes.map(index));
         let mut chart = Chart {
             nodes: nodes.len(),
+            names: Vec::new(),
             chains: chains.collect(),
             half_edges: half_edges.collect(),
             scales: BTreeMap::new(),
@@ -55,6 +58,7 @@ impl Chart {
                 "unknown {f} is listed twice"
             );
         }
+        chart.names = nodes;
         chart.check_tree(left.len())?;
         Ok(chart)
     }
@@ -84,6 +88,11 @@ impl Chart {
                 half_edge.is_some_and(|&[_, _, b]| b == node)
             }
         }
+    }
+
+    /// The index of a shared node.
+    pub fn place(&self, name: u32) -> Option<usize> {
+        self.names.binary_search(&name).ok()
     }
 
     /// The unknown of a chain, or of a half-edge by the number behind those of the chains, at a

@@ -4,7 +4,7 @@
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
 //! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
-//! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points of a tight core (`simple`).
+//! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points (`simple`) of a tight core or with `relations`.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
 //! Which solutions are real and in front of the cameras is `oriented`, by signs of `polynomial`s.
 //! `dense` has the linear algebra; the text is `document::solutions`.
@@ -19,6 +19,7 @@ mod outside;
 mod points;
 mod polynomial;
 mod product;
+mod relations;
 mod simple;
 mod spurious;
 mod support;
@@ -215,12 +216,12 @@ fn at_most(upper: &Upper, left: &[Vec<u32>], meter: &Meter, of: Of) -> Checked<u
     Ok(1)
 }
 
-/// A lower bound (theory, Theorem 10.10).
+/// A lower bound (theory, Theorems 10.10 and 10.22).
 fn at_least(lower: &Lower, left: &[Vec<u32>], meter: &Meter) -> Checked<usize> {
     let chart = Chart::new(&lower.chart, left, meter).within(|| "chart".into())?;
     let system = System::new(&chart, &lower.centres, meter).within(|| "centres".into())?;
     simple::check_chains(&system)?;
-    simple::check_points(&lower.points, &system)
+    simple::check_points(lower, &system)
 }
 
 /// Sees that a part is finite solvable and has one solution (theory, Proposition 10.11).

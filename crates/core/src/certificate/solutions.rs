@@ -10,7 +10,7 @@ use crate::geometry::model::Model;
 use crate::linalg::integer::Integer;
 use crate::solutions::{
     AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, Number, One, Oriented,
-    Outside, Part, Place, Root, Rule, Scene, Solutions, Spurious, Standing, Upper,
+    Outside, Part, Place, Relation, Root, Rule, Scene, Solutions, Spurious, Standing, Upper,
 };
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -107,6 +107,12 @@ objects! {
         chart: ChartView<'a>,
         centres: CentresView<'a>,
         points: Vec<Vec<Big<&'a u64>>>,
+        ; optional relations: Vec<Vec<RelationView<'a>>>
+    }
+
+    RelationView<'a> {
+        rows: &'a [usize],
+        hub: Option<u32>,
     }
 
     LinearView<'a> {
@@ -444,6 +450,16 @@ impl<'a> LowerView<'a> {
             chart: ChartView::new(&lower.place.chart),
             centres: CentresView::new(&lower.place),
             points: lower.points.iter().map(|point| bigs(point)).collect(),
+            relations: (!lower.relations.is_empty()).then(|| {
+                let of_point = |lists: &'a Vec<Relation>| {
+                    let views = lists.iter().map(|relation| RelationView {
+                        rows: &relation.rows,
+                        hub: relation.hub,
+                    });
+                    views.collect()
+                };
+                lower.relations.iter().map(of_point).collect()
+            }),
         }
     }
 }

@@ -327,6 +327,12 @@ impl Core {
         left.map(|v| centres[v]).collect()
     }
 
+    /// The nodes that are not eliminated, by number, as nodes of the graph.
+    pub(super) fn left_nodes(&self) -> Vec<u32> {
+        let left = (0..self.number.len()).filter(|&v| self.number[v].is_some());
+        left.map(|v| self.nodes[v]).collect()
+    }
+
     /// How many rows each body has; the rows are in the order of the bodies.
     pub(super) fn row_counts(&self) -> impl Iterator<Item = usize> + '_ {
         self.bodies.iter().map(|body| 3 * body.len() - 4)

@@ -7,6 +7,7 @@ use super::members::{MOST_NODES, Members, Set, bits, nodes_of, shared};
 use super::number::Number;
 use super::points::{NoBound, at_most};
 use super::product;
+use super::relations::relations;
 use super::simple::{self, Point};
 use super::support::MinorSpan;
 use super::system::{System, Values, subsets};
@@ -456,14 +457,25 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
     Some(best)
 }
 
-/// Bounds for a core in charts that have other nodes eliminated: in one of them the minors may span what
-/// they do not in others.
+/// Bounds for a core in charts that have other nodes eliminated: in one of them the minors may span what they
+/// do not in others. First in all unknowns at once, which costs little in a chart.
 fn other_charts(members: &Members, effort: Effort, draws: &Draws<'_>, best: &mut Solutions) {
     let unknowns = Core::new(members, 0).map_or(0, |core| core.unknowns);
-    if unknowns > MOST_UNKNOWNS {
+    let effort = effort.for_unknowns(unknowns);
+    if unknowns > MOST_UNKNOWNS || effort.charts <= ROTATED {
         return;
     }
-    let effort = effort.for_unknowns(unknowns);
+    for chart in 0..effort.charts {
+        let Some(core) = Core::new(members, chart) else {
+            return;
+        };
+        if let Some(mut charted) = Charted::bare(core, members.excess() == 0, draws) {
+            charted.all(effort.unknowns, draws, best);
+        }
+        if best.exactly().is_some() || draws.work.is_stopped() {
+            return;
+        }
+    }
     for chart in ROTATED..effort.charts {
         let Some(mut charted) = Charted::new(members, chart, draws) else {
             return;
@@ -471,6 +483,7 @@ fn other_charts(members: &Members, effort: Effort, draws: &Draws<'_>, best: &mut
         charted.conclude(draws, best);
         charted.few(draws, best);
         charted.more(effort.unknowns, draws, best);
+        charted.all(effort.unknowns, draws, best);
         redraw(&[charted], effort.draws.min(FEW_DRAWS), draws, best);
         if best.exactly().is_some() || draws.work.is_stopped() {
             return;
@@ -561,20 +574,29 @@ impl Charted {
 
     /// A core in its chart.
     fn of(core: Core, is_tight: bool, draws: &Draws<'_>) -> Option<Self> {
-        let centres = draws.centres(&core.nodes, 0)?;
-        let system = System::new(draws.field, &core, &centres)?.under(draws.work);
-        if !is_finite_solvable(&system) {
-            return None;
-        }
-        let mut values: Values = vec![None; core.unknowns];
+        let mut charted = Self::bare(core, is_tight, draws)?;
+        let mut values = std::mem::take(&mut charted.values);
+        let system = charted.system(&charted.centres, draws)?;
         let (ones, spans) = ones(&system, &mut values);
         Some(Self {
-            is_tight,
-            core,
-            centres,
             values,
             ones,
             spans,
+            ..charted
+        })
+    }
+
+    /// The same, with nothing known.
+    fn bare(core: Core, is_tight: bool, draws: &Draws<'_>) -> Option<Self> {
+        let centres = draws.centres(&core.nodes, 0)?;
+        let system = System::new(draws.field, &core, &centres)?;
+        is_finite_solvable(&system).then(|| Self {
+            is_tight,
+            values: vec![None; core.unknowns],
+            core,
+            centres,
+            ones: Vec::new(),
+            spans: Vec::new(),
             irrational: Vec::new(),
         })
     }
@@ -629,6 +651,29 @@ impl Charted {
         }
     }
 
+    /// Bounds by all unknowns at once, if they are more than were looked at.
+    fn all(&mut self, most: usize, draws: &Draws<'_>, best: &mut Solutions) {
+        let unknowns = open(&self.values);
+        if unknowns.len() <= most || best.exactly().is_some() || draws.work.is_stopped() {
+            return;
+        }
+        let Some(system) = self.system(&self.centres, draws) else {
+            return;
+        };
+        let Some(span) = MinorSpan::new(&system, &self.values, &unknowns) else {
+            return;
+        };
+        let Some(absent) = span.unique(&system) else {
+            self.points(&span, draws, best);
+            return;
+        };
+        for &f in &span.unknowns {
+            self.values[f] = Some(draws.field.from_u64(1));
+        }
+        self.ones.push(by_span(span, &absent));
+        self.conclude(draws, best);
+    }
+
     /// Bounds by the points of a span at the first centres.
     fn points(&mut self, span: &MinorSpan, draws: &Draws<'_>, best: &mut Solutions) {
         let Some(system) = self.system(&self.centres, draws) else {
@@ -667,20 +712,32 @@ impl Charted {
         }
     }
 
-    /// What points give: an upper bound, and if the core is tight a lower one.
+    /// What points give: an upper bound, and a lower one if the core is tight or just so many equations
+    /// repeat what others say.
     fn enter(&self, system: &System<'_>, draws: &Draws<'_>, found: AtMost, best: &mut Solutions) {
         let field = &system.field;
         let place = || self.place(draws, system.centres);
-        if self.is_tight && system.chains_are_independent() {
-            let points = simple_points(system, &found);
+        if system.chains_are_independent() {
+            let mut points = simple_points(system, &found);
             let one = field.from_u64(1);
-            let identity = points
-                .iter()
-                .any(|point| point.values.iter().all(|&x| x == one));
+            let is_identity = |point: &Point| point.values.iter().all(|&x| x == one);
+            let mut lists = Vec::new();
+            if !self.is_tight {
+                points.retain(|point| !is_identity(point));
+                (points, lists) = points
+                    .into_iter()
+                    .filter_map(|point| {
+                        let lists = relations(system, &point.values)?;
+                        Some((point, lists))
+                    })
+                    .unzip();
+            }
+            let identity = points.iter().any(is_identity);
             let residues = |point: &Point| point.values.iter().map(|&x| field.to_u64(x)).collect();
             best.lower(points.len() + usize::from(!identity), || Lower {
                 place: place(),
                 points: points.iter().map(residues).collect(),
+                relations: lists,
             });
         }
         let most = found.points.len();
@@ -769,16 +826,21 @@ fn ones(system: &System<'_>, values: &mut Values) -> (Vec<One>, Vec<MinorSpan>) 
         for &f in &span.unknowns {
             values[f] = Some(system.field.from_u64(1));
         }
-        steps.push(One::Support {
-            bounds: span.exponents.bounds.clone(),
-            absent: span.exponents.marked(&absent),
-            minors: span
-                .generators
-                .iter()
-                .map(|generator| generator.polynomial.minor.clone())
-                .collect(),
-            unknowns: span.unknowns,
-        });
+        steps.push(by_span(span, &absent));
+    }
+}
+
+/// The evidence that the unknowns of a span are one.
+fn by_span(span: MinorSpan, absent: &[bool]) -> One {
+    One::Support {
+        bounds: span.exponents.bounds.clone(),
+        absent: span.exponents.marked(absent),
+        minors: span
+            .generators
+            .iter()
+            .map(|generator| generator.polynomial.minor.clone())
+            .collect(),
+        unknowns: span.unknowns,
     }
 }
 

@@ -90,7 +90,7 @@ pub struct Upper {
     pub points: Option<(Place, AtMost)>,
 }
 
-/// Evidence for a lower bound: simple points of a tight core.
+/// Evidence for a lower bound: simple points, of a tight core or with relations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lower {
     /// Where.
@@ -98,6 +98,17 @@ pub struct Lower {
     /// The values of all unknowns at each point, as least residues; u = 1 counts even if it
     /// is not among them.
     pub points: Vec<Vec<u64>>,
+    /// If the core is not tight, the relations of Theorem 10.22 at each point.
+    pub relations: Vec<Vec<Relation>>,
+}
+
+/// Rows of N(u) with just one relation at a point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Relation {
+    /// The rows, by number.
+    pub rows: Vec<usize>,
+    /// A node, as a node of the graph, at which each of them that has an unknown has a side.
+    pub hub: Option<u32>,
 }
 
 /// One merge of members into one.

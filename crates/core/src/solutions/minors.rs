@@ -27,6 +27,17 @@ const MOST_CHOICES: usize = 60;
 /// Most columns in which all minors of some rows are computed at once: 2^12 of them.
 const MOST_COLUMNS: usize = 12;
 
+/// Which minors are wanted after one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// Whichever comes next.
+    Minor,
+    /// Those of other rows.
+    Rows,
+    /// None.
+    Nothing,
+}
+
 /// The minors of a system in some unknowns.
 pub(super) struct Minors<'a> {
     system: &'a System<'a>,
@@ -61,12 +72,12 @@ impl<'a> Minors<'a> {
         }
     }
 
-    /// Calls `each` with the minors for one choice of freed rows, until it returns false; returns
-    /// whether it never did.
+    /// Calls `each` with the minors for one choice of freed rows, until it wants nothing more; returns
+    /// whether it always did.
     pub(super) fn with_freed(
         &self,
         freed: &[usize],
-        each: &mut impl FnMut(Polynomial) -> bool,
+        each: &mut impl FnMut(Polynomial) -> Next,
     ) -> bool {
         let Some(reduced) = self.reduced(freed) else {
             return true;
@@ -130,13 +141,13 @@ impl<'a> Minors<'a> {
         })
     }
 
-    /// The minors with some of the rows with open unknowns.
+    /// The minors with some of the rows with open unknowns; whether those of other rows are wanted.
     fn of_rows(
         &self,
         reduced: &Reduced,
         freed: usize,
         chosen: &[usize],
-        each: &mut impl FnMut(Polynomial) -> bool,
+        each: &mut impl FnMut(Polynomial) -> Next,
     ) -> bool {
         let rows: Vec<ScaledRow<'_>> = chosen
             .iter()
@@ -153,7 +164,11 @@ impl<'a> Minors<'a> {
             .map(|f| rows.iter().filter(with(f)).count().min(3))
             .collect();
         let field = &self.system.field;
-        for (columns, mut values) in on_grid(field, &rows, reduced.free.len(), &degrees) {
+        let mut found = on_grid(field, &rows, reduced.free.len(), &degrees);
+        if self.unknowns.len() > FEW {
+            scatter(&mut found);
+        }
+        for (columns, mut values) in found {
             interpolate(field, &self.inverses, &degrees, &mut values);
             let whole = chosen.iter().map(|&k| Part::Whole(reduced.variable[k]));
             let of_free = columns.into_iter().map(|k| reduced.free[k]);
@@ -162,16 +177,33 @@ impl<'a> Minors<'a> {
                 rows: reduced.parts.iter().copied().chain(whole).collect(),
                 columns: reduced.pivots.iter().copied().chain(of_free).collect(),
             };
-            if !each(Polynomial {
+            let polynomial = Polynomial {
                 minor,
                 degrees: degrees.clone(),
                 coefficients: values,
-            }) {
-                return false;
+            };
+            match each(polynomial) {
+                Next::Minor => {}
+                Next::Rows => return true,
+                Next::Nothing => return false,
             }
         }
         true
     }
+}
+
+/// With so many unknowns all minors add little to those before them; with more there are many that add
+/// much, if neighbours in the order of columns do not come one after the other.
+pub(super) const FEW: usize = 4;
+
+/// Puts in each place what is a fixed step further on than what is before it.
+fn scatter<T>(list: &mut Vec<T>) {
+    let len = list.len();
+    let coprime = |step: &usize| num_integer::gcd(*step, len) == 1;
+    // Near the golden section, where multiples of the step spread out.
+    let step = (len * 5 / 8..len).find(coprime).unwrap_or(1);
+    let mut all: Vec<Option<T>> = list.drain(..).map(Some).collect();
+    list.extend((0..len).filter_map(|k| all[k * step % len].take()));
 }
 
 /// The rows with open unknowns, without what the other rows span.

@@ -4,7 +4,8 @@
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
 //! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
-//! simple points of tight cores (`simple`, Theorem 10.10). What hangs together in a few nodes only
+//! simple points of tight cores (`simple`, Theorem 10.10), or of others where equations repeat what others
+//! say (`relations`, Theorem 10.22). What hangs together in a few nodes only
 //! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
 //! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`), and which
 //! of several are real and in front of the cameras is found at integer centres (`oriented`).
@@ -21,6 +22,7 @@ mod oriented;
 mod outside;
 mod points;
 mod product;
+mod relations;
 mod roots;
 mod simple;
 mod spurious;
@@ -35,7 +37,7 @@ pub use count::{Effort, count};
 pub(crate) use count::{Plan, Size, count_in};
 pub use evidence::{
     AtMost, Chart, Factor, Interval, Limit, Linear, Lower, Merge, Minor, One, Oriented, Outside,
-    Part, Place, Root, Rule, Scale, Scene, Solutions, Spurious, Standing, Upper,
+    Part, Place, Relation, Root, Rule, Scale, Scene, Solutions, Spurious, Standing, Upper,
 };
 pub use members::MOST_NODES;
 pub(crate) use members::nodes_of;

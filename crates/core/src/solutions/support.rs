@@ -4,7 +4,7 @@
 //! all their multiples within degree bounds, and the exponents that never occur.
 
 use super::exponents::Exponents;
-use super::minors::{Minors, Polynomial};
+use super::minors::{FEW, Minors, Next, Polynomial};
 use super::system::{System, Values, subsets};
 use super::zeros::has_transversal;
 use crate::linalg::prime::PrimeField;
@@ -52,6 +52,10 @@ const MOST_VALUES: usize = 1 << 10;
 /// After so many minors in a row that add nothing no more are looked at.
 const MOST_IDLE: usize = 120;
 
+/// The same in all unknowns at once, for those of other rows; their columns come in an order that is far
+/// from any.
+const MOST_IDLE_OF_ROWS: usize = 12;
+
 /// The span of the minors in some unknowns, shifts within the bounds included.
 pub(super) struct MinorSpan {
     /// The unknowns.
@@ -65,7 +69,8 @@ pub(super) struct MinorSpan {
 
 impl MinorSpan {
     /// The minors in some unknowns without value; other rows with unknowns are freed, three at
-    /// most, or dropped. Stops early when only one point is left.
+    /// most, or dropped. Stops early when only one point is left. With more than [`FEW`] unknowns no row
+    /// is freed: what freeing forgets is what is left over there.
     pub(super) fn new(system: &System<'_>, values: &Values, unknowns: &[usize]) -> Option<Self> {
         let degrees = system.core.degrees(&system.rows);
         let exponents = Exponents {
@@ -74,15 +79,19 @@ impl MinorSpan {
         if exponents.len() > MOST_VALUES {
             return None;
         }
-        let mut collected = Collected::new(&exponents);
+        let (most_freed, patience, after) = match unknowns.len() {
+            0..=FEW => (3, MOST_IDLE, Next::Nothing),
+            _ => (0, MOST_IDLE_OF_ROWS, Next::Rows),
+        };
+        let mut collected = Collected::new(&exponents, patience, after);
         let minors = Minors::new(system, values, unknowns);
         let scaled = system.scaled(values);
-        for size in (0..=3.min(scaled.len())).rev() {
+        for size in (0..=scaled.len().min(most_freed)).rev() {
             let unfinished = subsets(&scaled, size, &mut |freed| {
-                !system.is_stopped()
-                    && minors.with_freed(freed, &mut |polynomial| {
-                        collected.add(&system.field, &exponents, polynomial)
-                    })
+                minors.with_freed(freed, &mut |polynomial| match system.is_stopped() {
+                    true => Next::Nothing,
+                    false => collected.add(&system.field, &exponents, polynomial),
+                })
             });
             if !unfinished {
                 break;
@@ -146,7 +155,7 @@ impl MinorSpan {
 
     /// All exponents up to `more` above the bounds, which of them are absent, and a basis of the
     /// vectors on the others that all shifts of the generators annihilate; `None` if there are
-    /// more than `most` of these.
+    /// more than `most` of these, or too many exponents.
     pub(super) fn annihilated(
         &self,
         system: &System<'_>,
@@ -158,6 +167,9 @@ impl MinorSpan {
         let exponents = Exponents {
             bounds: bounds.collect(),
         };
+        if exponents.len() > MOST_VALUES {
+            return None;
+        }
         let shifts = match more {
             0 => Cow::Borrowed(&self.shifts),
             _ => Cow::Owned(self.shifts_within(field, &exponents)),
@@ -198,11 +210,17 @@ struct Collected {
     /// Where some shift has a coefficient at these centres.
     seen: Vec<bool>,
     idle: usize,
+    /// After so many in a row that add nothing.
+    patience: usize,
+    /// What is wanted then.
+    after: Next,
 }
 
 impl Collected {
-    fn new(exponents: &Exponents) -> Self {
+    fn new(exponents: &Exponents, patience: usize, after: Next) -> Self {
         Self {
+            patience,
+            after,
             span: Span::default(),
             polynomials: Vec::new(),
             seen: vec![false; exponents.len()],
@@ -210,8 +228,8 @@ impl Collected {
         }
     }
 
-    /// Takes a polynomial in if it adds to the span; returns whether more are of use.
-    fn add(&mut self, field: &PrimeField, exponents: &Exponents, polynomial: Polynomial) -> bool {
+    /// Takes a polynomial in if it adds to the span; returns which others are of use.
+    fn add(&mut self, field: &PrimeField, exponents: &Exponents, polynomial: Polynomial) -> Next {
         let mut new = false;
         polynomial.each_shift(exponents, &mut |shifted| {
             for (seen, &coefficient) in self.seen.iter_mut().zip(shifted.iter()) {
@@ -227,7 +245,14 @@ impl Collected {
         }
         // The vector of ones is always annihilated.
         let seen = self.seen.iter().filter(|&&seen| seen).count();
-        self.span.dimension() + 1 < seen && self.idle < MOST_IDLE
+        if self.span.dimension() + 1 == seen && self.after == Next::Nothing {
+            return Next::Nothing;
+        }
+        if self.idle < self.patience {
+            return Next::Minor;
+        }
+        self.idle = 0;
+        self.after
     }
 }
 

@@ -1,9 +1,10 @@
 use super::chart::Core;
 use super::count::{Draws, unique_part};
-use super::evidence::{Limit, Part, Rule};
+use super::evidence::{Limit, One, Part, Rule};
 use super::exponents::Exponents;
 use super::members::{Members, bits, nodes_of};
 use super::outside::is_outside;
+use super::relations::relations;
 use super::simple;
 use super::spurious::{is_spurious, tells_all};
 use super::support::MinorSpan;
@@ -486,6 +487,50 @@ fn points_outside_do_not_count() {
         free.sort_unstable();
         assert!(free.windows(2).all(|pair| pair[0] != pair[1]), "{name}");
     }
+}
+
+/// A core of excess 2 with a second solution, by relations: without 8, or without 9, and what hangs there,
+/// its graph is that of theory, Example 5.6, whose rank is 83 and not 84 by the hub 10, or 11.
+#[test]
+fn equations_that_repeat() {
+    let found = count(&graph("K????F@K`yXo"), Effort::default(), 1).unwrap();
+    assert_eq!((found.excess, found.exactly()), (Some(2), Some(&2.into())));
+    let lower = found.lower.as_ref().unwrap();
+    assert_eq!((lower.points.len(), lower.relations.len()), (1, 1));
+    let core = Core::of_chart(&lower.place.chart).unwrap();
+    let names = core.left_nodes();
+    let field = PrimeField::mersenne61();
+    let at = residues(&field, &lower.place.centres);
+    let system = System::new(field, &core, &at).unwrap();
+    for (relation, (hub, without)) in lower.relations[0].iter().zip([(10, 8), (11, 9)]) {
+        assert_eq!(relation.hub, Some(hub));
+        let is_there = |row: &usize| {
+            let mut sides = system.rows[*row].sides.iter();
+            sides.all(|side| names[side.node] != without)
+        };
+        let rows: Vec<usize> = (0..system.rows.len()).filter(is_there).collect();
+        assert_eq!(relation.rows, rows);
+    }
+    // K_{2,3}: one relation between three rows of two nodes and a hub, 3 equations in 2 unknowns.
+    let biclique = Graph::from_edges((2..5).flat_map(|v| [(0, v), (1, v)])).unwrap();
+    let edges: Vec<Vec<u32>> = biclique.edges().iter().map(|&(i, j)| vec![i, j]).collect();
+    let core = Core::new(&Members::unmerged(&edges).unwrap(), 0).unwrap();
+    let at = centres(5, 0);
+    let system = System::new(field, &core, &at).unwrap();
+    let ones = vec![field.from_u64(1); 2];
+    assert_eq!((core.unknowns, relations(&system, &ones)), (2, None));
+}
+
+/// One solution by the minors in all six unknowns; with four of them at a time it stays open.
+#[test]
+fn all_unknowns_at_once() {
+    let found = count(&graph("K@CgOIOOZCOW"), Effort::FULL, 1).unwrap();
+    assert_eq!(found.exactly(), Some(&1.into()));
+    let upper = found.upper.as_ref().unwrap();
+    let [One::Support { unknowns, .. }] = &upper.ones[..] else {
+        panic!("{:?}", upper.ones);
+    };
+    assert_eq!((unknowns.len(), upper.points.is_none()), (6, true));
 }
 
 /// A graph, and others glued to it: each time one with these nodes on those of what is there.

@@ -77,7 +77,9 @@ impl<'a> Search<'a> {
         seed: u64,
     ) -> Option<Self> {
         let number = solutions.exactly().map(u64::try_from)?.ok()? as usize;
-        let lower = solutions.lower.as_ref()?;
+        // Theorem 10.18 is about tight cores.
+        let lower = solutions.lower.as_ref();
+        let lower = lower.filter(|lower| lower.relations.is_empty())?;
         if graph.nodes() > MOST_NODES || !(2..=MOST_SOLUTIONS).contains(&number) {
             return None;
         }
