@@ -19,7 +19,7 @@ import tempfile
 import time
 import urllib.parse
 
-from atlas import assets, documentation, graphs, sequences, tutorials
+from atlas import assets, documentation, graphs, records, sequences, tutorials
 from atlas.program import ROOT
 from chromium import Chromium
 
@@ -198,6 +198,22 @@ def numbers(site, verify, seed):
     print(f"numbers: {facts} on 50 pages are those of verify --json; both checkers accept the certificates (seed {seed})")
 
 
+def minimal(verify, seed, count=100):
+    """Lines of the list of minimal graphs are finite solvable, and not without any one of their pairs."""
+    lines = records.TEN.read_text().split()
+    right(len(set(lines)) == len(lines) == 2851, f"{records.TEN}: {len(lines)} graphs")
+    drawn = random.Random(seed).sample(lines, count)
+    less = []
+    for line in drawn:
+        nodes, pairs = graphs.of_graph6(line)
+        less += [graphs.to_graph6(nodes, [pair for pair in pairs if pair != left]) for left in pairs]
+    said = lambda lines: [json.loads(line) for line in subprocess.run([verify, "--json", "--solutions=off", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True).stdout.splitlines()]
+    whole, parts = said(drawn), said(less)
+    right(len(whole) == count and all(report["verdict"] != "not-finite-solvable" and report["strength"] == "proof" for report in whole), "minimal graphs are finite solvable")
+    right(len(parts) == len(less) and all((report["verdict"], report["strength"]) == ("not-finite-solvable", "proof") for report in parts), "and not without a pair")
+    print(f"minimal: {count} of {len(lines)} graphs, {len(less)} times without a pair")
+
+
 def random_graphs(draw, count, nodes):
     """Lines of graph6: sparse and dense, connected or not."""
     lines = []
@@ -347,6 +363,7 @@ def main():
     print(f"{len(pages(site))} pages, {size / 1e6:.0f} MB without pyodide")
     links(site)
     numbers(site, verify, asked.seed)
+    minimal(verify, asked.seed)
     notebooks(site)
     package(site)
     browser = Chromium()
