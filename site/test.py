@@ -255,8 +255,8 @@ def decided(browser, site, verify, seed, count=400):
         second = subprocess.run([sys.executable, ROOT / "crates/check/second/check.py", "--list", path], capture_output=True, text=True)
     right(f"{len(certificates)} verified, 0 rejected" in second.stdout, second.stdout + second.stderr)
     taken = time.monotonic() - begin
-    # A finite-solvable graph with two solutions that the lists have not, one that is refuted, one by names.
-    for given in ("H?AFBo}", "a b\nb c\nc a\nc d\nd e\ne c", graphs.to_graph6(18, [(i, (i + k) % 18) for i in range(18) for k in (1, 2)])):
+    # One that counting refutes, one by names with a camera that has no pair, one with more cameras than labels have.
+    for given in ("H?AFBo}", "a b\nb c\nc a\nc d\nd e\ne c\nf", graphs.to_graph6(18, [(i, (i + k) % 18) for i in range(18) for k in (1, 2)])):
         browser.open(site / "graph.html", "#" + urllib.parse.quote(given))
         browser.wait("document.getElementById('written').dataset.done")
         status = browser.run("document.getElementById('status').textContent")

@@ -157,7 +157,9 @@ def article(record, siblings, up):
     nodes, pairs = record.size
     _, meaning, _ = VERDICTS[report["verdict"]]
     words = f"The graph: {nodes} cameras, {pairs} pairs"
-    text_of_pairs = "".join(f"{i} {j}\n" for i, j in record.pairs)
+    # As verify reads lists: a camera without pairs stands alone in its line.
+    alone = set(range(nodes)) - {v for pair in record.pairs for v in pair}
+    text_of_pairs = "".join(f"{i} {j}\n" for i, j in record.pairs) + "".join(f"{v}\n" for v in sorted(alone))
     conditions = "".join(f"<li>{said(text)}</li>" for text in report.get("conditions", []))
     return f"""<div class="top">
 <figure>{inline(record.picture, words)}</figure>

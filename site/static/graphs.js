@@ -24,7 +24,7 @@ function toGraph6({ nodes, pairs }) {
   return String.fromCharCode(...sixes.map((six) => six + 63)) + (bits.match(/.{6}/g) ?? []).map((six) => String.fromCharCode(parseInt(six, 2) + 63)).join("");
 }
 
-// A line of graph6, a label, or pairs of names, one pair a line.
+// A line of graph6, a label, or pairs of names, one pair a line; a camera without pairs stands alone in its line.
 function readGraph(input) {
   const lines = input.split("\n").map((line) => line.replace(/[#%].*$/, "").trim()).filter(Boolean);
   if (!lines.length) throw new Error("nothing is there to read");
@@ -33,7 +33,8 @@ function readGraph(input) {
   const number = (name) => numbers.get(name) ?? (numbers.set(name, numbers.size), numbers.size - 1);
   for (const line of lines) {
     const names = line.split(/[\s,;]+/);
-    if (names.length !== 2) throw new Error(`two names are expected in “${line}”`);
+    if (names.length === 1) { number(names[0]); continue; }
+    if (names.length !== 2) throw new Error(`a pair of names, or one name, is expected in “${line}”`);
     if (names[0] === names[1]) throw new Error(`“${line}” is a pair of a camera with itself`);
     pairs.push(names.map(number));
   }
