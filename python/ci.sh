@@ -53,6 +53,10 @@ step "tests and doctests"
 "$python" -m pytest --quiet --doctest-modules --pyargs viewcert
 "$python" -m pytest --quiet --doctest-glob='*.md' README.md "$root/docs/pyrigi.md" "$root/docs/tutorials.md"
 
+step "the tutorials as notebooks, run"
+"$out/clean/bin/pip" install --quiet nbclient ipykernel
+"$python" "$root/site/notebooks.py"
+
 step "examples"
 (
     cd "$out"

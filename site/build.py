@@ -2,8 +2,8 @@
 """Builds the site into target/site: the atlas, its search, the checkers in the page, the documentation.
 
 It works from the disk (open target/site/index.html) and from any web server, and loads nothing from elsewhere. Needs
-`target/debug/verify`, npm (Python for the browser, formulas) and, for the proved checker, what proofs/build.sh has made. The
-documentation is made by Sphinx (site/requirements.txt), which --docs-python has; a folder for it is made if not."""
+`target/debug/verify`, npm (Python for the browser, formulas), for the program in the page Debian's compiler (site/README.md), and,
+for the proved checker, what proofs/build.sh has made. The documentation is made by Sphinx (site/requirements.txt), which --docs-python has; a folder for it is made if not."""
 
 import argparse
 import pathlib
@@ -11,7 +11,8 @@ import shutil
 import sys
 import time
 
-from atlas import assets, documentation, records, sequences
+from atlas import assets, browser, documentation, records, sequences, tutorials
+from atlas.gallery import gallery_page
 from atlas.graph_page import graph_page
 from atlas.other_pages import check_page, counted, search_page, start_page, your_page
 from atlas.program import ROOT, Program
@@ -51,6 +52,8 @@ def atlas(program, target, largest, begin):
     for record in beside:
         write(target / f"graphs/{record.slug}.html", graph_page(record, siblings, None, None))
     step("pages of graphs", begin)
+    write(target / "gallery.html", gallery_page(program, of_catalog, beside))
+    step("gallery", begin)
     titled = [record for record in of_catalog if record.title]
     return titled + beside
 
@@ -75,6 +78,10 @@ def main():
     for name in {"second", "proved"} - set(there):
         print(f"SKIPPED: the {name} checker is not in the site", file=sys.stderr)
     step("checkers", begin)
+    scripts = browser.libraries(static, asked.cache)
+    browser.writer(static)
+    scripts = scripts and browser.program(static)
+    step("the program for the page", begin)
     famous = atlas(Program(asked.verify, asked.cache), asked.out, asked.largest, begin)
     counts = counted((ROOT / "certificates/counts.tsv").read_text(), asked.largest)
     write(asked.out / "index.html", start_page(famous, counts, asked.largest, sequences.digests()))
@@ -82,9 +89,10 @@ def main():
     write(asked.out / "graph.html", your_page())
     write(asked.out / "check.html", check_page())
     sequences.publish(asked.out / "data")
-    made = documentation.build(asked.out / "docs", asked.cache, asked.docs_python)
+    notebooks = tutorials.publish(asked.out / "notebooks")
+    made = documentation.build(asked.out / "docs", asked.cache, asked.docs_python, notebooks)
     step("documentation", begin)
-    if asked.require and (len(there) < 2 or not made):
+    if asked.require and (len(there) < 2 or not scripts or not made or sum(map(len, notebooks.values())) < len(tutorials.NOTEBOOKS)):
         sys.exit("not everything could be made")
 
 

@@ -6,6 +6,8 @@ checkers in the page; the search finds what the published lists say, in time; th
 pages drawn at random are those of `verify --json`; pages fit 390 and 1600 pixels; axe-core has no serious finding."""
 
 import argparse
+import base64
+import hashlib
 import html
 import json
 import pathlib
@@ -14,14 +16,15 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 import urllib.parse
 
-from atlas import assets, documentation
+from atlas import assets, documentation, graphs, records, sequences, tutorials
 from atlas.program import ROOT
 from chromium import Chromium
 
 AXE = ("axe-core", "4.14.1")
-PAGES = ["index.html", "search.html", "graph.html", "check.html", "graphs/vg.5.6.55.html", "graphs/courtyard.html", "docs/index.html", "docs/symptoms.html", "docs/glossary.html", "docs/statements.html", "docs/api.html"]
+PAGES = ["index.html", "search.html", "gallery.html", "graph.html", "check.html", "graphs/vg.5.6.55.html", "graphs/courtyard.html", "docs/index.html", "docs/symptoms.html", "docs/glossary.html", "docs/statements.html", "docs/api.html"]
 passed = 0
 
 
@@ -84,14 +87,36 @@ def checks(browser, site, slugs):
     print(f"checked in the page: {len(slugs)} graphs, each accepted and its tampered copy rejected by two checkers")
 
 
-def search(browser, site, largest):
-    time = browser.open(site / "search.html")
+def files(browser, python):
+    """The three files of a selection have the same rows; parquet is read by another library than the one that wrote it."""
+    browser.run("location.hash = 'nodes=9&solutions=2'")
+    browser.wait("document.getElementById('count').dataset.count < 1000", 10)
+    browser.run("window.kept = {}; URL.createObjectURL = (blob) => { window.last = blob; return 'blob:'; }; HTMLAnchorElement.prototype.click = function () { window.kept[this.download] = window.last; }")
+    for kind in ("g6", "tsv", "parquet"):
+        browser.run(f"document.getElementById('save-{kind}').click()")
+        browser.wait(f"'selection.{kind}' in window.kept", 20)
+    read = lambda kind: base64.b64decode(browser.run(f"window.kept['selection.{kind}'].arrayBuffer().then((b) => btoa(String.fromCharCode(...new Uint8Array(b))))"))
+    head, *rows = [line.split("\t") for line in read("tsv").decode().splitlines()]
+    right(len(rows) >= 10 and [row[head.index("graph6")] for row in rows] == read("g6").decode().split(), "the .g6 and the .tsv have the same graphs")
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "selection.parquet"
+        path.write_bytes(read("parquet"))
+        told = "import json, sys, pyarrow.parquet as p; t = p.read_table(sys.argv[1]); print(json.dumps([[str(f.type) for f in t.schema], t.to_pydict()]))"
+        types, table = json.loads(subprocess.run([python, "-c", told, path], capture_output=True, text=True, check=True).stdout)
+    right(list(table) == head and set(types) == {"string", "int32", "bool"}, f"parquet: {list(table)}, {types}")
+    for k, name in enumerate(head):
+        right([str(int(value) if isinstance(value, bool) else value) for value in table[name]] == [row[k] for row in rows], f"parquet: {name}")
+
+
+def search(browser, site, largest, python):
+    taken = browser.open(site / "search.html")
     count = lambda: int(browser.run("document.getElementById('count').dataset.count"))
     lists = {n: sum(1 for _ in open(ROOT / f"certificates/n{n}-finite-solvable.g6")) for n in range(11, largest + 1)}
-    least = 829 + sum(lists.values())
+    minimal = {int(cells[1]): int(cells[3].replace(",", "")) for cells in sequences.rows_of(sequences.of_catalog_page("Minimal graphs")) if cells[1].isdigit()}
+    least = sum(count for n, count in minimal.items() if n <= 10) + sum(lists.values())
     right(least <= count() <= least + 10, f"{count()} rows, and {least} in the lists")
     slowest = 0
-    questions = [("nodes=10&solutions=3", 8), ("nodes=10&solutions=2", 153), ("nodes=9&solutions=2", 10), ("nodes=8", 36), *((f"nodes={n}&pairs={-(-(11 * n - 15) // 7)}", k) for n, k in lists.items())]
+    questions = [("nodes=10&pairs=14&solutions=3", 8), ("nodes=10&pairs=14&solutions=2", 153), ("nodes=9&pairs=12&solutions=2", 10), ("nodes=8&pairs=11", 36), *((f"nodes={n}", minimal[n]) for n in (8, 9, 10)), *((f"nodes={n}&pairs={-(-(11 * n - 15) // 7)}", k) for n, k in lists.items())]
     for view, expected in questions:
         browser.run(f"location.hash = '{view}'")
         browser.wait(f"document.getElementById('count').dataset.count === '{expected}'", 10)
@@ -99,8 +124,9 @@ def search(browser, site, largest):
     browser.run("document.querySelector('[data-sort=automorphisms]').click()")
     column = browser.run("[...document.querySelectorAll('#rows tr')].map((row) => +row.cells[6].textContent)")
     right(column == sorted(column), "sorted by automorphisms")
+    files(browser, python)
     quiet(browser, "search.html")
-    print(f"search: {least} rows, loaded in {time:.2f} s, slowest answer {slowest:.0f} ms")
+    print(f"search: {least} rows, loaded in {taken:.2f} s, slowest answer {slowest:.0f} ms")
     return slowest
 
 
@@ -172,6 +198,83 @@ def numbers(site, verify, seed):
     print(f"numbers: {facts} on 50 pages are those of verify --json; both checkers accept the certificates (seed {seed})")
 
 
+def minimal(verify, seed, count=100):
+    """Lines of the list of minimal graphs are finite solvable, and not without any one of their pairs."""
+    lines = records.TEN.read_text().split()
+    right(len(set(lines)) == len(lines) == 2851, f"{records.TEN}: {len(lines)} graphs")
+    drawn = random.Random(seed).sample(lines, count)
+    less = []
+    for line in drawn:
+        nodes, pairs = graphs.of_graph6(line)
+        less += [graphs.to_graph6(nodes, [pair for pair in pairs if pair != left]) for left in pairs]
+    said = lambda lines: [json.loads(line) for line in subprocess.run([verify, "--json", "--solutions=off", "-"], input="\n".join(lines) + "\n", capture_output=True, text=True).stdout.splitlines()]
+    whole, parts = said(drawn), said(less)
+    right(len(whole) == count and all(report["verdict"] != "not-finite-solvable" and report["strength"] == "proof" for report in whole), "minimal graphs are finite solvable")
+    right(len(parts) == len(less) and all((report["verdict"], report["strength"]) == ("not-finite-solvable", "proof") for report in parts), "and not without a pair")
+    print(f"minimal: {count} of {len(lines)} graphs, {len(less)} times without a pair")
+
+
+def random_graphs(draw, count, nodes):
+    """Lines of graph6: sparse and dense, connected or not."""
+    lines = []
+    for _ in range(count):
+        size, share = draw.randrange(*nodes), draw.choice((0.15, 0.3, 0.45, 0.7))
+        pairs = [(i, j) for j in range(size) for i in range(j) if draw.random() < share or (i + 1 == j and draw.random() < 0.9)]
+        lines.append(graphs.to_graph6(size, pairs or [(0, 1)]))
+    return lines
+
+
+def decided(browser, site, verify, seed, count=400):
+    """The program in the page says what the one of the machine says, but for times, and writes the same certificates, which
+    the second checker accepts; a graph gets its page, on which two checkers accept its certificate and reject a copy."""
+    draw = random.Random(seed)
+    lines = random_graphs(draw, count, (2, 15)) + random_graphs(draw, 8, (20, 60))
+    browser.open(site / "graph.html")
+    text = "\n".join(lines) + "\n"
+    in_page = lambda words, text: browser.run(f"PROGRAM.run({json.dumps(words)}, {json.dumps(text)})")
+    here = lambda words, text: subprocess.run([verify, *words], input=text, capture_output=True, text=True)
+    begin = time.monotonic()
+    for words in (["--json", "--components", "-"], ["models", "--json", "-"]):
+        found, wanted = in_page(words, text), here(words, text)
+        right((found["code"], found["err"]) == (wanted.returncode, wanted.stderr), f"{words}: {found['err']}")
+        said, expected = found["out"].splitlines(), wanted.stdout.splitlines()
+        right(len(said) == len(expected) == len(lines), f"{words}: {len(said)} answers in the page, {len(expected)} here")
+        for line, one, other in zip(lines, said, expected):
+            # All but the time that it took.
+            one, other = (re.sub(r'"seconds":[-+.e0-9]+', "", text) for text in (one, other))
+            right(one == other, f"{words} {line}: {one} in the page, {other} here")
+    certificates = []
+    for line in lines[: count // 10] + lines[-8:]:
+        words = ["-", "--certificate", "-"]
+        found = in_page(words, line + "\n")
+        right(found["out"] == here(words, line + "\n").stdout, f"{line}: another certificate in the page")
+        certificates.append(json.dumps(json.loads(found["out"])))
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "all.jsonl"
+        path.write_text("\n".join(certificates) + "\n")
+        second = subprocess.run([sys.executable, ROOT / "crates/check/second/check.py", "--list", path], capture_output=True, text=True)
+    right(f"{len(certificates)} verified, 0 rejected" in second.stdout, second.stdout + second.stderr)
+    taken = time.monotonic() - begin
+    # One that counting refutes, one by names with a camera that has no pair, one with more cameras than labels have.
+    for given in ("H?AFBo}", "a b\nb c\nc a\nc d\nd e\ne c\nf", graphs.to_graph6(18, [(i, (i + k) % 18) for i in range(18) for k in (1, 2)])):
+        browser.open(site / "graph.html", "#" + urllib.parse.quote(given))
+        browser.wait("document.getElementById('written').dataset.done")
+        status = browser.run("document.getElementById('status').textContent")
+        right(status == "", f"{given!r}: {status}")
+        graph6 = browser.run("toGraph6(drawn)")
+        report = json.loads(here(["--json", "--components", "-"], graph6 + "\n").stdout)
+        shown = dict(browser.run("[...document.querySelectorAll('#written [data-from]')].map((e) => [e.dataset.from, e.dataset.value])"))
+        wanted = {"/verdict": report["verdict"], "/rank": str(report["rank"]), "/graph/edges": str(report["graph"]["edges"])}
+        right(wanted.items() <= shown.items(), f"{given!r}: {shown}")
+        for button, code, word in (("check-now", "0", "VERIFIED"), ("tamper", "1", "REJECTED")):
+            browser.run(f"document.getElementById('{button}').click()")
+            browser.wait("document.querySelectorAll('.answer').length === 2 || document.querySelector('.answer[data-code=\"2\"]')")
+            answers = browser.run("[...document.querySelectorAll('.answer')].map((a) => [a.dataset.code, a.textContent])")
+            right(len(answers) == 2 and all(said == code and word in text for said, text in answers), f"{given!r}, {button}: {answers}")
+        quiet(browser, "graph.html")
+    print(f"decided in the page: {len(lines)} graphs as by the program, {len(certificates)} certificates accepted ({taken:.1f} s); 3 pages, each checked and a tampered copy rejected (seed {seed})")
+
+
 def libraries(browser, site):
     """All that the Python package exports is on its page; the Rust libraries have pages that ask for nothing from elsewhere."""
     named = set(re.findall(r'id="viewcert\.(\w+)"', (site / "docs/api.html").read_text()))
@@ -182,6 +285,32 @@ def libraries(browser, site):
         right(browser.run("document.body.textContent").count(name) > 0, f"{crate}: {name}")
         quiet(browser, crate)
     print(f"libraries: {len(exported)} names of the Python package, {len(documentation.CRATES)} crates")
+
+
+def notebooks(site):
+    """Each tutorial is there as a notebook, with what its cells printed, and its page leads to it."""
+    for name, (page, _) in tutorials.NOTEBOOKS.items():
+        notebook = json.loads((site / f"notebooks/{name}.ipynb").read_text())
+        code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+        right(all(cell["execution_count"] for cell in code) and sum(bool(cell["outputs"]) for cell in code) >= 3, f"{name}.ipynb was run")
+        right(f"notebooks/{name}.ipynb" in (site / page.replace(".md", ".html")).read_text(), f"{page} leads to {name}.ipynb")
+    print(f"notebooks: {len(tutorials.NOTEBOOKS)}")
+
+
+def package(site):
+    """Each file of the data package is there and has its sum; nothing else is in the folder."""
+    told = json.loads((site / "data/datapackage.json").read_text())
+    for resource in told["resources"]:
+        content = (site / "data" / resource["path"]).read_bytes()
+        right((len(content), f"sha256:{hashlib.sha256(content).hexdigest()}") == (resource["bytes"], resource["hash"]), f"data/{resource['path']}")
+    beside = {p.name for p in (site / "data").iterdir()} - {resource["path"] for resource in told["resources"]}
+    right(beside == {"datapackage.json", "SEQUENCES.txt"}, f"data/ has {beside} beside its package")
+    text = (site / "data/SEQUENCES.txt").read_text()
+    right("1, 1, 1, 4, 3, 36, 27, 756, 19448, 11219" in text and text.count("Command  ") >= 8, "sequences with commands")
+    for page in ("index.html", "graphs/vg.5.6.55.html"):
+        [linked] = re.findall(r'<script type="application/ld\+json">(.*?)</script>', (site / page).read_text(), re.S)
+        right(json.loads(linked)["@type"] == "Dataset", f"{page}: linked data")
+    print(f"data package: {len(told['resources'])} files")
 
 
 def terms(browser, site):
@@ -224,7 +353,8 @@ def main():
     parser.add_argument("--verify", type=pathlib.Path, default=ROOT / "target/debug/verify")
     parser.add_argument("--largest", type=int, default=12)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--most-milliseconds", type=float, default=100, help="for a search")
+    parser.add_argument("--parquet-python", default=sys.executable, help="a Python that has pyarrow")
+    parser.add_argument("--most-milliseconds", type=float, default=100, help="for a search; the first page may take ten times as long")
     asked = parser.parse_args()
     site, verify = asked.site.resolve(), asked.verify.resolve()
     size = sum(p.stat().st_size for p in site.rglob("*") if p.is_file() and "pyodide" not in p.parts)
@@ -233,10 +363,17 @@ def main():
     print(f"{len(pages(site))} pages, {size / 1e6:.0f} MB without pyodide")
     links(site)
     numbers(site, verify, asked.seed)
+    minimal(verify, asked.seed)
+    notebooks(site)
+    package(site)
     browser = Chromium()
     try:
+        first = browser.open(site / "index.html")
+        print(f"first page: {first:.2f} s")
+        right(first <= asked.most_milliseconds / 100, f"the first page took {first:.2f} s")
         own_graphs(browser, site, verify)
-        slowest = search(browser, site, asked.largest)
+        decided(browser, site, verify, asked.seed)
+        slowest = search(browser, site, asked.largest, asked.parquet_python)
         checks(browser, site, ["vg.5.6.55", "vg.8.11.219482", "psi"])
         terms(browser, site)
         libraries(browser, site)

@@ -80,11 +80,15 @@ def terms():
 
 
 def data_package(target, files):
-    """The published folder and the licence, with a manifest of SHA-256 sums."""
+    """The published folder and the licences, with a manifest of SHA-256 sums: a Data Package of the Frictionless standard."""
     target.mkdir(parents=True, exist_ok=True)
-    entries = []
+    resources = []
     for source in files:
         shutil.copy(source, target / source.name)
-        entries.append({"file": source.name, "bytes": source.stat().st_size, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()})
-    manifest = {"name": "viewcert-atlas", "title": "All small finite-solvable viewing graphs, with certificates", "licenses": ["MIT", "Apache-2.0"], "files": entries}
-    (target / "package.json").write_text(json.dumps(manifest, indent=1) + "\n")
+        digest = hashlib.sha256(source.read_bytes()).hexdigest()
+        # Names are in small letters there, without what is no letter, digit, dot or stroke.
+        name = re.sub(r"[^a-z0-9._-]", "-", source.name.lower()).lstrip(".")
+        resources.append({"name": name, "path": source.name, "bytes": source.stat().st_size, "hash": f"sha256:{digest}"})
+    told = json.loads((ROOT / ".zenodo.json").read_text())
+    package = {"name": "viewcert-atlas", "title": "All small finite-solvable viewing graphs, with certificates", "version": told["version"], "description": told["description"], "keywords": told["keywords"], "licenses": [{"name": name} for name in told["license"].split(" OR ")], "resources": resources}
+    (target / "datapackage.json").write_text(json.dumps(package, indent=1) + "\n")

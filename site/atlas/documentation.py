@@ -101,10 +101,17 @@ def rust_page(made):
     return text + "\nWhich crate may import which others, and what each is for, is on the page of [the house](house.md).\n"
 
 
+def offered(notebooks):
+    """Where a page is to be had as a notebook, each part by itself."""
+    links = ", ".join(f'<a href="../notebooks/{name}.ipynb" download>{heading or name}</a>' for name, heading in notebooks)
+    return f"\nAs {'notebooks' if len(notebooks) > 1 else 'a notebook'}, run with what stands here as their outputs: {links}.\n"
+
+
 class Sources:
     """The pages as Sphinx reads them: links lead to pages of the site, or are words."""
 
-    def __init__(self):
+    def __init__(self, notebooks):
+        self.notebooks = {ROOT / page: found for page, found in notebooks.items()}
         pages = {path: path.name for path in sorted((ROOT / "docs").glob("*.md"))}
         pages.update({ROOT / path: name for path, name in BESIDE.items()})
         self.pages = pages
@@ -137,6 +144,10 @@ class Sources:
             part = re.sub(r"(?<![`!\]])\[([^][`(]+)\](?![([:])", lambda m: f"[{m[1]}]({definitions[m[1]]})" if m[1] in definitions else m[0], part)
             parts[k] = re.sub(r"\[([^][]*(?:\[[^][]*\][^][]*)*)\]\(([^()\s]+)\)", lambda m: self.link(source, m[1], m[2]), part)
         text = "".join(parts)
+        if source in self.notebooks:
+            # After the first paragraph, before the parts.
+            head, first, rest = text.split("\n\n", 2)
+            text = f"{head}\n\n{first}\n{offered(self.notebooks[source])}\n{rest}"
         if source.name == "theory.md":
             text = re.sub(r'^<a id="[^"]*"></a>\n', "", text, flags=re.M)
             text = statements.START.sub(lambda m: f"({statements.anchor(m[2])})=\n{m[0]}", text)
@@ -154,15 +165,15 @@ class Sources:
         shutil.copytree(ROOT / "docs/pictures", folder / "pictures", dirs_exist_ok=True)
 
 
-def build(target, cache, given):
-    """Builds the pages into a folder. False where the generator or the formulas cannot be had."""
+def build(target, cache, given, notebooks):
+    """Builds the pages into a folder; `notebooks` are those of some pages, by page. False where the generator or the formulas cannot be had."""
     cache = pathlib.Path(cache).resolve()
     python, katex = interpreter(cache, given), assets.package(*assets.KATEX, cache)
     if not python or not katex:
         return False
     folder = cache / "docs"
     folder.mkdir(parents=True, exist_ok=True)
-    Sources().write(folder, rust(pathlib.Path(target).parent / "rust"))
+    Sources(notebooks).write(folder, rust(pathlib.Path(target).parent / "rust"))
     for name in ("conf.py", "formulas.js", "docs.css", "docs.js"):
         put(folder / name, (HERE / "docs" / name).read_text())
     put(folder / "place.json", json.dumps({"katex": str(katex / "dist/katex.js"), "terms": assets.terms(), "package": str(PACKAGE)}))

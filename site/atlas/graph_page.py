@@ -5,9 +5,9 @@ from html import escape
 
 from .graphs import kernel, kernel_form
 from .pictures import inline, places
-from .records import solutions_word
+from .record import solutions_word
 from .story import Story
-from .words import VERDICTS, badge, facts, page, term
+from .words import VERDICTS, badge, facts, page, said, term
 
 MODELS = [("affine", "affine cameras"), ("projective", "uncalibrated cameras"), ("calibrated", "known intrinsics")]
 
@@ -76,11 +76,11 @@ def models_table(record):
     lines = {line["model"]: line for line in record.models["models"]}
     for model, words in MODELS:
         line = lines[model]
-        cells = [words, badge(line["verdict"]), f"{line['rank']} of {line['rank_required']}", len(line["components"]), strength(line), escape(line["because"])]
-        rows.append(f'<tr data-model="{model}" data-verdict="{line["verdict"]}" data-rank="{line["rank"]}">' + "".join(f"<td>{c}</td>" for c in cells) + "</tr>")
+        cells = [words, badge(line["verdict"]), f"{line['rank']} of {line['rank_required']}", len(line["components"]), strength(line), said(line["because"])]
+        rows.append(f'<tr data-model="{model}" data-verdict="{line["verdict"]}" data-rank="{line["rank"]}">' + "".join(f"<td{' class=num' * (k == 2)}>{c}</td>" for k, c in enumerate(cells)) + "</tr>")
     planar = record.report.get("planar")
     if planar:
-        rows.append(f'<tr><td>uncalibrated, all centres in one plane</td><td>{badge(planar["verdict"])}</td><td>{planar["rank"]} of {planar["rank_required"]}</td><td></td><td></td><td></td></tr>')
+        rows.append(f'<tr><td>uncalibrated, all centres in one plane</td><td>{badge(planar["verdict"])}</td><td class=num>{planar["rank"]} of {planar["rank_required"]}</td><td></td><td></td><td></td></tr>')
     head = "".join(f"<th scope=col>{name}</th>" for name in ("cameras", "verdict", "rank", "components", "strength", "because"))
     return f'<div class="wide" tabindex="0" role="region" aria-label="Every camera model"><table><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
 
@@ -93,8 +93,9 @@ def kernel_section(record, siblings, up):
     kept, paths = found
     words = ", ".join(f"{p[0]}–{p[-1]}" + (f" (over {', '.join(map(str, p[1:-1]))})" if len(p) > 2 else "") for p in paths)
     form = kernel_form(nodes, record.pairs)
-    count = siblings.get(form, 1)
-    link = f'<a href="{up}search.html#kernel={form}">all {count} graphs of the atlas with this kernel</a>' if count > 1 else "no other graph of the atlas has it"
+    count = siblings.get(form, 0)
+    others = count - record.listed
+    link = f'<a href="{up}search.html#kernel={form}">all {count} graphs of the atlas with this kernel</a>' if others else "no other graph of the atlas has it"
     return f"<p>Without its nodes of degree 2 the graph is a multigraph with {len(kept)} nodes and {len(paths)} edges, its kernel: {words}; {link}.</p>"
 
 
@@ -150,21 +151,21 @@ def linked_data(record):
     return f'<script type="application/ld+json">{json.dumps(value).replace("<", chr(92) + "u003c")}</script>\n'
 
 
-def graph_page(record, siblings, before, after):
+def article(record, siblings, up):
+    """All that is said of a graph: what its page has, and what a page for a graph of the reader's shows."""
     report = record.report
     nodes, pairs = record.size
-    word, meaning, _ = VERDICTS[report["verdict"]]
+    _, meaning, _ = VERDICTS[report["verdict"]]
     words = f"The graph: {nodes} cameras, {pairs} pairs"
-    near = [f'<a rel={rel} href="{other.slug}.html">{arrow}</a>' for rel, other, arrow in (("prev", before, "← before"), ("next", after, "next →")) if other]
-    text_of_pairs = "".join(f"{i} {j}\n" for i, j in record.pairs)
-    conditions = "".join(f"<li>{escape(text)}</li>" for text in report.get("conditions", []))
-    body = f"""<p class="trail"><a href="../index.html">Atlas</a> › {f'<a href="../search.html#nodes={nodes}">{nodes} cameras</a>' if record.name else f"{nodes} cameras"} <span class="near">{" ".join(near)}</span></p>
-{heading(record)}
-<div class="top">
+    # As verify reads lists: a camera without pairs stands alone in its line.
+    alone = set(range(nodes)) - {v for pair in record.pairs for v in pair}
+    text_of_pairs = "".join(f"{i} {j}\n" for i, j in record.pairs) + "".join(f"{v}\n" for v in sorted(alone))
+    conditions = "".join(f"<li>{said(text)}</li>" for text in report.get("conditions", []))
+    return f"""<div class="top">
 <figure>{inline(record.picture, words)}</figure>
 <div>
 <p class="verdict">{badge(report["verdict"])} <span data-from="/verdict" data-value="{report["verdict"]}">{meaning}, {strength(report)}</span></p>
-<p>{escape(report["because"][0].upper() + report["because"][1:])}.</p>
+<p>{said(report["because"][0].upper() + report["because"][1:])}.</p>
 {facts_of(record)}
 {f'<ul class="conditions">{conditions}</ul>' if conditions else ""}
 </div></div>
@@ -172,10 +173,18 @@ def graph_page(record, siblings, before, after):
 {story_section(record)}
 <section><h2>Every camera model</h2>{models_table(record)}</section>
 {solutions_section(record)}
-<section><h2>Where it comes from</h2>{kernel_section(record, siblings, "../")}
-<p>To cite this graph: <code>{escape(record.label or record.slug)}</code>{", a label that stays and gives the graph back" if record.label else ""} (<a href="../docs/catalog.html#labels">what labels are</a>). To decide it yourself: <code>echo '{escape(record.graph6)}' | verify -</code>; pairs: <button type="button" data-save="pairs">save as a list</button></p></section>
+<section><h2>Where it comes from</h2>{kernel_section(record, siblings, up)}
+<p>To cite this graph: <code>{escape(record.label or record.slug)}</code>{", a label that stays and gives the graph back" if record.label else ""} (<a href="{up}docs/catalog.html#labels">what labels are</a>). To decide it yourself: <code>echo '{escape(record.graph6)}' | verify -</code>; pairs: <button type="button" data-save="pairs">save as a list</button></p></section>
 {script_json("certificate", record.certificate)}{script_json("proof", record.proof)}{script_json("pairs", text_of_pairs)}
 """
+
+
+def graph_page(record, siblings, before, after):
+    nodes, pairs = record.size
+    word, _, _ = VERDICTS[record.report["verdict"]]
+    near = [f'<a rel={rel} href="{other.slug}.html">{arrow}</a>' for rel, other, arrow in (("prev", before, "← before"), ("next", after, "next →")) if other]
+    where = f'<a href="../search.html#nodes={nodes}">{nodes} cameras</a>' if record.name else f"{nodes} cameras"
+    body = f'<p class="trail"><a href="../index.html">Atlas</a> › {where} <span class="near">{" ".join(near)}</span></p>\n{heading(record)}\n{article(record, siblings, "../")}'
     about = f"{nodes} cameras, {pairs} pairs: {word}; picture, certificate, and a check in your browser"
     scripts = ("terms.js", "site.js", "check.js")
     return page(record.title or record.label or record.slug, body, depth=1, scripts=scripts, data=linked_data(record), about=about)

@@ -73,5 +73,20 @@ class Program:
 
         return self.kept(("file", words, text), make).decode()
 
+    def at_places(self, words, pairs, cameras):
+        """The picture that a run makes of a graph at given cameras: words GRAPH, PICTURE and CAMERAS stand for the files."""
+
+        def make():
+            with tempfile.TemporaryDirectory() as folder:
+                named = {"GRAPH": "pairs.txt", "CAMERAS": "cameras.txt", "PICTURE": "picture.svg"}
+                (pathlib.Path(folder) / "pairs.txt").write_text(pairs)
+                (pathlib.Path(folder) / "cameras.txt").write_text(cameras)
+                done = subprocess.run([self.path, *[named.get(w, w) for w in words]], cwd=folder, capture_output=True)
+                if done.returncode not in (0, 1):
+                    raise SystemExit(f"verify {' '.join(words)}: exit code {done.returncode}: {done.stderr.decode()}")
+                return (pathlib.Path(folder) / "picture.svg").read_bytes()
+
+        return self.kept(("at places", words, pairs, cameras), make).decode()
+
     def files(self, words, texts, codes=(0, 1)):
         return list(self.workers.map(lambda text: self.file(words, text, codes), texts))

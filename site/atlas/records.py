@@ -3,11 +3,11 @@
 import gzip
 import json
 import pathlib
-from dataclasses import dataclass
 
 from . import graphs
 from .graphs import kernel_form, of_graph6, to_graph6
 from .program import ROOT
+from .record import Record, solutions_word
 
 CERTIFICATES = ROOT / "certificates"
 
@@ -26,36 +26,6 @@ NAMES = {
     "vg.4.5.1": "Two triangles with a common side",
     "vg.5.6.55": "K2,3",
 }
-
-
-@dataclass
-class Record:
-    """A graph with a page. What `verify` said stands as it was said: `report`, `models`, `name` are lines of --json."""
-
-    graph6: str
-    report: dict
-    models: dict
-    name: dict | None = None
-    certificate: str = ""
-    proof: str = ""
-    picture: str = ""
-    witness: str = ""
-    second_scene: str = ""
-    title: str = ""
-    about: str = ""
-    slug: str = ""
-
-    @property
-    def label(self):
-        return self.name["label"] if self.name else None
-
-    @property
-    def size(self):
-        return self.report["graph"]["nodes"], self.report["graph"]["edges"]
-
-    @property
-    def pairs(self):
-        return of_graph6(self.graph6)[1]
 
 
 def heawood():
@@ -134,13 +104,6 @@ def complete(program, records):
 COLUMNS = ["label", "nodes", "pairs", "graph6", "degrees", "girth", "automorphisms", "triangles", "solutions", "affine", "calibrated", "kernel", "page"]
 
 
-def solutions_word(solutions):
-    """A number or bounds, as in the published lists: 2, 1-3, 1-."""
-    if solutions.get("exactly"):
-        return str(solutions["exactly"])
-    return f"{solutions['at_least']}-{solutions['at_most'] or ''}"
-
-
 def row(name, graph6, solutions, models, page):
     """A row of the table that the search goes through."""
     verdict = {model["model"]: model["verdict"] for model in models["models"]}
@@ -167,10 +130,27 @@ def read_list(program, text):
     return [row(name, cell["graph6"], cell["solutions"], model, 0) for cell, name, model in zip(cells, names, models)]
 
 
+# The minimal graphs with ten nodes: listing them anew takes a minute (`verify catalog --nodes 10 --minimal --list`).
+TEN = pathlib.Path(__file__).resolve().parents[1] / "minimal-10.g6"
+
+
+def minimal(program, known):
+    """The rows of the minimal graphs with up to ten nodes and more pairs than the least: all are decided here, and their
+    pages are written in the browser. `known` are the labels that have a row."""
+    listed = program.run(["catalog", "--nodes", "3-9", "--minimal", "--list"]).splitlines()
+    lines = [line.split("\t")[0] for line in listed if not line.startswith("graph6")] + TEN.read_text().split()
+    names = program.lines(["label"], lines)
+    kept = [k for k, name in enumerate(names) if name["label"] not in known]
+    lines, names = [lines[k] for k in kept], [names[k] for k in kept]
+    told = zip(lines, names, program.lines([], lines), program.lines(["models"], lines))
+    return [row(name, line, solutions_word(report["solutions"]), models, 0) for line, name, report, models in told]
+
+
 def rows(program, records, largest):
-    """All rows: the pages of the catalog first, then the lists."""
+    """All rows: the pages of the catalog first, then minimal graphs with more pairs, then the lists."""
     with_label = [r for r in records if r.name]
     found = [row(r.name, r.graph6, solutions_word(r.report["solutions"]) if r.report.get("solutions") else "", r.models, r.slug) for r in with_label]
+    found += minimal(program, {line[0] for line in found})
     for nodes in range(11, largest + 1):
         found += listed(program, nodes)
     return found

@@ -1,5 +1,6 @@
 """Words and HTML that pages share."""
 
+import re
 from html import escape
 
 VERDICTS = {
@@ -8,7 +9,7 @@ VERDICTS = {
     "not-finite-solvable": ("not finite solvable", "infinitely many sets of cameras", "bad"),
 }
 
-MENU = [("index.html", "Atlas"), ("search.html", "Search"), ("graph.html", "Your graph"), ("check.html", "Check"), ("docs/index.html", "Documentation")]
+MENU = [("index.html", "Atlas"), ("search.html", "Search"), ("gallery.html", "Gallery"), ("graph.html", "Your graph"), ("check.html", "Check"), ("docs/index.html", "Documentation")]
 
 
 def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
@@ -48,6 +49,11 @@ def page(title, body, *, depth=0, scripts=(), data="", about="", current=""):
 def badge(verdict):
     word, _, kind = VERDICTS[verdict]
     return f'<span class="badge {kind}">{word}</span>'
+
+
+def said(text):
+    """What the program says, with the names of graphs as they are written by hand."""
+    return re.sub(r"K_\{(\d+,\d+)\}", r"K<sub>\1</sub>", escape(text))
 
 
 def facts(pairs):

@@ -24,7 +24,7 @@ myst_heading_anchors = 4
 myst_dmath_double_inline = True
 html_theme = "furo"
 html_title = "viewcert"
-html_theme_options = {"announcement": '<a href="../index.html">Atlas</a> · <a href="../search.html">Search</a> · <a href="../graph.html">Your graph</a> · <a href="../check.html">Check</a> · Documentation'}
+html_theme_options = {"announcement": '<a href="../index.html">Atlas</a> · <a href="../search.html">Search</a> · <a href="../gallery.html">Gallery</a> · <a href="../graph.html">Your graph</a> · <a href="../check.html">Check</a> · Documentation'}
 html_static_path = ["docs.css", "docs.js"]
 html_css_files = ["docs.css"]
 html_js_files = ["docs.js"]

@@ -1,22 +1,6 @@
 "use strict";
 // The checkers in the page: the proved one, made by js_of_ocaml from what Coq extracts, and the second one in Python, by
 // pyodide. Both are loaded from scripts beside the page, since a page from a file may not fetch anything.
-const up = document.body.dataset.up;
-const loaded = {};
-
-function load(name) {
-  loaded[name] ??= new Promise((done, failed) => {
-    const script = document.createElement("script");
-    script.src = `${up}static/${name}`;
-    script.onload = done;
-    script.onerror = () => failed(new Error(`${name} is not there`));
-    document.head.append(script);
-  });
-  return loaded[name];
-}
-
-const bytes = (base64) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-
 // The proved checker, once: its exit code and what it printed. It takes strings of bytes.
 async function proved(graph, proof) {
   await load("proved.js");
@@ -121,9 +105,11 @@ function tampered(certificate, proof) {
   return [JSON.stringify(value), other];
 }
 
-const box = document.getElementById("certificate-text");
-if (box && document.getElementById("certificate")) {
-  let proof = text("proof");
+// The part of a page that has a certificate: its box and its buttons.
+function offerChecks() {
+  const box = document.getElementById("certificate-text");
+  if (!box || !document.getElementById("certificate")) return;
+  let proof = "";
   const shown = () => { box.value = text("certificate"); proof = text("proof"); };
   shown();
   const check = () => checkAll(box.value, text("pairs"), proof);
@@ -134,3 +120,4 @@ if (box && document.getElementById("certificate")) {
     check();
   });
 }
+offerChecks();

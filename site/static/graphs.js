@@ -4,11 +4,11 @@ const MOST_NODES = 16;
 
 function ofGraph6(line) {
   line = line.trim().replace(/^>>graph6<</, "");
-  const nodes = line.charCodeAt(0) - 63;
-  if (!(nodes >= 0 && nodes <= 62)) throw new Error("graph6 with up to 62 nodes is read here");
-  const bits = [...line.slice(1)].map((c) => (c.charCodeAt(0) - 63).toString(2).padStart(6, "0")).join("");
+  if (!/^[?-~]+$/.test(line) || line.startsWith("~~")) throw new Error("this is no line of graph6");
+  const long = line.startsWith("~"), nodes = [...line.slice(long ? 1 : 0, long ? 4 : 1)].reduce((all, c) => 64 * all + c.charCodeAt(0) - 63, 0);
+  const bits = [...line.slice(long ? 4 : 1)].map((c) => (c.charCodeAt(0) - 63).toString(2).padStart(6, "0")).join("");
   const places = (nodes * (nodes - 1)) / 2;
-  if (!/^[?-~]+$/.test(line) || bits.length !== 6 * Math.ceil(places / 6) || /1/.test(bits.slice(places))) throw new Error("this is no line of graph6");
+  if (bits.length !== 6 * Math.ceil(places / 6) || /1/.test(bits.slice(places))) throw new Error("this is no line of graph6");
   const pairs = [];
   let k = 0;
   for (let j = 1; j < nodes; j++) for (let i = 0; i < j; i++) if (bits[k++] === "1") pairs.push([i, j]);
@@ -20,10 +20,11 @@ function toGraph6({ nodes, pairs }) {
   let bits = "";
   for (let j = 1; j < nodes; j++) for (let i = 0; i < j; i++) bits += present.has(`${i},${j}`) ? "1" : "0";
   bits = bits.padEnd(6 * Math.ceil(bits.length / 6), "0");
-  return String.fromCharCode(nodes + 63) + (bits.match(/.{6}/g) ?? []).map((six) => String.fromCharCode(parseInt(six, 2) + 63)).join("");
+  const sixes = nodes <= 62 ? [nodes] : [63, nodes >> 12, (nodes >> 6) & 63, nodes & 63];
+  return String.fromCharCode(...sixes.map((six) => six + 63)) + (bits.match(/.{6}/g) ?? []).map((six) => String.fromCharCode(parseInt(six, 2) + 63)).join("");
 }
 
-// A line of graph6, a label, or pairs of names, one pair a line.
+// A line of graph6, a label, or pairs of names, one pair a line; a camera without pairs stands alone in its line.
 function readGraph(input) {
   const lines = input.split("\n").map((line) => line.replace(/[#%].*$/, "").trim()).filter(Boolean);
   if (!lines.length) throw new Error("nothing is there to read");
@@ -32,7 +33,8 @@ function readGraph(input) {
   const number = (name) => numbers.get(name) ?? (numbers.set(name, numbers.size), numbers.size - 1);
   for (const line of lines) {
     const names = line.split(/[\s,;]+/);
-    if (names.length !== 2) throw new Error(`two names are expected in “${line}”`);
+    if (names.length === 1) { number(names[0]); continue; }
+    if (names.length !== 2) throw new Error(`a pair of names, or one name, is expected in “${line}”`);
     if (names[0] === names[1]) throw new Error(`“${line}” is a pair of a camera with itself`);
     pairs.push(names.map(number));
   }

@@ -121,6 +121,19 @@ id("save-tsv").addEventListener("click", () => {
   const kept = NAMES.filter((name) => name !== "page");
   save("selection.tsv", [kept, ...found.map((row) => kept.map((name) => row[AT[name]]))].map((cells) => `${cells.join("\t")}\n`).join(""));
 });
+// Columns by kind: numbers, yes or no, texts; of the numbers of solutions some are bounds ("1-3"), so they are texts.
+function columns() {
+  const kept = NAMES.filter((name) => name !== "page");
+  return kept.map((name) => {
+    const cells = found.map((row) => row[AT[name]]);
+    if (NUMBERS.has(name)) return { name, data: cells.map(Number), type: "INT32" };
+    return WORDS[name] ? { name, data: cells.map((cell) => cell === "1"), type: "BOOLEAN" } : { name, data: cells, type: "STRING" };
+  });
+}
+id("save-parquet").addEventListener("click", async () => {
+  await load("parquet.js");
+  save("selection.parquet", window.parquet(columns()), "application/vnd.apache.parquet");
+});
 id("find").addEventListener("submit", (event) => {
   event.preventDefault();
   location.href = `graph.html#${encodeURIComponent(id("pasted").value)}`;

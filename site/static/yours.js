@@ -1,11 +1,12 @@
 "use strict";
-// A graph of the reader's: pasted or drawn, named, and looked up in the atlas.
+// A graph of the reader's: pasted or drawn, named, looked up in the atlas, and decided in the page.
 const NAMES = window.ATLAS.columns;
 const AT = Object.fromEntries(NAMES.map((name, k) => [name, k]));
 let rows = null;
 const id = (name) => document.getElementById(name);
 const SVG = "http://www.w3.org/2000/svg";
-const drawn = { nodes: 0, pairs: [], places: [], chosen: null };
+const drawn = { nodes: 0, pairs: [], names: null, places: [], chosen: null };
+const MOST_DRAWN = 200;
 
 function rowOf(label) {
   rows ??= new Map(window.ATLAS.text.split("\n").map((line) => [line.slice(0, line.indexOf("\t")), line]));
@@ -61,9 +62,10 @@ function line(term, value) {
   return div;
 }
 
+// What is said at once: counted in this script, and looked up in the table of the atlas.
 function tell() {
   const place = id("found");
-  const { nodes, pairs } = drawn;
+  const { nodes, pairs, names } = drawn;
   place.replaceChildren();
   if (!nodes) return;
   const facts = document.createElement("dl");
@@ -73,49 +75,124 @@ function tell() {
   facts.append(line("cameras", nodes), line("pairs", pairs.length), line("degrees", degrees.sort((a, b) => b - a).join(", ")));
   const words = document.createElement("p");
   place.append(facts, words);
-  const graph6 = nodes <= 62 ? toGraph6(drawn) : "";
-  const command = document.createElement("code");
-  command.textContent = `echo '${graph6}' | verify -`;
-  if (nodes > MOST_NODES) {
-    words.append("Graphs with up to 16 cameras have labels. What this one determines: ", command);
-    return;
-  }
+  if (names?.some((name, v) => name !== String(v))) words.append(`Numbered here: ${names.map((name, v) => `${v} is ${name}`).join(", ")}. `);
+  if (nodes > MOST_NODES) return;
   const best = greatest(drawn), label = labelOf(drawn), row = rowOf(label);
   facts.append(line("label", label), line("graph6, greatest", toGraph6(best)), line("girth", girthOf(drawn) || "no cycle"), line("automorphisms", best.automorphisms));
   facts.dataset.label = label;
-  if (row) {
-    const link = document.createElement("a");
-    link.href = row[AT.page] !== "0" ? `graphs/${row[AT.page]}.html` : `search.html#kernel=${row[AT.kernel]}`;
-    link.textContent = row[AT.page] !== "0" ? "its page" : "graphs with the same kernel";
-    const solutions = row[AT.solutions];
-    const known = !solutions ? "It is not finite solvable (proved)" : `It is finite solvable (proved), number of solutions: ${solutions.replace(/-$/, " at least")}`;
-    words.append(`This graph is in the atlas. ${known}; affine cameras: ${row[AT.affine] === "1" ? "solvable" : "not"}, known intrinsics: ${row[AT.calibrated] === "1" ? "solvable" : "not"}. Go to `, link, ".");
-    if (row[AT.page] === "0") words.append(" Its certificate is made by ", command, " with --certificate FILE.");
-  } else if (7 * pairs.length < 11 * nodes - 15) {
-    words.append(`Too few pairs: 7·${pairs.length} < 11·${nodes} − 15, so it is not finite solvable (theory, section 5). Which parts are determined: `, command);
-  } else {
-    words.append("This graph is not in the atlas, which holds the finite-solvable graphs with the least number of pairs and up to 12 cameras. What it determines: ", command);
+  if (!row) return;
+  const link = document.createElement("a");
+  link.href = row[AT.page] !== "0" ? `graphs/${row[AT.page]}.html` : `search.html#kernel=${row[AT.kernel]}`;
+  link.textContent = row[AT.page] !== "0" ? "its page" : "graphs with the same kernel";
+  words.append("This graph is in the atlas: ", link, ".");
+}
+
+// Seconds that one question may take, and the most pairs for which a scene and an explicit proof are asked for.
+const MOST_SECONDS = 60;
+const MOST_PAIRS = 120;
+
+let asked = 0;
+
+// What `verify` says of the graph, run by run, in this page; then the page that the atlas would have of it.
+async function decide() {
+  const mine = ++asked, { nodes, pairs } = drawn;
+  PROGRAM.stop();
+  id("written").replaceChildren();
+  id("stop").hidden = !nodes;
+  id("status").textContent = "";
+  if (!nodes) return;
+  const graph6 = toGraph6(drawn), said = {};
+  const current = () => mine === asked;
+  const status = (words) => { if (current()) id("status").textContent = words; };
+  // Standard output of a run; "" where it gave nothing and may.
+  const ask = async (name, words) => {
+    const { code, out, err } = await PROGRAM.run([...words, "--time-limit", String(MOST_SECONDS)], `${graph6}\n`);
+    if (code === 3 && said.report) return "";
+    if (code > 1) throw new Error(err.trim() || `exit code ${code}`);
+    return (said[name] = out);
+  };
+  try {
+    status("The program is starting …");
+    tellVerdict(JSON.parse(await ask("report", ["--json", "--components", "--solutions=off", "-"])));
+    status("Decided. Its solutions are being counted …");
+    await ask("report", ["--json", "--components", "-"]);
+    const report = JSON.parse(said.report);
+    status("Decided. Its certificate, proof and picture are being made …");
+    await ask("certificate", ["-", "--certificate", "-"]);
+    await ask("models", ["models", "--json", "-"]);
+    if (nodes <= MOST_NODES) await ask("label", ["label", "--json", "-"]);
+    await ask("picture", ["draw", "-", "-"]);
+    if (pairs.length <= MOST_PAIRS) await ask("proof", ["-", "--proof", "-", "--solutions=off"]);
+    if ((report.solutions?.at_least ?? 1) > 1 && pairs.length <= MOST_PAIRS) {
+      status("Decided. The other solution is being looked for …");
+      await ask("report", ["--json", "--components", "--solutions=full", "-"]);
+      await ask("witness", ["witness", "-", "-"]);
+      await ask("scene", ["witness", "--oriented", "-", "-"]);
+    }
+    if (!current()) return;
+    status("Decided. Its page is being written, by Python; the first time takes some seconds …");
+    const html = await written(graph6, said);
+    if (!current()) return;
+    id("written").innerHTML = html;
+    enliven(id("written"));
+    offerChecks();
+    status("");
+  } catch (error) {
+    status(error.message === "stopped" ? "Stopped." : error.message);
   }
+  if (current()) { id("stop").hidden = true; id("written").dataset.done = mine; }
+}
+
+function tellVerdict(report) {
+  const words = document.createElement("p"), badge = document.createElement("span");
+  const [word, kind] = { solvable: ["solvable", "good"], "finite-solvable": ["finite solvable", "fair"], "not-finite-solvable": ["not finite solvable", "bad"] }[report.verdict];
+  badge.className = `badge ${kind}`;
+  badge.textContent = word;
+  words.append(badge, ` rank ${report.rank} of ${report.rank_required}, ${report.strength === "proof" ? "proved" : `error at most 2^${report.error_log2}`}: ${report.because.replace(/K_\{([\d,]+)\}/g, "K$1")}.`);
+  id("found").append(words);
+}
+
+async function written(graph6, said) {
+  const found = await interpreter();
+  await load("writer.js");
+  found.FS.mkdirTree("/writer/atlas");
+  for (const [name, source] of Object.entries(window.WRITER)) found.FS.writeFile(`/writer/${name}`, source);
+  const kernels = {};
+  for (const row of window.ATLAS.text.split("\n")) { const kernel = row.split("\t")[AT.kernel]; kernels[kernel] = (kernels[kernel] ?? 0) + 1; }
+  found.globals.set("asked", JSON.stringify({ graph6, said, siblings: kernels, listed: Boolean(rowOf(id("found").firstChild.dataset.label)) }));
+  return found.runPython("import json, sys; sys.path.append('/writer') if '/writer' not in sys.path else None\nimport atlas.own; atlas.own.written(**json.loads(asked))");
+}
+
+let pause = 0;
+
+// After a change by hand the reader may go on: it is decided when the hand rests.
+function changed() {
+  paint();
+  tell();
+  clearTimeout(pause);
+  pause = setTimeout(decide, 600);
 }
 
 function take(graph) {
-  Object.assign(drawn, { nodes: graph.nodes, pairs: graph.pairs, places: layout(graph), chosen: null });
+  Object.assign(drawn, { nodes: graph.nodes, pairs: graph.pairs, names: graph.names, places: layout(graph), chosen: null });
   id("message").textContent = "";
   paint();
   tell();
+  decide();
 }
 
-function read(input) {
+// Not `read`: by a function of that name Python takes the page for a shell.
+function taken(input) {
   try {
     const graph = readGraph(input);
-    if (graph.nodes > 62) throw new Error("graphs with up to 62 cameras are drawn here");
+    if (graph.nodes > MOST_DRAWN) throw new Error(`graphs with up to ${MOST_DRAWN} cameras are decided here; for larger ones there is the program`);
     take(graph);
   } catch (error) {
     id("message").textContent = error.message;
   }
 }
 
-function nodeAdded(x, y) { drawn.places.push([x, y]); drawn.nodes++; }
+function nodeAdded(x, y) { drawn.places.push([x, y]); drawn.nodes++; drawn.names = null; }
 
 function joined(i, j) {
   const [a, b] = [Math.min(i, j), Math.max(i, j)];
@@ -126,23 +203,23 @@ function joined(i, j) {
 id("canvas").addEventListener("click", (event) => {
   const canvas = id("canvas"), node = event.target.dataset?.node;
   if (node === undefined) {
-    if (drawn.nodes >= 62) return;
+    if (drawn.nodes >= MOST_DRAWN) return;
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(canvas.getScreenCTM().inverse());
     nodeAdded(point.x, point.y);
     if (drawn.chosen !== null) joined(drawn.chosen, drawn.nodes - 1);
     drawn.chosen = null;
   } else if (drawn.chosen === null) drawn.chosen = +node;
   else { if (drawn.chosen !== +node) joined(drawn.chosen, +node); drawn.chosen = null; }
-  paint();
-  tell();
+  if (drawn.chosen === null) changed(); else paint();
 });
+id("stop").addEventListener("click", () => PROGRAM.stop());
 id("empty").addEventListener("click", () => take({ nodes: 0, pairs: [] }));
-id("read").addEventListener("submit", (event) => { event.preventDefault(); history.replaceState(null, "", `#${encodeURIComponent(id("pasted").value)}`); read(id("pasted").value); });
+id("read").addEventListener("submit", (event) => { event.preventDefault(); history.replaceState(null, "", `#${encodeURIComponent(id("pasted").value)}`); taken(id("pasted").value); });
 function fromAddress() {
   const input = decodeURIComponent(location.hash.slice(1));
   if (!input) return;
   id("pasted").value = input;
-  read(input);
+  taken(input);
 }
 addEventListener("hashchange", fromAddress);
 fromAddress();

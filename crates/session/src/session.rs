@@ -92,11 +92,14 @@ impl Session {
         });
         #[cfg(unix)]
         catch_signals(Arc::clone(&run)).context("signals cannot be caught")?;
-        let guarded = Arc::clone(&run);
-        std::thread::Builder::new()
-            .name("limits".into())
-            .spawn(move || guarded.guard())
-            .context("no thread for the limits")?;
+        // In a page there are no threads: the time is looked at where the work is.
+        if !cfg!(target_family = "wasm") {
+            let guarded = Arc::clone(&run);
+            std::thread::Builder::new()
+                .name("limits".into())
+                .spawn(move || guarded.guard())
+                .context("no thread for the limits")?;
+        }
         Ok(Self(run))
     }
 

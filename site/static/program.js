@@ -1,0 +1,42 @@
+"use strict";
+// `verify` in the page: the same program, built for the browser. A run is a message to a worker, so that the page stays awake
+// and what takes too long can be stopped.
+const PROGRAM = (() => {
+  const waiting = new Map();
+  let compiled = null, worker = null, number = 0;
+
+  async function compile() {
+    await load("verify.js");
+    const packed = new Blob([bytes(window.VERIFY)]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return WebAssembly.compile(await new Response(packed).arrayBuffer());
+  }
+
+  async function start() {
+    const module = await (compiled ??= compile());
+    if (worker) return;
+    worker = new Worker(URL.createObjectURL(new Blob([window.WORKER], { type: "text/javascript" })));
+    worker.onmessage = ({ data: { number: answered, ...answer } }) => { waiting.get(answered)?.[0](answer); waiting.delete(answered); };
+    worker.onerror = (event) => { event.preventDefault(); stop(event.message); };
+    worker.postMessage({ module });
+  }
+
+  // Ends what is running; the next run starts anew.
+  function stop(why = "stopped") {
+    worker?.terminate();
+    worker = null;
+    for (const [, failed] of waiting.values()) failed(new Error(why));
+    waiting.clear();
+  }
+
+  // Exit code, standard output and standard error of a run of `verify` with these arguments and this standard input.
+  async function run(words, input) {
+    await start();
+    const mine = ++number;
+    return new Promise((done, failed) => {
+      waiting.set(mine, [done, failed]);
+      worker.postMessage({ number: mine, words, input });
+    });
+  }
+
+  return { run, stop };
+})();
