@@ -23,6 +23,8 @@ pub(super) struct Proved {
     pub(super) text: String,
     /// Whether it is about the projective model with nothing given.
     pub(super) is_projective: bool,
+    /// Whether it takes known parts, displacements or base lines for given.
+    pub(super) supposes: bool,
     /// The generic rank.
     pub(super) rank: i64,
     /// The rank at which the graph is finite solvable.
@@ -33,6 +35,8 @@ pub(super) struct Proved {
 
 impl Proved {
     fn new(verified: &Verified) -> Self {
+        let supposes =
+            verified.parts > 0 || verified.displacements.is_some() || verified.base_lines.is_some();
         Self {
             sha256: verified.sha256.clone(),
             verdict: verified.verdict.0.to_string(),
@@ -41,6 +45,7 @@ impl Proved {
             is_projective: verified.model == Model::Projective
                 && verified.parts == 0
                 && verified.displacements.is_none(),
+            supposes,
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0,
@@ -54,6 +59,7 @@ impl Proved {
             solutions: None,
             text: verified.to_string(),
             is_projective: false,
+            supposes: false,
             rank: verified.rank[0],
             required: verified.required,
             components: verified.components.as_ref().map_or(0, Vec::len),
@@ -72,6 +78,7 @@ impl Proved {
             solutions: None,
             text: verified.to_string(),
             is_projective: false,
+            supposes: false,
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0 as usize,
