@@ -12,7 +12,7 @@ step() { printf '\n== python: %s\n' "$*"; }
 
 step "an environment to build in, and a clean one"
 python3 -m venv "$out/build"
-"$out/build/bin/pip" install --quiet 'maturin>=1.9,<2'
+"$out/build/bin/pip" install --quiet 'maturin>=1.13,<2'
 python3 -m venv "$out/clean"
 
 step "the program, against which everything is held"
@@ -22,7 +22,8 @@ export VIEWCERT_PROGRAM=${CARGO_TARGET_DIR:-$root/target}/debug/verify
 
 step "the wheel"
 "$out/build/bin/maturin" build --quiet --locked --profile dev --out "$out/wheels"
-ls "$out/wheels" | grep -q 'cp39-abi3'
+# Module, licences, README, bill of materials.
+python3 "$root/packaging/wheel.py" "$out/wheels"
 
 step "the source distribution holds what cargo needs"
 "$out/build/bin/maturin" sdist --out "$out/sdist"
@@ -41,7 +42,7 @@ step "the wheel in the clean environment"
 # The package alone, with numpy and nothing else.
 (cd "$out" && clean/bin/python -c 'import viewcert; assert viewcert.verify([(0, 1)]).value == "solvable"')
 "$out/clean/bin/pip" install --quiet networkx rustworkx scipy pycolmap tqdm matplotlib \
-    'dask[distributed]' joblib pandas polars pyrigi pytest hypothesis mypy
+    'dask[distributed]' joblib pandas polars pyrigi sympy pytest hypothesis mypy
 python=$out/clean/bin/python
 
 step "types"
@@ -70,4 +71,23 @@ step "examples"
         exit 1
     fi
     tail -n 1 audit.txt
+)
+step "examples: a filter before averaging, a search, an archive"
+(
+    cd "$out"
+    "$python" "$root/python/examples/filter_1dsfm.py" >filter.txt
+    # What was kept has the four dimensions that are unavoidable, all of it had more.
+    grep -qx 'positions that fit all pairs: 6 dimensions, 4 are unavoidable' filter.txt
+    grep -qx 'positions that fit what was kept: 4 dimensions, 4 are unavoidable' filter.txt
+    "$python" "$root/python/examples/minimal_search.py" 7 >search.txt
+    tail -n 1 search.txt | grep -q 'minimal graphs with 7 nodes'
+    mkdir archive
+    cp "$root"/certificates/n0[56]-refuted.jsonl.gz archive
+    "$python" "$root/python/examples/verify_archive.py" archive
+    printf 'graph,rank\nC~,28\n' >wrong.csv
+    if "$python" "$root/python/examples/verify_archive.py" archive wrong.csv >archive.txt; then
+        echo "a wrong rank was confirmed"
+        exit 1
+    fi
+    grep -q 'row 1: refuted' archive.txt
 )

@@ -277,7 +277,7 @@ def decided(browser, site, verify, seed, count=400):
 
 def libraries(browser, site):
     """All that the Python package exports is on its page; the Rust libraries have pages that ask for nothing from elsewhere."""
-    named = set(re.findall(r'id="viewcert\.(\w+)"', (site / "docs/api.html").read_text()))
+    named = set(re.findall(r'id="(?:module-)?viewcert\.(\w+)"', (site / "docs/api.html").read_text()))
     exported = {name for names in documentation.exported().values() for name in names}
     right(len(exported) > 50 and named == exported, f"docs/api.html: {named ^ exported}")
     for crate, name in (("viewcert", "decide"), ("viewcert_check", "Certificate")):

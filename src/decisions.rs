@@ -245,12 +245,11 @@ impl Work<'_> {
         if let Some(path) = &products.witness {
             let wish = (self.plan.seed, products.oriented);
             match witness::write(outputs, path, input, verdict, wish)? {
-                witness::Found::Written => {
-                    written
-                        .lines
-                        .push(format!("witness     {}", path.display()));
+                Ok(()) => {
+                    let line = format!("witness     {}", path.display());
+                    written.lines.push(line);
                 }
-                witness::Found::Nothing(why) => written.no_witness = Some(why),
+                Err(why) => written.no_witness = Some(why),
             }
         }
         Ok(written)
@@ -275,7 +274,7 @@ struct Written {
     /// What the explicit proof shows, if one was asked for.
     proof: Option<WrittenProof>,
     /// Why there is no witness, if one was asked for.
-    no_witness: Option<&'static str>,
+    no_witness: Option<String>,
 }
 
 impl Written {

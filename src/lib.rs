@@ -1,6 +1,7 @@
 //! `verify`: arguments in, reports out; no mathematics. One file a command.
 //!
-//! [`main`] is the program.
+//! [`main`] is the program. What a command finds out from several files is there for others too:
+//! [`OverviewAsked`], [`ListsAsked`], [`check_archive`].
 
 mod advise;
 #[cfg(feature = "studies")]
@@ -34,7 +35,10 @@ mod split;
 mod verify;
 mod witness;
 
+pub use check::{Archive, News, check_archive};
 pub use limits::LimitArguments;
+pub use lists::Asked as ListsAsked;
+pub use overview::Asked as OverviewAsked;
 
 use anyhow::{Result, bail};
 use clap::{CommandFactory, Parser, Subcommand};

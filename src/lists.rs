@@ -32,43 +32,75 @@ pub(super) struct ListArguments {
     json: bool,
 }
 
-/// Reads the graph and the lists, decides each list and what overlaps fix, and reports.
+/// What is asked of lists, whoever asks.
+pub struct Asked<'a> {
+    /// The graph.
+    pub graph: &'a Path,
+    /// The lists.
+    pub files: &'a [PathBuf],
+    /// How pairs are read.
+    pub options: ReadOptions,
+    /// How the tracks of a list are read.
+    pub of_tracks: ReadOptions,
+    /// Whether it was said in how many images a track has to be seen.
+    pub says_views: bool,
+}
+
+impl Asked<'_> {
+    /// Reads the graph and the lists, decides each list and what overlaps fix, and calls `say` with what was
+    /// found.
+    ///
+    /// # Errors
+    /// If something cannot be read or decided; those of `say`.
+    pub fn of<T>(
+        &self,
+        session: &Session,
+        say: impl FnOnce(&ListReport<'_>) -> Result<T>,
+    ) -> Result<T> {
+        let start = Instant::now();
+        session.reading(self.graph);
+        let mut input = first(self.graph, &self.options)?;
+        session.hide();
+        let by_tracks = input.database.is_some();
+        ensure!(
+            by_tracks || !self.says_views,
+            "--min-views says which tracks of a database count, and {} has pairs alone; leave it out",
+            self.graph.display()
+        );
+        let files = self.files.iter();
+        let found = files.map(|file| list(session, self, &mut input, file));
+        let found = found.collect::<Result<Vec<List>>>()?;
+        let (images, seed) = (input.graph.nodes() as u32, Options::default().seed);
+        let name = |v| input.labels.label(v).into_owned();
+        let found = lists::lists(&found, images, name, seed, session.shown_watch());
+        session.hide();
+        let found = found.with_context(|| input.name.clone())?;
+        say(&ListReport {
+            input: &input,
+            by: if by_tracks { "tracks" } else { "pairs" },
+            lists: &found,
+            time: start.elapsed(),
+        })
+    }
+}
+
+/// Reads the graph and the lists, and reports what they determine.
 pub(super) fn run(session: &Session, arguments: &ListArguments) -> Result<u8> {
-    let start = Instant::now();
-    let path = &arguments.graph;
-    let options = arguments.input.read_options();
-    session.reading(path);
-    let mut input = first(path, &options)?;
-    session.hide();
-    let by_tracks = input.database.is_some();
-    ensure!(
-        by_tracks || arguments.input.min_views.is_none(),
-        "--min-views says which tracks of a database count, and {} has pairs alone; leave it out",
-        path.display()
-    );
-    let found: Result<Vec<List>> = arguments
-        .files
-        .iter()
-        .map(|file| list(session, arguments, &mut input, file))
-        .collect();
-    let found = found?;
-    let (images, seed) = (input.graph.nodes() as u32, Options::default().seed);
-    let name = |v| input.labels.label(v).into_owned();
-    let found = lists::lists(&found, images, name, seed, session.shown_watch());
-    session.hide();
-    let found = found.with_context(|| input.name.clone())?;
-    let report = ListReport {
-        input: &input,
-        by: if by_tracks { "tracks" } else { "pairs" },
-        lists: &found,
-        time: start.elapsed(),
+    let asked = Asked {
+        graph: &arguments.graph,
+        files: &arguments.files,
+        options: arguments.input.read_options(),
+        of_tracks: arguments.input.of_tracks(),
+        says_views: arguments.input.min_views.is_some(),
     };
-    outputs::answer(
-        arguments.json,
-        found.determined,
-        |out| report.write_json(out),
-        |out| report.write(out),
-    )
+    asked.of(session, |report| {
+        outputs::answer(
+            arguments.json,
+            report.lists.determined,
+            |out| report.write_json(out),
+            |out| report.write(out),
+        )
+    })
 }
 
 /// The one graph of a file.
@@ -93,12 +125,7 @@ fn first(path: &Path, options: &ReadOptions) -> Result<NamedGraph> {
 }
 
 /// Reads a list, and decides what its images determine by themselves.
-fn list(
-    session: &Session,
-    arguments: &ListArguments,
-    input: &mut NamedGraph,
-    file: &Path,
-) -> Result<List> {
+fn list(session: &Session, asked: &Asked<'_>, input: &mut NamedGraph, file: &Path) -> Result<List> {
     let (images, again) = lists::images(input, file)?;
     if again > 0 {
         let note = format!(
@@ -121,9 +148,9 @@ fn list(
         let labels = images.iter().map(|&v| input.labels.label(v).into_owned());
         let options = ReadOptions {
             only: Some(Arc::new(labels.collect())),
-            ..arguments.input.of_tracks()
+            ..asked.of_tracks.clone()
         };
-        let tracks = first(&arguments.graph, &options)?;
+        let tracks = first(asked.graph, &options)?;
         let cameras = tracks.cameras.unwrap_or(0);
         (decided(session, &tracks.graph), cameras)
     } else {

@@ -33,10 +33,6 @@ pub(super) struct ModelsArguments {
     json: bool,
 }
 
-/// The models, each of which determines no more than the next one: affine solvable implies finite
-/// solvable, and that implies solvable with known intrinsics (Corollary 13.4 of docs/theory.md).
-const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
-
 /// Decides every graph in every model; a bad one is reported and does not stop the others.
 pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> {
     let mut out = BufWriter::new(std::io::stdout().lock());
@@ -60,17 +56,16 @@ pub(super) fn run(session: &Session, arguments: &ModelsArguments) -> Result<u8> 
             session.hide();
             verdict.with_context(|| format!("{}, {model} model", input.name))
         };
-        let verdicts: Vec<Verdict> = ORDER.into_iter().map(decided).collect::<Result<_>>()?;
-        let changes: Vec<report::Change> = verdicts
-            .windows(2)
-            .flat_map(|pair| report::changes(&pair[0], &pair[1]))
-            .collect();
+        let verdicts = report::ORDER.into_iter().map(decided);
+        let verdicts: Vec<Verdict> = verdicts.collect::<Result<_>>()?;
+        let verdicts: Vec<&Verdict> = verdicts.iter().collect();
+        let changes = report::all_changes(&verdicts);
         if arguments.json {
             report::json(out, input, &verdicts, &changes)?;
         } else {
             report::text(out, input, &verdicts, &changes)?;
         }
-        let good = |verdict: &Verdict| verdict.value != Value::NotFiniteSolvable;
+        let good = |verdict: &&Verdict| verdict.value != Value::NotFiniteSolvable;
         Ok(if verdicts.iter().all(good) { GOOD } else { NOT })
     };
     let code = arguments

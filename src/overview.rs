@@ -10,7 +10,6 @@ use super::intrinsics;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 use std::cell::OnceCell;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use viewcert::Known;
@@ -19,9 +18,9 @@ use viewcert::geometry::model::Model;
 use viewcert_advice::{Advice, Request, Shapes, foreseen};
 use viewcert_formats::colmap::{Database, DatabaseError};
 use viewcert_formats::error::{Problem, ReadError};
-use viewcert_formats::{NamedGraph, open_database, read_graphs, with_rigs};
+use viewcert_formats::{NamedGraph, ReadOptions, open_database, read_graphs, with_rigs};
 use viewcert_report::Report;
-use viewcert_report::assumptions::{Asked, BaseLines, Scope};
+use viewcert_report::assumptions::{self, BaseLines, Scope};
 use viewcert_report::database::other_mapper;
 use viewcert_report::next::next;
 use viewcert_report::overview::{Overview, Wanted};
@@ -49,6 +48,50 @@ pub(super) struct OverviewArguments {
 
 /// The page in messages.
 const PAGE: &str = "--html";
+
+/// What is asked of inputs, whoever asks.
+pub struct Asked {
+    /// How pairs are read.
+    pub options: ReadOptions,
+    /// How cameras and points are read.
+    pub of_tracks: ReadOptions,
+    /// Whether it was said in how many images a track has to be seen.
+    pub says_views: bool,
+}
+
+impl Asked {
+    /// Decides everything about an input, and calls `say` with what was found. A file with several graphs is
+    /// asked about the first.
+    ///
+    /// # Errors
+    /// If it cannot be read or decided; those of `say`.
+    pub fn of(
+        &self,
+        session: &Session,
+        path: &Path,
+        mut say: impl FnMut(&Overview<'_>) -> Result<()>,
+    ) -> Result<()> {
+        let start = Instant::now();
+        let read = self.inputs(path).next();
+        let read = read.with_context(|| format!("{}: no graph", path.display()))?;
+        let source = source(session, self, path, read)?;
+        let mut say = |found: &Overview<'_>| say(found).map(|()| GOOD);
+        overview(session, self, path, source, start, &mut say).map(drop)
+    }
+
+    fn inputs(&self, path: &Path) -> Inputs {
+        match open_database(path, &self.options) {
+            Some(database) => {
+                let opened = database.map(|database| (database.pairs(), Some(database)));
+                Box::new(std::iter::once(opened))
+            }
+            None => {
+                let graphs = read_graphs(path, &self.options);
+                Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
+            }
+        }
+    }
+}
 
 /// Most suggestions that are looked for.
 const SUGGESTED: u32 = 10;
@@ -78,23 +121,26 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
         ensure!(arguments.inputs.len() == 1, reason);
     }
     let mut out = outputs::text(&[page]);
+    let asked = Asked {
+        options: arguments.input.read_options(),
+        of_tracks: arguments.input.of_tracks(),
+        says_views: arguments.input.min_views.is_some(),
+    };
     let each = |out: &mut _, path: &Path, read: Result<Input, ReadError>, start| {
-        let source = source(session, arguments, path, read)?;
-        overview(session, arguments, path, source, start, out)
-    };
-    let options = arguments.input.read_options();
-    let read = |path: &Path| -> Inputs {
-        match open_database(path, &options) {
-            Some(database) => {
-                let opened = database.map(|database| (database.pairs(), Some(database)));
-                Box::new(std::iter::once(opened))
+        let source = source(session, &asked, path, read)?;
+        overview(session, &asked, path, source, start, &mut |found| {
+            if let Some(file) = page {
+                write_page(session, file, found)?;
             }
-            None => {
-                let graphs = read_graphs(path, &options);
-                Box::new(graphs.map(|graph| graph.map(|graph| (graph, None))))
+            if arguments.json {
+                found.write_json(out)?;
+            } else {
+                found.write(out)?;
             }
-        }
+            Ok(if found.determined() { GOOD } else { NOT })
+        })
     };
+    let read = |path: &Path| asked.inputs(path);
     let code = input::for_each_read(session, &read, &arguments.inputs, &too_many, &mut out, each)?;
     Ok(code)
 }
@@ -102,7 +148,7 @@ pub(super) fn run(session: &Session, arguments: &OverviewArguments) -> Result<u8
 /// Reads the tracks that belong to what was read.
 fn source(
     session: &Session,
-    arguments: &OverviewArguments,
+    asked: &Asked,
     path: &Path,
     read: Result<Input, ReadError>,
 ) -> Result<Source> {
@@ -116,7 +162,7 @@ fn source(
                 error.problem
             );
             session.reading(path);
-            let tracks = read_graphs(path, &arguments.input.of_tracks()).next();
+            let tracks = read_graphs(path, &asked.of_tracks).next();
             session.hide();
             let Some(tracks) = tracks else {
                 bail!("{}: no graph", path.display());
@@ -132,7 +178,7 @@ fn source(
     let tracks = match &database {
         None => Err("this input has pairs alone".to_owned()),
         Some(_) if pairs.graph.edges().is_empty() => Err("no pair is used".to_owned()),
-        Some(database) => read_tracks(session, arguments, path, database, true)?,
+        Some(database) => read_tracks(session, asked, path, database, true)?,
     };
     Ok(Source {
         pairs: Some(pairs),
@@ -145,12 +191,12 @@ fn source(
 /// why there are none in one that has pairs.
 fn read_tracks(
     session: &Session,
-    arguments: &OverviewArguments,
+    asked: &Asked,
     path: &Path,
     database: &Database,
     rigs: bool,
 ) -> Result<Result<NamedGraph, String>> {
-    let mut options = arguments.input.of_tracks().tracks.unwrap_or_default();
+    let mut options = asked.of_tracks.tracks.unwrap_or_default();
     options.rigs &= rigs;
     session.reading(path);
     let tracks = database.tracks(options);
@@ -168,14 +214,14 @@ fn read_tracks(
     }
 }
 
-/// Decides everything about one input that has been read since `start`, and reports.
+/// Decides everything about one input that has been read since `start`, and says it.
 fn overview(
     session: &Session,
-    arguments: &OverviewArguments,
+    wish: &Asked,
     path: &Path,
     mut source: Source,
     start: Instant,
-    out: &mut impl Write,
+    say: &mut dyn FnMut(&Overview<'_>) -> Result<u8>,
 ) -> Result<u8> {
     let decided = |input: &NamedGraph, model: Model| {
         let known = with_rigs(Known::default(), input)?;
@@ -210,7 +256,12 @@ fn overview(
         (None, None) => bail!("{}: neither pairs nor tracks", path.display()),
     };
     let scope = tracks.as_ref().map(|(input, verdict)| {
-        Scope::new(input, verdict, Asked::default(), &session.shown_watch())
+        Scope::new(
+            input,
+            verdict,
+            assumptions::Asked::default(),
+            &session.shown_watch(),
+        )
     });
     let scope = scope.transpose();
     session.hide();
@@ -237,7 +288,7 @@ fn overview(
     let each = match frames {
         // Mappers place images, of which several may be one camera here.
         Some(frames) if !frames.together.is_empty() => match &source.database {
-            Some(database) => read_tracks(session, arguments, path, database, false)?.ok(),
+            Some(database) => read_tracks(session, wish, path, database, false)?.ok(),
             None => None,
         },
         _ => None,
@@ -265,7 +316,7 @@ fn overview(
     };
     let mut found = Overview {
         name: &input.name,
-        notes: notes(arguments, &source),
+        notes: notes(wish.says_views, &source),
         read: &input.read,
         pairs: pairs
             .as_ref()
@@ -288,17 +339,9 @@ fn overview(
         next: Vec::new(),
         time: Duration::ZERO,
     };
-    found.next = next(&arguments.input.of_tracks(), path, &found);
+    found.next = next(&wish.of_tracks, path, &found);
     found.time = start.elapsed();
-    if let Some(file) = &arguments.html {
-        write_page(session, file, &found)?;
-    }
-    if arguments.json {
-        found.write_json(out)?;
-    } else {
-        found.write(out)?;
-    }
-    Ok(if found.determined() { GOOD } else { NOT })
+    say(&found)
 }
 
 /// Writes the page.
@@ -312,7 +355,7 @@ fn write_page(session: &Session, file: &Path, found: &Overview) -> Result<()> {
 }
 
 /// What was merged, ignored or guessed, and where the choice of pairs is not that of both mappers.
-fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
+fn notes(says_views: bool, source: &Source) -> Vec<String> {
     let mut notes = Vec::new();
     let inputs = source.pairs.iter().chain(&source.tracks);
     for note in inputs.flat_map(|input| &input.notes) {
@@ -327,7 +370,7 @@ fn notes(arguments: &OverviewArguments, source: &Source) -> Vec<String> {
     let other = facts.and_then(|facts| other_mapper(facts));
     let other = other.filter(|note| !notes.contains(note));
     notes.extend(other);
-    if arguments.input.min_views.is_some() && source.tracks.is_err() {
+    if says_views && source.tracks.is_err() {
         notes.push("--min-views is ignored: there are no tracks".to_owned());
     }
     notes

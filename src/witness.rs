@@ -8,10 +8,9 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use viewcert::decide::{CountSolutions, Verdict};
 use viewcert::geometry::model::Model;
-use viewcert::solutions::Solutions;
 use viewcert_formats::NamedGraph;
-use viewcert_report::second_scene::{self, SecondScene};
-use viewcert_report::witness_file::{write_second_scene, write_witness};
+use viewcert_report::second_scene::picture;
+use viewcert_report::witness_file::{second, second_scene, write_second_scene, write_witness};
 use viewcert_session::Outputs;
 
 /// Of what, and where to.
@@ -60,15 +59,11 @@ impl WitnessArguments {
     }
 }
 
-/// What came of it.
-pub(super) enum Found {
-    /// The file is there.
-    Written,
-    /// There is nothing to write, for a reason.
-    Nothing(&'static str),
-}
+/// Why a scene that was found is not drawn.
+const TOO_FAR: &str =
+    "the second scene is too far from the first one to be drawn; another --seed may do";
 
-/// Writes a second solution, if one is known.
+/// Writes a second solution, if one is known; otherwise why not.
 ///
 /// # Errors
 /// If the file cannot be written.
@@ -78,25 +73,16 @@ pub(super) fn write(
     input: &NamedGraph,
     verdict: &Verdict,
     (seed, is_oriented): (u64, bool),
-) -> Result<Found> {
-    let Some(count) = &verdict.solutions else {
-        return Ok(Found::Nothing("there are infinitely many solutions"));
-    };
-    if count.is_one() {
-        return Ok(Found::Nothing("there is one solution only"));
-    }
+) -> Result<Result<(), String>> {
     if is_oriented {
-        return write_oriented(outputs, path, input, count.evidence.as_deref());
+        return write_oriented(outputs, path, input, verdict);
     }
-    let witness = count
-        .evidence
-        .as_ref()
-        .and_then(|found| found.witness(&input.graph, seed));
-    let Some(witness) = witness else {
-        return Ok(Found::Nothing("no second solution is known"));
+    let witness = match second(input, verdict, seed) {
+        Ok(witness) => witness,
+        Err(why) => return Ok(Err(why.to_string())),
     };
     outputs.write(path, |out| write_witness(out, input, &witness))?;
-    Ok(Found::Written)
+    Ok(Ok(()))
 }
 
 /// Writes a real second solution, as a picture if the file is to be one.
@@ -104,27 +90,19 @@ fn write_oriented(
     outputs: &Outputs,
     path: &Path,
     input: &NamedGraph,
-    evidence: Option<&Solutions>,
-) -> Result<Found> {
-    let Some(oriented) = evidence.and_then(|found| found.oriented.as_ref()) else {
-        return Ok(Found::Nothing(
-            "real solutions are looked for where there are two to eight, known exactly, of one core",
-        ));
-    };
-    let Some(second) = SecondScene::of(oriented) else {
-        return Ok(Found::Nothing(
-            "no second scene in front of its cameras was found; another --seed may find one",
-        ));
+    verdict: &Verdict,
+) -> Result<Result<(), String>> {
+    let second = match second_scene(verdict) {
+        Ok(second) => second,
+        Err(why) => return Ok(Err(why.to_string())),
     };
     if path.extension().is_some_and(|extension| extension == "svg") {
-        let Some(picture) = second_scene::picture(input, &second) else {
-            return Ok(Found::Nothing(
-                "the second scene is too far from the first one to be drawn; another --seed may do",
-            ));
+        let Some(picture) = picture(input, &second) else {
+            return Ok(Err(TOO_FAR.to_owned()));
         };
         outputs.write(path, |out| out.write_all(picture.as_bytes()))?;
     } else {
         outputs.write(path, |out| write_second_scene(out, input, &second))?;
     }
-    Ok(Found::Written)
+    Ok(Ok(()))
 }

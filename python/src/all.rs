@@ -3,7 +3,7 @@
 use crate::decided::{Decided, Wanted};
 use crate::errors::of_deciding;
 use crate::graph::Graph;
-use crate::work::{self, Told};
+use crate::work::{self, Job, Told};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -36,9 +36,9 @@ pub(crate) fn decide_all(
     let wanted = Arc::new(wanted);
     let inputs: Vec<Arc<NamedGraph>> = graphs.iter().map(|g| Arc::clone(&g.get().0)).collect();
     let threads = work::threads_of(threads)?;
-    let watch = work::watch(time_limit, memory_limit)?;
-    let told = Arc::new(Told::expecting("graphs", inputs.len() as u64));
-    let (teller, stop, asked) = (Arc::clone(&told), watch.clone(), Arc::clone(&wanted));
+    let told = Told::expecting("graphs", inputs.len() as u64);
+    let job = Job::within(py, (time_limit, memory_limit), progress, told)?;
+    let (teller, stop, asked) = (job.told(), job.unobserved(), Arc::clone(&wanted));
     let decide = move |input: Arc<NamedGraph>| -> (Arc<NamedGraph>, Result<_, Problem>, Duration) {
         let start = Instant::now();
         let known = with_rigs(Known::Parts(KnownParts::default()), &input);
@@ -51,8 +51,7 @@ pub(crate) fn decide_all(
         teller.counted("graphs", 1);
         (input, decided, start.elapsed())
     };
-    let progress = progress.as_ref().map(|callback| (callback, &*told));
-    let found: Vec<(_, Result<Verdict, _>, _)> = work::run(py, &watch, progress, move || {
+    let found: Vec<(_, Result<Verdict, _>, _)> = job.run(py, move || {
         threads.install(|| inputs.into_par_iter().map(decide).collect())
     })?;
     found

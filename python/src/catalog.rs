@@ -1,21 +1,27 @@
 //! The catalog: certified entries one by one, and shards.
 
 use crate::errors::{InputError, of_any, of_deciding};
-use crate::work;
-use anyhow::bail;
+use crate::work::{self, Job, Told};
+use anyhow::{Context, bail};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use viewcert::graph::graph6;
 use viewcert::linalg::prime::DEFAULT_PRIME;
-use viewcert::watch::{Limits, Watch};
-use viewcert::{Graph, Options, VerdictError};
+use viewcert::watch::Watch;
+use viewcert::{Graph, Options, Value, VerdictError};
 use viewcert_catalog::label::{Label, greatest};
 use viewcert_catalog::mine::{COLUMNS, Entry};
 use viewcert_catalog::source::{Certified, Decided};
-use viewcert_catalog::{Settings, Source};
+use viewcert_catalog::verdict_files::{Blocks, KERNELS};
+use viewcert_catalog::work::Listener;
+use viewcert_catalog::{Settings, Shard, Source, Work};
+use viewcert_report::table;
+use viewcert_session::{Outputs, Progress};
 
 /// Candidates that are decided together.
 const BATCH: usize = 256;
@@ -50,12 +56,13 @@ impl Candidates {
     /// Begins the work.
     #[new]
     #[pyo3(signature = (
-        nodes, *, edges=None, necessary=false, minimal=false, solutions=false, prime=None, seed=1
+        nodes=None, *, from_file=None, edges=None, necessary=false, minimal=false, solutions=false, prime=None, seed=1
     ))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         py: Python<'_>,
-        nodes: usize,
+        nodes: Option<usize>,
+        from_file: Option<PathBuf>,
         edges: Option<usize>,
         necessary: bool,
         minimal: bool,
@@ -63,13 +70,13 @@ impl Candidates {
         prime: Option<u64>,
         seed: u64,
     ) -> PyResult<Self> {
-        let watch = Watch::new(Limits::default());
+        let watch = Job::new(py)?.unobserved();
         let options = settings(solutions, prime, seed)
             .options(watch.clone())
             .map_err(|error| of_any(&error))?;
         // What cannot be asked for is refused now and not by the first entry.
         let source = py
-            .detach(|| source(nodes, edges, necessary, minimal))
+            .detach(|| source_of(nodes, from_file, (edges, necessary, minimal)))
             .map_err(|error| of_any(&error))?;
         let threads = work::threads()?;
         let (sender, batches) = sync_channel(AHEAD);
@@ -159,6 +166,26 @@ pub(crate) fn source(
     Source::minimal(nodes)
 }
 
+/// The same, or a file with a graph a line.
+fn source_of(
+    nodes: Option<usize>,
+    from_file: Option<PathBuf>,
+    (edges, necessary, minimal): (Option<usize>, bool, bool),
+) -> anyhow::Result<Source> {
+    match (nodes, from_file) {
+        (Some(nodes), None) => source(nodes, edges, necessary, minimal),
+        (None, Some(path)) if edges.is_none() && !necessary && !minimal => {
+            Ok(Source::File { path })
+        }
+        (None, Some(_)) => {
+            bail!(
+                "from_file: its graphs are the candidates: leave out edges, necessary and minimal"
+            )
+        }
+        _ => bail!("give either the number of nodes or a file, from_file"),
+    }
+}
+
 pub(crate) fn settings(solutions: bool, prime: Option<u64>, seed: u64) -> Settings {
     Settings {
         solutions,
@@ -217,4 +244,190 @@ pub(crate) fn label_graph6(label: &str) -> PyResult<String> {
     let parsed: Result<Label, _> = label.parse();
     let parsed = parsed.map_err(|error| InputError::new_err(format!("{label}: {error}")))?;
     Ok(graph6::encode(&parsed.graph()))
+}
+
+/// What is counted of all candidates: a `dict` of arguments in Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Counted {
+    nodes: Option<usize>,
+    from_file: Option<PathBuf>,
+    edges: Option<usize>,
+    necessary: bool,
+    minimal: bool,
+    solutions: bool,
+    verdicts: bool,
+    listed: bool,
+    prime: Option<u64>,
+    seed: u64,
+    threads: Option<usize>,
+}
+
+/// The counts of a size, by their names.
+#[pyclass(frozen, get_all, module = "viewcert._native")]
+pub(crate) struct Census {
+    /// What was counted, in words.
+    name: String,
+    /// How many graphs have which answer.
+    counts: BTreeMap<&'static str, u64>,
+    /// How many have each number of solutions, or bounds for it.
+    solutions: BTreeMap<String, u64>,
+    /// With `verdicts` the digest of the set of finite-solvable graphs.
+    digest: Option<String>,
+    /// With `listed` the finite-solvable graphs, as graph6.
+    listed: Option<Vec<String>>,
+    /// Lines of a file that are no graphs, and why.
+    malformed: Vec<String>,
+    /// The table of the program.
+    table: String,
+}
+
+/// Decides all candidates of a size, or of a file, and counts them.
+#[pyfunction]
+#[pyo3(signature = (counted, *, progress=None))]
+pub(crate) fn census(
+    py: Python<'_>,
+    counted: Counted,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Census> {
+    let threads = work::threads_of(counted.threads)?;
+    let job = Job::within(py, (None, None), progress, Told::default())?;
+    let (stop, told) = (job.unobserved(), job.told());
+    let work = move || {
+        let (of_size, path) = (
+            (counted.edges, counted.necessary, counted.minimal),
+            counted.from_file.clone(),
+        );
+        let source = source_of(counted.nodes, path, of_size)?;
+        let teller = told.clone();
+        let what = match counted.verdicts {
+            true => "kernels",
+            false => "candidates",
+        };
+        let progress = Progress::to(Box::new(move |more| teller.counted(what, more)));
+        let settings = settings(counted.solutions, counted.prime, counted.seed);
+        let options = settings.options(stop.clone())?;
+        if counted.verdicts {
+            let blocks = Blocks::new(&source, counted.seed, KERNELS, Shard::default(), None);
+            let blocks = blocks.context("verdicts are counted of candidates of a size")?;
+            told.expects(what, blocks.kernels());
+            return of_verdicts(&source, &blocks, &options, &progress, counted.listed);
+        }
+        if let Some(total) = source.total() {
+            told.expects(what, total);
+        }
+        of_entries(&source, settings, stop, progress, &counted)
+    };
+    let found: anyhow::Result<Census> = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// Counts finite-solvable candidates alone.
+fn of_verdicts(
+    source: &Source,
+    blocks: &Blocks<'_>,
+    options: &Options,
+    progress: &Progress,
+    listed: bool,
+) -> anyhow::Result<Census> {
+    let mut lines = Vec::new();
+    let mut take = |more: Vec<String>| {
+        lines.extend(more);
+        Ok(())
+    };
+    let list: Option<&mut dyn FnMut(Vec<String>) -> anyhow::Result<()>> = match listed {
+        true => Some(&mut take),
+        false => None,
+    };
+    let tally = blocks.count(options, &Outputs::default(), progress, &mut |_| (), list)?;
+    let counts = [
+        ("candidates", tally.candidates),
+        ("finite_solvable", tally.count_finite_solvable()),
+        ("contracted", tally.unique),
+        ("refuted", tally.refuted()),
+        ("by_one_block", tally.by_one_block),
+        ("by_blocks", tally.by_blocks),
+        ("otherwise", tally.otherwise),
+        ("unproved", tally.unproved.len() as u64),
+    ];
+    let digest = Some(tally.finite_solvable.to_string());
+    let row = table::VerdictRow {
+        name: source.name(),
+        tally,
+        seconds: None,
+    };
+    let mut out = Vec::new();
+    table::write_verdicts(&mut out, &[row])?;
+    Ok(Census {
+        name: source.name(),
+        counts: counts.into(),
+        solutions: BTreeMap::new(),
+        digest,
+        listed: listed.then_some(lines),
+        malformed: Vec::new(),
+        table: String::from_utf8(out)?,
+    })
+}
+
+/// Decides every candidate whole.
+fn of_entries(
+    source: &Source,
+    settings: Settings,
+    stop: Watch,
+    progress: Progress,
+    counted: &Counted,
+) -> anyhow::Result<Census> {
+    let (mut solutions, mut lines, mut malformed) = (BTreeMap::new(), Vec::new(), Vec::new());
+    let work = Work {
+        source,
+        settings,
+        shard: Shard::default(),
+        files: None,
+    };
+    let listener = Listener {
+        entry: &mut |entry| {
+            if let Some(words) = entry.solutions_in_words().filter(|_| counted.solutions) {
+                *solutions.entry(words).or_default() += 1;
+            }
+            if counted.listed && entry.value != Value::NotFiniteSolvable {
+                let [graph6, ..] = entry.cells();
+                lines.push(graph6);
+            }
+            Ok(())
+        },
+        malformed: &mut |error| {
+            malformed.push(format!("{error:#}"));
+            Ok(())
+        },
+        note: &mut |_| (),
+        progress,
+    };
+    let summary = work.run(&Outputs::default(), stop, listener)?;
+    let counts = [
+        ("candidates", summary.candidates),
+        ("finite_solvable", summary.finite_solvable()),
+        ("contracted", summary.unique),
+        ("refuted", summary.refuted),
+        ("by_a_hub", summary.hub),
+        ("unproved", summary.unproved),
+        ("rank_proved", summary.rank_proved),
+        ("components_proved", summary.components_proved),
+    ];
+    let row = table::Row {
+        name: source.name(),
+        summary,
+        solutions: solutions.clone(),
+        seconds: None,
+    };
+    let mut out = Vec::new();
+    table::write(&mut out, &[row])?;
+    Ok(Census {
+        name: source.name(),
+        counts: counts.into(),
+        solutions,
+        digest: None,
+        listed: counted.listed.then_some(lines),
+        malformed,
+        table: String::from_utf8(out)?,
+    })
 }

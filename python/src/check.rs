@@ -3,7 +3,7 @@
 use crate::decided::{known_displacements, of_words};
 use crate::errors::{InputError, of_any, of_checking};
 use crate::graph::Graph;
-use crate::work;
+use crate::work::{self, Job};
 use anyhow::Context;
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,6 @@ use viewcert::Known;
 use viewcert::certificate::hex;
 use viewcert::graph::{Displacements, sha256};
 use viewcert::intrinsics::Sensors;
-use viewcert::watch::Watch;
 use viewcert_check::{
     BaseLines, Certificate, Failure, IntrinsicsCertificate, Limits, Strength, Unreadable,
 };
@@ -172,7 +171,7 @@ pub(crate) fn check(
     };
     let limits = limits(max_operations);
     let threads = work::threads()?;
-    let checked = work::run(py, &Watch::default(), None, move || {
+    let checked = Job::new(py)?.run(py, move || {
         let certificate = Certificate::parse(&certificate).map_err(Problem::Failure)?;
         let graph = match given {
             Given::Held => None,
@@ -259,7 +258,7 @@ pub(crate) fn checked<T: Send + 'static>(
     let input = graph.map(|graph| Arc::clone(&graph.0));
     let limits = limits(max_operations);
     let threads = work::threads()?;
-    let checked = work::run(py, &Watch::default(), None, move || {
+    let checked = Job::new(py)?.run(py, move || {
         let graph = input.map(|input| for_checker(&input)).transpose()?;
         let checked = threads.install(|| check(graph.as_ref(), &limits));
         checked.map_err(Problem::Failure)

@@ -2,8 +2,7 @@
 
 use crate::errors::{InputError, of_any, of_deciding};
 use crate::graph::Graph;
-use crate::work;
-use crate::work::Told;
+use crate::work::{self, Job, Told};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -143,7 +142,7 @@ fn with_vectors(
 }
 
 /// What is asked of graphs beside what is known of one: a `dict` in Python.
-#[derive(FromPyObject)]
+#[derive(Clone, FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Wanted {
     model: String,
@@ -157,6 +156,14 @@ pub(crate) struct Wanted {
 }
 
 impl Wanted {
+    /// The same of another model.
+    pub(crate) fn of_model(&self, model: &str) -> Self {
+        Self {
+            model: model.to_owned(),
+            ..self.clone()
+        }
+    }
+
     /// The same as options of the library.
     ///
     /// # Errors
@@ -228,12 +235,7 @@ pub(crate) fn decide(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Decided> {
     let wrong = |error: &dyn std::fmt::Display| InputError::new_err(error.to_string());
-    let watch = work::watch(time_limit, memory_limit)?;
-    let told = Arc::new(Told::default());
-    let watched = match &progress {
-        Some(_) => watch.observed(told.clone()),
-        None => watch.clone(),
-    };
+    let job = Job::within(py, (time_limit, memory_limit), progress, Told::default())?;
     let nodes = graph.0.graph.nodes() as u32;
     let known = NamedParts::of_nodes(nodes, parts.unwrap_or_default());
     let known = known.map_err(|error| wrong(&format!("parts: {error}")))?;
@@ -250,16 +252,13 @@ pub(crate) fn decide(
         Known::Displacements(displacements)
     };
     let known = with_rigs(known, &input).map_err(|error| wrong(&error))?;
-    let options = wanted.options(known, watched);
+    let options = wanted.options(known, job.watch());
     let options = options.map_err(|why| wrong(&why))?;
     let (decided, threads) = (Arc::clone(&input), work::threads()?);
     let start = Instant::now();
-    let decided = work::run(
-        py,
-        &watch,
-        progress.as_ref().map(|callback| (callback, &*told)),
-        move || threads.install(|| viewcert::decide(&decided.graph, &options)),
-    )?;
+    let decided = job.run(py, move || {
+        threads.install(|| viewcert::decide(&decided.graph, &options))
+    })?;
     let verdict = decided.map_err(|error| of_deciding(&error))?;
     Ok(Decided::new(input, verdict, &wanted, start.elapsed()))
 }
@@ -275,13 +274,13 @@ pub(crate) fn written(report: &Report<'_>, kind: &str) -> anyhow::Result<Vec<u8>
     Ok(text)
 }
 
-/// What some work under a watch answers.
+/// What some work answers.
 pub(crate) fn bytes_of<'py>(
     py: Python<'py>,
-    watch: &Watch,
+    job: &Job,
     work: impl FnOnce() -> anyhow::Result<Vec<u8>> + Send + 'static,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let answered = work::run(py, watch, None, work)?;
+    let answered = job.run(py, work)?;
     let bytes = answered.map_err(|error| of_any(&error))?;
     Ok(PyBytes::new(py, &bytes))
 }
@@ -382,11 +381,11 @@ impl Decided {
         embed_graph: bool,
         compact: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let watch = work::watch(None, None)?;
+        let job = Job::new(py)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (threads, stop) = (work::threads()?, watch.clone());
+        let (threads, stop) = (work::threads()?, job.watch());
         let asked = move || assumptions::base_lines(&input, &verdict, &stop);
-        let base_lines = work::run(py, &watch, None, move || threads.install(asked))?;
+        let base_lines = job.run(py, move || threads.install(asked))?;
         let base_lines = base_lines.map_err(|stopped| of_any(&stopped.into()))?;
         let written = py.detach(|| -> std::io::Result<Vec<u8>> {
             let certificate = self.verdict.certificate(&self.input.graph);
@@ -415,11 +414,11 @@ impl Decided {
         embed_graph: bool,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let sensors = Sensors::new(sensors, self.classes(&classes)?);
-        let watch = work::watch(None, None)?;
+        let job = Job::new(py)?;
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let (threads, stop, seed) = (work::threads()?, watch.clone(), self.seed);
+        let (threads, stop, seed) = (work::threads()?, job.watch(), self.seed);
         let asked = move || Certified::new(&input.graph, &verdict, &sensors, seed, &stop);
-        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let found = job.run(py, move || threads.install(asked))?;
         let found = found.map_err(|stopped| of_any(&stopped.into()))?;
         let none = || InputError::new_err("a graph without pairs has no certificate of intrinsics");
         let found = found.ok_or_else(none)?;
@@ -484,9 +483,9 @@ impl Decided {
             export,
         };
         let ((asked, rational, time), seed) = (self.asked(), self.seed);
-        let watch = work::watch(None, None)?;
+        let job = Job::new(py)?;
         let (input, verdict) = self.answer();
-        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
+        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             request.check(&[], &[])?;
             request.check_input(&input)?;
@@ -520,16 +519,13 @@ impl Decided {
             };
             written(&report, &kind)
         };
-        bytes_of(py, &watch, move || threads.install(answer))
+        bytes_of(py, &job, move || threads.install(answer))
     }
 
     /// The graph with its components in colours, as SVG.
     fn picture(&self, py: Python<'_>) -> PyResult<String> {
         let (input, verdict) = (Arc::clone(&self.input), Arc::clone(&self.verdict));
-        let watch = Watch::default();
-        work::run(py, &watch, None, move || {
-            viewcert_report::picture(&input, &verdict)
-        })
+        work::run(py, move || viewcert_report::picture(&input, &verdict))
     }
 
     /// Writes a file whole or not at all.

@@ -1,7 +1,7 @@
 //! Graphs: from arrays, and from files.
 
 use crate::errors::{InputError, of_reading};
-use crate::work;
+use crate::work::{self, Job};
 use numpy::ndarray::ArrayView2;
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -10,7 +10,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use viewcert::certificate::hex;
 use viewcert::graph::{Labels, sha256};
-use viewcert::watch::Watch;
 use viewcert_formats::colmap::Pipeline;
 use viewcert_formats::{
     ListOptions, NamedGraph, ReadError, ReadOptions, TrackOptions, pairs, read_graphs,
@@ -129,7 +128,7 @@ pub(crate) fn graph_of_integers(
     graph(if small {
         py.detach(build)
     } else {
-        work::run(py, &Watch::default(), None, build)?
+        work::run(py, build)?
     })
 }
 
@@ -233,7 +232,7 @@ pub(crate) fn graph_of_nodes(
     graph(if small {
         py.detach(build)
     } else {
-        work::run(py, &Watch::default(), None, build)?
+        work::run(py, build)?
     })
 }
 
@@ -277,7 +276,7 @@ pub(crate) fn read(
             rigs,
         )?
     };
-    let read = work::run(py, &Watch::default(), None, move || {
+    let read = Job::new(py)?.run(py, move || {
         read_graphs(path, &options).collect::<Result<Vec<_>, _>>()
     })?;
     match read {
@@ -290,7 +289,7 @@ pub(crate) fn read(
 }
 
 /// The options of the readers; `min_views` asks for tracks.
-fn read_options(
+pub(crate) fn read_options(
     format: Option<&str>,
     variable: Option<String>,
     pipeline: Option<&str>,
@@ -326,7 +325,7 @@ fn read_options(
 }
 
 /// The options of lists.
-fn list_options(
+pub(crate) fn list_options(
     columns: Option<&str>,
     min_weight: Option<&str>,
     skip_loops: bool,

@@ -4,7 +4,7 @@ use crate::check::{checked, of_strength};
 use crate::decided::{Decided, bytes_of, written};
 use crate::errors::{InputError, Rejected, of_any, of_deciding, of_reading};
 use crate::graph::Graph;
-use crate::work;
+use crate::work::{self, Job};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use viewcert::here::{Centres, Here, HereError, Special, here};
 use viewcert::linalg::rational::Rational;
 use viewcert_advice::Advice;
 use viewcert_check::HereCertificate;
-use viewcert_formats::{cameras_beside, centre_error};
+use viewcert_formats::{NamedGraph, cameras_beside, centre_error};
 use viewcert_report::Report;
 use viewcert_report::assumptions::Scope;
 use viewcert_report::here::HereReport;
@@ -65,10 +65,7 @@ impl Cameras {
     fn in_file(py: Python<'_>, graph: &Graph, model: &str, path: PathBuf) -> PyResult<Self> {
         let (input, model) = (Arc::clone(&graph.0), of_name(model)?);
         let shown = path.display().to_string();
-        let watch = work::watch(None, None)?;
-        let found = work::run(py, &watch, None, move || {
-            cameras_beside(&path, &input, model)
-        })?;
+        let found = Job::new(py)?.run(py, move || cameras_beside(&path, &input, model))?;
         let none = || InputError::new_err(format!("{shown}: there are no cameras in it"));
         let found = found
             .map_err(|error| of_reading(&error))?
@@ -123,6 +120,14 @@ type Velocity = [String; 3];
 /// A set of nodes in a special place, and what place that is.
 type SpecialSet = (&'static str, Vec<u32>);
 
+impl AtCameras {
+    /// The graph, its cameras, and what is determined there.
+    pub(crate) fn found(&self) -> (Arc<NamedGraph>, Arc<Centres>, Arc<Here>) {
+        let (input, _) = self.decided.get().answer();
+        (input, Arc::clone(&self.centres), Arc::clone(&self.here))
+    }
+}
+
 #[pymethods]
 impl AtCameras {
     /// Decides the graph of a verdict there.
@@ -134,11 +139,11 @@ impl AtCameras {
                 "cameras: nothing else may be given beside them; decide the graph without known parts and displacements",
             ));
         }
-        let (centres, watch) = (Arc::clone(&cameras.centres), work::watch(None, None)?);
-        let (threads, at, stop) = (work::threads()?, Arc::clone(&centres), watch.clone());
+        let (centres, job) = (Arc::clone(&cameras.centres), Job::new(py)?);
+        let (threads, at, stop) = (work::threads()?, Arc::clone(&centres), job.watch());
         let graph = Arc::clone(&input);
         let asked = move || here(&graph.graph, &at, &stop);
-        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let found = job.run(py, move || threads.install(asked))?;
         let here = found.map_err(|error| match error {
             HereError::Centre(error) => {
                 InputError::new_err(format!("cameras: {}", centre_error(error, &input)))
@@ -162,11 +167,11 @@ impl AtCameras {
     /// For each motion of a basis the velocity of the centre of each node, if it has one in space; nothing
     /// where motions are not listed.
     fn velocities(&self, py: Python<'_>) -> PyResult<Option<Vec<Vec<Option<Velocity>>>>> {
-        let watch = work::watch(None, None)?;
-        let (here, centres, stop) = (self.here.clone(), self.centres.clone(), watch.clone());
+        let job = Job::new(py)?;
+        let (here, centres, stop) = (self.here.clone(), self.centres.clone(), job.watch());
         let threads = work::threads()?;
         let asked = move || here.basis_of_motions(&centres, &stop);
-        let found = work::run(py, &watch, None, move || threads.install(asked))?;
+        let found = job.run(py, move || threads.install(asked))?;
         let found = found.map_err(|stopped| of_any(&stopped.into()))?;
         let texts = |velocity: &Option<[Rational; 3]>| {
             velocity
@@ -208,8 +213,8 @@ impl AtCameras {
         let (input, verdict) = decided.answer();
         let (asked, rational, time) = decided.asked();
         let (here, centres) = (self.here.clone(), self.centres.clone());
-        let watch = work::watch(None, None)?;
-        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), watch.clone());
+        let job = Job::new(py)?;
+        let (threads, kind, stop) = (work::threads()?, kind.to_owned(), job.watch());
         let answer = move || -> anyhow::Result<Vec<u8>> {
             let motions = match &kind[..] {
                 "html" => here.basis_of_motions(&centres, &stop)?.unwrap_or_default(),
@@ -234,7 +239,7 @@ impl AtCameras {
             };
             written(&report, &kind)
         };
-        bytes_of(py, &watch, move || threads.install(answer))
+        bytes_of(py, &job, move || threads.install(answer))
     }
 }
 

@@ -10,12 +10,16 @@ mod catalog;
 mod check;
 mod decided;
 mod errors;
+mod files;
 mod graph;
 mod here;
 mod kept;
+mod matrices;
 mod places;
 mod program;
+mod scenes;
 mod shards;
+mod studies;
 mod work;
 
 use pyo3::prelude::*;
@@ -26,11 +30,13 @@ mod _native {
     #[pymodule_export]
     use super::all::decide_all;
     #[pymodule_export]
-    use super::catalog::{Candidates, label, label_graph6};
+    use super::catalog::{Candidates, Census, census, label, label_graph6};
     #[pymodule_export]
     use super::check::{Verified, VerifiedIntrinsics, check, check_intrinsics};
     #[pymodule_export]
     use super::decided::{Decided, decide};
+    #[pymodule_export]
+    use super::files::{Archive, check_all, lists, overview};
     #[pymodule_export]
     use super::graph::{Graph, graph_of_integers, graph_of_nodes, read};
     #[pymodule_export]
@@ -38,11 +44,20 @@ mod _native {
     #[pymodule_export]
     use super::kept::{about_graph, graph_kept, same_graph};
     #[pymodule_export]
+    use super::matrices::rigidity_matrix;
+    #[pymodule_export]
     use super::places::{component_of_pairs, pairs_among};
     #[pymodule_export]
     use super::program::{run_checker, run_verify};
     #[pymodule_export]
+    use super::scenes::{drawing, witness};
+    #[pymodule_export]
     use super::shards::{catalog_merge, catalog_shard};
+    #[pymodule_export]
+    use super::studies::{
+        Claims, audit, audit_at_cameras, formulations, models, of_conditions, singular_value,
+        tolerances,
+    };
 
     use super::*;
 

@@ -9,7 +9,6 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2}
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
-use viewcert::watch::Watch;
 
 /// For every node the components that hold it, increasing: those of node v are
 /// `lists[starts[v]..starts[v + 1]]`.
@@ -102,7 +101,7 @@ pub(crate) fn component_of_pairs<'py>(
     let (members, ends) = (members.as_array().to_vec(), ends.as_array().to_vec());
     let asked: Option<Vec<(u32, u32)>> = pairs.and_then(|pairs| all(&pairs.as_array()));
     let threads = work::threads()?;
-    let found = work::run(py, &Watch::default(), None, move || {
+    let found = work::run(py, move || {
         threads.install(|| {
             let nodes = input.graph.nodes();
             let holders = Holders::new(nodes, &members, &ends);

@@ -2,12 +2,12 @@
 
 use crate::catalog::{settings, source};
 use crate::errors::{InputError, Rejected, of_any};
-use crate::work::{self, Told};
+use crate::work::{self, Job, Told};
 use anyhow::Context;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
-use viewcert::watch::{Limits, Watch};
+use viewcert::watch::Watch;
 use viewcert_catalog::shard_files::CANDIDATES;
 use viewcert_catalog::verdict_files::{Blocks, KERNELS};
 use viewcert_catalog::work::Listener;
@@ -100,25 +100,16 @@ pub(crate) fn catalog_shard(
     prepare: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Vec<String>> {
-    let watch = Watch::new(Limits::default());
-    let (told, stop) = (Arc::new(Told::default()), watch.clone());
+    let job = Job::within(py, (None, None), progress, Told::default())?;
     let threads = work::threads_of(share.threads)?;
-    let (teller, what) = (
-        told.clone(),
-        format!("shard {}/{}", share.index, share.count),
-    );
+    let (teller, what) = (job.told(), format!("shard {}/{}", share.index, share.count));
     let notes = Arc::new(Mutex::new(Vec::new()));
-    let noted = notes.clone();
-    let done = work::run(
-        py,
-        &watch,
-        progress.as_ref().map(|callback| (callback, &*told)),
-        move || {
-            let tell = Progress::to(Box::new(move |more| teller.counted(&what, more)));
-            let mut note = |words| lock(&noted).push(words);
-            threads.install(|| share.run(stop, tell, prepare, &mut note))
-        },
-    )?;
+    let (noted, stop) = (notes.clone(), job.unobserved());
+    let done = job.run(py, move || {
+        let tell = Progress::to(Box::new(move |more| teller.counted(&what, more)));
+        let mut note = |words| lock(&noted).push(words);
+        threads.install(|| share.run(stop, tell, prepare, &mut note))
+    })?;
     done.map_err(|error| of_any(&error))?;
     let notes = std::mem::take(&mut *lock(&notes));
     Ok(notes)
@@ -140,13 +131,8 @@ pub(crate) fn catalog_merge(
 ) -> PyResult<String> {
     let sample = recheck.map(str::parse::<Sample>).transpose();
     let sample = sample.map_err(|why| InputError::new_err(format!("recheck: {why}")))?;
-    let watch = Watch::new(Limits::default());
-    let (told, stop, threads) = (
-        Arc::new(Told::default()),
-        watch.clone(),
-        work::threads_of(threads)?,
-    );
-    let teller = told.clone();
+    let job = Job::within(py, (None, None), progress, Told::default())?;
+    let (teller, stop, threads) = (job.told(), job.unobserved(), work::threads_of(threads)?);
     let work = move || -> anyhow::Result<(String, bool)> {
         let tell = Progress::to(Box::new(move |more| teller.counted("recheck", more)));
         let recheck = sample.map(|sample| Recheck {
@@ -160,8 +146,7 @@ pub(crate) fn catalog_merge(
         table::write_merged(&mut out, merged)?;
         Ok((String::from_utf8(out)?, agrees))
     };
-    let callback = progress.as_ref().map(|callback| (callback, &*told));
-    let (table, agrees) = work::run(py, &watch, callback, work)?.map_err(|error| of_any(&error))?;
+    let (table, agrees) = job.run(py, work)?.map_err(|error| of_any(&error))?;
     if agrees {
         Ok(table)
     } else {

@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use viewcert::watch::{Limits, Observer, Stage, Watch};
+use viewcert::watch::{Limits, Observer, Reason, Stage, Watch};
 
 /// Time between two looks for signals.
 const TICK: Duration = Duration::from_millis(50);
@@ -24,67 +24,141 @@ const GRACE: Duration = Duration::from_millis(500);
 /// Most stages that are remembered until the callback is told.
 const REMEMBERED: usize = 1000;
 
-/// A watch within limits. `memory` is in bytes; by default it is the program's.
-pub(crate) fn watch(seconds: Option<f64>, memory: Option<u64>) -> PyResult<Watch> {
-    let time = seconds.map(Duration::try_from_secs_f64).transpose();
-    let time = time.map_err(|_| {
-        let seconds = seconds.unwrap_or_default();
-        InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
-    })?;
-    Ok(Watch::new(Limits {
-        deadline: time.and_then(|time| Instant::now().checked_add(time)),
-        memory: memory.or_else(viewcert_session::default_memory_limit),
-    }))
+/// What one call of a user does: within limits, and telling a callback how far it is.
+pub(crate) struct Job {
+    watch: Watch,
+    told: Arc<Told>,
+    progress: Option<Py<PyAny>>,
 }
 
-/// Does `work` under the watch. `progress`, if there is one, is called on this thread with what is
-/// being done, how many units of it are done, and how many there are (0 if that is not known).
-///
-/// # Errors
-/// KeyboardInterrupt and what else a signal or the callback raises; a panic of `work` as
-/// RuntimeError.
-pub(crate) fn run<T: Send + 'static>(
-    py: Python<'_>,
-    watch: &Watch,
-    progress: Option<(&Py<PyAny>, &Told)>,
-    work: impl FnOnce() -> T + Send + 'static,
-) -> PyResult<T> {
-    let (sender, receiver) = channel();
-    let spawned = std::thread::Builder::new().spawn(move || {
-        // Nobody waits any more for work that was left to itself.
-        let _ = sender.send(work());
-    });
-    spawned.map_err(|error| PyOSError::new_err(error.to_string()))?;
-    let receiver = Mutex::new(receiver);
-    let wait = |time| py.detach(|| unpoisoned(&receiver).recv_timeout(time));
-    let look = || {
-        py.check_signals()?;
-        match progress {
-            Some((callback, told)) => told.tell(py, callback),
-            None => Ok(()),
+impl Job {
+    /// Within what `viewcert.limits` says where the call stands; without that, the program's limit of memory.
+    ///
+    /// # Errors
+    /// Limits that cannot be.
+    pub(crate) fn new(py: Python<'_>) -> PyResult<Self> {
+        Self::within(py, (None, None), None, Told::default())
+    }
+
+    /// The same, with the arguments of the call before that: seconds and bytes, a callback, and what is told
+    /// of the work beforehand.
+    ///
+    /// # Errors
+    /// As there.
+    pub(crate) fn within(
+        py: Python<'_>,
+        (seconds, memory): (Option<f64>, Option<u64>),
+        progress: Option<Py<PyAny>>,
+        told: Told,
+    ) -> PyResult<Self> {
+        let around = py.import("viewcert._limits")?.getattr("around")?.call0()?;
+        let around: (Option<f64>, Option<u64>, Option<Py<PyAny>>) = around.extract()?;
+        let seconds = seconds.or(around.0);
+        let time = seconds.map(Duration::try_from_secs_f64).transpose();
+        let time = time.map_err(|_| {
+            let seconds = seconds.unwrap_or_default();
+            InputError::new_err(format!("time_limit={seconds}: give seconds, 0 or more"))
+        })?;
+        let memory = memory.or(around.1);
+        Ok(Self {
+            watch: Watch::new(Limits {
+                deadline: time.and_then(|time| Instant::now().checked_add(time)),
+                memory: memory.or_else(viewcert_session::default_memory_limit),
+            }),
+            told: Arc::new(told),
+            progress: progress.or(around.2),
+        })
+    }
+
+    /// The watch for the work, which tells the callback of its stages.
+    pub(crate) fn watch(&self) -> Watch {
+        match self.progress {
+            Some(_) => self.watch.observed(self.told.clone()),
+            None => self.watch.clone(),
         }
-    };
-    loop {
-        match wait(TICK) {
-            Ok(done) => {
-                look()?;
-                return Ok(done);
+    }
+
+    /// The same for work whose units are counted by whoever does it.
+    pub(crate) fn unobserved(&self) -> Watch {
+        self.watch.clone()
+    }
+
+    /// What the callback is told.
+    pub(crate) fn told(&self) -> Arc<Told> {
+        Arc::clone(&self.told)
+    }
+
+    /// Does `work`. The callback, if there is one, is called on this thread with what is being done, how many
+    /// units of it are done, and how many there are (0 if that is not known).
+    ///
+    /// # Errors
+    /// KeyboardInterrupt and what else a signal or the callback raises; a panic of `work` as
+    /// RuntimeError; TooLarge if the time is over and the work does not end by itself.
+    pub(crate) fn run<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let (sender, receiver) = channel();
+        let spawned = std::thread::Builder::new().spawn(move || {
+            // Nobody waits any more for work that was left to itself.
+            let _ = sender.send(work());
+        });
+        spawned.map_err(|error| PyOSError::new_err(error.to_string()))?;
+        let receiver = Mutex::new(receiver);
+        let wait = |time| py.detach(|| unpoisoned(&receiver).recv_timeout(time));
+        let look = || {
+            py.check_signals()?;
+            match &self.progress {
+                Some(callback) => self.told.tell(py, callback),
+                None => Ok(()),
             }
-            Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err(
-                    "internal error: the message is on standard error",
-                ));
-            }
-            Err(RecvTimeoutError::Timeout) => {
-                if let Err(error) = look() {
-                    watch.interrupt();
-                    // Whatever it ends with, the first error is the one to raise.
-                    let _ = wait(GRACE);
-                    return Err(error);
+        };
+        let mut late: Option<Instant> = None;
+        loop {
+            match wait(TICK) {
+                Ok(done) => {
+                    look()?;
+                    return Ok(done);
                 }
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err(
+                        "internal error: the message is on standard error",
+                    ));
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(error) = look() {
+                        self.watch.interrupt();
+                        // Whatever it ends with, the first error is the one to raise.
+                        let _ = wait(GRACE);
+                        return Err(error);
+                    }
+                }
+            }
+            // What does not ask the watch has the same time.
+            if self.watch.stopped() == Some(Reason::Time)
+                && late.get_or_insert_with(Instant::now).elapsed() > GRACE
+            {
+                return Err(TooLarge::new_err("the time limit was reached"));
             }
         }
     }
+}
+
+/// Work that nobody limits, and that Ctrl-C stops all the same.
+///
+/// # Errors
+/// As of [`Job::run`].
+pub(crate) fn run<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let job = Job {
+        watch: Watch::default(),
+        told: Arc::default(),
+        progress: None,
+    };
+    job.run(py, work)
 }
 
 /// The threads that `work` computes with, of this process: a process that was forked has none of
@@ -187,6 +261,18 @@ impl Told {
             callback.call1(py, (what, done, total))?;
         }
         Ok(())
+    }
+
+    /// Says how many units of work there are, before the first is done.
+    pub(crate) fn expects(&self, what: &str, total: u64) {
+        let news = News {
+            what: what.to_owned(),
+            done: 0,
+            total,
+        };
+        let mut state = unpoisoned(&self.0);
+        state.remember(news.clone());
+        state.works.push((0, news));
     }
 
     /// Work of which so many units are done, told by whoever counts them.

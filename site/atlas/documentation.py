@@ -52,16 +52,18 @@ def put(path, text):
 
 
 def exported():
-    """What the Python package exports: functions, classes and errors, each in their order."""
+    """What the Python package exports: functions, classes, errors and modules, each in their order."""
     tree = ast.parse((PACKAGE / "viewcert/__init__.py").read_text())
     [names] = [ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__"]
     errors = re.findall(r"^class (\w+)", (PACKAGE / "viewcert/_errors.py").read_text(), re.M) + ["NoteWarning"]
-    names = [name for name in names if not name.startswith("_")]
+    modules = [name for name in names if (PACKAGE / f"viewcert/{name}.py").exists()]
+    names = [name for name in names if not name.startswith("_") and name not in modules]
     classes = [name for name in names if name[0].isupper() and name not in errors]
     return {
         "Functions": [name for name in names if name[0].islower()],
         "What they return": classes,
         "Errors and warnings": [name for name in names if name in errors],
+        "Modules": modules,
     }
 
 
@@ -71,7 +73,9 @@ def api():
     for title, names in exported().items():
         text += f"\n## {title}\n\n```{{eval-rst}}\n.. currentmodule:: viewcert\n\n"
         for name in names:
-            if name[0].islower():
+            if title == "Modules":
+                text += f".. automodule:: viewcert.{name}\n   :members:\n\n"
+            elif name[0].islower():
                 text += f".. autofunction:: {name}\n\n"
             else:
                 text += f".. autoclass:: {name}\n   :members:\n\n"

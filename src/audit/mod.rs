@@ -11,10 +11,8 @@ use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use viewcert::decide;
-use viewcert::decide::Value;
-use viewcert::graph::Graph;
 use viewcert_formats::NamedGraph;
 use viewcert_report::audit::{self as report, Audit};
 use viewcert_session::Session;
@@ -22,9 +20,8 @@ use viewcert_session::exit;
 use viewcert_session::exit::{GOOD, NOT};
 use viewcert_session::outputs;
 use viewcert_studies::audit;
-use viewcert_studies::audit::{
-    AuditError, FloatVerdict, Method, Outcome, TOLERANCE, components, published, study,
-};
+use viewcert_studies::audit::beside::Beside;
+use viewcert_studies::audit::{AuditError, Method, TOLERANCE};
 
 /// Options of the audit.
 #[derive(Args)]
@@ -193,45 +190,13 @@ fn one(
         .map(|target| target.write(session.outputs(), input, &exact, None))
         .transpose()?;
 
-    let (outcome, components, float_time) = in_doubles(&input.graph, &options)
-        .map_err(failed)
-        .with_context(name)?;
-    let further = study::eigenvalues(&input.graph, &options, 1..arguments.draws);
-    let draws = [
-        vec![outcome.eigenvalue],
-        further.map_err(failed).with_context(name)?,
-    ]
-    .concat();
-    let solvable = exact.value != Value::NotFiniteSolvable;
-    let right = if solvable {
-        FloatVerdict::Solvable
-    } else {
-        FloatVerdict::NotSolvable
-    };
-    let verdicts = draws
-        .iter()
-        .map(|&value| FloatVerdict::by_tolerance(value, options.tolerance));
-    let misjudged = verdicts.filter(|&verdict| verdict != right).count();
-    // Where only the numbers of components differ, the method may be the reason, not rounding.
-    let counts_differ = components.is_some_and(|count| count != exact.components.len());
-    let method = if misjudged == 0 && counts_differ && !solvable {
-        let study = published::study(&input.graph, exact.components.len(), options.seed);
-        study.with_context(name)?
-    } else {
-        None
-    };
+    let float = Beside::new(&input.graph, &exact, &options, arguments.draws);
     let found = Audit {
         input,
         exact: &exact,
         exact_time,
         tolerance: options.tolerance,
-        outcome,
-        components,
-        float_time,
-        agrees: misjudged == 0 && components == Some(exact.components.len()),
-        draws: draws.len(),
-        misjudged,
-        method,
+        float: float.map_err(failed).with_context(name)?,
     };
     if arguments.json {
         report::json(out, &found)?;
@@ -241,7 +206,7 @@ fn one(
             writeln!(out, "  certificate {}", path.display())?;
         }
     }
-    Ok(found.agrees)
+    Ok(found.float.agrees)
 }
 
 /// Why doubles have no answer, as the session's exit codes know it.
@@ -250,23 +215,4 @@ fn failed(error: AuditError) -> anyhow::Error {
         AuditError::TooLarge { .. } => exit::TooLarge(error.to_string()).into(),
         other => other.into(),
     }
-}
-
-/// The float side at the first draw: the verdict, the number of components if there is one, and
-/// the time of both.
-fn in_doubles(
-    graph: &Graph,
-    options: &audit::Options,
-) -> Result<(Outcome, Option<usize>, Duration), AuditError> {
-    let start = Instant::now();
-    let outcome = audit::decide(graph, options, 0)?;
-    let components = match outcome.verdict {
-        FloatVerdict::Solvable => Some(1),
-        FloatVerdict::NotSolvable => {
-            let found = components::components(graph, options, 0)?;
-            Some(components::count(&found))
-        }
-        FloatVerdict::Undecided => None,
-    };
-    Ok((outcome, components, start.elapsed()))
 }

@@ -23,6 +23,8 @@ pub(super) struct Proved {
     pub(super) text: String,
     /// The model, if it is about pairs alone, with nothing given.
     pub(super) of_pairs: Option<Model>,
+    /// Whether it takes known parts, displacements or base lines for given.
+    pub(super) supposes: bool,
     /// The generic rank.
     pub(super) rank: i64,
     /// The rank at which the graph is finite solvable.
@@ -33,6 +35,8 @@ pub(super) struct Proved {
 
 impl Proved {
     fn new(verified: &Verified) -> Self {
+        let supposes =
+            verified.parts > 0 || verified.displacements.is_some() || verified.base_lines.is_some();
         Self {
             sha256: verified.sha256.clone(),
             verdict: verified.verdict.0.to_string(),
@@ -40,6 +44,7 @@ impl Proved {
             text: verified.to_string(),
             of_pairs: (verified.parts == 0 && verified.displacements.is_none())
                 .then_some(verified.model),
+            supposes,
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0,
@@ -53,6 +58,7 @@ impl Proved {
             solutions: None,
             text: verified.to_string(),
             of_pairs: None,
+            supposes: false,
             rank: verified.rank[0],
             required: verified.required,
             components: verified.components.as_ref().map_or(0, Vec::len),
@@ -71,6 +77,7 @@ impl Proved {
             solutions: None,
             text: verified.to_string(),
             of_pairs: None,
+            supposes: false,
             rank: verified.rank.0,
             required: verified.required,
             components: verified.components.0 as usize,

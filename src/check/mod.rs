@@ -1,33 +1,30 @@
 //! `verify check`: the independent checker on certificates.
 
+mod archive;
 pub(crate) mod checker;
 mod here;
 mod intrinsics;
 mod proved;
 
+pub use archive::{Archive, News, check_archive};
+
 use super::given::GivenArguments;
 use super::input::InputArguments;
 use super::plan::{INTRINSICS, IntrinsicsFrom};
 use anyhow::{Context, Result, bail, ensure};
+use archive::reason;
 use clap::Args;
-use flate2::read::MultiGzDecoder;
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use viewcert_catalog::folder::{Listing, is_list, name};
-use viewcert_catalog::manifest::Contents;
 use viewcert_check::program::{is_certificate, no_certificate};
 use viewcert_check::{Failure, is_here, is_of_intrinsics};
 use viewcert_formats::whole;
 use viewcert_report::counted;
 use viewcert_session::exit::{GOOD, NOT, TOO_LARGE};
 use viewcert_session::printable;
-
-/// Certificates that are read before they are checked together.
-const BATCH: usize = 256;
 
 /// What to check.
 #[derive(Args)]
@@ -218,74 +215,35 @@ fn ensure_certificate(path: &Path, text: &[u8], graph: Option<&Path>) -> Result<
     bail!("{}: {}", path.display(), no_certificate(swapped))
 }
 
-/// Checks every certificate of every file; each must hold its graph. Then, by its manifest, whether
-/// the folder is complete.
+/// Checks every certificate of every file, and says what came of them.
 fn check_files(path: &Path, listing: &Listing) -> Result<u8> {
     let style = ProgressStyle::with_template("{bar:40} {pos} certificates, {per_sec}, {msg}")?;
     let bar = ProgressBar::new_spinner().with_style(style);
-    let (mut verified, mut rejected, mut undecided) = (0, 0, 0);
-    let mut graphs = BTreeSet::new();
-    let mut found: BTreeMap<&Path, Contents> = BTreeMap::new();
     let mut out = std::io::stdout().lock();
-    for (file, _) in &listing.files {
-        let named = || file.display().to_string();
-        bar.set_message(name(file));
-        let mut lines = certificates(file).with_context(named)?;
-        let mut of_file = BTreeSet::new();
-        let contents = found.entry(file).or_default();
-        let mut first = 1;
-        loop {
-            let batch: Vec<Vec<u8>> = lines
-                .by_ref()
-                .take(BATCH)
-                .collect::<std::io::Result<_>>()
-                .with_context(named)?;
-            if batch.is_empty() {
-                break;
+    let found = check_archive(listing, &mut |news| {
+        match news {
+            News::File(file) => bar.set_message(name(file)),
+            News::Done(more) => bar.inc(more),
+            News::NotVerified(file, line, failure) => {
+                let word = match failure {
+                    Failure::Rejected(_) => "REJECTED",
+                    Failure::TooLarge(_) => "UNDECIDED",
+                };
+                writeln!(out, "{word} {}:{line}: {}", name(file), reason(failure))?;
             }
-            let outcomes: Vec<_> = batch.par_iter().map(|text| checker::check(text)).collect();
-            first += batch.len() as u64;
-            for (line, outcome) in (first - batch.len() as u64..).zip(outcomes) {
-                match outcome {
-                    Ok(proved) => {
-                        verified += 1;
-                        *contents.verdicts.entry(proved.verdict).or_default() += 1;
-                        if let Some(solutions) = proved.solutions {
-                            *contents.solutions.entry(solutions).or_default() += 1;
-                        }
-                        of_file.insert(proved.sha256);
-                    }
-                    Err(Failure::Rejected(rejection)) => {
-                        rejected += 1;
-                        let rejection = printable(&rejection.to_string());
-                        writeln!(out, "REJECTED {}:{line}: {rejection}", name(file))?;
-                    }
-                    Err(Failure::TooLarge(limit)) => {
-                        undecided += 1;
-                        let limit = printable(&limit.to_string());
-                        writeln!(out, "UNDECIDED {}:{line}: {limit}", name(file))?;
-                    }
-                }
-            }
-            bar.inc(batch.len() as u64);
         }
-        contents.graphs = of_file.len() as u64;
-        graphs.append(&mut of_file);
-    }
+        Ok(())
+    })?;
     bar.finish_and_clear();
-    ensure!(
-        verified + rejected + undecided > 0,
-        "the files hold no certificates"
-    );
-    let certificates = counted(verified, "certificate");
-    write!(out, "{certificates} verified, {rejected} rejected")?;
-    if undecided > 0 {
-        write!(out, ", {undecided} too large for the limits")?;
+    let certificates = counted(found.verified, "certificate");
+    write!(out, "{certificates} verified, {} rejected", found.rejected)?;
+    if found.undecided > 0 {
+        write!(out, ", {} too large for the limits", found.undecided)?;
     }
     writeln!(out)?;
-    writeln!(out, "{}", counted(graphs.len(), "distinct graph"))?;
-    let mut good = rejected == 0;
-    match listing.completeness(&found)? {
+    writeln!(out, "{}", counted(found.graphs, "distinct graph"))?;
+    let mut good = found.rejected == 0;
+    match found.completeness {
         Some(completeness) => {
             good &= completeness.complete;
             for line in completeness.lines {
@@ -300,26 +258,9 @@ fn check_files(path: &Path, listing: &Listing) -> Result<u8> {
         None => {}
     }
     out.flush().context("standard output")?;
-    Ok(match (good, undecided) {
+    Ok(match (good, found.undecided) {
         (true, 0) => GOOD,
         (true, _) => TOO_LARGE,
         (false, _) => NOT,
     })
-}
-
-/// The certificates of a file, one after another.
-fn certificates(
-    file: &Path,
-) -> std::io::Result<Box<dyn Iterator<Item = std::io::Result<Vec<u8>>>>> {
-    if !is_list(file) {
-        return Ok(Box::new(std::iter::once(fs::read(file))));
-    }
-    let input = fs::File::open(file)?;
-    let input: Box<dyn Read> = match file.extension() {
-        Some(extension) if extension == "gz" => Box::new(MultiGzDecoder::new(input)),
-        _ => Box::new(input),
-    };
-    Ok(Box::new(
-        BufReader::with_capacity(1 << 16, input).split(b'\n'),
-    ))
 }

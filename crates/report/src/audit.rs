@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::time::Duration;
 use viewcert::decide::Verdict;
 use viewcert_formats::NamedGraph;
-use viewcert_studies::audit::published::Study;
-use viewcert_studies::audit::{FloatVerdict, Outcome};
+use viewcert_studies::audit::FloatVerdict;
+use viewcert_studies::audit::beside::Beside;
 
 /// Both sides of one graph.
 #[derive(Clone, Debug)]
@@ -22,47 +22,33 @@ pub struct Audit<'a> {
     pub exact_time: Duration,
     /// The tolerance of the float side.
     pub tolerance: f64,
-    /// The float side at the first draw.
-    pub outcome: Outcome,
-    /// Components of the float side; `None` if it is undecided.
-    pub components: Option<usize>,
-    /// Its time, components included.
-    pub float_time: Duration,
-    /// Whether both sides agree at every draw, and on the number of components at the
-    /// first.
-    pub agrees: bool,
-    /// How many draws there were.
-    pub draws: usize,
-    /// At how many of them the float verdict was not the exact one.
-    pub misjudged: usize,
-    /// The published method of components without rounding, where it may be what makes the
-    /// difference and does not take too long.
-    pub method: Option<Study>,
+    /// The float side.
+    pub float: Beside,
 }
 
 impl Audit<'_> {
     /// The margin in decades; `None` if it is not a number.
     fn margin(&self) -> Option<f64> {
-        let margin = self.outcome.margin(self.tolerance);
+        let margin = self.float.outcome.margin(self.tolerance);
         (!margin.is_nan()).then_some(margin)
     }
 
     /// Why the sides do not agree, as far as it is known; `None` if they do.
     fn reason(&self) -> Option<String> {
         let exact = self.exact.components.len();
-        let float = match self.components {
-            _ if self.agrees => return None,
+        let float = match self.float.components {
+            _ if self.float.agrees => return None,
             Some(float) => float,
             None => return Some("floating point gave no number".into()),
         };
-        if self.misjudged > 0 {
+        if self.float.misjudged > 0 {
             return Some(format!(
                 "the smallest eigenvalue is on the wrong side of the tolerance at {} of {}",
-                self.misjudged,
-                counted(self.draws, "draw")
+                self.float.misjudged,
+                counted(self.float.draws, "draw")
             ));
         }
-        let Some(method) = &self.method else {
+        let Some(method) = &self.float.method else {
             return Some(
                 "the components differ; the graph is too large to repeat the published method of components \
                  in exact arithmetic"
@@ -112,16 +98,16 @@ pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         audit.exact_time.as_secs_f64()
     )?;
     in_doubles(out, audit)?;
-    if audit.draws > 1 {
+    if audit.float.draws > 1 {
         writeln!(
             out,
             "  draws       {} of {} misjudged ({:.2} %)",
-            audit.misjudged,
-            audit.draws,
-            100.0 * audit.misjudged as f64 / audit.draws as f64
+            audit.float.misjudged,
+            audit.float.draws,
+            100.0 * audit.float.misjudged as f64 / audit.float.draws as f64
         )?;
     }
-    let result = match (audit.agrees, audit.outcome.verdict) {
+    let result = match (audit.float.agrees, audit.float.outcome.verdict) {
         (true, _) => "agree",
         (false, FloatVerdict::Undecided) => "undecided",
         (false, _) => "DISAGREE",
@@ -135,8 +121,8 @@ pub fn text(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
 
 /// The lines of the float side at the first draw.
 fn in_doubles(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
-    let outcome = &audit.outcome;
-    let components = match audit.components {
+    let outcome = &audit.float.outcome;
+    let components = match audit.float.components {
         Some(count) => count.to_string(),
         None => "undecided".into(),
     };
@@ -144,7 +130,7 @@ fn in_doubles(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
         out,
         "  float       {}, components {components}, {:.3} s",
         outcome.verdict,
-        audit.float_time.as_secs_f64()
+        audit.float.time.as_secs_f64()
     )?;
     write!(
         out,
@@ -214,7 +200,7 @@ struct Float {
 /// # Errors
 /// Those of the writer.
 pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
-    let outcome = &audit.outcome;
+    let outcome = &audit.float.outcome;
     let line = Json {
         graph: GraphLine::new(audit.input, audit.exact),
         read: ReadLine::from(&audit.input.read),
@@ -235,14 +221,14 @@ pub fn json(out: &mut impl Write, audit: &Audit) -> io::Result<()> {
             matlab_rank: outcome.matlab_rank,
             matlab_verdict: outcome.by_rank().map(FloatVerdict::name),
             columns: outcome.columns,
-            components: audit.components,
-            seconds: audit.float_time.as_secs_f64(),
+            components: audit.float.components,
+            seconds: audit.float.time.as_secs_f64(),
         },
-        agree: audit.agrees,
-        draws: audit.draws,
-        misjudged: audit.misjudged,
+        agree: audit.float.agrees,
+        draws: audit.float.draws,
+        misjudged: audit.float.misjudged,
         reason: audit.reason(),
-        published_method: audit.method.as_ref().map(|method| PublishedMethod {
+        published_method: audit.float.method.as_ref().map(|method| PublishedMethod {
             components: method.components,
             components_least_by_start: *method.by_start.start(),
             components_most_by_start: *method.by_start.end(),

@@ -214,6 +214,19 @@ impl<'a> Picture<'a> {
     fn nodes(&self) -> impl Iterator<Item = u32> {
         0..self.input.graph.nodes() as u32
     }
+
+    fn lines(&self) -> Vec<sample::Line> {
+        let lines = self.input.graph.edges().iter().zip(&self.of_edge);
+        let line = |(&ends, &component): (&(u32, u32), &u32)| sample::Line { ends, component };
+        lines.map(line).collect()
+    }
+
+    /// Where each node is drawn, x to the right and y down; `None` if nodes are not drawn one by one.
+    pub fn points(&self) -> Option<Vec<[f64; 2]>> {
+        let nodes: Vec<u32> = self.nodes().collect();
+        let (radii, links) = to_place(self, &nodes, &self.lines());
+        self.is_detailed().then(|| layout(&radii, &links).points)
+    }
 }
 
 /// The component that has both ends of an edge: two components share at most one node.
@@ -316,11 +329,23 @@ fn line_for(edges: usize) -> (f64, f64) {
 }
 
 fn draw_nodes(picture: &Picture) -> Drawn {
-    let edges = picture.input.graph.edges();
-    let lines = edges.iter().zip(&picture.of_edge);
-    let lines = lines.map(|(&ends, &component)| sample::Line { ends, component });
     let nodes: Vec<u32> = picture.nodes().collect();
-    draw_some(picture, &nodes, &lines.collect::<Vec<_>>())
+    draw_some(picture, &nodes, &picture.lines())
+}
+
+/// The discs of some nodes, given increasing, and the lines between them, for the layout.
+fn to_place(picture: &Picture, nodes: &[u32], lines: &[sample::Line]) -> (Vec<f64>, Vec<Link>) {
+    let radius = radius_for(nodes.len());
+    let place = |v: u32| nodes.binary_search(&v).expect("a node that is drawn");
+    let links = lines.iter().map(|line| Link {
+        ends: (place(line.ends.0) as u32, place(line.ends.1) as u32),
+        length: match picture.mark(line.component as usize) {
+            Mark::Pair => 70.0,
+            _ => 38.0,
+        },
+    });
+    let radii = nodes.iter().map(|&v| radius_of(picture, v, radius));
+    (radii.collect(), links.collect())
 }
 
 fn draw_sample(picture: &Picture) -> Drawn {
@@ -336,20 +361,7 @@ fn draw_sample(picture: &Picture) -> Drawn {
 fn draw_some(picture: &Picture, nodes: &[u32], lines: &[sample::Line]) -> Drawn {
     let radius = radius_for(nodes.len());
     let place = |v: u32| nodes.binary_search(&v).expect("a node that is drawn");
-    let links: Vec<Link> = lines
-        .iter()
-        .map(|line| Link {
-            ends: (place(line.ends.0) as u32, place(line.ends.1) as u32),
-            length: match picture.mark(line.component as usize) {
-                Mark::Pair => 70.0,
-                _ => 38.0,
-            },
-        })
-        .collect();
-    let radii: Vec<f64> = nodes
-        .iter()
-        .map(|&v| radius_of(picture, v, radius))
-        .collect();
+    let (radii, links) = to_place(picture, nodes, lines);
     let found = layout(&radii, &links);
     let labels = Names::new(picture, nodes);
     // As many pixels as it takes, but no wider than a page.

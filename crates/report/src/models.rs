@@ -7,6 +7,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
 use viewcert::decide::{Strength, Verdict};
+use viewcert::geometry::model::Model;
 use viewcert_formats::NamedGraph;
 
 /// How many changes between two models people are shown.
@@ -25,12 +26,22 @@ pub struct Change {
     at: Vec<u32>,
 }
 
+/// The models, each of which determines no more than the next one: affine solvable implies finite
+/// solvable, and that implies solvable with known intrinsics (Corollary 13.4 of docs/theory.md).
+pub const ORDER: [Model; 3] = [Model::Affine, Model::Projective, Model::Calibrated];
+
+/// What changes from each verdict to the next; they are in this order of models.
+pub fn all_changes(verdicts: &[&Verdict]) -> Vec<Change> {
+    let next = verdicts.windows(2);
+    next.flat_map(|pair| changes(pair[0], pair[1])).collect()
+}
+
 /// What changes from one model to one that determines at least as much.
 ///
 /// The components of the first refine those of the second: a part that is determined in the first
 /// is in the second, so it lies in a component there. Two components of a graph share at most one
 /// node, so two nodes of a part tell in which. O(n + sizes of components).
-pub fn changes(from: &Verdict, to: &Verdict) -> Vec<Change> {
+fn changes(from: &Verdict, to: &Verdict) -> Vec<Change> {
     let mut of_node: HashMap<u32, Vec<usize>> = HashMap::new();
     for (k, component) in to.components.iter().enumerate() {
         for v in component.nodes() {
@@ -82,16 +93,12 @@ fn first<T: ToString>(items: impl ExactSizeIterator<Item = T>) -> String {
 pub fn text(
     out: &mut impl Write,
     input: &NamedGraph,
-    verdicts: &[Verdict],
+    verdicts: &[&Verdict],
     changes: &[Change],
 ) -> io::Result<()> {
     writeln!(out, "{}", input.name)?;
     writeln!(out, "  read as     {}", input.read)?;
-    writeln!(
-        out,
-        "  graph       {}",
-        size_with_parts(input, &verdicts[0])
-    )?;
+    writeln!(out, "  graph       {}", size_with_parts(input, verdicts[0]))?;
     for note in &input.notes {
         writeln!(out, "  note        {note}")?;
     }
@@ -175,7 +182,7 @@ struct ChangeLine {
 pub fn json(
     out: &mut impl Write,
     input: &NamedGraph,
-    verdicts: &[Verdict],
+    verdicts: &[&Verdict],
     changes: &[Change],
 ) -> io::Result<()> {
     let changes = changes.iter().map(|change| ChangeLine {
@@ -191,8 +198,8 @@ pub fn json(
             .collect(),
     });
     let line = Line {
-        graph: GraphLine::new(input, &verdicts[0]),
-        parts: parts(&verdicts[0]),
+        graph: GraphLine::new(input, verdicts[0]),
+        parts: parts(verdicts[0]),
         read: ReadLine::from(&input.read),
         notes: &input.notes,
         models: verdicts

@@ -77,6 +77,14 @@ impl Session {
         })
     }
 
+    /// A run under a watch that somebody else keeps, without bar and signals.
+    pub fn under(watch: Watch) -> Self {
+        Self(Arc::new(Run {
+            watch,
+            ..Run::default()
+        }))
+    }
+
     fn begin(program: &'static str, limits: &RunLimits) -> Result<Self> {
         let (time, memory) = (limits.duration(), limits.bytes());
         let run = Arc::new(Run {

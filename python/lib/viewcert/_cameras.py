@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import numbers
 import os
+import random
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
@@ -18,9 +19,10 @@ from ._arguments import whole_if
 from ._check import of_native, text_of
 from ._convert import Node
 from ._errors import InputError
-from ._graph import Path, as_graph
+from ._graph import Graph, Path, as_graph
 from ._kept import Kept
-from ._types import Decided, Place, Strength
+from ._tables import csv_of
+from ._types import Decided, Place, RulingWord, Strength
 from ._verdict import Verdict
 from ._words import noted
 
@@ -91,6 +93,67 @@ class Special:
 
     place: Place
     nodes: frozenset[Node]
+
+
+@dataclass(frozen=True)
+class SingularValue:
+    """Two fractions between which a singular value lies, equal if it is zero.
+
+    Attributes
+    ----------
+    matrix : str
+        Of which matrix.
+    place : int
+        Its number, from the smallest on: one more than the dimension of the trivial motions.
+    least, most : Fraction
+        The bounds.
+    """
+
+    matrix: str
+    place: int
+    least: Fraction
+    most: Fraction
+
+
+@dataclass(frozen=True)
+class FloatRuling:
+    """What is so of one row of floating-point results.
+
+    Attributes
+    ----------
+    row : int
+        Its number, from 1.
+    name : str, optional
+        What the row calls itself.
+    ruling : {'confirmed', 'refuted', 'not decidable'}
+        What came of it.
+    reason : str
+        Why, in words.
+    sigma : tuple of str, optional
+        Two decimals between which the singular value is, if the row claims one.
+    text : str
+        All of it in words.
+    """
+
+    row: int
+    name: Optional[str]
+    ruling: RulingWord
+    reason: str
+    sigma: Optional[Tuple[str, str]]
+    text: str = field(repr=False)
+
+    @staticmethod
+    def of(said: Dict[str, Any], text: str) -> FloatRuling:
+        """What the native part says."""
+        sigma = said["sigma"]
+        return FloatRuling(
+            row=said["row"],
+            name=said["name"],
+            ruling=said["ruling"],
+            reason=said["reason"],
+            sigma=None if sigma is None else (sigma["least"], sigma["most"]),
+            text=text,
+        )
 
 
 @dataclass(frozen=True)
@@ -200,6 +263,98 @@ class AtCameras:
             }
             for motion in found
         ]
+
+    def random_motion(self, seed: int = 1) -> Optional[Dict[Node, Optional[_Velocity]]]:
+        """A motion that the fundamental matrices allow, exactly: a combination of :meth:`velocities` with
+        random integers from -9 to 9. None where :meth:`velocities` lists none.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> places = {"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 1, 0)}
+        >>> path = viewcert.verify([("a", "b"), ("b", "c")], model="calibrated")
+        >>> motion = viewcert.at_cameras(path, places).random_motion()
+        >>> any(any(velocity) for velocity in motion.values())
+        True
+        """
+        motions = self.velocities()
+        if not motions:
+            return None
+        draw = random.Random(seed)
+        factors = [draw.randint(-9, 9) for _ in motions]
+        if not any(factors):
+            factors[0] = 1
+        found: Dict[Node, Optional[_Velocity]] = {}
+        for node in motions[0]:
+            each = [motion[node] for motion in motions]
+            if any(velocity is None for velocity in each):
+                found[node] = None
+                continue
+            x, y, z = (
+                sum((factor * velocity[k] for factor, velocity in zip(factors, each) if velocity), Fraction(0))
+                for k in range(3)
+            )
+            found[node] = (x, y, z)
+        return found
+
+    def singular_value(self, matrix: Optional[str] = None, *, norm: Any = None) -> SingularValue:
+        """The smallest singular value that is not of a trivial motion, between two fractions: what floating
+        point computes, without its rounding.
+
+        Parameters
+        ----------
+        matrix : {'J_P', 'J', 'bearing', 'R_B'}, optional
+            Of which matrix; ``'J_P'`` and ``'J'`` of projective cameras, of which matrices are needed and not
+            centres alone, ``'bearing'`` and ``'R_B'`` (each pair's rows divided by its length) of calibrated ones.
+            By default the first of the model.
+        norm : number, optional
+            The Frobenius norm to which cameras and fundamental matrices are scaled, 10 as in the literature.
+
+        Raises
+        ------
+        InputError
+            A matrix of another model, or centres alone where cameras are needed.
+        TooLarge
+            More than 1,000 projective or 4,000 calibrated cameras.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> verdict = viewcert.verify([(0, 1), (0, 2), (1, 2)], model="calibrated")
+        >>> value = viewcert.at_cameras(verdict, [(0, 0, 0), (1, 0, 0), (0, 1, 0)]).singular_value()
+        >>> float(value.least) <= 1.0 <= float(value.most)
+        True
+        """
+        if matrix is None:
+            matrix = "bearing" if self._verdict.model == "calibrated" else "J_P"
+        exact = None if norm is None else _exact(norm)
+        (least, most), place = _native.singular_value(self._at(), matrix, norm=exact)
+        return SingularValue(matrix, place, Fraction(least), Fraction(most))
+
+    def audit(self, table: Any) -> List[FloatRuling]:
+        """Rules on what floating point found at these cameras.
+
+        Parameters
+        ----------
+        table : path, mapping, or iterable of mappings
+            A CSV file, or rows with the columns ``verdict`` (``'determined'`` or not), ``rank``, ``components``,
+            ``sigma`` with ``sigma_error``, ``matrix`` and ``norm``, and ``name``; see docs/audit.md.
+
+        Raises
+        ------
+        InputError
+            A table that cannot be read, by line, or of another model.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> verdict = viewcert.verify([(0, 1), (0, 2), (1, 2)])
+        >>> found = viewcert.at_cameras(verdict, [(0, 0, 0), (1, 0, 0), (3, 0, 0)])
+        >>> [ruling.ruling for ruling in found.audit([{"rank": 18}, {"verdict": "not-determined"}])]
+        ['refuted', 'confirmed']
+        """
+        said = _native.audit_at_cameras(self._at(), csv_of(table))
+        return [FloatRuling.of(json.loads(line), text) for line, text in said]
 
     def to_dict(self, *, list_components: bool = False) -> Dict[str, Any]:
         """What ``verify --given FILE --json`` prints (with `list_components`: and ``--components``)."""
@@ -369,6 +524,21 @@ def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
         found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
         noted(graph.name, found.notes)
         return found
+    return _native.Cameras.of_numbers(graph._native, model, *texts_of(graph, cameras, model))
+
+
+def texts_of(graph: Graph[Any], cameras: Cameras, model: str) -> Tuple[List[str], int]:
+    """The numbers of cameras as exact texts, node by node, and how many a node has: 12 or 3.
+
+    Raises
+    ------
+    InputError
+        If nodes have no camera, or it has another shape.
+    """
+    if isinstance(cameras, (str, os.PathLike)):
+        found = _native.Cameras.in_file(graph._native, model, os.fspath(cameras))
+        noted(graph.name, found.notes)
+        return found.numbers()
     nodes = graph.nodes
     if isinstance(cameras, Mapping):
         absent = [node for node in nodes if node not in cameras]
@@ -393,8 +563,7 @@ def _cameras(verdict: Verdict[Any], cameras: Cameras) -> _native.Cameras:
                 "columns, or all are centres, 3 numbers"
             )
         texts.extend(_exact(number) for number in entries.ravel().tolist())
-    width = 12 if shapes == {(3, 4)} else 3
-    return _native.Cameras.of_numbers(graph._native, model, texts, width)
+    return texts, 12 if shapes == {(3, 4)} else 3
 
 
 def _exact(number: Any) -> str:

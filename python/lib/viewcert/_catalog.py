@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
-from typing import Any, Iterator, List, Optional
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 from . import _native
 from ._arguments import whole, whole_if
@@ -56,8 +56,9 @@ class Entry:
 
 
 def catalog(
-    nodes: int,
+    nodes: Optional[int] = None,
     *,
+    from_file: Optional[Path] = None,
     edges: Optional[int] = None,
     necessary: bool = False,
     minimal: bool = False,
@@ -71,6 +72,8 @@ def catalog(
     ----------
     nodes : int
         How many nodes, 3 at least.
+    from_file : str or path, optional
+        A file of graph6, whose graphs are the candidates instead.
     edges : int, optional
         How many pairs; by default the least that can do, ceil((11 nodes - 15) / 7).
     necessary : bool
@@ -101,7 +104,8 @@ def catalog(
     [('D{S', 'not-finite-solvable'), ('D]o', 'solvable')]
     """
     found = _native.Candidates(
-        whole("nodes", nodes, 0, 2**31 - 1),
+        whole_if("nodes", nodes, 0, 2**31 - 1),
+        from_file=None if from_file is None else os.fspath(from_file),
         edges=whole_if("edges", edges, 0, 2**31 - 1),
         necessary=necessary,
         minimal=minimal,
@@ -125,6 +129,115 @@ def _entry(found: tuple[list[str], bytes]) -> Entry:
         hub=hub == "1",
         solutions=solutions,
         certificate=certificate,
+    )
+
+
+@dataclass(frozen=True)
+class Census:
+    """How many candidates of a size, or graphs of a file, have which answer.
+
+    Attributes
+    ----------
+    name : str
+        What was counted.
+    counts : dict
+        ``candidates``, ``finite_solvable``, ``contracted`` (of these: proved unique by contraction), ``refuted``,
+        ``unproved``; and how: ``by_a_hub``, ``rank_proved`` and ``components_proved``, or of verdicts alone
+        ``by_one_block``, ``by_blocks`` and ``otherwise``.
+    solutions : dict
+        How many have which number of solutions, or bounds for it, if these were counted.
+    digest : str, optional
+        Of verdicts alone: of the set of finite-solvable graphs, the same in whatever order they were found.
+    graphs : tuple of str, optional
+        The finite-solvable graphs as graph6, if they were asked for.
+    malformed : tuple of str
+        Lines of a file that are no graphs, and why.
+    table : str
+        What ``verify catalog`` prints.
+    """
+
+    name: str
+    counts: Dict[str, int]
+    solutions: Dict[str, int]
+    digest: Optional[str]
+    graphs: Optional[Tuple[str, ...]] = field(repr=False)
+    malformed: Tuple[str, ...]
+    table: str = field(repr=False)
+
+
+def census(
+    nodes: Optional[int] = None,
+    *,
+    from_file: Optional[Path] = None,
+    edges: Optional[int] = None,
+    necessary: bool = False,
+    minimal: bool = False,
+    solutions: bool = False,
+    verdicts: bool = False,
+    graphs: bool = False,
+    prime: Optional[int] = None,
+    seed: int = 1,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+) -> Census:
+    """Decides all candidates of a size, or all graphs of a file, and counts the answers: the table of the catalog,
+    on this machine. :func:`catalog` gives them one by one with certificates, :func:`catalog_shards` goes to many
+    machines.
+
+    Parameters
+    ----------
+    nodes, from_file, edges, necessary, minimal, prime, seed
+        As of :func:`catalog`.
+    solutions : bool
+        Whether numbers of solutions are counted.
+    verdicts : bool
+        Whether the finite-solvable ones are only counted, tens of times faster.
+    graphs : bool
+        Whether these are listed.
+    threads : int, optional
+        With how many threads.
+    progress : callable or bool, optional
+        As of :func:`verify`.
+
+    Raises
+    ------
+    InputError
+        A size without candidates, or a file that cannot be read.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> found = viewcert.census(7, graphs=True)
+    >>> found.counts["candidates"], found.counts["finite_solvable"], len(found.graphs)
+    (20, 3, 3)
+    >>> viewcert.census(7, verdicts=True).counts["finite_solvable"]
+    3
+    """
+    if verdicts and (from_file is not None or minimal or solutions or prime is not None):
+        raise InputError("verdicts=True counts candidates of a size alone: leave out from_file, minimal, solutions and prime")
+    counted = {
+        "nodes": whole_if("nodes", nodes, 0, 2**31 - 1),
+        "from_file": None if from_file is None else os.fspath(from_file),
+        "edges": whole_if("edges", edges, 0, 2**31 - 1),
+        "necessary": necessary,
+        "minimal": minimal,
+        "solutions": solutions,
+        "verdicts": verdicts,
+        "listed": graphs,
+        "prime": whole_if("prime", prime, 5, 2**62 - 1),
+        "seed": whole("seed", seed, 0, 2**64 - 1),
+        "threads": whole_if("threads", threads, 1, 2**16 - 1),
+    }
+    with shown(progress) as callback:
+        found = _native.census(counted, progress=callback)
+    return Census(
+        name=found.name,
+        counts=found.counts,
+        solutions=found.solutions,
+        digest=found.digest,
+        graphs=None if found.listed is None else tuple(found.listed),
+        malformed=tuple(found.malformed),
+        table=found.table,
     )
 
 

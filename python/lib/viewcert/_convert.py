@@ -37,7 +37,7 @@ class Wish:
 
 def converted(graph: Any, name: str, wish: Wish) -> Converted:
     """Any graph that is none of this package's."""
-    frame = _table(graph)
+    frame = table(graph)
     if frame is not None:
         return _of_table(frame, name, wish)
     if wish.columns is not None:
@@ -64,7 +64,7 @@ def converted(graph: Any, name: str, wish: Wish) -> Converted:
     return _of_pairs(graph, name, [], wish)
 
 
-def _table(graph: Any) -> Any:
+def table(graph: Any) -> Any:
     """A data frame of pandas or polars, or None."""
     for module in ("pandas", "polars"):
         loaded = sys.modules.get(module)

@@ -12,9 +12,12 @@ from ._types import BaseLinesValue, Class, IntrinsicsValue, Place, Strength, Val
 from ._types import Decided as DecidedModel
 
 __all__ = [
+    "Archive",
     "AtCameras",
     "Cameras",
     "Candidates",
+    "Census",
+    "Claims",
     "Decided",
     "Graph",
     "Verified",
@@ -22,24 +25,38 @@ __all__ = [
     "VerifiedIntrinsics",
     "__version__",
     "about_graph",
+    "audit",
+    "audit_at_cameras",
     "catalog_merge",
     "catalog_shard",
+    "census",
     "check",
+    "check_all",
     "check_at_cameras",
     "check_intrinsics",
     "component_of_pairs",
     "decide",
     "decide_all",
+    "drawing",
+    "formulations",
     "graph_kept",
     "graph_of_integers",
     "graph_of_nodes",
     "label",
     "label_graph6",
+    "lists",
+    "models",
+    "of_conditions",
+    "overview",
     "pairs_among",
     "read",
+    "rigidity_matrix",
     "run_checker",
     "run_verify",
     "same_graph",
+    "singular_value",
+    "tolerances",
+    "witness",
 ]
 
 __version__: str
@@ -301,8 +318,9 @@ def check_at_cameras(
 class Candidates:
     def __new__(
         cls,
-        nodes: int,
+        nodes: int | None = None,
         *,
+        from_file: str | os.PathLike[str] | None = None,
         edges: int | None = None,
         necessary: bool = False,
         minimal: bool = False,
@@ -313,6 +331,94 @@ class Candidates:
     def __iter__(self) -> Candidates: ...
     def __next__(self) -> tuple[list[str], bytes]: ...
 
+@final
+class Census:
+    @property
+    def name(self) -> str: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    @property
+    def solutions(self) -> dict[str, int]: ...
+    @property
+    def digest(self) -> str | None: ...
+    @property
+    def listed(self) -> list[str] | None: ...
+    @property
+    def malformed(self) -> list[str]: ...
+    @property
+    def table(self) -> str: ...
+
+def census(
+    counted: dict[str, Any], *, progress: Callable[[str, int, int], object] | None = None
+) -> Census: ...
+@final
+class Archive:
+    @property
+    def verified(self) -> int: ...
+    @property
+    def rejected(self) -> list[tuple[str, int, str]]: ...
+    @property
+    def undecided(self) -> list[tuple[str, int, str]]: ...
+    @property
+    def graphs(self) -> int: ...
+    @property
+    def verdicts(self) -> dict[str, int]: ...
+    @property
+    def supposing(self) -> int: ...
+    @property
+    def complete(self) -> bool | None: ...
+    @property
+    def manifest(self) -> list[str]: ...
+    @property
+    def skipped(self) -> list[tuple[str, str]]: ...
+
+def check_all(path: str | os.PathLike[str]) -> Archive: ...
+def lists(
+    graph: str | os.PathLike[str], files: list[str], reading: dict[str, Any]
+) -> tuple[str, str]: ...
+def overview(path: str | os.PathLike[str], reading: dict[str, Any], kind: str) -> bytes: ...
+def rigidity_matrix(
+    graph: Graph, name: str, numbers: list[str], width: int
+) -> tuple[tuple[list[int], list[int]], tuple[list[str], list[str]], tuple[int, int]]: ...
+def drawing(decided: Decided) -> tuple[NDArray[np.float64], list[str]] | None: ...
+def witness(
+    decided: Decided, *, seed: int = 1, oriented: bool = False
+) -> tuple[str | None, str | None, tuple[str, str]]: ...
+def models(decided: list[Decided]) -> tuple[str, str]: ...
+def of_conditions(graph: Graph) -> tuple[str, str]: ...
+def formulations(
+    graph: Graph,
+    *,
+    affine: bool = False,
+    prime: int | None = None,
+    bounds: tuple[int, int] | None = None,
+    seed: int = 1,
+    limit: int | None = None,
+) -> tuple[str, str, str]: ...
+def audit(
+    decided: Decided, tolerance: float, method: str, draws: int, seed: int
+) -> tuple[str, str]: ...
+def tolerances(
+    decided: list[Decided], tolerance: float, method: str, draws: int, seed: int
+) -> tuple[list[tuple[float, int, int]], tuple[int, int, int]]: ...
+@final
+class Claims:
+    def __new__(cls, text: str, ignored: list[str]) -> Claims: ...
+    def __len__(self) -> int: ...
+    def name(self, row: int) -> str | None: ...
+    def rule(
+        self,
+        row: int,
+        wanted: dict[str, Any],
+        *,
+        graph: Graph | None = None,
+        folder: str | os.PathLike[str] | None = None,
+    ) -> tuple[Graph, Decided, tuple[str, str]]: ...
+
+def singular_value(
+    at: AtCameras, matrix: str, *, norm: str | None = None
+) -> tuple[tuple[str, str], int]: ...
+def audit_at_cameras(at: AtCameras, table: str) -> list[tuple[str, str]]: ...
 def run_verify(arguments: list[str]) -> int: ...
 def run_checker(arguments: list[str]) -> int: ...
 def catalog_shard(

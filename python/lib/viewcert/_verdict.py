@@ -35,6 +35,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._arguments import limits
 from ._convert import Node
+from ._draw import plot, positions, to_tikz
 from ._errors import InputError
 from ._graph import Graph, Path, as_graph, numbered
 from ._kept import Kept, Question
@@ -46,6 +47,7 @@ from ._types import Decided as DecidedModel
 from ._words import in_python, noted, shown_notes
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import networkx
 
 _log = logging.getLogger("viewcert")
@@ -622,6 +624,79 @@ class Verdict(Generic[N]):
     def picture(self) -> str:
         """The graph with its components in colours, as SVG."""
         return self._native.picture()
+
+    def positions(self) -> Dict[N, Tuple[float, float]]:
+        """Where pictures have the nodes, x to the right and y up: for `networkx.draw` and the like.
+
+        Raises
+        ------
+        TooLarge
+            Of a graph with more than 1,000 nodes or 150,000 pairs.
+        """
+        points, _ = positions(self)
+        return {node: (x, y) for node, (x, y) in zip(self._graph.nodes, points.tolist())}
+
+    def plot(
+        self,
+        ax: Optional[matplotlib.axes.Axes] = None,
+        *,
+        pos: Optional[Mapping[N, Sequence[float]]] = None,
+        labels: Optional[bool] = None,
+        node_size: Optional[float] = None,
+    ) -> matplotlib.axes.Axes:
+        """Draws the graph with matplotlib, components in the colours of :meth:`picture`.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to; by default the current axes.
+        pos : mapping, optional
+            A place for each node, two numbers or more, of which the first two are drawn.
+        labels : bool, optional
+            Whether nodes have their names beside them; by default up to 40 have.
+        node_size : float, optional
+            In points squared.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Where it is drawn.
+
+        Raises
+        ------
+        TooLarge
+            Without `pos`, of a graph with more than 1,000 nodes or 150,000 pairs.
+        """
+        return plot(self, ax, pos=pos, labels=labels, node_size=node_size)
+
+    def to_tikz(
+        self,
+        *,
+        pos: Optional[Mapping[N, Sequence[float]]] = None,
+        labels: Optional[bool] = None,
+        width: float = 8.0,
+    ) -> str:
+        """The graph as a picture for LaTeX with TikZ, components in the colours of :meth:`picture`.
+
+        Parameters
+        ----------
+        pos, labels
+            As of :meth:`plot`.
+        width : float
+            Of the picture, in centimetres.
+
+        Examples
+        --------
+        >>> import viewcert
+        >>> print(viewcert.verify([("a", "b")]).to_tikz(pos={"a": (0, 0), "b": (1, 0)}, labels=False), end="")
+        \\definecolor{viewcerta}{HTML}{4477AA}
+        \\begin{tikzpicture}[vertex/.style={circle, inner sep=1.6pt, draw=white, fill=#1}]
+          \\node[vertex=viewcerta] (v0) at (0.000, 0.000) {};
+          \\node[vertex=viewcerta] (v1) at (8.000, 0.000) {};
+          \\draw[viewcerta] (v0) -- (v1);
+        \\end{tikzpicture}
+        """
+        return to_tikz(self, pos=pos, labels=labels, width=width)
 
     def __repr__(self) -> str:
         count = self._native.component_count()

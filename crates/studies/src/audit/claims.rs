@@ -24,8 +24,10 @@
 //! after another. Among the latter two the objects that `verify --json` prints are known, whose
 //! members are not flat.
 
+mod graphs;
 mod ruling;
 
+pub use graphs::{GraphError, graph};
 pub use ruling::{Claim, ClaimedVerdict, Named, RowError, Ruling, claim, rule};
 
 use serde::Deserialize;

@@ -14,6 +14,7 @@
 
 pub mod affine;
 pub mod at_cameras;
+pub mod beside;
 pub mod cameras;
 pub mod claims;
 pub mod components;
@@ -28,6 +29,7 @@ use crate::formulation::augmented;
 use jacobian::{Blocks, Jacobian};
 use std::fmt;
 use std::str::FromStr;
+use viewcert::geometry::draw::DrawError;
 use viewcert::graph::Graph;
 
 /// The tolerance of the published code, on the smallest eigenvalue of J^T J.
@@ -181,6 +183,9 @@ pub enum AuditError {
     /// No shift made J^T J positive definite.
     #[error("the sparse Cholesky factor of J^T J failed at every shift: {0}")]
     NoFactor(String),
+    /// No cameras can be drawn for the published method without rounding.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
 }
 
 impl fmt::Display for Method {

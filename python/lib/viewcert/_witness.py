@@ -1,0 +1,355 @@
+"""Second solutions to look at: other cameras with the same fundamental matrices."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Dict, Generic, List, Literal, Optional, Tuple, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._act import _decided
+from ._arguments import whole
+from ._errors import InputError, Undecided
+from ._kept import Kept
+from ._types import N
+from ._verdict import Verdict
+from ._words import in_python
+
+#: Cameras as exact numbers: integers or fractions, of shape (n, 3, 4).
+Exact = NDArray[np.object_]
+
+_COLUMNS = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
+_SIGNS = (1, -1, 1, 1, -1, 1)
+
+
+def fundamental_matrix(first: Any, second: Any) -> NDArray[Any]:
+    """The fundamental matrix F of two cameras, up to a factor: y^T F x = 0 for the images x in the first and
+    y in the second of any point.
+
+    It is exact where the cameras are (arrays of dtype object, with integers, fractions or numbers of
+    sympy), and of floats otherwise; zero if their centres coincide.
+
+    Parameters
+    ----------
+    first, second : array_like
+        Matrices of 3 rows and 4 columns.
+
+    Examples
+    --------
+    >>> import viewcert
+    >>> viewcert.fundamental_matrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]],
+    ...                             [[1, 0, 0, 1], [0, 1, 0, 0], [0, 0, 1, 0]]).tolist()
+    [[0, 0, 0], [0, 0, 1], [0, -1, 0]]
+    """
+    cameras = [np.asarray(camera) for camera in (first, second)]
+    for camera in cameras:
+        if camera.shape != (3, 4):
+            raise InputError(f"a camera of shape {camera.shape}: give 3 rows and 4 columns")
+    if all(camera.dtype.kind in "iuO" for camera in cameras):
+        # Products of machine numbers would overflow.
+        cameras = [np.array([[_exact(x) for x in row] for row in camera], dtype=object) for camera in cameras]
+    minors = [[_minors(camera, omitted) for omitted in range(3)] for camera in cameras]
+    found = np.empty((3, 3), dtype=np.result_type(*cameras))
+    for h in range(3):
+        for k in range(3):
+            a, b = minors[0][k], minors[1][h]
+            total = sum(sign * a[m] * b[5 - m] for m, sign in enumerate(_SIGNS))
+            found[h, k] = total if (h + k) % 2 == 0 else -total
+    return found
+
+
+def _exact(number: Any) -> Any:
+    return int(number) if isinstance(number, np.integer) else number
+
+
+def _minors(camera: NDArray[Any], omitted: int) -> List[Any]:
+    p, q = (camera[row] for row in range(3) if row != omitted)
+    return [p[k] * q[j] - p[j] * q[k] for k, j in _COLUMNS]
+
+
+@dataclass(frozen=True, eq=False)
+class Witness(Generic[N]):
+    """Two families of cameras with the same fundamental matrices on all pairs of the graph, of which none is
+    the other one times one 4 x 4 matrix: exact, modulo a prime.
+
+    Attributes
+    ----------
+    prime : int
+        The modulus.
+    nodes : tuple
+        The nodes, in the order of the cameras.
+    first, second : numpy.ndarray
+        Cameras as least residues, ``uint64`` of shape (n, 3, 4).
+    """
+
+    prime: int
+    nodes: Tuple[N, ...]
+    first: NDArray[np.uint64]
+    second: NDArray[np.uint64]
+
+    def fundamental(self, a: N, b: N) -> Tuple[Exact, Exact]:
+        """The fundamental matrices of two nodes in both families, as least residues, the first entry that is not
+        zero made 1: equal if (and only if) the matrices are the same up to a factor.
+
+        Raises
+        ------
+        KeyError
+            If one is no node.
+        """
+        found = []
+        i, j = (_place(self.nodes, node) for node in (a, b))
+        for family in (self.first, self.second):
+            matrix = fundamental_matrix(family[i], family[j]) % self.prime
+            lead = next((x for x in matrix.ravel().tolist() if x), None)
+            if lead is not None:
+                matrix = matrix * pow(lead, -1, self.prime) % self.prime
+            found.append(matrix)
+        return found[0], found[1]
+
+    def differs_at(self) -> List[Tuple[N, N]]:
+        """The pairs of nodes whose fundamental matrices are not the same in both families: none is a pair of the
+        graph. O(n^2)."""
+        nodes = self.nodes
+        pairs = ((a, b) for k, b in enumerate(nodes) for a in nodes[:k])
+        return [pair for pair in pairs if not np.array_equal(*self.fundamental(*pair))]
+
+    def __repr__(self) -> str:
+        return f"<viewcert.Witness: two solutions of {len(self.nodes)} cameras modulo {self.prime}>"
+
+
+@dataclass(frozen=True, eq=False)
+class SecondScene(Generic[N]):
+    """A scene, and another one with the same images in front of other cameras, exactly.
+
+    The cameras of the first are ``[ I | -c ]`` at integer centres c. The entries of the second ones are
+    polynomials in one root of a polynomial with integer coefficients, the eliminant; where that is linear they
+    are fractions.
+
+    Attributes
+    ----------
+    nodes : tuple
+        The nodes, in the order of the cameras.
+    centres : numpy.ndarray
+        The centres of the first scene, integers of shape (n, 3).
+    eliminant : tuple of int
+        Its coefficients, from the constant one up.
+    between : tuple of Fraction
+        Two fractions between which just one of its roots lies: the one that is meant.
+    polynomials : numpy.ndarray
+        Of shape (n, 3, 4): the coefficients of each entry of the second cameras, from the constant one up.
+    plane : tuple of int
+        The plane at infinity of the second scene: a . X > 0 for what is in front.
+    picture : str, optional
+        Both scenes as SVG, where they are near enough to each other to be drawn.
+    """
+
+    nodes: Tuple[N, ...]
+    centres: NDArray[np.int64]
+    eliminant: Tuple[int, ...]
+    between: Tuple[Fraction, Fraction]
+    polynomials: Exact = field(repr=False)
+    plane: Tuple[int, int, int, int]
+    picture: Optional[str] = field(repr=False)
+
+    @property
+    def first(self) -> NDArray[np.int64]:
+        """The first cameras, of shape (n, 3, 4)."""
+        unit = np.broadcast_to(np.eye(3, dtype=np.int64), (len(self.nodes), 3, 3))
+        return np.concatenate([unit, -self.centres[:, :, None]], axis=2)
+
+    @property
+    def is_rational(self) -> bool:
+        """Whether the second cameras have rational entries."""
+        return len(self.eliminant) == 2
+
+    def root(self, bits: int = 128) -> Fraction:
+        """The root, if it is rational; otherwise a fraction within ``2**-bits`` of it."""
+        if self.is_rational:
+            return Fraction(-self.eliminant[0], self.eliminant[1])
+        low, high = self.between
+        sign = _value(self.eliminant, low) < 0
+        while high - low > Fraction(1, 2**bits):
+            middle = (low + high) / 2
+            value = _value(self.eliminant, middle)
+            if value == 0:
+                return middle
+            if (value < 0) == sign:
+                low = middle
+            else:
+                high = middle
+        return low
+
+    def second(self, bits: int = 128) -> Exact:
+        """The second cameras as fractions, of shape (n, 3, 4): exact if :attr:`is_rational`, otherwise at a
+        fraction within ``2**-bits`` of the root."""
+        at = self.root(bits)
+        found = np.empty((len(self.nodes), 3, 4), dtype=object)
+        for place in np.ndindex(found.shape):
+            found[place] = _value(self.polynomials[place], at)
+        return found
+
+    def floats(self, bits: int = 256) -> Tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Both families of cameras in floating point, each camera of Frobenius norm 1: entries are those of
+        :meth:`second`, rounded."""
+        return _floats(self.first.astype(object)), _floats(self.second(bits))
+
+    def fundamental(self, a: N, b: N, bits: int = 128) -> Tuple[Exact, Exact]:
+        """The fundamental matrices of two nodes in both scenes: of integers, and of fractions as in
+        :meth:`second`. Of pairs of the graph they are the same up to a factor.
+
+        Raises
+        ------
+        KeyError
+            If one is no node.
+        """
+        i, j = (_place(self.nodes, node) for node in (a, b))
+        at = self.root(bits)
+        second = [
+            np.array([[_value(entry, at) for entry in row] for row in self.polynomials[k]], dtype=object)
+            for k in (i, j)
+        ]
+        first = self.first
+        return fundamental_matrix(first[i], first[j]), fundamental_matrix(*second)
+
+    def __repr__(self) -> str:
+        kind = "rational" if self.is_rational else f"of degree {len(self.eliminant) - 1}"
+        return f"<viewcert.SecondScene: two scenes of {len(self.nodes)} cameras, the second {kind}>"
+
+
+def _place(nodes: Tuple[Any, ...], node: Any) -> int:
+    try:
+        return nodes.index(node)
+    except ValueError:
+        raise KeyError(node) from None
+
+
+def _value(coefficients: Any, at: Fraction) -> Fraction:
+    found = Fraction(0)
+    for coefficient in reversed(coefficients):
+        found = found * at + coefficient
+    return found
+
+
+def _floats(cameras: Exact) -> NDArray[np.float64]:
+    """Rounded after each camera was brought to about the size of one: entries may be longer than floats."""
+    found = np.empty(cameras.shape)
+    for k, camera in enumerate(cameras):
+        largest = max(abs(x) for x in camera.ravel())
+        for place in np.ndindex(3, 4):
+            found[(k, *place)] = float(Fraction(camera[place]) / Fraction(largest))
+        found[k] /= np.linalg.norm(found[k])
+    return found
+
+
+@overload
+def witness(
+    verdict: Verdict[N], *, oriented: Literal[False] = ..., full: bool = ..., seed: Optional[int] = ...
+) -> Optional[Witness[N]]: ...
+@overload
+def witness(
+    verdict: Verdict[N], *, oriented: Literal[True], full: bool = ..., seed: Optional[int] = ...
+) -> Optional[SecondScene[N]]: ...
+@overload
+def witness(
+    verdict: Any, *, oriented: Literal[False] = ..., full: bool = ..., seed: Optional[int] = ...
+) -> Optional[Witness[Any]]: ...
+@overload
+def witness(
+    verdict: Any, *, oriented: Literal[True], full: bool = ..., seed: Optional[int] = ...
+) -> Optional[SecondScene[Any]]: ...
+def witness(
+    verdict: Any, *, oriented: bool = False, full: bool = False, seed: Optional[int] = None
+) -> Any:
+    """Two sets of cameras that have the same fundamental matrices, of a graph with finitely many solutions.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        Of the projective model. Or a graph, which is decided first.
+    oriented : bool
+        Whether two real scenes with the same images are wanted, both in front of their cameras, instead of
+        cameras modulo a prime.
+    full : bool
+        Count solutions whatever it takes; `oriented` does so.
+    seed : int, optional
+        The seed of the random cameras; by default that of the verdict.
+
+    Returns
+    -------
+    Witness, SecondScene or None
+        None if there is one solution alone.
+
+    Raises
+    ------
+    InputError
+        If there are infinitely many solutions, or the verdict is of another model.
+    Undecided
+        If no second solution is known; the message says why.
+
+    Examples
+    --------
+    A graph with nine cameras and two solutions: on its pairs both have the same fundamental matrices, but not
+    on all others.
+
+    >>> import networkx, viewcert
+    >>> graph = networkx.from_graph6_bytes(b"HBQkcP_")
+    >>> found = viewcert.witness(graph)
+    >>> found.first.shape, found.second.shape
+    ((9, 3, 4), (9, 3, 4))
+    >>> first, second = found.fundamental(*next(iter(graph.edges)))
+    >>> bool((first == second).all())
+    True
+    >>> any(graph.has_edge(*pair) for pair in found.differs_at()), len(found.differs_at()) > 0
+    (False, True)
+    """
+    verdict = _decided(verdict)
+    if verdict.model != "projective":
+        raise InputError(f"witness: second solutions are of the projective model, not of the {verdict.model} one")
+    if verdict.value == "not-finite-solvable":
+        raise InputError(
+            "witness: there are infinitely many solutions; viewcert.at_cameras(verdict, cameras).velocities() says "
+            "how cameras move"
+        )
+    if verdict.value == "solvable":
+        return None
+    wanted = dict(verdict._question["wanted"])
+    seed = wanted["seed"] if seed is None else whole("seed", seed, 0, 2**64 - 1)
+    native = verdict._native
+    whole_count = full or oriented
+    if (whole_count and wanted["solutions"] != "full") or wanted["solutions"] is None or seed != wanted["seed"]:
+        question = {name: value for name, value in verdict._question.items() if name != "wanted"}
+        wanted["solutions"] = "full" if whole_count else wanted["solutions"] or "quick"
+        wanted["seed"] = seed
+        found = _native.decide(verdict.graph._native, wanted, **question)
+    else:
+        found = native.again() if isinstance(native, Kept) else native
+    text, picture, (why, words) = _native.witness(found, seed=seed, oriented=oriented)
+    if text is None:
+        if why == "one":
+            return None
+        advice = "" if whole_count else "; full=True counts whatever it takes"
+        raise Undecided(f"witness: {in_python(words)}{advice}")
+    said: Dict[str, Any] = json.loads(text)
+    nodes = tuple(verdict.graph.nodes)
+    if not oriented:
+        families = (np.array([[list(map(int, row)) for row in camera] for camera in said[name]], dtype=np.uint64)
+                    for name in ("first", "second"))
+        return Witness(int(said["prime"]), nodes, *families)
+    polynomials = np.empty((len(nodes), 3, 4), dtype=object)
+    for place in np.ndindex(polynomials.shape):
+        k, row, column = place
+        polynomials[place] = tuple(map(int, said["second"][k][row][column]))
+    low, high, below = map(int, said["between"])
+    return SecondScene(
+        nodes=nodes,
+        centres=np.array(said["centres"], dtype=np.int64),
+        eliminant=tuple(map(int, said["eliminant"])),
+        between=(Fraction(low, below), Fraction(high, below)),
+        polynomials=polynomials,
+        plane=tuple(said["plane"]),
+        picture=picture,
+    )

@@ -1,0 +1,197 @@
+//! What is asked of several files at once: the overview of a database, lists of images, archives of
+//! certificates.
+
+use crate::decided::bytes_of;
+use crate::errors::of_any;
+use crate::graph::{list_options, read_options};
+use crate::work::{self, Job};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use viewcert_catalog::folder::Listing;
+use viewcert_check::Failure;
+use viewcert_cli::{ListsAsked, News, OverviewAsked, check_archive};
+use viewcert_formats::ReadOptions;
+use viewcert_report::overview_page;
+use viewcert_session::Session;
+use viewcert_session::exit::TooLarge;
+
+/// How pairs and tracks of an input are read: a `dict` in Python.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Reading {
+    format: Option<String>,
+    variable: Option<String>,
+    pipeline: Option<String>,
+    min_inliers: Option<u32>,
+    min_views: Option<u32>,
+    max_spread: Option<u32>,
+    rigs: bool,
+    columns: Option<String>,
+    min_weight: Option<String>,
+    skip_loops: bool,
+}
+
+impl Reading {
+    /// The options for pairs, and for tracks.
+    fn options(&self) -> PyResult<[ReadOptions; 2]> {
+        let of = |min_views| -> PyResult<ReadOptions> {
+            Ok(ReadOptions {
+                list: list_options(
+                    self.columns.as_deref(),
+                    self.min_weight.as_deref(),
+                    self.skip_loops,
+                )?,
+                ..read_options(
+                    self.format.as_deref(),
+                    self.variable.clone(),
+                    self.pipeline.as_deref(),
+                    self.min_inliers,
+                    min_views,
+                    self.max_spread,
+                    self.rigs,
+                )?
+            })
+        };
+        let views = viewcert_formats::TrackOptions::default().min_views;
+        Ok([of(None)?, of(Some(self.min_views.unwrap_or(views)))?])
+    }
+}
+
+/// What pairs and tracks of an input determine: `kind` is `json`, `text` or `html`.
+#[pyfunction]
+pub(crate) fn overview<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    reading: Reading,
+    kind: String,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let [options, of_tracks] = reading.options()?;
+    let asked = OverviewAsked {
+        options,
+        of_tracks,
+        says_views: reading.min_views.is_some(),
+    };
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let session = Session::under(job.watch());
+    let work = move || {
+        let mut out = Vec::new();
+        asked.of(&session, &path, |found| {
+            match &*kind {
+                "json" => found.write_json(&mut out)?,
+                "text" => found.write(&mut out)?,
+                _ => out = overview_page::html(found, found.joints)?.into_bytes(),
+            }
+            Ok(())
+        })?;
+        Ok(out)
+    };
+    bytes_of(py, &job, move || threads.install(work))
+}
+
+/// What lists of images determine, and what their overlaps fix, as JSON and as text.
+#[pyfunction]
+pub(crate) fn lists(
+    py: Python<'_>,
+    graph: PathBuf,
+    files: Vec<PathBuf>,
+    reading: Reading,
+) -> PyResult<(String, String)> {
+    let [options, of_tracks] = reading.options()?;
+    let says_views = reading.min_views.is_some();
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let session = Session::under(job.watch());
+    let work = move || -> anyhow::Result<(String, String)> {
+        let asked = ListsAsked {
+            graph: &graph,
+            files: &files,
+            options,
+            of_tracks,
+            says_views,
+        };
+        let (mut json, mut text) = (Vec::new(), Vec::new());
+        asked.of(&session, |report| {
+            report.write_json(&mut json)?;
+            Ok(report.write(&mut text)?)
+        })?;
+        Ok((String::from_utf8(json)?, String::from_utf8(text)?))
+    };
+    let found = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// What came of an archive of certificates.
+#[pyclass(frozen, get_all, module = "viewcert._native")]
+pub(crate) struct Archive {
+    /// How many were verified.
+    verified: usize,
+    /// File, line and reason of those that were rejected.
+    rejected: Vec<(String, u64, String)>,
+    /// The same of those that take more than the limits allow.
+    undecided: Vec<(String, u64, String)>,
+    /// How many graphs those are about that were verified.
+    graphs: usize,
+    /// How many prove each verdict.
+    verdicts: BTreeMap<String, u64>,
+    /// How many take known parts, displacements or base lines for given.
+    supposing: usize,
+    /// Whether all is there that manifests name; nothing without one.
+    complete: Option<bool>,
+    /// What the manifests say, in words.
+    manifest: Vec<String>,
+    /// Files that are neither certificates nor in a manifest, and why they are not looked into.
+    skipped: Vec<(String, String)>,
+}
+
+/// Verifies all certificates of a file or folder.
+#[pyfunction]
+pub(crate) fn check_all(py: Python<'_>, path: PathBuf) -> PyResult<Archive> {
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let (teller, stop) = (job.told(), job.unobserved());
+    let work = move || -> anyhow::Result<Archive> {
+        let listing = Listing::new(&path)?;
+        anyhow::ensure!(
+            !listing.files.is_empty(),
+            "{}: no certificates (.json, .jsonl, .jsonl.gz); name a folder that has some, or the files",
+            path.display()
+        );
+        let (mut rejected, mut undecided) = (Vec::new(), Vec::new());
+        let found = check_archive(&listing, &mut |news| {
+            match news {
+                News::File(_) => (),
+                News::Done(more) => teller.counted("certificates", more),
+                News::NotVerified(file, line, failure) => {
+                    let file = file.display().to_string();
+                    match failure {
+                        Failure::Rejected(why) => rejected.push((file, line, why.to_string())),
+                        Failure::TooLarge(why) => undecided.push((file, line, why.to_string())),
+                    }
+                }
+            }
+            match stop.stopped() {
+                None => Ok(()),
+                Some(_) => Err(TooLarge("the time limit was reached".into()).into()),
+            }
+        })?;
+        let skipped = listing.skipped.iter();
+        let skipped = skipped.map(|(path, why)| (path.display().to_string(), (*why).to_owned()));
+        let (complete, manifest) = match found.completeness {
+            Some(said) => (Some(said.complete), said.lines),
+            None => (None, Vec::new()),
+        };
+        Ok(Archive {
+            verified: found.verified,
+            rejected,
+            undecided,
+            graphs: found.graphs,
+            verdicts: found.verdicts,
+            supposing: found.supposing,
+            complete,
+            manifest,
+            skipped: skipped.collect(),
+        })
+    };
+    let found = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_any(&error))
+}

@@ -1,0 +1,402 @@
+//! What the literature is compared with: models side by side, conditions, formulations, floating point and
+//! the claims of others.
+//!
+//! In: graphs and verdicts. Out: what the report crate says, as JSON and as text.
+
+use crate::decided::{Decided, Wanted};
+use crate::errors::{InputError, TooLarge, of_any, of_deciding};
+use crate::graph::Graph;
+use crate::here::AtCameras;
+use crate::work::{self, Job, Told};
+use anyhow::{Context, anyhow};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+use viewcert::linalg::prime::{DEFAULT_PRIME, PrimeField};
+use viewcert::linalg::rational::Rational;
+use viewcert_report::at_cameras::AtCameras as AtCamerasReport;
+use viewcert_report::audit::Audit;
+use viewcert_report::rulings::Ruled;
+use viewcert_report::{audit as audit_report, bars, comparison, conditions as condition_report};
+use viewcert_report::{models as model_report, rulings};
+use viewcert_studies::audit::at_cameras::{FloatClaim, SigmaError, read_table, rule, sigma};
+use viewcert_studies::audit::beside::Beside;
+use viewcert_studies::audit::study::{self, Populations};
+use viewcert_studies::audit::{AuditError, Options as FloatOptions, claims};
+use viewcert_studies::conditions;
+use viewcert_studies::enclosure::Matrix;
+use viewcert_studies::formulation::compare::{self, Limits, MAX_RATIONALS, MAX_RESIDUES};
+
+/// What is said for programs, as JSON, and for people.
+type Said = (String, String);
+
+/// Both of them.
+fn said(
+    json: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+    text: impl FnOnce(&mut Vec<u8>) -> std::io::Result<()>,
+) -> anyhow::Result<Said> {
+    let (mut of_json, mut of_text) = (Vec::new(), Vec::new());
+    json(&mut of_json)?;
+    text(&mut of_text)?;
+    Ok((String::from_utf8(of_json)?, String::from_utf8(of_text)?))
+}
+
+/// Verdicts on one graph, from the model that determines least to the one that determines most.
+#[pyfunction]
+pub(crate) fn models(py: Python<'_>, decided: Vec<Py<Decided>>) -> PyResult<Said> {
+    let answers: Vec<_> = decided.iter().map(|one| one.get().answer()).collect();
+    let order = answers.iter().map(|(_, verdict)| verdict.model);
+    if !order.eq(model_report::ORDER) {
+        return Err(InputError::new_err("models go from affine to calibrated"));
+    }
+    let found = work::run(py, move || {
+        let verdicts: Vec<_> = answers.iter().map(|(_, verdict)| &**verdict).collect();
+        let (input, changes) = (&*answers[0].0, model_report::all_changes(&verdicts));
+        said(
+            |out| model_report::json(out, input, &verdicts, &changes),
+            |out| model_report::text(out, input, &verdicts, &changes),
+        )
+    })?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// The conditions of the literature on a graph.
+#[pyfunction]
+pub(crate) fn of_conditions(py: Python<'_>, graph: &Graph) -> PyResult<Said> {
+    let input = Arc::clone(&graph.0);
+    let found = Job::new(py)?.run(py, move || {
+        let found = conditions::decide(&input.graph);
+        said(
+            |out| condition_report::json(out, &input, &found),
+            |out| condition_report::text(out, &input, &found),
+        )
+    })?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// The formulations of the literature on a graph, and a picture of the sizes of their matrices: of
+/// projective or affine cameras, modulo a prime or at cameras with small rational entries; matrices with
+/// more entries than `limit` are not eliminated.
+#[pyfunction]
+#[pyo3(signature = (graph, *, affine=false, prime=None, bounds=None, seed=1, limit=None))]
+pub(crate) fn formulations(
+    py: Python<'_>,
+    graph: &Graph,
+    affine: bool,
+    prime: Option<u64>,
+    bounds: Option<(u64, u64)>,
+    seed: u64,
+    limit: Option<usize>,
+) -> PyResult<(String, String, String)> {
+    let input = Arc::clone(&graph.0);
+    let prime = prime.unwrap_or(DEFAULT_PRIME);
+    let field = PrimeField::new(prime);
+    let field = field.map_err(|error| InputError::new_err(format!("prime={prime}: {error}")))?;
+    let job = Job::new(py)?;
+    let threads = work::threads()?;
+    let work = move || {
+        let most = match bounds {
+            None => MAX_RESIDUES,
+            Some(_) => MAX_RATIONALS,
+        };
+        let (limits, graph) = (Limits::new(limit.unwrap_or(most)), &input.graph);
+        let found = match (bounds, affine) {
+            (None, false) => compare::modular(&field, graph, seed, &limits),
+            (None, true) => compare::affine::modular(&field, graph, seed, &limits),
+            (Some(bounds), false) => compare::rational(graph, bounds, seed, &limits),
+            (Some(bounds), true) => compare::affine::rational(graph, bounds, seed, &limits),
+        };
+        let found = found.with_context(|| input.name.clone())?;
+        let (json, text) = said(
+            |out| comparison::json(out, &input, &found),
+            |out| comparison::text(out, &input, &found),
+        )?;
+        Ok((json, text, bars::draw(&comparison::sizes(&input, &found))))
+    };
+    let found: anyhow::Result<_> = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_any(&error))
+}
+
+/// How floating point is asked.
+fn float_options(tolerance: f64, method: &str, seed: u64) -> PyResult<FloatOptions> {
+    if !(tolerance.is_finite() && tolerance > 0.0) {
+        return Err(InputError::new_err(format!(
+            "tolerance={tolerance}: take a positive number"
+        )));
+    }
+    let method = method.parse();
+    Ok(FloatOptions {
+        tolerance,
+        method: method.map_err(|why| InputError::new_err(format!("method: {why}")))?,
+        seed,
+    })
+}
+
+/// Why floating point has no answer.
+fn of_doubles(error: &AuditError) -> PyErr {
+    match error {
+        AuditError::TooLarge { .. } => TooLarge::new_err(error.to_string()),
+        _ => InputError::new_err(error.to_string()),
+    }
+}
+
+/// Floating point beside a verdict of the projective model.
+#[pyfunction]
+pub(crate) fn audit(
+    py: Python<'_>,
+    decided: &Decided,
+    tolerance: f64,
+    method: &str,
+    draws: u64,
+    seed: u64,
+) -> PyResult<Said> {
+    let options = float_options(tolerance, method, seed)?;
+    let ((input, verdict), (.., time)) = (decided.answer(), decided.asked());
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let work = move || {
+        let float = Beside::new(&input.graph, &verdict, &options, draws)?;
+        let found = Audit {
+            input: &input,
+            exact: &verdict,
+            exact_time: time,
+            tolerance,
+            float,
+        };
+        let said = said(
+            |out| audit_report::json(out, &found),
+            |out| audit_report::text(out, &found),
+        );
+        Ok(said)
+    };
+    let found: Result<_, AuditError> = job.run(py, move || threads.install(work))?;
+    found
+        .map_err(|error| of_doubles(&error))?
+        .map_err(|error| of_any(&error))
+}
+
+/// How often tolerances misjudge graphs that were decided, at so many draws of each: for each tolerance, the
+/// given one first, its errors among not solvable and solvable draws; how many draws there are of both, and
+/// how many have no verdict.
+#[pyfunction]
+#[expect(clippy::type_complexity, reason = "a tuple of Python")]
+pub(crate) fn tolerances(
+    py: Python<'_>,
+    decided: Vec<Py<Decided>>,
+    tolerance: f64,
+    method: &str,
+    draws: u64,
+    seed: u64,
+) -> PyResult<(Vec<(f64, usize, usize)>, [usize; 3])> {
+    let options = float_options(tolerance, method, seed)?;
+    let answers: Vec<_> = decided.iter().map(|one| one.get().answer()).collect();
+    let told = Told::expecting("graphs", answers.len() as u64);
+    let job = Job::within(py, (None, None), None, told)?;
+    let (teller, threads) = (job.told(), work::threads()?);
+    let work = move || {
+        let mut populations = Populations::default();
+        for (input, verdict) in &answers {
+            let values = study::eigenvalues(&input.graph, &options, 0..draws)?;
+            populations.add(verdict.value != viewcert::Value::NotFiniteSolvable, &values);
+            teller.counted("graphs", 1);
+        }
+        let first = populations.errors(tolerance);
+        let all = std::iter::once(first).chain(populations.sweep());
+        let rows = all.map(|errors| {
+            (
+                errors.tolerance,
+                errors.false_solvable,
+                errors.false_not_solvable,
+            )
+        });
+        let (not_solvable, solvable) = (&populations.not_solvable, &populations.solvable);
+        let counts = [not_solvable.len(), solvable.len(), populations.undecided];
+        Ok((rows.collect(), counts))
+    };
+    let found: Result<_, AuditError> = job.run(py, move || threads.install(work))?;
+    found.map_err(|error| of_doubles(&error))
+}
+
+/// A table of claims.
+#[pyclass(frozen, module = "viewcert._native")]
+pub(crate) struct Claims(Vec<claims::Row>);
+
+#[pymethods]
+impl Claims {
+    /// Reads comma-separated values or JSON; columns in `ignored` are left out.
+    #[new]
+    fn new(text: &str, ignored: Vec<String>) -> PyResult<Self> {
+        let rows = claims::read_table(text, &ignored);
+        rows.map(Self)
+            .map_err(|error| InputError::new_err(format!("line {}: {error}", error.line)))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    /// What a row calls its graph, if by a name or a file, which somebody has to know.
+    fn name(&self, row: usize) -> PyResult<Option<String>> {
+        let claim = claims::claim(&self.0[row]);
+        let claim = claim.map_err(|error| InputError::new_err(error.to_string()))?;
+        Ok(match claim.graph {
+            claims::Named::Graph(_) => None,
+            claims::Named::File(name) | claims::Named::Name(name) => Some(name),
+        })
+    }
+
+    /// Rules on a row: about this graph, or the one that it names, which is in the folder if that is needed.
+    #[pyo3(signature = (row, wanted, *, graph=None, folder=None))]
+    fn rule(
+        &self,
+        py: Python<'_>,
+        row: usize,
+        wanted: Wanted,
+        graph: Option<&Graph>,
+        folder: Option<PathBuf>,
+    ) -> PyResult<(Graph, Decided, Said)> {
+        let found = &self.0[row];
+        let claim = claims::claim(found);
+        let claim = claim.map_err(|error| InputError::new_err(error.to_string()))?;
+        let input = match graph {
+            Some(graph) => Arc::clone(&graph.0),
+            None => {
+                let named = claims::graph(&claim.graph, folder.as_deref(), &|_| None);
+                Arc::new(named.map_err(|error| of_any(&error.into()))?)
+            }
+        };
+        let wanted = wanted.of_model(claim.model.name());
+        let (job, threads, line) = (Job::new(py)?, work::threads()?, found.line);
+        let options = wanted.options(viewcert::Known::default(), job.watch());
+        let options = options.map_err(InputError::new_err)?;
+        let (start, asked) = (Instant::now(), Arc::clone(&input));
+        let decided = job.run(py, move || {
+            threads.install(|| viewcert::decide(&asked.graph, &options))
+        })?;
+        let exact = decided.map_err(|error| of_deciding(&error))?;
+        let (nodes, edges) = (input.graph.nodes(), input.graph.edges().len());
+        let ruled = Ruled {
+            number: row + 1,
+            line,
+            ruling: claims::rule(&claim, nodes, edges, &exact),
+            input: (*input).clone(),
+            exact,
+            certificate: None,
+        };
+        let said = said(
+            |out| rulings::json(out, &ruled),
+            |out| rulings::text(out, &ruled),
+        );
+        let said = said.map_err(|error| of_any(&error))?;
+        let decided = Decided::new(Arc::clone(&input), ruled.exact, &wanted, start.elapsed());
+        Ok((Graph(input), decided, said))
+    }
+}
+
+/// A matrix of the literature by its name.
+fn of_name(name: &str) -> PyResult<Matrix> {
+    let found = Matrix::ALL.into_iter().find(|matrix| matrix.name() == name);
+    found.ok_or_else(|| {
+        let names = Matrix::ALL.map(Matrix::name).join(", ");
+        InputError::new_err(format!("matrix={name:?}: give one of {names}"))
+    })
+}
+
+/// The lesser and the greater of two fractions.
+type Between = [String; 2];
+
+/// Two fractions between which the smallest singular value that is not trivial lies, and its number from
+/// below: of a matrix at the given cameras, with cameras and fundamental matrices scaled to a norm.
+#[pyfunction]
+#[pyo3(signature = (at, matrix, *, norm=None))]
+pub(crate) fn singular_value(
+    py: Python<'_>,
+    at: &AtCameras,
+    matrix: &str,
+    norm: Option<&str>,
+) -> PyResult<(Between, usize)> {
+    let matrix = of_name(matrix)?;
+    let norm = norm.map(str::parse::<Rational>).transpose();
+    let norm = norm.map_err(|_| InputError::new_err("norm: this is no number"))?;
+    let (input, centres, here) = at.found();
+    if matrix.model() != centres.model() {
+        let (name, model) = (matrix.name(), centres.model());
+        return Err(InputError::new_err(format!(
+            "matrix: {name} is no matrix of the {model} model"
+        )));
+    }
+    let place = matrix.place(input.graph.nodes());
+    let claim = norm.map(|norm| FloatClaim {
+        line: 0,
+        name: None,
+        model: centres.model(),
+        determined: None,
+        rank: None,
+        components: None,
+        sigma: None,
+        matrix: Some(matrix),
+        norm: Some(norm),
+    });
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let stop = job.watch();
+    let work = move || {
+        let at = (&*centres, &*here);
+        sigma(matrix, &input.graph, at, claim.as_ref(), &stop)
+    };
+    let found = job.run(py, move || threads.install(work))?;
+    let found = found.map_err(of_sigma)?;
+    Ok(([found.least.to_string(), found.most.to_string()], place))
+}
+
+fn of_sigma(error: SigmaError) -> PyErr {
+    match error {
+        SigmaError::TooLarge { .. } => TooLarge::new_err(error.to_string()),
+        SigmaError::Stopped(stopped) => of_any(&stopped.into()),
+        error => InputError::new_err(error.to_string()),
+    }
+}
+
+/// Rules on a table of floating-point results at the given cameras, row by row.
+#[pyfunction]
+pub(crate) fn audit_at_cameras(py: Python<'_>, at: &AtCameras, table: &str) -> PyResult<Vec<Said>> {
+    let rows = read_table(table);
+    let rows =
+        rows.map_err(|error| InputError::new_err(format!("line {}: {error}", error.line)))?;
+    let (input, centres, here) = at.found();
+    let model = centres.model();
+    if let Some(other) = rows.iter().find(|row| row.model != model) {
+        let (line, of_row) = (other.line, other.model);
+        return Err(InputError::new_err(format!(
+            "line {line}: the row is about the {of_row} model, and the verdict is of the {model} model; \
+             audit each at the cameras of its own verdict"
+        )));
+    }
+    let (job, threads) = (Job::new(py)?, work::threads()?);
+    let stop = job.watch();
+    let work = move || {
+        let each = (1..).zip(&rows).map(|(number, claim)| {
+            let asked = claim.sigma.as_ref().and(claim.matrix);
+            let found = asked.map(|matrix| {
+                let at = (&*centres, &*here);
+                sigma(matrix, &input.graph, at, Some(claim), &stop)
+            });
+            let found = found.transpose()?;
+            let ruling = rule(claim, &here, found.as_ref());
+            let report = AtCamerasReport {
+                input: &input,
+                here: &here,
+                sigma: asked.zip(found.as_ref()),
+                ruled: Some((number, claim, &ruling)),
+            };
+            Ok(said(
+                |out| report.write_json(out),
+                |out| report.write_text(out),
+            ))
+        });
+        each.collect::<Result<Vec<_>, SigmaError>>()
+    };
+    let found = job.run(py, move || threads.install(work))?;
+    let found = found.map_err(of_sigma)?.into_iter();
+    let found: anyhow::Result<Vec<Said>> = found.collect();
+    found.map_err(|error| of_any(&anyhow!("{error:#}")))
+}

@@ -1,0 +1,168 @@
+"""Overviews, lists, archives and counts: against the program, and archives that are broken on purpose."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import os
+import pathlib
+import shutil
+
+import networkx as nx
+import pytest
+import viewcert
+
+from conftest import ROOT, Program, absent
+
+try:
+    import pycolmap
+except ImportError:
+    pycolmap = None
+
+
+@pytest.fixture(scope="module")
+def database(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """A database with matches, as pycolmap makes it."""
+    if pycolmap is None:
+        absent("pycolmap is not installed")
+    path = tmp_path_factory.mktemp("synthetic") / "database.db"
+    options = pycolmap.SyntheticDatasetOptions()
+    options.num_rigs, options.num_frames_per_rig, options.num_points3D = 1, 8, 60
+    with pycolmap.Database.open(path) as opened:
+        pycolmap.synthesize_dataset(options, opened)
+    return path
+
+
+def untimed(found: dict[str, object]) -> dict[str, object]:
+    return {name: value for name, value in found.items() if name != "seconds"}
+
+
+def test_an_overview_is_the_programs(database: pathlib.Path, program: Program) -> None:
+    for path in (database, ROOT / "examples/courtyard-gaps.txt"):
+        found = viewcert.overview(path)
+        (theirs,) = program.json("overview", path)
+        assert untimed(found.found) == untimed(theirs)
+        assert found.report().splitlines()[0] == str(path)
+        assert "</html>" in found.page()
+    few = viewcert.overview(database, min_inliers=10**6)
+    assert few.found["pairs"]["projective"]["components"] == []
+    with pytest.raises(viewcert.InputError, match="no such file|cannot be read|No such file"):
+        viewcert.overview(database.parent / "nowhere.db")
+    with pytest.raises(viewcert.InputError, match="min_inliers"):
+        viewcert.overview(database, min_inliers=-1)
+
+
+def test_lists_are_the_programs(tmp_path: pathlib.Path, program: Program) -> None:
+    graph = ROOT / "examples/courtyard.txt"
+    images = viewcert.read(graph).nodes
+    first, second = tmp_path / "first.txt", tmp_path / "second.txt"
+    first.write_text("\n".join(images[:16]) + "\n")
+    second.write_text("\n".join(images[12:]) + "\n")
+    found = viewcert.lists(graph, [first, second])
+    (theirs,) = program.json("lists", graph, first, second)
+    assert untimed(found.found) == untimed(theirs)
+    assert [one.images for one in found.lists] == [16, 16]
+    assert [one.is_whole for one in found.lists] == [one["whole"] for one in theirs["lists"]]
+    assert found.determined == theirs["determined"]
+    first.write_text("\n".join(images) + "\n")
+    assert viewcert.lists(graph, [first]).lists[0].is_whole
+    apart = tmp_path / "apart.txt"
+    apart.write_text(f"{images[0]}\n{images[14]}\n")
+    assert not viewcert.lists(graph, [apart]).lists[0].is_whole
+    with pytest.raises(viewcert.InputError, match="list of paths"):
+        viewcert.lists(graph, "first.txt")
+
+
+def archive(folder: pathlib.Path) -> pathlib.Path:
+    """A copy of a small part of what is published, with a manifest of its own."""
+    manifest = json.loads((ROOT / "certificates/manifest.json").read_text())
+    names = ["n05-finite-solvable.jsonl.gz", "n06-refuted.jsonl.gz"]
+    manifest["files"] = [file for file in manifest["files"] if file["file"] in names]
+    for name in names:
+        shutil.copy(ROOT / "certificates" / name, folder / name)
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    return folder
+
+
+def test_an_archive(tmp_path: pathlib.Path) -> None:
+    found = viewcert.check_all(archive(tmp_path), errors="raise")
+    assert found.is_good and found.complete is True and not found.rejected
+    assert found.verified == found.graphs == sum(found.verdicts.values())
+    assert set(found.verdicts) <= {"solvable", "finite-solvable", "not-finite-solvable"}
+    assert found.supposing == 0
+
+
+def test_an_archive_that_was_tampered_with(tmp_path: pathlib.Path) -> None:
+    folder = archive(tmp_path)
+    path = folder / "n06-refuted.jsonl.gz"
+    lines = gzip.decompress(path.read_bytes()).splitlines(keepends=True)
+    lines[2] = lines[2].replace(b'"not-finite-solvable"', b'"finite-solvable"')
+    path.write_bytes(gzip.compress(b"".join(lines)))
+    found = viewcert.check_all(folder)
+    assert not found.is_good and found.complete is False and found.manifest
+    (bad,) = found.rejected
+    assert bad.file == str(path) and bad.line == 3 and bad.reason
+    with pytest.raises(viewcert.Rejected, match=":3"):
+        viewcert.check_all(folder, errors="raise")
+
+
+def test_an_archive_with_a_file_missing(tmp_path: pathlib.Path) -> None:
+    folder = archive(tmp_path)
+    os.remove(folder / "n05-finite-solvable.jsonl.gz")
+    found = viewcert.check_all(folder)
+    assert not found.rejected and found.complete is False and not found.is_good
+    assert "n05-finite-solvable.jsonl.gz" in " ".join(found.manifest)
+    with pytest.raises(viewcert.Rejected, match="n05-finite-solvable"):
+        viewcert.check_all(folder, errors="raise")
+
+
+def test_what_certificates_suppose(tmp_path: pathlib.Path) -> None:
+    pairs = [(0, 1), (1, 2), (2, 3), (1, 3)]
+    plain = viewcert.verify(pairs)
+    with_parts = viewcert.verify(pairs, parts=[[0, 1, 2]])
+    moved = viewcert.verify([(0, 2), (0, 3), (1, 2)], model="calibrated", displacements=[(0, 1), (2, 3)])
+    at = viewcert.at_cameras(plain, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 3)])
+    lines = [one.certificate(compact=True) for one in (plain, with_parts, moved)]
+    (tmp_path / "all.jsonl").write_bytes(b"\n".join(line.strip() for line in lines) + b"\n")
+    (tmp_path / "cameras.json").write_bytes(at.certificate())
+    told: list[tuple[str, int, int]] = []
+    found = viewcert.check_all(tmp_path, progress=lambda what, done, total: told.append((what, done, total)))
+    assert found.verified == 4 and found.supposing == 2 and found.complete is None
+    assert found.verdicts["solvable"] == 2 and "not-determined" in found.verdicts
+    assert told[-1][:2] == ("certificates", 4)
+
+
+def test_no_archive(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(viewcert.InputError, match="no certificates"):
+        viewcert.check_all(tmp_path)
+    (tmp_path / "manifest.json").write_text("{}")
+    with pytest.raises(viewcert.InputError, match="not a manifest"):
+        viewcert.check_all(tmp_path)
+
+
+def test_counts_of_the_catalog(tmp_path: pathlib.Path, program: Program) -> None:
+    # As published (docs/catalog.md).
+    found = viewcert.census(8, solutions=True, graphs=True)
+    assert found.graphs is not None
+    assert (found.counts["candidates"], found.counts["finite_solvable"]) == (161, len(found.graphs))
+    assert sum(found.solutions.values()) == len(found.graphs)
+    values = {entry.graph6 for entry in viewcert.catalog(8) if entry.value != "not-finite-solvable"}
+    assert set(found.graphs) == values
+    quick = viewcert.census(8, verdicts=True, graphs=True)
+    assert quick.graphs is not None and quick.digest
+    assert {viewcert.label(nx.from_graph6_bytes(line.encode())) for line in quick.graphs} == {
+        viewcert.label(nx.from_graph6_bytes(line.encode())) for line in found.graphs
+    }
+    table = program.run("catalog", "--nodes", "8", "--verdicts").stdout
+    assert quick.digest in table
+
+    path = tmp_path / "some.g6"
+    path.write_text("\n".join([*found.graphs, "!"]) + "\n")
+    of_file = viewcert.census(from_file=path)
+    assert of_file.counts["candidates"] == of_file.counts["finite_solvable"] == len(found.graphs)
+    assert len(of_file.malformed) == 1
+    path.write_text("\n".join(found.graphs) + "\n")
+    assert [entry.graph6 for entry in viewcert.catalog(from_file=path)] == list(found.graphs)
+    for wrong in ({}, {"nodes": 5, "from_file": path}, {"from_file": path, "minimal": True}):
+        with pytest.raises(viewcert.InputError):
+            viewcert.census(**wrong)  # type: ignore[arg-type]

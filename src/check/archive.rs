@@ -1,0 +1,137 @@
+//! Many certificates: files with one a line, folders, and by their manifests whether all are there.
+
+use super::checker;
+use anyhow::{Context, Result, ensure};
+use flate2::read::MultiGzDecoder;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use viewcert_catalog::folder::{Completeness, Listing, is_list};
+use viewcert_catalog::manifest::Contents;
+use viewcert_check::Failure;
+use viewcert_session::printable;
+
+/// Certificates that are read before they are checked together.
+const BATCH: usize = 256;
+
+/// What is told while they are checked.
+pub enum News<'a> {
+    /// A file is begun.
+    File(&'a Path),
+    /// So many certificates more are checked.
+    Done(u64),
+    /// The one on a line of a file is not verified, and why.
+    NotVerified(&'a Path, u64, &'a Failure),
+}
+
+/// What came of them.
+#[derive(Default)]
+pub struct Archive {
+    /// How many were verified.
+    pub verified: usize,
+    /// How many were rejected.
+    pub rejected: usize,
+    /// How many take more than the limits allow.
+    pub undecided: usize,
+    /// How many graphs those are about that were verified.
+    pub graphs: usize,
+    /// How many prove each verdict.
+    pub verdicts: BTreeMap<String, u64>,
+    /// How many take known parts, displacements, or base lines for given.
+    pub supposing: usize,
+    /// Whether all is there that manifests name; nothing without one.
+    pub completeness: Option<Completeness>,
+}
+
+/// Checks every certificate of every file; each must hold its graph. `tell` says, after each piece of news,
+/// whether to go on.
+///
+/// # Errors
+/// If a file cannot be read, or the files hold no certificates; those of `tell`.
+pub fn check_archive(
+    listing: &Listing,
+    tell: &mut dyn FnMut(News<'_>) -> Result<()>,
+) -> Result<Archive> {
+    let mut archive = Archive::default();
+    let mut graphs = BTreeSet::new();
+    let mut found: BTreeMap<&Path, Contents> = BTreeMap::new();
+    for (file, _) in &listing.files {
+        let named = || file.display().to_string();
+        tell(News::File(file))?;
+        let mut lines = certificates(file).with_context(named)?;
+        let mut of_file = BTreeSet::new();
+        let contents = found.entry(file).or_default();
+        let mut line = 0;
+        loop {
+            let batch = lines.by_ref().take(BATCH);
+            let batch: Vec<Vec<u8>> = batch.collect::<std::io::Result<_>>().with_context(named)?;
+            if batch.is_empty() {
+                break;
+            }
+            let outcomes: Vec<_> = batch.par_iter().map(|text| checker::check(text)).collect();
+            for outcome in outcomes {
+                line += 1;
+                let proved = match outcome {
+                    Ok(proved) => proved,
+                    Err(failure) => {
+                        match failure {
+                            Failure::Rejected(_) => archive.rejected += 1,
+                            Failure::TooLarge(_) => archive.undecided += 1,
+                        }
+                        tell(News::NotVerified(file, line, &failure))?;
+                        continue;
+                    }
+                };
+                archive.verified += 1;
+                archive.supposing += usize::from(proved.supposes);
+                *contents.verdicts.entry(proved.verdict).or_default() += 1;
+                if let Some(solutions) = proved.solutions {
+                    *contents.solutions.entry(solutions).or_default() += 1;
+                }
+                of_file.insert(proved.sha256);
+            }
+            tell(News::Done(batch.len() as u64))?;
+        }
+        contents.graphs = of_file.len() as u64;
+        graphs.append(&mut of_file);
+    }
+    ensure!(
+        archive.verified + archive.rejected + archive.undecided > 0,
+        "the files hold no certificates"
+    );
+    archive.graphs = graphs.len();
+    for contents in found.values() {
+        for (verdict, count) in &contents.verdicts {
+            *archive.verdicts.entry(verdict.clone()).or_default() += count;
+        }
+    }
+    archive.completeness = listing.completeness(&found)?;
+    Ok(archive)
+}
+
+/// Why one is not verified, in words that can be printed.
+pub(super) fn reason(failure: &Failure) -> String {
+    printable(&match failure {
+        Failure::Rejected(rejection) => rejection.to_string(),
+        Failure::TooLarge(limit) => limit.to_string(),
+    })
+}
+
+/// The certificates of a file, one after another.
+fn certificates(
+    file: &Path,
+) -> std::io::Result<Box<dyn Iterator<Item = std::io::Result<Vec<u8>>>>> {
+    if !is_list(file) {
+        return Ok(Box::new(std::iter::once(fs::read(file))));
+    }
+    let input = fs::File::open(file)?;
+    let input: Box<dyn Read> = match file.extension() {
+        Some(extension) if extension == "gz" => Box::new(MultiGzDecoder::new(input)),
+        _ => Box::new(input),
+    };
+    Ok(Box::new(
+        BufReader::with_capacity(1 << 16, input).split(b'\n'),
+    ))
+}
