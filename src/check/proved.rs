@@ -182,6 +182,7 @@ mod tests {
             solutions: None,
             text: String::new(),
             of_pairs: Some(Model::Projective),
+            supposes: false,
             rank,
             required: 40,
             components,
