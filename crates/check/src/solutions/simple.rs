@@ -1,5 +1,5 @@
 //! Simple points, of a tight core or with `relations`: conditions (S19) to (S23) of section 12 (theory,
-//! Lemma 10.9 and Theorem 10.10).
+//! Lemma 10.9, Theorems 10.10 and 10.22).
 
 use super::dense::{Sparse, columns, dot};
 use super::relations;

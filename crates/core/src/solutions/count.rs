@@ -767,7 +767,7 @@ fn redraw(charts: &[Charted], most: usize, draws: &Draws<'_>, best: &mut Solutio
     }
 }
 
-/// The simple points of a tight core at the centres that are given, as many as are known to be elsewhere,
+/// The simple points of a core at the centres that are given, as many as are known to be elsewhere,
 /// in the same chart. `None` if they are not all residues, or not simple.
 pub(super) fn points_at(known: &Solutions, draws: &Draws<'_>) -> Option<Lower> {
     let unknowns = &known.upper.as_ref()?.points.as_ref()?.1.unknowns;
