@@ -101,9 +101,9 @@ def spanning_tree(nodes, pairs):
     return reached[0], tree
 
 
-def program(nodes, pairs):
+def program(nodes, pairs, draw=0):
     """The equations of the cameras of a graph, for Singular, and the number of scales."""
-    drawn = random.Random(str(pairs))
+    drawn = random.Random(f"{pairs} {draw}" if draw else str(pairs))
     centre = [[drawn.randrange(PRIME) for _ in range(3)] for _ in range(nodes)]
     difference = lambda v, w: [(a - b) % PRIME for a, b in zip(centre[v], centre[w])]
     root, tree = spanning_tree(nodes, pairs)
@@ -133,10 +133,20 @@ def program(nodes, pairs):
     return "\n".join([*lines, "quit;"]), len(scales)
 
 
-def by_algebra(graph, limit):
+def by_algebra(graph, limit, draws=3):
     """The number of solutions of a graph, its number of nodes and its pairs, at random centres, and whether all scales are
-    one; None if it takes too long."""
-    text, scales = program(*graph)
+    one; None if it takes too long. Where there are infinitely many (-1), the centres may be to blame, which are residues modulo
+    a small prime: then others are drawn."""
+    for draw in range(draws):
+        found = at_a_draw(graph, limit, draw)
+        if found is None or found[0] >= 0:
+            break
+    return found
+
+
+def at_a_draw(graph, limit, draw):
+    """The same at one draw of centres."""
+    text, scales = program(*graph, draw)
     try:
         run = subprocess.run(["Singular", "-q"], input=text, capture_output=True, text=True, timeout=limit)
     except subprocess.TimeoutExpired:
