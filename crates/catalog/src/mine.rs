@@ -112,7 +112,7 @@ fn partition_bound(verdict: &Verdict) -> usize {
 
 /// Whether the bound of a piece has a block with a hub.
 fn uses_hub(piece: &PieceVerdict) -> bool {
-    let has_hub = |counting: &Counting| counting.blocks.iter().any(|block| block.hub.is_some());
+    let has_hub = |counting: &Counting| counting.blocks.iter().any(|block| block.hub().is_some());
     piece.evidence.iter().any(|evidence| match evidence {
         Evidence::Upper(upper) => upper.countings().any(has_hub),
         _ => false,

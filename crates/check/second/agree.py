@@ -19,6 +19,7 @@ import tempfile
 import time
 
 import check
+import cores
 import frames_by_force
 import graphs
 import intrinsics_by_force
@@ -475,7 +476,7 @@ def delete_member(document, rng):
 
 def add_member(document, rng):
     container = rng.choice([c[k] for c, k in places(document) if type(c[k]) is dict] + [document])
-    container[rng.choice(["extra", "kind", "prime", "evidence", "split", "hubs"])] = rng.choice([None, 0, [], "1"])
+    container[rng.choice(["extra", "kind", "prime", "evidence", "split", "hubs", "points"])] = rng.choice([None, 0, [], "1"])
 
 
 def evidence_lists(document):
@@ -580,6 +581,55 @@ def random_hub(document, rng):
     piece["evidence"] = [e for e in piece["evidence"] if e["kind"] != "counting" or rng.random() < 0.5]
     piece["evidence"].append(counting)
     repair(document, rng)
+
+
+def random_points(document, rng):
+    """Counting with one block, seen from random points, or with other sets of points that are there."""
+    piece = rng.choice(document["pieces"])
+    block = {"bodies": piece["bodies"], "edges": piece["edges"], "hubs": []}
+    there = [b for e in evidence_of(document, ["counting"]) for b in e["blocks"] if "points" in b]
+    if there and rng.random() < 0.7:
+        points = rng.choice(there)["points"]
+        change_points(points, rng)
+    else:
+        reader = check.Check(copy_of(document))
+        members = piece["bodies"] + [tuple(edge) for edge in piece["edges"]]
+        edges = list(cores.Core(reader, members, "").edges)
+        base = [edge for edge in edges if rng.random() < rng.choice([0, 0, 0.5, 1])]
+        nodes = sorted({node for edge in edges for node in edge})
+        at = []
+        for node in rng.sample(nodes, rng.randrange(min(5, len(nodes)))):
+            inside = [edge for edge in edges if edge in base or rng.random() < 0.8]
+            at.append({"node": node, "edges": divided(inside, rng)})
+        points = {"base": divided(base, rng), "at": at, "cycles": 0, "less": 0}
+        piece["evidence"] = [e for e in piece["evidence"] if e["kind"] != "counting" or rng.random() < 0.5]
+        piece["evidence"].append({"kind": "counting", "blocks": [{**block, "points": points}], "bound": 0})
+    repair(document, rng)
+
+
+def change_points(points, rng):
+    """A node is another one, or an edge moves into, or out of, a set, or to another list of it."""
+    nodes = sorted({node for point in points["at"] for edges in point["edges"] for edge in edges for node in edge})
+    if points["at"] and rng.random() < 0.3:
+        rng.choice(points["at"])["node"] = rng.choice(nodes)
+        return
+    sets = [points["base"], *(point["edges"] for point in points["at"])]
+    edge = rng.choice([edge for lists in sets for edges in lists for edge in edges])
+    for lists in rng.sample(sets, rng.choice([1, len(sets)])):
+        inside = [edges for edges in lists if edge in edges]
+        if inside and rng.random() < 0.8:
+            inside[0].remove(edge)
+        elif lists:
+            rng.choice(lists).append(edge)
+        for edges in lists:
+            edges.sort()
+        lists[:] = [edges for edges in lists if edges]
+
+
+def divided(edges, rng):
+    """Edges as one list, or by themselves, or at random."""
+    size = rng.choice([1, 1, len(edges), rng.randrange(1, len(edges) + 1)]) if edges else 0
+    return [sorted(part) for part in random_partition([list(edge) for edge in edges], rng, size)] if size else []
 
 
 def random_overlap(document, rng):
@@ -752,7 +802,7 @@ def bad_cycles(document, rng):
 MUTATIONS = (
     *(change_number, change_number, swap_entries, delete_entry, double_entry, move_entry, move_entry, replace_value),
     *(change_type, delete_member, add_member, change_pivots, change_pivots, change_kind, copy_evidence, copy_evidence),
-    *(random_hub, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
+    *(random_hub, random_points, random_points, random_overlap, merge_groups, merge_groups, into_rigid, change_bodies, change_claim, change_graph, change_model),
     *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
     *(change_frames, change_frames, change_frames),
     *(change_intrinsics, change_intrinsics, change_intrinsics, change_intrinsics),
@@ -817,8 +867,8 @@ def repair_count(document, reason):
         wrong, right, name = None, int(words[-1]), "bound"
     elif ": the bound is " in reason:
         wrong, right, name = int(words[-1]), int(words[-3]), "bound"
-    elif ": there are " in reason and reason.endswith("components"):
-        wrong, right, name = None, int(words[-2]), "components"
+    elif ": there are " in reason and words[-1] in ("components", "cycles"):
+        wrong, right, name = None, int(words[-2]), words[-1]
     elif ": it takes off " in reason and int(words[-1]) >= 1:
         wrong, right, name = None, int(words[-1]), "less"
     else:

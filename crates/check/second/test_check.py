@@ -1039,6 +1039,84 @@ class Overlaps(Case):
             self.assertEqual(document["claim"]["rank"]["value"], 83)
 
 
+class Points(Case):
+    """Blocks that are seen from points."""
+
+    def setUp(self):
+        # Example 5.18 of the theory: the triangle 1 3 4 is a body; the points are the nodes 7 and 8.
+        with open(os.path.join(HERE, "..", "tests", "certificates", "points.json"), encoding="utf-8") as file:
+            self.document = json.load(file)
+
+    def changed(self, edit, *words):
+        self.broken(self.document, lambda d: edit(evidence(d, "counting")["blocks"][0]["points"]), *words)
+
+    def test_what_they_take_off(self):
+        self.assertEqual(self.verifies(self.document).statements()[1], "projective: not-finite-solvable (proof)")
+        edges = list(graphs.read_graph6(self.document["graph"]["graph6"]).edges)
+        self.assertEqual(agree.generic_rank(range(17), edges, "projective", random.Random(5)), 171)
+        self.changed(lambda p: p.update(cycles=1), "there are 2 cycles")
+        self.changed(lambda p: p.update(cycles="2"), "is not an int")
+        for less in (0, 2):
+            self.changed(lambda p: p.update(less=less), "it takes off 1")
+        self.changed(lambda p: p.update(base=[]), "it takes off -1")
+        self.changed(lambda p: p.update(at=[], cycles=1, less=0), "it takes off 0")
+        self.changed(lambda p: p["at"][0].update(node=9), "cycles")
+        self.changed(lambda p: p.update(flows=1), "the member flows is unknown")
+        self.broken(self.document, lambda d: evidence(d, "counting").update(bound=170), "the bound is 171, not 170")
+
+    def test_divided_sets(self):
+        triangle = [[1, 3], [1, 4], [3, 4]]
+        for base, word in (
+            ({}, "base is not a list"),
+            ([triangle, {}], "list 1 is not a list"),
+            ([triangle, []], "list 1 is empty"),
+            ([[[1, 4], [1, 3], [3, 4]]], "increasing"),
+            ([[[1, 3], *triangle]], "increasing"),
+            ([[[1, 3], [1, 4], [4, 3]]], "pair"),
+            ([[[1, 3], [1, 4], [1, 5]]], "not edges of the core"),
+            ([triangle, [[3, 4]]], "an edge is in two lists"),
+            ([[[1, 3], [1, 4]]], "-1 flows"),
+        ):
+            self.changed(lambda p: p.update(base=base), word)
+
+    def test_points(self):
+        point = evidence(self.document, "counting")["blocks"][0]["points"]["at"][0]
+        self.changed(lambda p: p.update(at={}), "at is not a list")
+        self.changed(lambda p: p.update(at=[{**point, "node": node} for node in range(5)]), "more than four points")
+        self.changed(lambda p: p["at"][0].update(node=17), "out of range")
+        self.changed(lambda p: p["at"][0].update(node=8), "the node is there twice")
+        self.changed(lambda p: p["at"][0]["edges"].remove([[1, 3], [1, 4], [3, 4]]), "an edge of base is not in the set")
+
+    def test_in_place_of_a_hub(self):
+        own = evidence(self.document, "counting")["blocks"][0]["points"]
+        gamma = make.make(GAMMA)
+        with_hub = next(e for e in gamma["pieces"][0]["evidence"] if e["kind"] == "counting" and e["blocks"][0]["hubs"])
+        self.assertEqual([len(with_hub["blocks"]), with_hub["blocks"][0]["hubs"][0]["less"]], [1, 1])
+        gamma["pieces"][0]["evidence"] = [e for e in gamma["pieces"][0]["evidence"] if e["kind"] != "counting"] + [with_hub]
+        self.broken(gamma, lambda d: evidence(d, "counting")["blocks"][0].update(points=own), "a hub and points")
+        # All edges have one flow, and without node 1 they are a tree: one point does what the hub does.
+        point = {"node": 1, "edges": [sorted(map(list, GAMMA))]}
+        points = {"base": [], "at": [point], "cycles": 0, "less": 1}
+        evidence(gamma, "counting")["blocks"][0].update(hubs=[], points=points)
+        self.assertEqual(self.verifies(gamma).statements()[1], "projective: not-finite-solvable (proof)")
+        self.broken(gamma, lambda d: evidence(d, "counting")["blocks"][0]["points"]["at"][0].update(node=2), "cycles")
+        for model in ("calibrated", "affine"):
+            other = make.make(SQUARE, model=model) if model == "affine" else make.make(
+                [(k, (k + 1) % 5) for k in range(4)] + [(0, 4)], model=model
+            )
+            self.broken(other, lambda d: evidence(d, "counting")["blocks"][0].update(points=own), "projective model only")
+
+    def test_no_sets(self):
+        """Then it is seven for each pair: 28 of 29."""
+        square = by_hand()
+        block = {"bodies": [], "edges": [[0, 1], [0, 3], [1, 2], [2, 3]], "hubs": []}
+        block["points"] = {"base": [], "at": [], "cycles": 0, "less": 1}
+        evidence(square, "counting")["blocks"] = [block]
+        self.assertEqual(self.verifies(square).statements()[1], "projective: not-finite-solvable (proof)")
+        block["points"]["less"] = 2
+        self.rejects(square, "it takes off 1")
+
+
 class ErrorBounds(Case):
     """Section 9."""
 

@@ -79,7 +79,8 @@ class UpperBounds(Bodies):
 
     def check_block(self, block, group, where):
         """Section 7, a block: its members, all of the piece, and what it contributes."""
-        bodies, edges, hubs = members(block, "bodies edges hubs", where)
+        with_points = type(block) is dict and "points" in block
+        bodies, edges, hubs, *points = members(block, "bodies edges hubs" + " points" * with_points, where)
         inside = self.read_group(bodies, edges, where)
         need(all(member in group for member in inside), f"{where}: a member is not one of the piece")
         total = self.required(len(self.union(inside)), self.is_scaled(inside))
@@ -87,6 +88,9 @@ class UpperBounds(Bodies):
         need(len(a_list(hubs, f"{where}: hubs")) <= 1, f"{where}: more than one hub")
         for hub in hubs:
             total -= self.check_hub(hub, inside, f"{where}: hub")
+        for value in points:
+            need(not hubs, f"{where}: a hub and points")
+            total -= self.check_points(value, inside, f"{where}: points")
         return inside, total
 
     def check_overlap(self, value, group, where):
@@ -153,3 +157,47 @@ class UpperBounds(Bodies):
         takes = len(split) - (kappa - 1) - 3 * surplus
         need(an_int(less, f"{where}: less") == takes and takes >= 1, f"{where}: it takes off {takes}")
         return takes
+
+    def check_points(self, value, block, where):
+        """Section 7, points: what they take off."""
+        need(self.projective, f"{where}: projective model only")
+        base, at, cycles, less = members(value, "base at cycles less", where)
+        core = Core(self, block, where)
+        first, s_0 = divided_set(base, core, f"{where}: base")
+        need(len(a_list(at, f"{where}: at")) <= 4, f"{where}: more than four points")
+        seen, total, moving = set(), (4 - len(at)) * s_0, circulating(first)
+        for t, point in enumerate(at):
+            here = f"{where}: at {t}"
+            v, lists = members(point, "node edges", here)
+            need(an_int(v, here, least=0, below=core.n) not in seen, f"{here}: the node is there twice")
+            seen.add(v)
+            edges, flows = divided_set(lists, core, here)
+            need(first <= edges, f"{here}: an edge of base is not in the set")
+            total += flows
+            moving |= circulating({edge for edge in edges if v not in edge})
+        independent = len(moving) - len(set().union(*moving)) + count_components(moving)
+        need(an_int(cycles, f"{where}: cycles") == independent, f"{where}: there are {independent} cycles")
+        takes = total - independent - (7 * core.m - self.required(core.n))
+        need(an_int(less, f"{where}: less") == takes and takes >= 1, f"{where}: it takes off {takes}")
+        return takes
+
+
+def divided_set(lists, core, where):
+    """Section 7, points: the edges of a divided set, and how many flows it has."""
+    edges, flows = set(), 0
+    for k, values in enumerate(a_list(lists, where)):
+        listed = [a_pair(pair, f"{where}: list {k}") for pair in a_list(values, f"{where}: list {k}")]
+        need(listed, f"{where}: list {k} is empty")
+        increasing(listed, f"{where}: list {k}")
+        need(core.owner.keys() >= set(listed), f"{where}: list {k}: not edges of the core")
+        need(edges.isdisjoint(listed), f"{where}: list {k}: an edge is in two lists")
+        edges.update(listed)
+        flows += 2 * len(listed) - (3 * len(set().union(*listed)) - 4)
+    need(flows >= 0, f"{where}: {flows} flows")
+    return edges, flows
+
+
+def circulating(edges):
+    """Section 7, points: those of some edges that lie on a cycle of them: without one its ends are still connected."""
+    whole = count_components(edges)
+    return {edge for edge in edges if count_components(edges - {edge} | {(v,) for v in edge}) == whole}

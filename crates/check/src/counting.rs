@@ -3,6 +3,7 @@
 
 use crate::document::{Block, Counting, Hub, Model};
 use crate::forest::{root, unite};
+use crate::points::check_points;
 use crate::rejection::{Checked, Within, ensure};
 use crate::structure::{Part, Structure};
 
@@ -42,6 +43,10 @@ pub(crate) fn check_block(block: &Block, part: &Part, structure: &Structure) -> 
     );
     for hub in &block.hubs {
         bound -= check_hub(hub, structure, part).within(|| "hubs[0]".into())?;
+    }
+    if let Some(points) = &block.points.0 {
+        ensure!(block.hubs.is_empty(), "a hub and points");
+        bound -= check_points(points, structure, part).within(|| "points".into())?;
     }
     Ok(bound)
 }

@@ -48,7 +48,9 @@ objects! {
     Merge { with: Vec<Source>, at: Vec<u32> }
     Members { bodies: Vec<u32>, edges: Vec<Pair> }
     Piece { bodies: Vec<u32>, edges: Vec<Pair>, evidence: Vec<Evidence> }
-    Block { bodies: Vec<u32>, edges: Vec<Pair>, hubs: Vec<Hub> }
+    Block { bodies: Vec<u32>, edges: Vec<Pair>, hubs: Vec<Hub>, points: Optional<Points> }
+    Points { base: Vec<Vec<Pair>>, at: Vec<AtPoint>, cycles: usize, less: i64 }
+    AtPoint { node: u32, edges: Vec<Vec<Pair>> }
     Hub {
         node: u32, parts: Vec<Members>, split: Vec<usize>, groups: Vec<Vec<usize>>,
         components: usize, less: i64,

@@ -67,6 +67,7 @@ mod pinching;
 mod pivots;
 mod plane_flow;
 mod plane_minor;
+mod points;
 pub mod program;
 mod rejection;
 mod setting;

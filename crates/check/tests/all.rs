@@ -12,5 +12,6 @@ mod intrinsics;
 mod oriented;
 mod overlap;
 mod parts;
+mod points;
 mod solutions;
 mod tampering;

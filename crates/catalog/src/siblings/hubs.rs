@@ -64,7 +64,7 @@ impl Refutation {
             let edges = halves.of(&block.members, verdict);
             if edges.len() > 1 {
                 let whole = halves.whole(&edges)?;
-                let deduction = match &block.hub {
+                let deduction = match block.hub() {
                     Some(hub) => Some(halves.deduction(whole, hub, verdict)?),
                     None => None,
                 };
@@ -233,7 +233,7 @@ mod tests {
                         _ => None,
                     });
                     let mut has_hub = has_hub.flat_map(|upper| upper.countings());
-                    if has_hub.any(|counting| counting.blocks.iter().any(|one| one.hub.is_some()))
+                    if has_hub.any(|counting| counting.blocks.iter().any(|one| one.hub().is_some()))
                         && let Some(refutation) = Refutation::of(&verdict, &halves)
                     {
                         assert!(

@@ -13,8 +13,8 @@ use crate::decide::evidence::{
     Class, ClassKind, Draws, Evidence, IntegerMinor, ModularDraw, PieceVerdict, Witness,
 };
 use crate::decide::{
-    Block, Bound, Claim, Counting, Hub, Overlap, Shared, SharedBaseLines, SharedPiece, Value,
-    Verdict,
+    Block, Bound, Claim, Counting, Hub, Overlap, Point, Points, Shared, SharedBaseLines,
+    SharedPiece, Value, Verdict,
 };
 use crate::geometry::plane_flow::PlaneFlowRank;
 use crate::graph::{Graph, graph6};
@@ -464,11 +464,37 @@ impl Serialize for View<'_, Class> {
 
 impl Serialize for View<'_, Block> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let hubs: &[Hub] = self.0.hub.as_slice();
+        let hubs: Vec<&Hub> = self.0.hub().into_iter().collect();
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("bodies", &self.0.members.bodies)?;
         map.serialize_entry("edges", &self.0.members.edges)?;
-        map.serialize_entry("hubs", &List(hubs))?;
+        map.serialize_entry(
+            "hubs",
+            &hubs.iter().map(|hub| View(*hub)).collect::<Vec<_>>(),
+        )?;
+        if let Some(points) = self.0.points() {
+            map.serialize_entry("points", &View(points))?;
+        }
+        map.end()
+    }
+}
+
+impl Serialize for View<'_, Points> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("base", &self.0.base.lists)?;
+        map.serialize_entry("at", &List(&self.0.at))?;
+        map.serialize_entry("cycles", &self.0.cycles)?;
+        map.serialize_entry("less", &self.0.less)?;
+        map.end()
+    }
+}
+
+impl Serialize for View<'_, Point> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("node", &self.0.node)?;
+        map.serialize_entry("edges", &self.0.edges.lists)?;
         map.end()
     }
 }

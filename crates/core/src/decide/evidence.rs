@@ -96,6 +96,12 @@ impl Upper {
         }
     }
 
+    /// Whether a block is seen to lose rank from points.
+    pub fn has_points(&self) -> bool {
+        let mut blocks = self.countings().flat_map(|counting| &counting.blocks);
+        blocks.any(|block| block.points().is_some())
+    }
+
     /// What is counted for it.
     pub fn countings(&self) -> impl Iterator<Item = &Counting> {
         let (first, second) = match &self.by {
@@ -129,8 +135,77 @@ pub struct Counting {
 pub struct Block {
     /// What is in the block.
     pub members: Members,
-    /// A hub at which it loses rank.
-    pub hub: Option<Hub>,
+    /// Why it loses rank.
+    pub loss: Option<Loss>,
+}
+
+impl Block {
+    /// The hub at which it loses rank.
+    pub fn hub(&self) -> Option<&Hub> {
+        match &self.loss {
+            Some(Loss::Hub(hub)) => Some(hub),
+            _ => None,
+        }
+    }
+
+    /// The points from which it is seen to lose rank.
+    pub fn points(&self) -> Option<&Points> {
+        match &self.loss {
+            Some(Loss::Points(points)) => Some(points),
+            _ => None,
+        }
+    }
+}
+
+/// Why a block has less rank than a rigid one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// Parts that meet at a node (Theorem 5.2).
+    Hub(Hub),
+    /// Plane flows, seen from points (Theorem 5.16).
+    Points(Points),
+}
+
+impl Loss {
+    /// How much less, at least 1.
+    pub fn less(&self) -> usize {
+        match self {
+            Self::Hub(hub) => hub.less,
+            Self::Points(points) => points.less,
+        }
+    }
+}
+
+/// Sets of edges of the core of a block, each with a point, that take off `less` of its rank. With
+/// s_0 flows of `base`, s_l of those of the l-th of t points, m' edges and n' nodes of the core, it is
+/// (4 - t) s_0 + s_1 + .. + s_t - `cycles` - (7 m' - (11 n' - 15)).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Points {
+    /// Edges whose flows count for all of space.
+    pub base: DividedSet,
+    /// Points, at most four.
+    pub at: Vec<Point>,
+    /// Independent cycles of the edges in which anything can circulate.
+    pub cycles: usize,
+    /// What the block loses, at least 1.
+    pub less: usize,
+}
+
+/// A node of the core of a block, by its number there, and the edges whose flows it sees.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Point {
+    /// The node.
+    pub node: u32,
+    /// The edges; those of `base` are among them.
+    pub edges: DividedSet,
+}
+
+/// Edges (i, j), i < j, of the core of a block, by numbers of its nodes, in lists that are increasing
+/// and have none in common. They have 2 |E| less the sum of 3 n_B - 4 over the lists flows at least.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DividedSet {
+    /// The lists.
+    pub lists: Vec<Vec<(u32, u32)>>,
 }
 
 /// A node at which a block loses rank. With every part of `split` given its own copy of

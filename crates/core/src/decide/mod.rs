@@ -59,7 +59,10 @@ pub use claim::{Claim, Strength, UnknownStrength};
 pub(crate) use counting::GAMMA;
 pub use draft::{Draft, Meaningless};
 pub use error::VerdictError;
-pub use evidence::{Block, Bound, Counting, Hub, Overlap, Shared, SharedPiece, Upper};
+pub use evidence::{
+    Block, Bound, Counting, DividedSet, Hub, Loss, Overlap, Point, Points, Shared, SharedPiece,
+    Upper,
+};
 pub use noticed::{Closure, Groups, closure, groups};
 pub use options::{Options, Prime};
 pub use plane_piece::{plane_rank, plane_rank_with_parts};

@@ -17,6 +17,7 @@ use crate::decide::question::{Arithmetic, Method, Question};
 use crate::decide::vectors;
 use crate::decide::walk::{ATTEMPTS, Alone, Piece};
 use crate::decide::whole_matrix;
+use crate::geometry::model::Model;
 use crate::watch::Step;
 use rayon::prelude::*;
 
@@ -173,9 +174,10 @@ impl Piece<'_> {
                 let part = (self.members, self.core);
                 vectors::count(self.assembly, placed, part, &ranks.edge_scales())
             }
-            None => self.count(at, components, lower)?,
+            None => self.count(at, components, lower, false)?,
         };
-        if counting.bound < self.rank_of_piece(self.required()) {
+        let full = self.rank_of_piece(self.required());
+        if counting.bound < full {
             found.push(Bound::Counting(counting).into());
         }
         let is_open = |found: &[Upper]| found.last().is_none_or(|bound| bound.value() > lower);
@@ -185,6 +187,11 @@ impl Piece<'_> {
         }
         if is_open(&found) {
             found.extend(added::search(self, lower)?);
+        }
+        if is_open(&found) && self.model() == Model::Projective {
+            let counting = self.count(at, components, lower, true)?;
+            let before = found.last().map_or(full, Upper::value);
+            found.extend((counting.bound < before).then(|| Bound::Counting(counting).into()));
         }
         Ok(found)
     }

@@ -37,7 +37,10 @@ pub(super) fn count(
         bound: groups + bounds.sum::<usize>(),
         blocks: blocks
             .into_iter()
-            .map(|members| Block { members, hub: None })
+            .map(|members| Block {
+                members,
+                loss: None,
+            })
             .collect(),
     }
 }

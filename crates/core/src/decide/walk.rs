@@ -175,16 +175,18 @@ impl<'a> Piece<'a> {
             }
         }
         let rank = self.rank_of_piece(ranks.rank);
-        let bound = self.count(&at, &components, rank)?;
+        let bound = self.count(&at, &components, rank, false)?;
         Ok((bound.bound <= rank).then_some(bound))
     }
 
-    /// The upper bound by counting (Theorem 5.5).
+    /// The upper bound by counting (Theorem 5.5), and by points as well if these are wanted
+    /// (Theorem 5.16).
     pub(super) fn count(
         &self,
         at: &Centres,
         components: &[Members],
         lower: usize,
+        points: bool,
     ) -> Result<Counting, Stopped> {
         // Where to look is not a claim: a large prime looks best.
         let field = PrimeField::mersenne61();
@@ -194,6 +196,7 @@ impl<'a> Piece<'a> {
             field: &field,
             random: &mut at.key.residues(&field),
             task: work.task(),
+            points,
         };
         counting::count(
             self.model(),

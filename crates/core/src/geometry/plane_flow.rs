@@ -260,6 +260,11 @@ impl<'a> PlaneFlows<'a> {
         self.rigidity.rank()
     }
 
+    /// How many independent plane flows there are.
+    pub(crate) fn dimension(&self) -> usize {
+        self.rigidity.free_rows().len()
+    }
+
     /// The pivots of N.
     pub(crate) fn rigidity_pivots(&self) -> Pivots {
         self.rigidity.pivots()
@@ -281,7 +286,7 @@ impl<'a> PlaneFlows<'a> {
     /// # Errors
     /// If the task was stopped.
     pub fn flows(&self, task: &Task) -> Result<Vec<Vec<[u64; 3]>>, Stopped> {
-        let dimension = self.rigidity.free_rows().len();
+        let dimension = self.dimension();
         let edges = self.graph.edges().len();
         let _memory = task.reserve(
             matrix_bytes(dimension, 3 * edges),
@@ -329,7 +334,7 @@ impl<'a> PlaneFlows<'a> {
     /// If the task was stopped.
     pub fn lambda(&self, mut weights: impl FnMut() -> u64, task: &Task) -> Result<Lambda, Stopped> {
         let cotree = cotree(self.graph);
-        let dimension = self.rigidity.free_rows().len();
+        let dimension = self.dimension();
         let mut flows = 0;
         let mut rows = Vec::new();
         let mut memory = empty(task)?;
@@ -374,7 +379,7 @@ impl<'a> PlaneFlows<'a> {
     /// If the task was stopped.
     pub fn lambda_of_all_flows(&self, task: &Task) -> Result<Lambda, Stopped> {
         let cotree = cotree(self.graph);
-        let dimension = self.rigidity.free_rows().len();
+        let dimension = self.dimension();
         let one = self.field.one();
         let unit = Matrix::from_fn(dimension, dimension, |f, g| if f == g { one } else { 0 });
         let rows = self.lambda_rows(&unit, &cotree, task)?;

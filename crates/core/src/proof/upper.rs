@@ -59,7 +59,7 @@ impl Block {
 
     fn of(counted: &Counted, bodies: &[Body]) -> Self {
         let mut nodes = counted.members.nodes(bodies);
-        let split = counted.hub.as_ref().map(|hub| {
+        let split = counted.hub().map(|hub| {
             nodes.retain(|&v| v != hub.node);
             nodes.insert(0, hub.node);
             Split::of(hub, &nodes, bodies)
@@ -154,7 +154,8 @@ impl Found {
             return Ok(full);
         }
         let bounds = piece.evidence.iter().filter_map(|evidence| match evidence {
-            Evidence::Upper(by) if bound_of(by) == piece.upper => Some(by),
+            // Points are a step that proofs do not know.
+            Evidence::Upper(by) if bound_of(by) == piece.upper && !by.has_points() => Some(by),
             _ => None,
         });
         match &bounds
@@ -211,7 +212,7 @@ fn bound_of(upper: &Upper) -> usize {
 /// Blocks alone before hubs, and these before parts that overlap.
 fn complexity(upper: &Upper) -> usize {
     match &upper.by {
-        Bound::Counting(counting) if counting.blocks.iter().all(|block| block.hub.is_none()) => 0,
+        Bound::Counting(counting) if counting.blocks.iter().all(|block| block.loss.is_none()) => 0,
         Bound::Counting(_) => 1,
         Bound::Overlap(_) => 2,
     }

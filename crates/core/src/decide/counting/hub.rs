@@ -307,6 +307,7 @@ mod tests {
                 field: &field,
                 random: &mut random,
                 task: *task,
+                points: false,
             };
             search(&assembly, &block, &block.singles(), &mut by)
         });

@@ -17,6 +17,7 @@
 //! out as a block of its own: what is rigid without it may be a smaller block that has a hub.
 
 mod hub;
+mod points;
 mod search;
 
 #[cfg(test)]
@@ -24,7 +25,7 @@ pub(crate) use hub::GAMMA;
 pub(crate) use search::Search;
 
 use crate::contract::piece::{Assembly, Members};
-use crate::decide::evidence::{Block, Counting};
+use crate::decide::evidence::{Block, Counting, Loss};
 use crate::decide::motion_class;
 use crate::decide::stresses::Stresses;
 use crate::geometry::model::Model;
@@ -47,7 +48,7 @@ impl Counting {
                 .iter()
                 .map(|members| Block {
                     members: members.clone(),
-                    hub: None,
+                    loss: None,
                 })
                 .collect(),
         }
@@ -79,7 +80,7 @@ pub(crate) fn count(
     if partition.bound <= target || model == Model::Calibrated {
         return Ok(partition);
     }
-    let whole = with_hub(assembly, piece, components, by)?;
+    let whole = with_loss(assembly, piece, components, by)?;
     if whole.bound <= target {
         return Ok(whole);
     }
@@ -157,7 +158,7 @@ fn by_rigid_blocks(
         if inside.len() < 2 {
             return Ok(split);
         }
-        let one = with_hub(assembly, block, &inside, by)?;
+        let one = with_loss(assembly, block, &inside, by)?;
         Ok(if one.bound < split.bound { one } else { split })
     });
     Ok(Counting::join(blocks.collect::<Result<_, _>>()?))
@@ -170,23 +171,28 @@ fn within(components: &[Members], part: &Members) -> Vec<Members> {
     inside.cloned().collect()
 }
 
-/// One block, with the best hub that the search finds (Theorem 5.2).
-fn with_hub(
+/// One block, with the best hub that the search finds (Theorem 5.2), or else points if these are
+/// looked for (Theorem 5.16).
+fn with_loss(
     assembly: &Assembly,
     block: &Members,
     components: &[Members],
     by: &mut Search,
 ) -> Result<Counting, Stopped> {
-    let mut best = hub::search(assembly, block, components, by)?;
-    if best.is_none() && components.len() < block.len() {
-        best = hub::search(assembly, block, &block.singles(), by)?;
+    let mut hub = hub::search(assembly, block, components, by)?;
+    if hub.is_none() && components.len() < block.len() {
+        hub = hub::search(assembly, block, &block.singles(), by)?;
+    }
+    let mut loss = hub.map(Loss::Hub);
+    if loss.is_none() && by.points {
+        loss = points::search(assembly, block, by)?.map(Loss::Points);
     }
     let required = Model::Projective.required(assembly.count_nodes(block));
     Ok(Counting {
-        bound: required - best.as_ref().map_or(0, |hub| hub.less),
+        bound: required - loss.as_ref().map_or(0, Loss::less),
         blocks: vec![Block {
             members: block.clone(),
-            hub: best,
+            loss,
         }],
     })
 }
