@@ -358,6 +358,7 @@ class Side:
     """One side of a row: its entries, the unknown that is its scale (or None), and where it is not zero generically."""
 
     def __init__(self, node, entries, unknown, generic):
+        self.node = node
         self.entries = {3 * node + k: entry for k, entry in enumerate(entries)}
         self.generic = {3 * node + k for k in generic}
         self.unknown = unknown
@@ -508,13 +509,19 @@ class Support:
         for k, minor in enumerate(a_list(minors, f"{where}: minors")):
             self.add_minor(minor, f"{where}: minor {k}")
 
+    def read_shift(self, value, room, where):
+        value = a_list(value, f"{where}: shifts")
+        need(len(value) == len(room), f"{where}: (S13) a shift has another length")
+        return tuple(an_int(b, f"{where}: (S13) shifts", 0, free + 1) for b, free in zip(value, room))
+
     def read_exponent(self, value):
         value = a_list(value, f"{self.where}: absent")
         need(len(value) == len(self.bounds), f"{self.where}: (S12) an exponent has another length")
         return tuple(an_int(e, f"{self.where}: absent", 0, d + 1) for e, d in zip(value, self.bounds))
 
     def add_minor(self, value, where):
-        rows, plus, minus_rows, cols = members(value, "rows plus minus cols", where)
+        optional = " shifts" * (type(value) is dict and "shifts" in value)
+        rows, plus, minus_rows, cols, *listed = members(value, "rows plus minus cols" + optional, where)
         limit, width = len(self.rows.sides), self.rows.chart.width
 
         def indices(listed, below, name):
@@ -536,13 +543,19 @@ class Support:
                     counts[self.unknowns.index(f)] += 1
         degrees = [min(count, 3) for count in counts]
         need(all(d <= bound for d, bound in zip(degrees, self.bounds)), f"{where}: (S13) a degree is above its bound")
-        shifts = list(itertools.product(*(range(bound - d + 1) for d, bound in zip(degrees, self.bounds))))
+        room = [bound - d for d, bound in zip(degrees, self.bounds)]
+        if listed:
+            shifts = [self.read_shift(b, room, where) for b in a_list(listed[0], f"{where}: shifts")]
+            increasing(shifts, f"{where}: (S13) shifts")
+        else:
+            shifts = list(itertools.product(*(range(free + 1) for free in room)))
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * (len(self.absent) + 1))
         inside = {tuple(a - b for a, b in zip(exponent, shift)) for exponent in self.absent for shift in shifts}
         for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
             self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
-            need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
+            zero = not fits or self.has_hubs(rows, plus, minus_rows, cols, e)
+            need(zero, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
         polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * len(polynomial))
         for shift in shifts:
@@ -564,17 +577,55 @@ class Support:
                     struck |= exponent[place] == counts[place]
                 open_columns |= set() if struck else side.generic & wanted
             choices.append(open_columns)
-        taken = {}
+        return match(choices)
 
-        def place_row(k, seen):
-            for column in choices[k] - seen:
-                seen.add(column)
-                if column not in taken or place_row(taken[column], seen):
-                    taken[column] = k
-                    return True
-            return False
+    def has_hubs(self, rows, plus, minus_rows, cols, exponent):
+        """(S14): however a side of each row with a listed unknown is chosen, no transversal or a hub."""
+        sides, size = self.rows.sides, len(cols)
+        halves = [(sides[row][0], sides[row][1]) for row in plus] + [(sides[row][1], sides[row][0]) for row in minus_rows]
+        listed = lambda side: self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
+        moving = [row for row in rows if any(listed(side) is not None for side in sides[row])]
+        whole = [sides[row] for row in rows if row not in moving]
+        # Choices of a prefix of these rows: the sides, each with the one that is struck out, and what is left of e.
+        partial = [(halves, tuple(exponent))]
+        for row in moving:
+            self.meter.charge(SPARSE * len(partial) * (size + len(exponent)))
+            longer = []
+            for chosen, due in partial:
+                for side, other in (sides[row], sides[row][::-1]):
+                    f = listed(side)
+                    if f is None:
+                        longer.append(([*chosen, (side, other)], due))
+                    elif due[f]:
+                        longer.append(([*chosen, (side, other)], due[:f] + (due[f] - 1,) + due[f + 1 :]))
+            partial = longer
+        return all(self.vanishes(whole, chosen, set(cols)) for chosen, due in partial if not any(due))
 
-        return all(place_row(k, set()) for k in range(len(choices)))
+    def vanishes(self, whole, halves, cols):
+        """(S14): no transversal, or a hub, where `halves` are sides with those that are struck out."""
+        self.meter.charge(DENSE * len(cols) * (6 * len(cols) + self.rows.chart.width // 3))
+        columns = [(first.generic | second.generic) & cols for first, second in whole]
+        if not match(columns + [side.generic & cols for side, _ in halves]):
+            return True
+        nodes = range(self.rows.chart.width // 3)
+        cut = {v for v in nodes if not {3 * v, 3 * v + 1, 3 * v + 2} <= cols}
+        return any(self.is_hub(hub, whole, halves, cut) for hub in nodes)
+
+    def is_hub(self, hub, whole, halves, cut):
+        """(S14): whether all nodes but the hub are joined by whole rows to one that leads elsewhere, or not."""
+        near = {}
+        for first, second in whole:
+            if hub not in (first.node, second.node):
+                near.setdefault(first.node, set()).add(second.node)
+                near.setdefault(second.node, set()).add(first.node)
+        reached = set()
+        ahead = [v for v in cut if v != hub] + [side.node for side, other in halves if hub not in (side.node, other.node)]
+        while ahead:
+            v = ahead.pop()
+            if v not in reached:
+                reached.add(v)
+                ahead += near.get(v, ())
+        return len(reached - {hub}) < self.rows.chart.width // 3 - 1
 
     def polynomial(self, rows, plus, minus_rows, cols, degrees):
         """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""
@@ -631,6 +682,21 @@ class Support:
             return a[:f] + (a[f] + 1,) + a[f + 1 :]
 
         return [{a for a in inside if up(a, f) in inside} for f in range(len(self.unknowns))]
+
+
+def match(choices):
+    """Whether each of some sets of columns can have one of its own."""
+    taken = {}
+
+    def place_row(k, seen):
+        for column in choices[k] - seen:
+            seen.add(column)
+            if column not in taken or place_row(taken[column], seen):
+                taken[column] = k
+                return True
+        return False
+
+    return all(place_row(k, set()) for k in range(len(choices)))
 
 
 def reduced(row, done, p, meter):

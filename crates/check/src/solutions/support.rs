@@ -1,6 +1,7 @@
 //! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
 
 use super::dense::{ENTRY, Sparse};
+use super::hubs::Hubs;
 use super::minors::{Exponents, Place};
 use super::system::{Known, System};
 use super::zeros::Pattern;
@@ -105,12 +106,14 @@ impl<'t> Span<'t> {
             .collect()
     }
 
-    /// Adds the coefficients of all shifts of a minor.
+    /// Adds the coefficients of the shifts of a minor.
     fn add(&mut self, minor: &Minor, place: &Place) -> Checked<()> {
         let degrees = place.check(minor, self.exponents.bounds)?;
-        let room = self.exponents.bounds.iter().zip(&degrees);
-        let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
-        let shifts = Exponents { bounds: &room }.all();
+        let shifts = minor.shifts.0.clone().unwrap_or_else(|| {
+            let room = self.exponents.bounds.iter().zip(&degrees);
+            let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
+            Exponents { bounds: &room }.all()
+        });
         let own = Exponents { bounds: &degrees }.all();
         let work = shifts.len() * own.len() * (degrees.len() + 1);
         place.system.meter.charge(ENTRY * work as u64)?;
@@ -137,6 +140,7 @@ impl<'t> Span<'t> {
             return Ok(());
         }
         let pattern = Pattern::new(minor, place);
+        let hubs = Hubs::new(minor, place);
         let entries = 6 * minor.cols.len() * minor.cols.len();
         for exponent in own {
             let mut shifted = shifts.iter().map(|shift| sum(exponent, shift));
@@ -144,8 +148,10 @@ impl<'t> Span<'t> {
                 continue;
             };
             place.system.meter.charge(ENTRY * entries as u64)?;
+            let is_zero =
+                !pattern.has_transversal(exponent) || hubs.are_in_all_choices(exponent)?;
             ensure!(
-                !pattern.has_transversal(exponent),
+                is_zero,
                 "the exponent {absent:?} is said to be absent, but there may be a coefficient"
             );
         }

@@ -1,4 +1,4 @@
-//! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
+//! Coefficients of minors that are zero for want of a transversal: the first part of condition (S14) of section 12 (theory,
 //! Theorem 10.7).
 
 use super::minors::Place;
@@ -51,9 +51,7 @@ impl Pattern {
             .iter()
             .map(|sides| self.columns_left(sides, exponent));
         let rows: Vec<Vec<usize>> = rows.collect();
-        let mut row_at = vec![None; self.columns];
-        (0..rows.len())
-            .all(|row| place_row(row, &rows, &mut row_at, &mut vec![false; self.columns]))
+        have_transversal(&rows, self.columns)
     }
 
     /// The columns of the sides of a row that are not struck out: a side with an unknown whose
@@ -78,6 +76,12 @@ impl Pattern {
         left.flat_map(|which| sides[which].0.iter().copied())
             .collect()
     }
+}
+
+/// Whether there is a choice of one of these columns in each row, all of them different.
+pub(super) fn have_transversal(rows: &[Vec<usize>], columns: usize) -> bool {
+    let mut row_at = vec![None; columns];
+    (0..rows.len()).all(|row| place_row(row, rows, &mut row_at, &mut vec![false; columns]))
 }
 
 /// Finds a column for a row; rows that have one may move to others.

@@ -120,11 +120,7 @@ impl<'a> Minors<'a> {
             return None;
         }
         let reduced_side = |row: usize, which: usize| {
-            let mut side = system.rows[row].side(which, system.columns);
-            let scale = system.rows[row].sides[which].scale;
-            if let Some(value) = scale.and_then(|f| self.values[f]) {
-                side.iter_mut().for_each(|x| *x = field.times(*x, value));
-            }
+            let mut side = self.side(row, which);
             span.reduce(field, &mut side);
             free.iter().map(|&column| side[column]).collect()
         };
@@ -141,6 +137,95 @@ impl<'a> Minors<'a> {
         })
     }
 
+    /// A side of a row with open unknowns, with the scale that has a value.
+    fn side(&self, row: usize, which: usize) -> Vec<u64> {
+        let (system, field) = (self.system, &self.system.field);
+        let mut side = system.rows[row].side(which, system.columns);
+        let scale = system.rows[row].sides[which].scale;
+        if let Some(value) = scale.and_then(|f| self.values[f]) {
+            side.iter_mut().for_each(|x| *x = field.times(*x, value));
+        }
+        side
+    }
+
+    fn scaled_row<'s>(&self, row: usize, sides: &'s [Vec<u64>; 2]) -> ScaledRow<'s> {
+        let place = |which: usize| {
+            let scale = self.system.rows[row].sides[which].scale;
+            scale.and_then(|f| self.unknowns.iter().position(|&g| g == f))
+        };
+        ScaledRow {
+            sides,
+            scales: [0, 1].map(place),
+        }
+    }
+
+    /// How many rows have each unknown; a node has three columns.
+    fn degrees(&self, rows: &[ScaledRow<'_>]) -> Vec<usize> {
+        let with = |f| move |row: &&ScaledRow<'_>| row.scales.contains(&Some(f));
+        let degree = |f| rows.iter().filter(with(f)).count().min(3);
+        (0..self.unknowns.len()).map(degree).collect()
+    }
+
+    /// The minor with these rows freed, these left out, all others whole, and in these columns, of which
+    /// there are as many; `None` if it vanishes. All open unknowns have to be among those of the minors.
+    pub(super) fn single(
+        &self,
+        freed: &[usize],
+        out: &[usize],
+        columns: &[usize],
+    ) -> Option<Polynomial> {
+        let (system, field) = (self.system, &self.system.field);
+        let within = |row: Vec<u64>| -> Vec<u64> { columns.iter().map(|&k| row[k]).collect() };
+        let mut span = Span::default();
+        let mut parts = Vec::with_capacity(columns.len());
+        for &row in freed {
+            for (which, part) in [(0, Part::Plus(row)), (1, Part::Minus(row))] {
+                let side = system.rows[row].side(which, system.columns);
+                parts.push(part);
+                span.insert(field, within(side)).then_some(())?;
+            }
+        }
+        let is_whole = |row: &usize| !freed.contains(row) && !out.contains(row);
+        let mut variable = Vec::new();
+        for row in (0..system.rows.len()).filter(is_whole) {
+            parts.push(Part::Whole(row));
+            if system.is_constant(row, self.values) {
+                let constant = system.constant(row, self.values);
+                span.insert(field, within(constant)).then_some(())?;
+            } else {
+                variable.push(row);
+            }
+        }
+        let is_free = |place: &usize| !span.pivots().contains(place);
+        let free: Vec<usize> = (0..columns.len()).filter(is_free).collect();
+        let reduced_side = |row: usize, which: usize| -> Vec<u64> {
+            let mut side = within(self.side(row, which));
+            span.reduce(field, &mut side);
+            free.iter().map(|&place| side[place]).collect()
+        };
+        let sides: Vec<[Vec<u64>; 2]> = variable
+            .iter()
+            .map(|&row| [0, 1].map(|which| reduced_side(row, which)))
+            .collect();
+        let rows = variable.iter().zip(&sides);
+        let rows: Vec<ScaledRow<'_>> = rows
+            .map(|(&row, both)| self.scaled_row(row, both))
+            .collect();
+        let degrees = self.degrees(&rows);
+        let (_, mut values) = on_grid(field, &rows, free.len(), &degrees).pop()?;
+        interpolate(field, &self.inverses, &degrees, &mut values);
+        Some(Polynomial {
+            minor: Minor {
+                freed: freed.len(),
+                rows: parts,
+                columns: columns.to_vec(),
+                shifts: None,
+            },
+            degrees,
+            coefficients: values,
+        })
+    }
+
     /// The minors with some of the rows with open unknowns; whether those of other rows are wanted.
     fn of_rows(
         &self,
@@ -151,18 +236,9 @@ impl<'a> Minors<'a> {
     ) -> bool {
         let rows: Vec<ScaledRow<'_>> = chosen
             .iter()
-            .map(|&k| ScaledRow {
-                sides: &reduced.sides[k],
-                scales: [0, 1].map(|which| {
-                    let scale = self.system.rows[reduced.variable[k]].sides[which].scale;
-                    scale.and_then(|f| self.unknowns.iter().position(|&g| g == f))
-                }),
-            })
+            .map(|&k| self.scaled_row(reduced.variable[k], &reduced.sides[k]))
             .collect();
-        let with = |f| move |row: &&ScaledRow<'_>| row.scales.contains(&Some(f));
-        let degrees: Vec<usize> = (0..self.unknowns.len())
-            .map(|f| rows.iter().filter(with(f)).count().min(3))
-            .collect();
+        let degrees = self.degrees(&rows);
         let field = &self.system.field;
         let mut found = on_grid(field, &rows, reduced.free.len(), &degrees);
         if self.unknowns.len() > FEW {
@@ -176,6 +252,7 @@ impl<'a> Minors<'a> {
                 freed,
                 rows: reduced.parts.iter().copied().chain(whole).collect(),
                 columns: reduced.pivots.iter().copied().chain(of_free).collect(),
+                shifts: None,
             };
             let polynomial = Polynomial {
                 minor,

@@ -10,6 +10,7 @@
 //! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`), and which
 //! of several are real and in front of the cameras is found at integer centres (`oriented`).
 
+mod balanced;
 mod chart;
 mod count;
 mod evidence;
