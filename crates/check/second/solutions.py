@@ -358,7 +358,6 @@ class Side:
     """One side of a row: its entries, the unknown that is its scale (or None), and where it is not zero generically."""
 
     def __init__(self, node, entries, unknown, generic):
-        self.node = node
         self.entries = {3 * node + k: entry for k, entry in enumerate(entries)}
         self.generic = {3 * node + k for k in generic}
         self.unknown = unknown
@@ -554,8 +553,8 @@ class Support:
         for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
             self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
-            zero = not fits or self.has_hubs(rows, plus, minus_rows, cols, e)
-            need(zero, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
+            fits = fits and self.has_choice(rows, plus, minus_rows, cols, e)
+            need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
         polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * len(polynomial))
         for shift in shifts:
@@ -579,53 +578,29 @@ class Support:
             choices.append(open_columns)
         return match(choices)
 
-    def has_hubs(self, rows, plus, minus_rows, cols, exponent):
-        """(S14): however a side of each row with a listed unknown is chosen, no transversal or a hub."""
-        sides, size = self.rows.sides, len(cols)
-        halves = [(sides[row][0], sides[row][1]) for row in plus] + [(sides[row][1], sides[row][0]) for row in minus_rows]
+    def has_choice(self, rows, plus, minus_rows, cols, exponent):
+        """(S14): a transversal, however a side of each row with a listed unknown is chosen."""
+        sides, wanted = self.rows.sides, set(cols)
         listed = lambda side: self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
         moving = [row for row in rows if any(listed(side) is not None for side in sides[row])]
-        whole = [sides[row] for row in rows if row not in moving]
-        # Choices of a prefix of these rows: the sides, each with the one that is struck out, and what is left of e.
-        partial = [(halves, tuple(exponent))]
+        fixed = [sides[row][0].generic & wanted for row in plus] + [sides[row][1].generic & wanted for row in minus_rows]
+        fixed += [(sides[row][0].generic | sides[row][1].generic) & wanted for row in rows if row not in moving]
+        # What is chosen in the first of these rows, and how often each unknown is still to be chosen.
+        partial = [((), tuple(exponent))]
         for row in moving:
-            self.meter.charge(SPARSE * len(partial) * (size + len(exponent)))
+            self.meter.charge(SPARSE * len(partial) * (len(rows) + len(exponent)))
             longer = []
             for chosen, due in partial:
-                for side, other in (sides[row], sides[row][::-1]):
+                for side in sides[row]:
                     f = listed(side)
                     if f is None:
-                        longer.append(([*chosen, (side, other)], due))
+                        longer.append(((*chosen, side), due))
                     elif due[f]:
-                        longer.append(([*chosen, (side, other)], due[:f] + (due[f] - 1,) + due[f + 1 :]))
+                        longer.append(((*chosen, side), due[:f] + (due[f] - 1,) + due[f + 1 :]))
             partial = longer
-        return all(self.vanishes(whole, chosen, set(cols)) for chosen, due in partial if not any(due))
-
-    def vanishes(self, whole, halves, cols):
-        """(S14): no transversal, or a hub, where `halves` are sides with those that are struck out."""
-        self.meter.charge(DENSE * len(cols) * (6 * len(cols) + self.rows.chart.width // 3))
-        columns = [(first.generic | second.generic) & cols for first, second in whole]
-        if not match(columns + [side.generic & cols for side, _ in halves]):
-            return True
-        nodes = range(self.rows.chart.width // 3)
-        cut = {v for v in nodes if not {3 * v, 3 * v + 1, 3 * v + 2} <= cols}
-        return any(self.is_hub(hub, whole, halves, cut) for hub in nodes)
-
-    def is_hub(self, hub, whole, halves, cut):
-        """(S14): whether all nodes but the hub are joined by whole rows to one that leads elsewhere, or not."""
-        near = {}
-        for first, second in whole:
-            if hub not in (first.node, second.node):
-                near.setdefault(first.node, set()).add(second.node)
-                near.setdefault(second.node, set()).add(first.node)
-        reached = set()
-        ahead = [v for v in cut if v != hub] + [side.node for side, other in halves if hub not in (side.node, other.node)]
-        while ahead:
-            v = ahead.pop()
-            if v not in reached:
-                reached.add(v)
-                ahead += near.get(v, ())
-        return len(reached - {hub}) < self.rows.chart.width // 3 - 1
+        whole = [chosen for chosen, due in partial if not any(due)]
+        self.meter.charge(DENSE * 6 * len(cols) ** 2 * len(whole))
+        return any(match(fixed + [side.generic & wanted for side in chosen]) for chosen in whole)
 
     def polynomial(self, rows, plus, minus_rows, cols, degrees):
         """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""

@@ -3,7 +3,7 @@
 //!
 //! In: the members of the one piece, and the evidence. They are merged (`members`) until a core with
 //! a few unknown scales is left (`chart`, `system`). Out: bounds. An upper one comes from steps that
-//! make unknowns known (`linear`; `support`, of `minors`, their `zeros` and `hubs`) and from the points that
+//! make unknowns known (`linear`; `support`, of `minors` and their `zeros`) and from the points that
 //! solutions are near to (`points`, less those `outside` and `spurious`), a lower one from simple points (`simple`) of a tight core or with `relations`.
 //! What hangs together in a few nodes only is bounded apart, and numbers multiply (`product`).
 //! Which solutions are real and in front of the cameras is `oriented`, by signs of `polynomial`s.
@@ -11,7 +11,6 @@
 
 mod chart;
 mod dense;
-mod hubs;
 mod linear;
 mod members;
 mod minors;

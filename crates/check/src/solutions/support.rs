@@ -1,7 +1,6 @@
 //! Steps by the span of minors: conditions (S12) to (S16) of section 12 (theory, Theorem 10.5).
 
 use super::dense::{ENTRY, Sparse};
-use super::hubs::Hubs;
 use super::minors::{Exponents, Place};
 use super::system::{Known, System};
 use super::zeros::Pattern;
@@ -140,7 +139,6 @@ impl<'t> Span<'t> {
             return Ok(());
         }
         let pattern = Pattern::new(minor, place);
-        let hubs = Hubs::new(minor, place);
         let entries = 6 * minor.cols.len() * minor.cols.len();
         for exponent in own {
             let mut shifted = shifts.iter().map(|shift| sum(exponent, shift));
@@ -148,8 +146,8 @@ impl<'t> Span<'t> {
                 continue;
             };
             place.system.meter.charge(ENTRY * entries as u64)?;
-            let is_zero =
-                !pattern.has_transversal(exponent) || hubs.are_in_all_choices(exponent)?;
+            let is_zero = !pattern.has_transversal(exponent)
+                || !pattern.has_choice(exponent, place.system.meter)?;
             ensure!(
                 is_zero,
                 "the exponent {absent:?} is said to be absent, but there may be a coefficient"

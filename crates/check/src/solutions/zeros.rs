@@ -1,9 +1,12 @@
-//! Coefficients of minors that are zero for want of a transversal: the first part of condition (S14) of section 12 (theory,
+//! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
 //! Theorem 10.7).
 
+use super::dense::ENTRY;
 use super::minors::Place;
 use super::system::Side;
 use crate::document::solutions::Minor;
+use crate::limits::Meter;
+use crate::rejection::Checked;
 
 /// What may be in the rows of a minor: columns, by their places among those of the minor.
 pub(super) struct Pattern {
@@ -52,6 +55,54 @@ impl Pattern {
             .map(|sides| self.columns_left(sides, exponent));
         let rows: Vec<Vec<usize>> = rows.collect();
         have_transversal(&rows, self.columns)
+    }
+
+    /// Whether there is one for some choice of a side of each row with a listed unknown, each unknown being
+    /// that of as many as its exponent says.
+    pub fn has_choice(&self, exponent: &[usize], meter: &Meter) -> Checked<bool> {
+        let (open, rest): (Vec<_>, Vec<_>) = self
+            .rows
+            .iter()
+            .partition(|sides| sides.iter().any(|(_, unknown)| unknown.is_some()));
+        let columns = |sides: &Vec<(Vec<usize>, Option<usize>)>| -> Vec<usize> {
+            sides
+                .iter()
+                .flat_map(|(columns, _)| columns.clone())
+                .collect()
+        };
+        let mut rows: Vec<Vec<usize>> = rest.into_iter().map(columns).collect();
+        self.choose(&open, &mut exponent.to_vec(), &mut rows, meter)
+    }
+
+    fn choose(
+        &self,
+        open: &[&Vec<(Vec<usize>, Option<usize>)>],
+        due: &mut [usize],
+        rows: &mut Vec<Vec<usize>>,
+        meter: &Meter,
+    ) -> Checked<bool> {
+        let Some((sides, others)) = open.split_first() else {
+            if due.iter().any(|&due| due > 0) {
+                return Ok(false);
+            }
+            meter.charge(ENTRY * 6 * (self.columns * self.columns) as u64)?;
+            return Ok(have_transversal(rows, self.columns));
+        };
+        meter.charge(1 + due.len() as u64)?;
+        for (columns, unknown) in *sides {
+            if unknown.is_some_and(|f| due[f] == 0) {
+                continue;
+            }
+            unknown.iter().for_each(|&f| due[f] -= 1);
+            rows.push(columns.clone());
+            let found = self.choose(others, due, rows, meter)?;
+            rows.pop();
+            unknown.iter().for_each(|&f| due[f] += 1);
+            if found {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// The columns of the sides of a row that are not struck out: a side with an unknown whose

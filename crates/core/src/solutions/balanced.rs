@@ -2,9 +2,9 @@
 //! Lemma 10.23).
 //!
 //! A term of a minor takes one side of each row that is whole and both of each that is freed. With a shift
-//! that takes the one side of a row left out, and instead of both sides of a freed row only one, it is a
+//! that takes the one side of a row left out, and of both sides of a freed row gives the one back, it is a
 //! choice of a side of each row of N(u). Where all minors take each node as often, the exponents are
-//! few: those of a transport from rows to nodes, and no more than are there in any chart.
+//! few: those of a transport from rows to nodes, the same in every chart.
 
 use super::minors::{Minors, Polynomial};
 use super::system::{System, Values};
@@ -30,17 +30,18 @@ struct Draw {
     out: Vec<(usize, usize)>,
     /// Rows freed; the shift gives this side back.
     freed: Vec<(usize, usize)>,
-    /// Columns that the minor does not have.
-    omitted: Vec<usize>,
 }
+
+/// A minor has so many rows freed, and all columns.
+const FREED: usize = 3;
 
 impl<'a> Balanced<'a> {
     /// `None` if N(u) has so many rows, or so few, that no minor takes all nodes three times or a little
     /// less. `which` says where less.
     pub(super) fn new(system: &'a System<'a>, which: usize) -> Option<Self> {
         let (rows, columns) = (system.rows.len(), system.columns);
-        // Minors have 3 n' - 3 rows, and three more columns are there to be taken once more.
-        let out = (rows + 3).checked_sub(columns)?;
+        // 3 n' sides, two of each freed row and one of each that is whole.
+        let out = (rows + FREED).checked_sub(columns)?;
         let mut lack = columns.checked_sub(rows)?;
         let mut at = vec![Vec::new(); columns / 3];
         for (row, sides) in system.rows.iter().map(|row| &row.sides).enumerate() {
@@ -66,23 +67,19 @@ impl<'a> Balanced<'a> {
         Some(balanced)
     }
 
-    /// A minor with so many rows freed, with its shift, that was not drawn before; `None` if there is none,
-    /// or if it vanishes.
+    /// A minor with its shift, that was not drawn before; `None` if it was, or if it vanishes.
     pub(super) fn draw(
         &mut self,
-        freed: usize,
         minors: &Minors<'_>,
         values: &Values,
         unknowns: &[usize],
     ) -> Option<Polynomial> {
-        let draw = self.choose(freed)?;
+        let draw = self.choose()?;
         if !self.drawn.insert(draw.clone()) {
             return None;
         }
         let rows = |list: &[(usize, usize)]| list.iter().map(|&(row, _)| row).collect::<Vec<_>>();
-        let is_left = |column: &usize| !draw.omitted.contains(column);
-        let columns: Vec<usize> = (0..self.system.columns).filter(is_left).collect();
-        let mut found = minors.single(&rows(&draw.freed), &rows(&draw.out), &columns)?;
+        let mut found = minors.single(&rows(&draw.freed), &rows(&draw.out))?;
         let kept = draw.freed.iter().map(|&(row, side)| (row, 1 - side));
         let mut shift = vec![0; unknowns.len()];
         for (row, side) in kept.chain(draw.out.iter().copied()) {
@@ -95,30 +92,24 @@ impl<'a> Balanced<'a> {
         Some(found)
     }
 
-    fn choose(&mut self, freed: usize) -> Option<Draw> {
+    fn choose(&mut self) -> Option<Draw> {
         let mut draw = Draw {
             out: Vec::with_capacity(self.out),
-            freed: Vec::with_capacity(freed),
-            omitted: Vec::new(),
+            freed: Vec::with_capacity(FREED),
         };
         let mut lacking = self.lacking.clone();
         for _ in 0..self.out {
             let row = self.below(self.system.rows.len());
             let side = self.below(2);
-            let node = self.system.rows[row].sides[side].node;
-            if draw.out.iter().any(|&(other, _)| other == row) || lacking[node] == 3 {
+            if draw.out.iter().any(|&(other, _)| other == row) {
                 return None;
             }
-            lacking[node] += 1;
+            lacking[self.system.rows[row].sides[side].node] += 1;
             draw.out.push((row, side));
         }
-        // Three columns are lacking now; each is made good by a freed row or is not in the minor.
-        let mut places: Vec<usize> = (0..lacking.len())
-            .flat_map(|node| vec![node; lacking[node]])
-            .collect();
-        for _ in 0..freed {
-            let place = self.below(places.len());
-            let node = places.swap_remove(place);
+        // Three columns are lacking now; each is made good by a freed row.
+        let places = (0..lacking.len()).flat_map(|node| vec![node; lacking[node]]);
+        for node in places {
             let choice = self.below(self.at[node].len());
             let (row, side) = self.at[node][choice];
             let mut used = draw.out.iter().chain(&draw.freed);
@@ -127,16 +118,8 @@ impl<'a> Balanced<'a> {
             }
             draw.freed.push((row, side));
         }
-        for node in places {
-            let column = 3 * node + self.below(3);
-            if draw.omitted.contains(&column) {
-                return None;
-            }
-            draw.omitted.push(column);
-        }
         draw.out.sort_unstable();
         draw.freed.sort_unstable();
-        draw.omitted.sort_unstable();
         Some(draw)
     }
 

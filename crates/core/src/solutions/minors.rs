@@ -166,23 +166,17 @@ impl<'a> Minors<'a> {
         (0..self.unknowns.len()).map(degree).collect()
     }
 
-    /// The minor with these rows freed, these left out, all others whole, and in these columns, of which
-    /// there are as many; `None` if it vanishes. All open unknowns have to be among those of the minors.
-    pub(super) fn single(
-        &self,
-        freed: &[usize],
-        out: &[usize],
-        columns: &[usize],
-    ) -> Option<Polynomial> {
+    /// The minor with these rows freed, these left out and all others whole, in all columns, of which there
+    /// are as many; `None` if it vanishes. All open unknowns have to be among those of the minors.
+    pub(super) fn single(&self, freed: &[usize], out: &[usize]) -> Option<Polynomial> {
         let (system, field) = (self.system, &self.system.field);
-        let within = |row: Vec<u64>| -> Vec<u64> { columns.iter().map(|&k| row[k]).collect() };
         let mut span = Span::default();
-        let mut parts = Vec::with_capacity(columns.len());
+        let mut parts = Vec::with_capacity(system.columns);
         for &row in freed {
             for (which, part) in [(0, Part::Plus(row)), (1, Part::Minus(row))] {
-                let side = system.rows[row].side(which, system.columns);
                 parts.push(part);
-                span.insert(field, within(side)).then_some(())?;
+                let is_new = span.insert(field, system.rows[row].side(which, system.columns));
+                is_new.then_some(())?;
             }
         }
         let is_whole = |row: &usize| !freed.contains(row) && !out.contains(row);
@@ -190,18 +184,19 @@ impl<'a> Minors<'a> {
         for row in (0..system.rows.len()).filter(is_whole) {
             parts.push(Part::Whole(row));
             if system.is_constant(row, self.values) {
-                let constant = system.constant(row, self.values);
-                span.insert(field, within(constant)).then_some(())?;
+                let is_new = span.insert(field, system.constant(row, self.values));
+                is_new.then_some(())?;
             } else {
                 variable.push(row);
             }
         }
-        let is_free = |place: &usize| !span.pivots().contains(place);
-        let free: Vec<usize> = (0..columns.len()).filter(is_free).collect();
+        let columns: Vec<usize> = (0..system.columns).collect();
+        let is_free = |column: &usize| !span.pivots().contains(column);
+        let free: Vec<usize> = columns.iter().copied().filter(is_free).collect();
         let reduced_side = |row: usize, which: usize| -> Vec<u64> {
-            let mut side = within(self.side(row, which));
+            let mut side = self.side(row, which);
             span.reduce(field, &mut side);
-            free.iter().map(|&place| side[place]).collect()
+            free.iter().map(|&column| side[column]).collect()
         };
         let sides: Vec<[Vec<u64>; 2]> = variable
             .iter()
@@ -218,7 +213,7 @@ impl<'a> Minors<'a> {
             minor: Minor {
                 freed: freed.len(),
                 rows: parts,
-                columns: columns.to_vec(),
+                columns,
                 shifts: None,
             },
             degrees,

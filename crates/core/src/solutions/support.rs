@@ -7,7 +7,7 @@ use super::balanced::Balanced;
 use super::exponents::Exponents;
 use super::minors::{FEW, Minors, Next, Polynomial};
 use super::system::{System, Values, subsets};
-use super::zeros::{has_hubs, has_transversal};
+use super::zeros::{has_choice, has_transversal};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
 use std::borrow::Cow;
@@ -29,7 +29,7 @@ impl Generator {
     }
 
     /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7 or, if the minor is
-    /// balanced, 10.23. (In others hubs are seldom all that is missing, and cost more.)
+    /// balanced, 10.23, which says more and costs more.
     pub(super) fn is_zero(&self, system: &System<'_>, unknowns: &[usize], place: usize) -> bool {
         let known = self.zero.borrow()[place];
         known.unwrap_or_else(|| {
@@ -40,10 +40,11 @@ impl Generator {
             } = &self.polynomial;
             let bounds = degrees.clone();
             let exponent = &Exponents { bounds }.all()[place];
-            let may_be_zero = coefficients[place] == 0;
-            let zero = may_be_zero
-                && (!has_transversal(system, minor, unknowns, exponent)
-                    || minor.shifts.is_some() && has_hubs(system, minor, unknowns, exponent));
+            let is_out_of_reach = match minor.shifts {
+                None => !has_transversal(system, minor, unknowns, exponent),
+                Some(_) => !has_choice(system, minor, unknowns, exponent),
+            };
+            let zero = coefficients[place] == 0 && is_out_of_reach;
             self.zero.borrow_mut()[place] = Some(zero);
             zero
         })
@@ -60,11 +61,8 @@ const MOST_IDLE: usize = 120;
 /// from any.
 const MOST_IDLE_OF_ROWS: usize = 12;
 
-/// The same of balanced minors with so many rows freed, which are drawn.
-const MOST_IDLE_OF_BALANCED: usize = 60;
-
-/// Most rows that are freed in a balanced minor: it has all columns then.
-const MOST_BALANCED: usize = 3;
+/// The same of balanced minors, which are drawn.
+const MOST_IDLE_OF_BALANCED: usize = 100;
 
 /// The span of the minors in some unknowns, shifts within the bounds included.
 pub(super) struct MinorSpan {
@@ -128,15 +126,13 @@ impl MinorSpan {
         let minors = Minors::new(system, values, unknowns);
         let mut balanced = Balanced::new(system, which)?;
         let mut collected = Collected::new(&exponents, MOST_IDLE_OF_BALANCED, Next::Rows);
-        for freed in (0..=MOST_BALANCED).rev() {
-            let mut next = Next::Minor;
-            while next == Next::Minor && !system.is_stopped() {
-                let drawn = balanced.draw(freed, &minors, values, unknowns);
-                next = match drawn.filter(|polynomial| polynomial.stays_within(&exponents)) {
-                    Some(polynomial) => collected.add(&system.field, &exponents, polynomial),
-                    None => collected.idle(),
-                };
-            }
+        let mut next = Next::Minor;
+        while next == Next::Minor && !system.is_stopped() {
+            let drawn = balanced.draw(&minors, values, unknowns);
+            next = match drawn.filter(|polynomial| polynomial.stays_within(&exponents)) {
+                Some(polynomial) => collected.add(&system.field, &exponents, polynomial),
+                None => collected.idle(),
+            };
         }
         Some(collected.into_span(unknowns, exponents))
     }

@@ -1,5 +1,5 @@
-//! Coefficients of minors that are zero at all centres, for want of a transversal or for a hub
-//! (docs/theory.md, Theorems 10.7 and 10.23).
+//! Coefficients of minors that are zero at all centres, for want of a transversal (docs/theory.md,
+//! Theorems 10.7 and 10.23).
 
 use super::evidence::{Minor, Part};
 use super::system::System;
@@ -53,122 +53,75 @@ pub(super) fn has_transversal(
     is_matched(&allowed, system.columns)
 }
 
-/// Whether however a side of each row with an unknown is chosen that a term with this exponent may take,
-/// there is no transversal or a hub (Theorem 10.23): the coefficient is the zero polynomial in the centres.
-pub(super) fn has_hubs(
+/// Whether there is a transversal for some choice of a side of each row with an unknown, each unknown being
+/// that of as many as its exponent says (Theorem 10.23).
+pub(super) fn has_choice(
     system: &System<'_>,
     minor: &Minor,
     unknowns: &[usize],
     exponent: &[usize],
 ) -> bool {
     let place = |scale: Option<usize>| scale.and_then(|f| unknowns.iter().position(|&g| g == f));
-    let mut chosen = Chosen {
-        system,
-        minor,
+    let columns = |row: usize, which: usize| entries(system, minor, row, which);
+    let mut choices = Choices {
         open: Vec::new(),
-        parts: Vec::with_capacity(minor.rows.len()),
+        allowed: Vec::with_capacity(minor.rows.len()),
         left: exponent.to_vec(),
+        columns: system.columns,
     };
-    for &part in &minor.rows {
-        match part {
-            Part::Whole(row) => match system.rows[row]
-                .sides
-                .each_ref()
-                .map(|side| place(side.scale))
-            {
-                [None, None] => chosen.parts.push(part),
-                places => chosen.open.push((row, places)),
-            },
-            _ => chosen.parts.push(part),
-        }
-    }
-    chosen.all_singular(0)
-}
-
-/// A minor with one side of some of its rows.
-struct Chosen<'a> {
-    system: &'a System<'a>,
-    minor: &'a Minor,
-    /// The rows with unknowns, and those of their sides.
-    open: Vec<(usize, [Option<usize>; 2])>,
-    /// The other rows, and what is chosen of the first of these.
-    parts: Vec<Part>,
-    /// How often each unknown has still to be chosen.
-    left: Vec<usize>,
-}
-
-impl Chosen<'_> {
-    /// Whether all choices for the rows from one on are singular at all centres.
-    fn all_singular(&mut self, next: usize) -> bool {
-        let Some(&(row, places)) = self.open.get(next) else {
-            return self.left.iter().any(|&left| left > 0) || self.is_singular();
-        };
-        [Part::Plus(row), Part::Minus(row)]
-            .into_iter()
-            .zip(places)
-            .all(|(part, place)| {
-                if let Some(f) = place {
-                    if self.left[f] == 0 {
-                        return true;
-                    }
-                    self.left[f] -= 1;
-                }
-                self.parts.push(part);
-                let singular = self.all_singular(next + 1);
-                self.parts.pop();
-                if let Some(f) = place {
-                    self.left[f] += 1;
-                }
-                singular
-            })
-    }
-
-    fn is_singular(&self) -> bool {
-        let nodes = self.system.columns / 3;
-        !self.is_matched() || (0..nodes).any(|hub| self.is_hub(hub))
-    }
-
-    fn is_matched(&self) -> bool {
-        let columns = |row: usize, which: usize| entries(self.system, self.minor, row, which);
-        let allowed = self.parts.iter().map(|part| match *part {
-            Part::Plus(row) => columns(row, 0),
-            Part::Minus(row) => columns(row, 1),
-            Part::Whole(row) => [columns(row, 0), columns(row, 1)].concat(),
-        });
-        is_matched(&allowed.collect::<Vec<_>>(), self.system.columns)
-    }
-
-    /// Whether all that leads out of some nodes, which whole rows join, leads to this one.
-    fn is_hub(&self, hub: usize) -> bool {
-        let nodes = self.system.columns / 3;
-        let ends = |row: usize| self.system.rows[row].sides.each_ref().map(|side| side.node);
-        let mut class: Vec<usize> = (0..nodes).collect();
-        let mut leads_elsewhere: Vec<bool> = (0..nodes)
-            .map(|v| (3 * v..3 * v + 3).any(|column| !self.minor.columns.contains(&column)))
-            .collect();
-        for &part in &self.parts {
-            match part {
-                Part::Whole(row) => {
-                    let [v, w] = ends(row);
-                    if v != hub && w != hub {
-                        let (from, to) = (class[v], class[w]);
-                        for x in class.iter_mut().filter(|x| **x == from) {
-                            *x = to;
-                        }
-                    }
-                }
-                Part::Plus(row) | Part::Minus(row) => {
-                    let [plus, minus] = ends(row);
-                    let (at, other) = match part {
-                        Part::Plus(_) => (plus, minus),
-                        _ => (minus, plus),
-                    };
-                    leads_elsewhere[at] |= other != hub;
+    for part in &minor.rows {
+        match *part {
+            Part::Plus(row) => choices.allowed.push(columns(row, 0)),
+            Part::Minus(row) => choices.allowed.push(columns(row, 1)),
+            Part::Whole(row) => {
+                let both = [columns(row, 0), columns(row, 1)];
+                let scales = system.rows[row]
+                    .sides
+                    .each_ref()
+                    .map(|side| place(side.scale));
+                match scales {
+                    [None, None] => choices.allowed.push(both.concat()),
+                    _ => choices.open.push((both, scales)),
                 }
             }
         }
-        let is_closed = |of: usize| (0..nodes).all(|v| class[v] != of || !leads_elsewhere[v]);
-        (0..nodes).any(|v| v != hub && is_closed(class[v]))
+    }
+    choices.any_matched(0)
+}
+
+/// Rows of a minor and what may be chosen of them.
+struct Choices {
+    /// The columns of both sides of each row with unknowns, and which these are.
+    open: Vec<([Vec<usize>; 2], [Option<usize>; 2])>,
+    /// The columns of the other rows, and of the sides that are chosen.
+    allowed: Vec<Vec<usize>>,
+    /// How often each unknown has still to be chosen.
+    left: Vec<usize>,
+    columns: usize,
+}
+
+impl Choices {
+    /// Whether there is a transversal for some choice in the rows from one on.
+    fn any_matched(&mut self, next: usize) -> bool {
+        let Some((both, scales)) = self.open.get(next).cloned() else {
+            return self.left.iter().all(|&left| left == 0)
+                && is_matched(&self.allowed, self.columns);
+        };
+        both.into_iter().zip(scales).any(|(side, scale)| {
+            if let Some(f) = scale {
+                if self.left[f] == 0 {
+                    return false;
+                }
+                self.left[f] -= 1;
+            }
+            self.allowed.push(side);
+            let matched = self.any_matched(next + 1);
+            self.allowed.pop();
+            if let Some(f) = scale {
+                self.left[f] += 1;
+            }
+            matched
+        })
     }
 }
 
