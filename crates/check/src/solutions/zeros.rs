@@ -8,10 +8,13 @@ use crate::document::solutions::Minor;
 use crate::limits::Meter;
 use crate::rejection::Checked;
 
-/// What may be in the rows of a minor: columns, by their places among those of the minor.
+/// The sides of a row that are in a minor: columns, by their places among those of the minor, and the place of
+/// the unknown.
+type Sides = Vec<(Vec<usize>, Option<usize>)>;
+
+/// What may be in the rows of a minor.
 pub(super) struct Pattern {
-    /// For each row its sides, with the places of their unknowns.
-    rows: Vec<Vec<(Vec<usize>, Option<usize>)>>,
+    rows: Vec<Sides>,
     columns: usize,
     /// How many rows have each unknown.
     with: Vec<usize>,
@@ -64,7 +67,7 @@ impl Pattern {
             .rows
             .iter()
             .partition(|sides| sides.iter().any(|(_, unknown)| unknown.is_some()));
-        let columns = |sides: &Vec<(Vec<usize>, Option<usize>)>| -> Vec<usize> {
+        let columns = |sides: &Sides| -> Vec<usize> {
             sides
                 .iter()
                 .flat_map(|(columns, _)| columns.clone())
@@ -76,7 +79,7 @@ impl Pattern {
 
     fn choose(
         &self,
-        open: &[&Vec<(Vec<usize>, Option<usize>)>],
+        open: &[&Sides],
         due: &mut [usize],
         rows: &mut Vec<Vec<usize>>,
         meter: &Meter,

@@ -81,7 +81,7 @@ pub(super) fn has_choice(
                     .map(|side| place(side.scale));
                 match scales {
                     [None, None] => choices.allowed.push(both.concat()),
-                    _ => choices.open.push((both, scales)),
+                    _ => choices.open.push(OpenRow { both, scales }),
                 }
             }
         }
@@ -89,10 +89,16 @@ pub(super) fn has_choice(
     choices.any_matched(0)
 }
 
+/// A row with unknowns: the columns of both sides, and which unknowns these are.
+#[derive(Clone)]
+struct OpenRow {
+    both: [Vec<usize>; 2],
+    scales: [Option<usize>; 2],
+}
+
 /// Rows of a minor and what may be chosen of them.
 struct Choices {
-    /// The columns of both sides of each row with unknowns, and which these are.
-    open: Vec<([Vec<usize>; 2], [Option<usize>; 2])>,
+    open: Vec<OpenRow>,
     /// The columns of the other rows, and of the sides that are chosen.
     allowed: Vec<Vec<usize>>,
     /// How often each unknown has still to be chosen.
@@ -103,7 +109,7 @@ struct Choices {
 impl Choices {
     /// Whether there is a transversal for some choice in the rows from one on.
     fn any_matched(&mut self, next: usize) -> bool {
-        let Some((both, scales)) = self.open.get(next).cloned() else {
+        let Some(OpenRow { both, scales }) = self.open.get(next).cloned() else {
             return self.left.iter().all(|&left| left == 0)
                 && is_matched(&self.allowed, self.columns);
         };
