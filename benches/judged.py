@@ -14,7 +14,7 @@ has an excess of 0 to 3 (docs/theory.md, section 10), as many of each number of 
 found. Members are found here, by the rules of Theorems 4.1 and 10.3, and not by the program.
 
 With --list, the graphs are those of a file: of graph6, or the published table of a size, of which those without an exact
-number are taken. --counted takes what is proved from such a table instead of counting it anew, which takes a minute for
+number are taken. --counted takes what is proved from such a table instead of counting it anew, which takes a second for
 some of them.
 
 Where the program proves bounds that do not meet, the number has to lie between them; below the lower bound or above the upper

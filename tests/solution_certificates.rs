@@ -72,6 +72,57 @@ fn some_graphs_with_ten_nodes() {
     assert!(tally.get(&0).is_none_or(|&open| open < 2), "{tally:?}");
 }
 
+/// The graphs with 12 nodes and the fewest edges that were open before minors were balanced (docs/catalog.md): each
+/// has one solution, and both checkers verify it.
+#[test]
+fn the_last_numbers_with_twelve_nodes() {
+    let graphs = [
+        "K@?G`SEXCoWC",
+        "K??GpKoTDOWC",
+        "K@GW?HIcaESG",
+        "K@GGO`cdAEOW",
+        r"K@GWOHA_\AIO",
+        "K@GW?IIcaEKG",
+        "K?Ko?EacaIHG",
+        "K@CP@@HPcQOo",
+        "K@GWOH@_lAIO",
+        "K??hoaGOYgSG",
+        "K??xOcGWK`WG",
+        "K??hoaGO[gKG",
+        r"K@CgOIOO\CGW",
+        "K??@hoKTDOWC",
+        "K?C_XdCQD@QA",
+        "K@GWOHOgIEOW",
+        "K?KG`AacQIGo",
+        "K?KH?aQWQIOo",
+        "K@C_GQQWQIPO",
+    ];
+    let mut lines = String::new();
+    for name in graphs {
+        let text = certificate(&graph6::decode(name.as_bytes()).unwrap()).unwrap();
+        let verified = viewcert_check::check(text.as_bytes(), None)
+            .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+        assert!(verified.solutions.unwrap().is_one(), "{name}");
+        assert!(text.contains("\"shifts\":[[") && text.contains("\"points\":null"));
+        lines += &(text + "\n");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("certificates.jsonl");
+    std::fs::write(&path, lines).unwrap();
+    let python = std::env::var("VIEWCERT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let second = concat!(env!("CARGO_MANIFEST_DIR"), "/crates/check/second/check.py");
+    let run = std::process::Command::new(python)
+        .args([second, "--list", path.to_str().unwrap()])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&run.stdout);
+    assert_eq!(
+        said.lines().last(),
+        Some("19 verified, 0 rejected, 0 too large"),
+        "{said}"
+    );
+}
+
 /// The pairs of a graph with nine nodes, twelve pairs and two solutions (Arrigoni, Kohn, Fusiello, Pajdla).
 fn core() -> Vec<(u32, u32)> {
     graph6::decode(b"HBQkcP_").unwrap().edges().to_vec()

@@ -360,6 +360,27 @@ def nest_part(document, rng):
     evidence.update({"merges": [part], "upper": None, "lower": None})
 
 
+def change_shifts(document, rng):
+    """A minor has all shifts, or one more or less, or another; or one exponent more is absent, or one less."""
+    spans = [c[k] for c, k in places(document) if type(c[k]) is dict and type(c[k].get("absent")) is list and c[k].get("minors")]
+    span = rng.choice(spans)
+    minor, bounds = rng.choice(span["minors"]), span["bounds"]
+    drawn = [rng.randrange(bound + 1) for bound in bounds]
+    way = rng.randrange(5)
+    if way == 0:
+        minor.pop("shifts", None)
+    elif way == 1:
+        minor["shifts"] = sorted([*minor.get("shifts", []), [min(1, b) for b in drawn]])
+    elif way == 2:
+        minor["shifts"] = [rng.choice([drawn, [0] * len(bounds)])]
+    else:
+        absent = span["absent"]
+        if way == 3 and absent:
+            del absent[rng.randrange(len(absent))]
+        elif drawn not in absent:
+            span["absent"] = sorted([*absent, drawn])
+
+
 def products_in(document):
     """All objects with a product."""
     return [c[k] for c, k in places(document) if type(c[k]) is dict and type(c[k].get("product")) is list]
@@ -806,12 +827,12 @@ MUTATIONS = (
     *(change_merge, bad_cycles, remake, empty_list, empty_list, nest_part, change_vectors, change_vectors),
     *(change_frames, change_frames, change_frames),
     *(change_intrinsics, change_intrinsics, change_intrinsics, change_intrinsics),
-    *(into_factors, change_factor, change_factor),
+    *(into_factors, change_factor, change_factor, change_shifts, change_shifts),
 )
 
 
 # Lists that are increasing wherever they stand; `rows` and `cols` are pivots in other places.
-INCREASING = ("edges", "bodies", "split", "added", "freed", "plus", "minus", "absent", "displacements")
+INCREASING = ("edges", "bodies", "split", "added", "freed", "plus", "minus", "absent", "shifts", "displacements")
 
 
 def repair(document, rng):

@@ -508,13 +508,19 @@ class Support:
         for k, minor in enumerate(a_list(minors, f"{where}: minors")):
             self.add_minor(minor, f"{where}: minor {k}")
 
+    def read_shift(self, value, room, where):
+        value = a_list(value, f"{where}: shifts")
+        need(len(value) == len(room), f"{where}: (S13) a shift has another length")
+        return tuple(an_int(b, f"{where}: (S13) shifts", 0, free + 1) for b, free in zip(value, room))
+
     def read_exponent(self, value):
         value = a_list(value, f"{self.where}: absent")
         need(len(value) == len(self.bounds), f"{self.where}: (S12) an exponent has another length")
         return tuple(an_int(e, f"{self.where}: absent", 0, d + 1) for e, d in zip(value, self.bounds))
 
     def add_minor(self, value, where):
-        rows, plus, minus_rows, cols = members(value, "rows plus minus cols", where)
+        optional = " shifts" * (type(value) is dict and "shifts" in value)
+        rows, plus, minus_rows, cols, *listed = members(value, "rows plus minus cols" + optional, where)
         limit, width = len(self.rows.sides), self.rows.chart.width
 
         def indices(listed, below, name):
@@ -536,12 +542,18 @@ class Support:
                     counts[self.unknowns.index(f)] += 1
         degrees = [min(count, 3) for count in counts]
         need(all(d <= bound for d, bound in zip(degrees, self.bounds)), f"{where}: (S13) a degree is above its bound")
-        shifts = list(itertools.product(*(range(bound - d + 1) for d, bound in zip(degrees, self.bounds))))
+        room = [bound - d for d, bound in zip(degrees, self.bounds)]
+        if listed:
+            shifts = [self.read_shift(b, room, where) for b in a_list(listed[0], f"{where}: shifts")]
+            increasing(shifts, f"{where}: (S13) shifts")
+        else:
+            shifts = list(itertools.product(*(range(free + 1) for free in room)))
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * (len(self.absent) + 1))
         inside = {tuple(a - b for a, b in zip(exponent, shift)) for exponent in self.absent for shift in shifts}
         for e in sorted(e for e in inside if all(0 <= x <= d for x, d in zip(e, degrees))):
             self.meter.charge(DENSE * 6 * size * size)
             fits = self.has_transversal(rows, plus, minus_rows, cols, counts, e)
+            fits = fits and self.has_choice(rows, plus, minus_rows, cols, e)
             need(not fits, f"{where}: (S14) the coefficient of {list(e)} need not vanish")
         polynomial = self.polynomial(rows, plus, minus_rows, cols, degrees)
         self.meter.charge(SPARSE * len(degrees) * len(shifts) * len(polynomial))
@@ -564,17 +576,31 @@ class Support:
                     struck |= exponent[place] == counts[place]
                 open_columns |= set() if struck else side.generic & wanted
             choices.append(open_columns)
-        taken = {}
+        return match(choices)
 
-        def place_row(k, seen):
-            for column in choices[k] - seen:
-                seen.add(column)
-                if column not in taken or place_row(taken[column], seen):
-                    taken[column] = k
-                    return True
-            return False
-
-        return all(place_row(k, set()) for k in range(len(choices)))
+    def has_choice(self, rows, plus, minus_rows, cols, exponent):
+        """(S14): a transversal, however a side of each row with a listed unknown is chosen."""
+        sides, wanted = self.rows.sides, set(cols)
+        listed = lambda side: self.unknowns.index(side.unknown) if side.unknown in self.unknowns else None
+        moving = [row for row in rows if any(listed(side) is not None for side in sides[row])]
+        fixed = [sides[row][0].generic & wanted for row in plus] + [sides[row][1].generic & wanted for row in minus_rows]
+        fixed += [(sides[row][0].generic | sides[row][1].generic) & wanted for row in rows if row not in moving]
+        # What is chosen in the first of these rows, and how often each unknown is still to be chosen.
+        partial = [((), tuple(exponent))]
+        for row in moving:
+            self.meter.charge(SPARSE * len(partial) * (len(rows) + len(exponent)))
+            longer = []
+            for chosen, due in partial:
+                for side in sides[row]:
+                    f = listed(side)
+                    if f is None:
+                        longer.append(((*chosen, side), due))
+                    elif due[f]:
+                        longer.append(((*chosen, side), due[:f] + (due[f] - 1,) + due[f + 1 :]))
+            partial = longer
+        whole = [chosen for chosen, due in partial if not any(due)]
+        self.meter.charge(DENSE * 6 * len(cols) ** 2 * len(whole))
+        return any(match(fixed + [side.generic & wanted for side in chosen]) for chosen in whole)
 
     def polynomial(self, rows, plus, minus_rows, cols, degrees):
         """The coefficients of a minor, all by the same factor that is not zero; or none if it vanishes."""
@@ -631,6 +657,21 @@ class Support:
             return a[:f] + (a[f] + 1,) + a[f + 1 :]
 
         return [{a for a in inside if up(a, f) in inside} for f in range(len(self.unknowns))]
+
+
+def match(choices):
+    """Whether each of some sets of columns can have one of its own."""
+    taken = {}
+
+    def place_row(k, seen):
+        for column in choices[k] - seen:
+            seen.add(column)
+            if column not in taken or place_row(taken[column], seen):
+                taken[column] = k
+                return True
+        return False
+
+    return all(place_row(k, set()) for k in range(len(choices)))
 
 
 def reduced(row, done, p, meter):

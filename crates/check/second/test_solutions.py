@@ -11,6 +11,7 @@ import os
 import random
 import sys
 import unittest
+import unittest.mock
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
@@ -404,6 +405,70 @@ class Supports(Case):
         # By a shift: 1 + [1, 0] with [0, 1] is [1, 1] in a larger box.
         wide = {"bounds": [2, 1], "absent": [[1, 1]]}
         self.step("(S14) the coefficient of [0, 1] need not vanish", FEWER, **wide)
+
+    def test_s13_shifts(self):
+        with open(os.path.join(HERE, "../tests/solutions/balanced.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        edges, upper_part = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["upper"]
+        (step,) = upper_part["steps"]
+        last = step["minors"][-1]
+        self.assertEqual((last["rows"], last["shifts"]), ([0, 3, 5], [[1, 0, 0, 0]]))
+        changed = lambda new: {**upper_part, "steps": [{**step, "minors": [*step["minors"][:-1], new]}]}
+        self.assertEqual(bound(edges, upper=upper_part), (1, 1))
+        leads_out = "minor 8: (S14) the coefficient of [0, 0, 0, 1] need not vanish"
+        for shifts, words in [
+            ([[1, 0, 0, 0]] * 2, "minor 8: (S13) shifts is not increasing"),
+            ([[1, 0, 0, 0], [0, 0, 0, 0]], "minor 8: (S13) shifts is not increasing"),
+            ([[0, 0, 0]], "minor 8: (S13) a shift has another length"),
+            ([[0, 0, 0, 0, 0]], "minor 8: (S13) a shift has another length"),
+            ([[2, 0, 0, 0]], "minor 8: (S13) shifts: 2 is out of range"),
+            ([[0, 1, 0, 0]], "minor 8: (S13) shifts: 1 is out of range"),
+            ([[-1, 0, 0, 0]], "minor 8: (S13) shifts: -1 is below 0"),
+            ([1], "minor 8: shifts is not a list"),
+            (None, "minor 8: shifts is not a list"),
+            ([[1, 0, 1, 0]], leads_out),
+            ([], "(S16) the coefficients have the rank 8, not 9"),
+        ]:
+            self.rejects(edges, words, upper=changed({**last, "shifts": shifts}))
+        # Without the list all shifts have to stay in A.
+        self.rejects(edges, leads_out, upper=changed({name: last[name] for name in last if name != "shifts"}))
+        # The first two are one minor with two shifts.
+        first, second, *others = step["minors"]
+        self.assertEqual(first["rows"], second["rows"])
+        both = {**first, "shifts": first["shifts"] + second["shifts"]}
+        self.assertEqual(bound(edges, upper={**upper_part, "steps": [{**step, "minors": [both, *others]}]}), (1, 1))
+
+    def test_s14_choices(self):
+        """Either row of the edge from 4 to 1 may be the one whose side at 1 is chosen, but just one of them."""
+        edges = [(v, w) for v, ends in enumerate([(0, 1), (0, 1), (1, 2), (1, 2), (0, 2), (0, 2)], 3) for w in ends]
+        chart = {
+            "chains": [[0, 4], [4, 1]],
+            "half_edges": [[3, 0, 1], [5, 1, 2], [6, 1, 2], [7, 0, 2], [8, 0, 2]],
+            "unknowns": [[1, 1], [4, 2], [5, 2], [6, 2]],
+        }
+        # Columns 3 to 5 are those of 1, the last three those of 4. With one column of 1 one row or the other has to be
+        # there; without a column of 4 both have to.
+        doubt = "minor 0: (S14) the coefficient of [1, 1, 1, 0] need not vanish"
+        for cols, words in [
+            ([0, 1, 2, 4, 6, 7, 8, 9, 10], doubt),
+            ([0, 1, 2, 5, 6, 7, 8, 9, 10], doubt),
+            (range(9), "(S16) the coefficients have the rank 1, not 22"),
+        ]:
+            one = minor(cols, range(9))
+            step = {"kind": "support", "unknowns": [0, 1, 2, 3], "bounds": [2, 1, 1, 1], "absent": [[1, 1, 1, 0]], "minors": [one]}
+            self.rejects(edges, words, upper={**upper([step], chart), "centres": centres(9)})
+
+    def test_choices_are_verified(self):
+        """A certificate of the program: twelve nodes, six unknowns."""
+        with open(os.path.join(HERE, "../tests/solutions/choices.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        edges, upper_part = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["upper"]
+        self.assertEqual(bound(edges, upper=upper_part), (1, 1))
+        # What is absent is in doubt if only whole coefficients are looked at.
+        (step,) = upper_part["steps"]
+        self.assertEqual((len(step["absent"]), len(step["minors"])), (283, 40))
+        with unittest.mock.patch.object(solutions.Support, "has_choice", return_value=True):
+            self.rejects(edges, "(S14) the coefficient of", upper=upper_part)
 
     def test_s15(self):
         flat = {"unknowns": [0, 1], "bounds": [1, 1], "absent": [[0, 1], [1, 0], [1, 1]], "minors": []}
@@ -1084,6 +1149,98 @@ class Lower(Case):
         of_one = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}
         relation = {"rows": [0, 1, 2], "hub": 1}
         self.rejects(BICLIQUE, "(S23a) 3 equations in 2 unknowns", lower={**of_one, "relations": [[relation]]})
+
+    def test_s23a_two_points(self):
+        """u = 1 among the points counts once; each point has a list of its own."""
+        with open(os.path.join(HERE, "../tests/solutions/repeated.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        edges, lower = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]["lower"]
+        (second,), (relations,) = lower["points"], lower["relations"]
+        one = ["1"] * 6
+        self.assertEqual(bound(edges, lower={**lower, "points": [one, second], "relations": [relations] * 2}), (2, None))
+        self.assertEqual(bound(edges, lower={**lower, "points": [second, one], "relations": [relations] * 2}), (2, None))
+        self.assertEqual(bound(edges, lower={**lower, "points": [one]}), (1, None))
+        first, last = relations
+        free = [first, {**last, "hub": None}]
+        lists = "(S23a) not a list of relations for each point"
+        for points, new, words in [
+            ([second] * 2, [relations] * 2, "(S23) there is no point, or two are the same"),
+            ([one, second], [relations], lists),
+            ([one, second], [relations] * 3, lists),
+            ([one, second], [free, relations], "relations 0: (S23a) 7 equations in 6 unknowns"),
+            ([one, second], [relations, free], "relations 1: (S23a) 7 equations in 6 unknowns"),
+            ([one, second], [relations, []], "relations 1: (S23a) another number of relations"),
+            ([one, second], [relations, [first] * 2], "relations 1: (S23a) the relations are not independent"),
+            ([second], None, "relations is not a list"),
+            ([second], [None], "relations 0 is not a list"),
+            ([second], [[first, None]], "relations 0: 1"),
+            ([second], [[first, {"rows": last["rows"]}]], "the member hub is missing"),
+            ([second], [[first, {"hub": last["hub"]}]], "the member rows is missing"),
+            ([second], [[first, {**last, "hubs": 11}]], "the member hubs is unknown"),
+            ([second], [[first, {**last, "hub": True}]], "(S23a) the rows have no side at the hub"),
+            ([second], [[first, {**last, "hub": "11"}]], "(S23a) the rows have no side at the hub"),
+        ]:
+            self.rejects(edges, words, lower={**lower, "points": points, "relations": new})
+
+    def test_s23a_in_a_factor(self):
+        """Two cores with one edge in common, two solutions each; the equations of the first repeat."""
+        with open(os.path.join(HERE, "../tests/solutions/glued.json"), encoding="utf-8") as file:
+            document = json.load(file)
+        edges, evidence = graphs.read_graph6(document["graph"]["graph6"]).edges, document["solutions"]
+        first, second = evidence["product"]
+        lower = first["solutions"]["lower"]
+
+        def with_lower(new, of=first):
+            changed = {**of, "solutions": {**of["solutions"], "lower": new}}
+            return {**evidence, "product": [changed, second] if of is first else [first, changed]}
+
+        def refused(changed, words):
+            with self.subTest(words=words), self.assertRaises(notation.Reject) as caught:
+                product_of(edges, changed)
+            self.assertIn(words, str(caught.exception))
+
+        self.assertEqual(product_of(edges, evidence), (4, 4))
+        bare = {name: lower[name] for name in ("chart", "centres", "points")}
+        ((left, right),) = lower["relations"]
+        for new, words in [
+            (bare, "factor 0: solutions: lower: (S23) the core is not tight"),
+            ({**lower, "relations": []}, "(S23a) not a list of relations for each point"),
+            ({**lower, "relations": [[{**left, "hub": None}, right]]}, "(S23a) 7 equations in 6 unknowns"),
+            # 15 is a node of the other factor.
+            ({**lower, "relations": [[{**left, "hub": 15}, right]]}, "(S23a) the rows have no side at the hub"),
+            ({**lower, "relations": [[left, left]]}, "(S23a) the relations are not independent"),
+        ]:
+            refused(with_lower(new), words)
+        # The other one is tight: relations may be given there as well.
+        lower = second["solutions"]["lower"]
+        whole = {"rows": list(range(15)), "hub": None}
+        self.assertEqual(product_of(edges, with_lower({**lower, "relations": [[whole]] * 2}, second)), (4, 4))
+        words = "factor 1: solutions: lower: relations 0: 0: (S23a) a row with an unknown is not at the hub"
+        refused(with_lower({**lower, "relations": [[{**whole, "hub": 15}]] * 2}, second), words)
+
+    def test_s23a_chain_at_a_hub(self):
+        """A body of three nodes: its scale at the hub is in rows at the hub only, one elsewhere in one that is not."""
+        halves = [[0, 8, 11], [1, 8, 12], [2, 9, 10], [3, 9, 10], [4, 10, 11], [5, 10, 11]]
+        tree = [[6, 7], [7, 8], [6, 9], [6, 11]]
+        sets = [frozenset(nodes) for nodes in [(7, 10, 12), *tree, *(pair for v, a, b in halves for pair in ((v, a), (v, b)))]]
+        rows = [[0, 1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 15, 16, 17, 18], [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13, 14, 17, 18]]
+        elsewhere = "(S23a) a row with an unknown is not at the hub"
+        for order in itertools.permutations((7, 10, 12)):
+            for node, other, hub, words in [
+                (10, [6, 12], 10, "(S23a) 7 equations in 6 unknowns"),
+                (10, [6, 12], None, "(S23a) 8 equations in 6 unknowns"),
+                (7, [6, 12], 10, elsewhere),
+                (12, [7, 10], 10, elsewhere),
+                (10, [6, 12], 7, elsewhere),
+                (10, [6, 12], 12, elsewhere),
+            ]:
+                unknowns = [[0, node], [5, 11], other, [8, 10], [9, 11], [10, 11]]
+                chart = {"chains": [list(order), *tree], "half_edges": halves, "unknowns": unknowns}
+                relations = [{"rows": rows[0], "hub": hub}, {"rows": rows[1], "hub": None}]
+                lower = {"chart": chart, "centres": centres(13), "points": [["1"] * 6], "relations": [relations]}
+                with self.assertRaises(notation.Reject) as caught:
+                    solutions.check_lower(lower, sets, "lower", solutions.Meter())
+                self.assertIn(words, str(caught.exception))
 
     def test_both_bounds(self):
         lower = {"chart": HALF_EDGES, "centres": centres(5), "points": [["1", "1"]]}

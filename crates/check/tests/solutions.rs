@@ -104,7 +104,7 @@ fn members_are_unique() {
 fn all_are_verified() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/solutions");
     // One more is that of `oriented.rs`.
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 11);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 15);
     for (name, solutions) in [
         ("linear", 1),
         ("part", 1),
@@ -116,6 +116,10 @@ fn all_are_verified() {
         ("pairs", 1),
         ("spurious", 1),
         ("repeated", 2),
+        ("balanced", 1),
+        ("choices", 1),
+        ("glued", 4),
+        ("chain", 1),
     ] {
         let text = text_of(name).to_string();
         let verified =
@@ -1107,6 +1111,112 @@ fn s20_to_s22_points_with_a_fault() {
     );
 }
 
+/// The rows of `balanced` are six half-edges, two between 0 and 1, 1 and 2, 0 and 2 each; the second, fourth,
+/// fifth and sixth have an unknown. All minors have three rows freed and all columns, and one shift.
+#[test]
+fn s13_shifts() {
+    let step = "U.steps[0] (support)";
+    let minors = value_at("balanced", "U/steps/0/minors");
+    let minors = minors.as_array().unwrap();
+    assert!(minors.iter().all(|minor| minor["plus"] == minor["minus"]));
+    for minor in minors {
+        let sizes = ["plus", "cols", "shifts"].map(|list| minor[list].as_array().unwrap().len());
+        assert_eq!(sizes, [3, 9, 1]);
+    }
+    // The last one has the unknowns 1 and 3; the others are those of rows that are freed.
+    assert_eq!(minors[8]["rows"], json!([0, 3, 5]));
+    let shift = minors[8]["shifts"][0].clone();
+    assert_eq!(shift, json!([1, 0, 0, 0]));
+    for (shifts, wanted) in [
+        (json!([shift, shift]), "`shifts` is not increasing"),
+        (
+            json!([[1, 0, 0, 0], [0, 0, 0, 0]]),
+            "`shifts` is not increasing",
+        ),
+        (
+            json!([[0, 0, 0]]),
+            "the shift [0, 0, 0] is not within the bounds",
+        ),
+        (
+            json!([[0, 0, 0, 0, 0]]),
+            "the shift [0, 0, 0, 0, 0] is not within the bounds",
+        ),
+        (
+            json!([[2, 0, 0, 0]]),
+            "the shift [2, 0, 0, 0] is not within the bounds",
+        ),
+        (
+            json!([[0, 1, 0, 0]]),
+            "the shift [0, 1, 0, 0] is not within the bounds",
+        ),
+    ] {
+        refused(
+            "balanced",
+            &[("U/steps/0/minors/8/shifts", shifts)],
+            &format!("{step}.minors[8]: {wanted}"),
+        );
+    }
+    let null = changed("balanced", &[("U/steps/0/minors/8/shifts", json!(null))]);
+    assert!(reason(&null).starts_with("invalid type: null"));
+    // One shift less is one row less. With all shifts, or another one, exponents are not absent.
+    refused(
+        "balanced",
+        &[("U/steps/0/minors/8/shifts", json!([]))],
+        &format!("{step}: the coefficients have rank 8 for 10 exponents"),
+    );
+    let wanted = "the exponent [1, 0, 1, 1] is said to be absent, but there may be a coefficient";
+    refused(
+        "balanced",
+        &[("U/steps/0/minors/8/shifts", json!([[1, 0, 1, 0]]))],
+        &format!("{step}.minors[8]: {wanted}"),
+    );
+    let mut all = text_of("balanced");
+    let minor = at(&mut all, "U/steps/0/minors/8").as_object_mut().unwrap();
+    minor.remove("shifts").unwrap();
+    assert!(reason(&all).ends_with(wanted));
+}
+
+/// (S14) asks for all choices of sides: 4 is not eliminated here, and the unknown of its edge to 1 is in two
+/// rows, of which one is to be chosen. With one column of 1 it is the first row, or the second.
+#[test]
+fn s14_all_choices() {
+    let chart = json!({
+        "chains": [[0, 4], [4, 1]],
+        "half_edges": [[3, 0, 1], [5, 1, 2], [6, 1, 2], [7, 0, 2], [8, 0, 2]],
+        "unknowns": [[1, 1], [4, 2], [5, 2], [6, 2]],
+    });
+    // Columns 3 to 5 are those of 1, the last three those of 4. Row 2 is not zero in the columns 3 and 4, row 3
+    // in 3 and 5.
+    let with = |cols: Value, absent: Value, wanted: &str| {
+        let rows: Vec<usize> = (0..9).collect();
+        let minor = json!({"rows": rows, "plus": [], "minus": [], "cols": cols});
+        let step = json!({
+            "kind": "support", "unknowns": [0, 1, 2, 3], "bounds": [2, 1, 1, 1],
+            "absent": absent, "minors": [minor],
+        });
+        let changes = [("U/chart", chart.clone()), ("U/steps", json!([step]))];
+        refused(
+            "balanced",
+            &changes,
+            &format!("U.steps[0] (support){wanted}"),
+        );
+    };
+    for column in [4, 5] {
+        with(
+            json!([0, 1, 2, column, 6, 7, 8, 9, 10]),
+            json!([[1, 1, 1, 0]]),
+            ".minors[0]: the exponent [1, 1, 1, 0] is said",
+        );
+    }
+    // Without columns of 4 each of the two rows may take its side at 1, but just one of them has to.
+    let rank = ": the coefficients have rank 1 for 23 exponents";
+    with(
+        json!([0, 1, 2, 3, 4, 5, 6, 7, 8]),
+        json!([[1, 1, 1, 0]]),
+        rank,
+    );
+}
+
 /// The rows of `repeated` are those of the pairs 67, 78, 69, 7 10, 6 11, two each, and of the half-edges
 /// between 8 and 11, 9 and 10, 10 and 11, two each. The first relation leaves out 8, the second 9.
 #[test]
@@ -1188,6 +1298,193 @@ fn s23a_relations_at_a_point() {
         &[("L/relations/0/1/rows", json!(fewer))],
         &format!("{within}.1: the rows have 0 relations, not one"),
     );
+}
+
+/// u = 1 among the points, and more than one of them: each has its own list.
+#[test]
+fn s23a_two_points() {
+    let second = value_at("repeated", "L/points/0");
+    let relations = value_at("repeated", "L/relations/0");
+    let one = json!(["1", "1", "1", "1", "1", "1"]);
+    // The relations of both points are of the same rows.
+    let both = |lists: Value| {
+        [
+            ("L/points", json!([one, second])),
+            ("L/relations", json!(lists)),
+        ]
+    };
+    let lists = value_at("repeated", "L/relations");
+    let value = changed("repeated", &both(json!([relations, relations])));
+    let verified = check(value.to_string().as_bytes(), None).unwrap();
+    assert!(
+        verified.solutions.unwrap().at_least == 2,
+        "u = 1 counts once"
+    );
+    // By itself it is the one solution that there is in any case.
+    let alone = [
+        ("L/points", json!([one])),
+        ("/claim/solutions/at_least", json!(1)),
+    ];
+    let verified = check(changed("repeated", &alone).to_string().as_bytes(), None).unwrap();
+    assert!(verified.solutions.unwrap().at_least == 1);
+    let two_of = |points: Value| {
+        let changes = [
+            ("L/points", points),
+            ("L/relations", json!([relations, relations])),
+        ];
+        reason(&changed("repeated", &changes))
+    };
+    let twice = two_of(json!([second, second]));
+    assert!(twice.contains("points[1] is there twice"), "{twice}");
+
+    // One list for two points. The list of either is looked at.
+    let mut short = text_of("repeated");
+    *at(&mut short, "L/points") = json!([one, second]);
+    assert_eq!(at(&mut short, "L/relations"), &lists);
+    let found = reason(&short);
+    let wanted = "solutions.lower: 1 lists of relations for 2 points";
+    assert!(found.starts_with(wanted), "{found}");
+    let free = json!([relations[0], {"rows": relations[1]["rows"], "hub": null}]);
+    for (lists, at) in [([&free, &relations], 0), ([&relations, &free], 1)] {
+        let wanted = format!("L.points[{at}].relations: 7 equations in 6 unknowns");
+        refused("repeated", &both(json!(lists)), &wanted);
+    }
+    let empty = json!([]);
+    let wanted = "L.points[1].relations: 0 of them, and 16 rows of rank 14";
+    refused("repeated", &both(json!([relations, empty])), wanted);
+}
+
+#[test]
+fn s23a_null_and_missing_members() {
+    for pointer in ["L/relations", "L/relations/0", "L/relations/0/0"] {
+        let null = reason(&changed("repeated", &[(pointer, json!(null))]));
+        assert!(null.starts_with("invalid type: null"), "{pointer}: {null}");
+    }
+    for member in ["hub", "rows"] {
+        let mut without = text_of("repeated");
+        let relation = at(&mut without, "L/relations/0/1").as_object_mut().unwrap();
+        relation.remove(member).unwrap();
+        let found = reason(&without);
+        let wanted = format!("the member `{member}` is missing");
+        assert!(found.starts_with(&wanted), "{found}");
+    }
+    let mut more = text_of("repeated");
+    at(&mut more, "L/relations/0/1")["hubs"] = json!(11);
+    let found = reason(&more);
+    assert!(
+        found.starts_with("the member `hubs` does not belong there"),
+        "{found}"
+    );
+    for (hub, wanted) in [
+        (json!(-1), "-1 is out of range"),
+        (json!(10.5), "invalid type: floating point"),
+        (json!("10"), "invalid type: string"),
+        (json!([10]), "invalid type: sequence"),
+    ] {
+        let found = reason(&changed("repeated", &[("L/relations/0/0/hub", hub)]));
+        assert!(found.starts_with(wanted), "{found}");
+    }
+}
+
+/// A core whose equations repeat is a factor: its relations are of its own rows.
+#[test]
+fn s23a_in_a_factor() {
+    let lower = "P/0/solutions/lower";
+    let within = "P[0].solutions.lower";
+    let mut without = text_of("glued");
+    at(&mut without, lower)
+        .as_object_mut()
+        .unwrap()
+        .remove("relations")
+        .unwrap();
+    let found = reason(&without);
+    let wanted =
+        "solutions.product[0].solutions.lower: the core is not tight, but has an excess of 2";
+    assert!(found.starts_with(wanted), "{found}");
+    let relation = |hub: Value| {
+        let rows = value_at("glued", &format!("{lower}/relations/0/0/rows"));
+        json!({"rows": rows, "hub": hub})
+    };
+    for (pointer, new, wanted) in [
+        ("", json!([]), ": 0 lists of relations for 1 points"),
+        (
+            "/0/0/hub",
+            json!(null),
+            ".points[0].relations: 7 equations in 6 unknowns",
+        ),
+        // The node 15 of the other factor.
+        (
+            "/0/0/hub",
+            json!(15),
+            ".points[0].relations.0: the rows have no side at the hub",
+        ),
+        (
+            "/0/1",
+            relation(json!(10)),
+            ".points[0].relations: they are not independent",
+        ),
+    ] {
+        let pointer = format!("{lower}/relations{pointer}");
+        refused("glued", &[(&pointer, new)], &format!("{within}{wanted}"));
+    }
+    // The other factor is tight: relations may be given or not. N(u) has 15 rows with one relation.
+    let points = "P/1/solutions/lower/points";
+    assert_eq!(value_at("glued", points).as_array().unwrap().len(), 2);
+    let whole = |hub: Value| json!([{"rows": (0..15).collect::<Vec<_>>(), "hub": hub}]);
+    let with = |list: Value| {
+        let mut value = text_of("glued");
+        at(&mut value, "P/1/solutions/lower")["relations"] = json!([list, list]);
+        value
+    };
+    let verified = check(with(whole(json!(null))).to_string().as_bytes(), None).unwrap();
+    assert!(verified.solutions.unwrap().at_least == 4);
+    let found = reason(&with(whole(json!(15))));
+    let wanted =
+        "solutions.product[1].solutions.lower.points[0].relations.0: a row with an unknown";
+    assert!(found.starts_with(wanted), "{found}");
+}
+
+/// A hub in a chain of three nodes: with the scale at the hub all rows of the chain that have it are there,
+/// with one at another node the row between the two others is not.
+#[test]
+fn s23a_a_hub_in_a_chain() {
+    // Two rows for each pair that follow one another in the chain, one for its ends; then the pairs 67, 78,
+    // 69, 6 11, two each, and the half-edges at 0 to 5.
+    let without_8 = [0, 1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 15, 16, 17, 18];
+    let without_9 = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13, 14, 17, 18];
+    let lower = |order: [u32; 3], scales: [[u32; 2]; 2], hub: u32| {
+        let chart = json!({
+            "chains": [order, [6, 7], [7, 8], [6, 9], [6, 11]],
+            "half_edges": [[0, 8, 11], [1, 8, 12], [2, 9, 10], [3, 9, 10], [4, 10, 11], [5, 10, 11]],
+            "unknowns": [scales[0], [5, 11], scales[1], [8, 10], [9, 11], [10, 11]],
+        });
+        let relations = json!([
+            {"rows": without_8, "hub": hub}, {"rows": without_9, "hub": null},
+        ]);
+        json!({
+            "chart": chart, "centres": value_at("chain", "U/centres"),
+            "points": [["1", "1", "1", "1", "1", "1"]], "relations": [relations],
+        })
+    };
+    let elsewhere = "L.points[0].relations.0: a row with an unknown has no side at the hub";
+    for order in [[7, 10, 12], [10, 7, 12], [7, 12, 10]] {
+        for (node, other, hub, wanted) in [
+            // 8 less 1 for the hub.
+            (
+                10,
+                [6, 12],
+                10,
+                "L.points[0].relations: 7 equations in 6 unknowns",
+            ),
+            (7, [6, 12], 10, elsewhere),
+            (12, [7, 10], 10, elsewhere),
+            (10, [6, 12], 7, elsewhere),
+            (10, [6, 12], 12, elsewhere),
+        ] {
+            let lower = lower(order, [[0, node], other], hub);
+            refused("chain", &[("L", lower)], wanted);
+        }
+    }
 }
 
 #[test]

@@ -31,7 +31,10 @@ objects! {
         relations: Optional<Vec<Vec<Relation>>>,
     }
     Relation { rows: Vec<usize>, hub: Option<u32> }
-    Minor { rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize> }
+    Minor {
+        rows: Vec<usize>, plus: Vec<usize>, minus: Vec<usize>, cols: Vec<usize>,
+        shifts: Optional<Vec<Vec<usize>>>,
+    }
     Points {
         centres: Centres, unknowns: Vec<usize>, bounds: Vec<usize>, absent: Vec<Vec<usize>>,
         minors: Vec<Minor>, points: Vec<Point>, form: Optional<Vec<Term>>,

@@ -1,14 +1,20 @@
 //! Coefficients of minors that are zero for generic centres: condition (S14) of section 12 (theory,
 //! Theorem 10.7).
 
+use super::dense::ENTRY;
 use super::minors::Place;
 use super::system::Side;
 use crate::document::solutions::Minor;
+use crate::limits::Meter;
+use crate::rejection::Checked;
 
-/// What may be in the rows of a minor: columns, by their places among those of the minor.
+/// The sides of a row that are in a minor: columns, by their places among those of the minor, and the place of
+/// the unknown.
+type Sides = Vec<(Vec<usize>, Option<usize>)>;
+
+/// What may be in the rows of a minor.
 pub(super) struct Pattern {
-    /// For each row its sides, with the places of their unknowns.
-    rows: Vec<Vec<(Vec<usize>, Option<usize>)>>,
+    rows: Vec<Sides>,
     columns: usize,
     /// How many rows have each unknown.
     with: Vec<usize>,
@@ -51,9 +57,55 @@ impl Pattern {
             .iter()
             .map(|sides| self.columns_left(sides, exponent));
         let rows: Vec<Vec<usize>> = rows.collect();
-        let mut row_at = vec![None; self.columns];
-        (0..rows.len())
-            .all(|row| place_row(row, &rows, &mut row_at, &mut vec![false; self.columns]))
+        have_transversal(&rows, self.columns)
+    }
+
+    /// Whether there is one for some choice of a side of each row with a listed unknown, each unknown being
+    /// that of as many as its exponent says.
+    pub fn has_choice(&self, exponent: &[usize], meter: &Meter) -> Checked<bool> {
+        let (open, rest): (Vec<_>, Vec<_>) = self
+            .rows
+            .iter()
+            .partition(|sides| sides.iter().any(|(_, unknown)| unknown.is_some()));
+        let columns = |sides: &Sides| -> Vec<usize> {
+            sides
+                .iter()
+                .flat_map(|(columns, _)| columns.clone())
+                .collect()
+        };
+        let mut rows: Vec<Vec<usize>> = rest.into_iter().map(columns).collect();
+        self.choose(&open, &mut exponent.to_vec(), &mut rows, meter)
+    }
+
+    fn choose(
+        &self,
+        open: &[&Sides],
+        due: &mut [usize],
+        rows: &mut Vec<Vec<usize>>,
+        meter: &Meter,
+    ) -> Checked<bool> {
+        let Some((sides, others)) = open.split_first() else {
+            if due.iter().any(|&due| due > 0) {
+                return Ok(false);
+            }
+            meter.charge(ENTRY * 6 * (self.columns * self.columns) as u64)?;
+            return Ok(have_transversal(rows, self.columns));
+        };
+        meter.charge(1 + due.len() as u64)?;
+        for (columns, unknown) in *sides {
+            if unknown.is_some_and(|f| due[f] == 0) {
+                continue;
+            }
+            unknown.iter().for_each(|&f| due[f] -= 1);
+            rows.push(columns.clone());
+            let found = self.choose(others, due, rows, meter)?;
+            rows.pop();
+            unknown.iter().for_each(|&f| due[f] += 1);
+            if found {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// The columns of the sides of a row that are not struck out: a side with an unknown whose
@@ -78,6 +130,12 @@ impl Pattern {
         left.flat_map(|which| sides[which].0.iter().copied())
             .collect()
     }
+}
+
+/// Whether there is a choice of one of these columns in each row, all of them different.
+pub(super) fn have_transversal(rows: &[Vec<usize>], columns: usize) -> bool {
+    let mut row_at = vec![None; columns];
+    (0..rows.len()).all(|row| place_row(row, rows, &mut row_at, &mut vec![false; columns]))
 }
 
 /// Finds a column for a row; rows that have one may move to others.

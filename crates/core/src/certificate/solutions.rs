@@ -126,14 +126,15 @@ objects! {
         unknowns: &'a [usize],
         bounds: &'a [usize],
         absent: &'a [Vec<usize>],
-        minors: Vec<MinorView>,
+        minors: Vec<MinorView<'a>>,
     }
 
-    MinorView {
+    MinorView<'a> {
         rows: Vec<usize>,
         plus: Vec<usize>,
         minus: Vec<usize>,
         cols: Vec<usize>,
+        ; optional shifts: &'a [Vec<usize>]
     }
 
     PointsView<'a> {
@@ -141,7 +142,7 @@ objects! {
         unknowns: &'a [usize],
         bounds: &'a [usize],
         absent: &'a [Vec<usize>],
-        minors: Vec<MinorView>,
+        minors: Vec<MinorView<'a>>,
         points: Vec<PointView<'a>>,
         ; optional form: Vec<TermView<'a>>, outside: Vec<OutsideView<'a>>, spurious: Vec<SpuriousView<'a>>
     }
@@ -509,9 +510,9 @@ impl<'a> LinearView<'a> {
     }
 }
 
-impl MinorView {
+impl<'a> MinorView<'a> {
     /// Rows and columns in increasing order: that changes the sign only.
-    fn new(minor: &Minor) -> Self {
+    fn new(minor: &'a Minor) -> Self {
         let [mut rows, mut plus, mut minus] = [const { Vec::new() }; 3];
         for part in &minor.rows {
             match *part {
@@ -529,6 +530,7 @@ impl MinorView {
             plus,
             minus,
             cols,
+            shifts: minor.shifts.as_deref(),
         }
     }
 }

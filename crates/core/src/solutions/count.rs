@@ -34,6 +34,9 @@ pub struct Effort {
 /// A core with more unknowns is not looked at as a whole, only its parts.
 const MOST_UNKNOWNS: usize = 12;
 
+/// So many choices of how often minors take each node.
+const MOST_BALANCES: usize = 12;
+
 /// With more unknowns there are so many choices of a few of them that less is tried.
 const MANY_UNKNOWNS: usize = 8;
 
@@ -457,12 +460,21 @@ fn count_core(members: &Members, effort: Effort, draws: &Draws<'_>) -> Option<So
     Some(best)
 }
 
-/// Bounds for a core in charts that have other nodes eliminated: in one of them the minors may span what they
-/// do not in others. First in all unknowns at once, which costs little in a chart.
+/// Bounds for a core by balanced minors, and then in charts that have other nodes eliminated: in one of them
+/// the minors may span what they do not in others. First in all unknowns at once, which costs little in a
+/// chart.
 fn other_charts(members: &Members, effort: Effort, draws: &Draws<'_>, best: &mut Solutions) {
     let unknowns = Core::new(members, 0).map_or(0, |core| core.unknowns);
     let effort = effort.for_unknowns(unknowns);
-    if unknowns > MOST_UNKNOWNS || effort.charts <= ROTATED {
+    if unknowns > MOST_UNKNOWNS {
+        return;
+    }
+    let core = Core::new(members, 0);
+    let bare = core.and_then(|core| Charted::bare(core, members.excess() == 0, draws));
+    if let Some(mut charted) = bare {
+        charted.balanced(draws, best);
+    }
+    if best.exactly().is_some() || draws.work.is_stopped() || effort.charts <= ROTATED {
         return;
     }
     for chart in 0..effort.charts {
@@ -667,11 +679,35 @@ impl Charted {
             self.points(&span, draws, best);
             return;
         };
+        self.settle(span, &absent, draws);
+        self.conclude(draws, best);
+    }
+
+    /// Shows that all unknowns are one by balanced minors.
+    fn balanced(&mut self, draws: &Draws<'_>, best: &mut Solutions) {
+        let unknowns = open(&self.values);
+        for which in 0..MOST_BALANCES {
+            let Some(system) = self.system(&self.centres, draws) else {
+                return;
+            };
+            let span = MinorSpan::balanced(&system, &self.values, &unknowns, which);
+            let Some(span) = span.filter(|_| !draws.work.is_stopped()) else {
+                return;
+            };
+            if let Some(absent) = span.unique(&system) {
+                self.settle(span, &absent, draws);
+                self.conclude(draws, best);
+                return;
+            }
+        }
+    }
+
+    /// Enters that the unknowns of a span are one.
+    fn settle(&mut self, span: MinorSpan, absent: &[bool], draws: &Draws<'_>) {
         for &f in &span.unknowns {
             self.values[f] = Some(draws.field.from_u64(1));
         }
-        self.ones.push(by_span(span, &absent));
-        self.conclude(draws, best);
+        self.ones.push(by_span(span, absent));
     }
 
     /// Bounds by the points of a span at the first centres.

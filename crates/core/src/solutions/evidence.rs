@@ -65,14 +65,14 @@ pub struct Place {
 pub enum One {
     /// By Theorem 10.6.
     Linear(Linear),
-    /// By Theorem 10.5: the minors, with all their shifts within the degree bounds, have
-    /// coefficients of a rank one less than there are exponents.
+    /// By Theorem 10.5: the minors, with their shifts, have coefficients of a rank one less than there
+    /// are exponents.
     Support {
         /// The unknowns that are one.
         unknowns: Vec<usize>,
         /// The largest exponent of each.
         bounds: Vec<usize>,
-        /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
+        /// Exponents within the bounds at which all coefficients are zero by Theorems 10.7 and 10.23.
         absent: Vec<Vec<usize>>,
         /// Minors that vanish at all solutions.
         minors: Vec<Minor>,
@@ -178,6 +178,9 @@ pub struct Minor {
     pub rows: Vec<Part>,
     /// Its columns, as many.
     pub columns: Vec<usize>,
+    /// The monomials by which it is multiplied, as exponents of the unknowns of the step; with `None` all
+    /// with which it stays within the degree bounds.
+    pub shifts: Option<Vec<Vec<usize>>>,
 }
 
 /// A row of a minor.
@@ -198,7 +201,7 @@ pub struct AtMost {
     pub unknowns: Vec<usize>,
     /// The largest exponent of each, shifts included.
     pub bounds: Vec<usize>,
-    /// Exponents within the bounds at which all coefficients are zero by Theorem 10.7.
+    /// Exponents within the bounds at which all coefficients are zero by Theorems 10.7 and 10.23.
     pub absent: Vec<Vec<usize>>,
     /// Minors that vanish at all solutions.
     pub minors: Vec<Minor>,

@@ -120,11 +120,7 @@ impl<'a> Minors<'a> {
             return None;
         }
         let reduced_side = |row: usize, which: usize| {
-            let mut side = system.rows[row].side(which, system.columns);
-            let scale = system.rows[row].sides[which].scale;
-            if let Some(value) = scale.and_then(|f| self.values[f]) {
-                side.iter_mut().for_each(|x| *x = field.times(*x, value));
-            }
+            let mut side = self.side(row, which);
             span.reduce(field, &mut side);
             free.iter().map(|&column| side[column]).collect()
         };
@@ -141,6 +137,90 @@ impl<'a> Minors<'a> {
         })
     }
 
+    /// A side of a row with open unknowns, with the scale that has a value.
+    fn side(&self, row: usize, which: usize) -> Vec<u64> {
+        let (system, field) = (self.system, &self.system.field);
+        let mut side = system.rows[row].side(which, system.columns);
+        let scale = system.rows[row].sides[which].scale;
+        if let Some(value) = scale.and_then(|f| self.values[f]) {
+            side.iter_mut().for_each(|x| *x = field.times(*x, value));
+        }
+        side
+    }
+
+    fn scaled_row<'s>(&self, row: usize, sides: &'s [Vec<u64>; 2]) -> ScaledRow<'s> {
+        let place = |which: usize| {
+            let scale = self.system.rows[row].sides[which].scale;
+            scale.and_then(|f| self.unknowns.iter().position(|&g| g == f))
+        };
+        ScaledRow {
+            sides,
+            scales: [0, 1].map(place),
+        }
+    }
+
+    /// How many rows have each unknown; a node has three columns.
+    fn degrees(&self, rows: &[ScaledRow<'_>]) -> Vec<usize> {
+        let with = |f| move |row: &&ScaledRow<'_>| row.scales.contains(&Some(f));
+        let degree = |f| rows.iter().filter(with(f)).count().min(3);
+        (0..self.unknowns.len()).map(degree).collect()
+    }
+
+    /// The minor with these rows freed, these left out and all others whole, in all columns, of which there
+    /// are as many; `None` if it vanishes. All open unknowns have to be among those of the minors.
+    pub(super) fn single(&self, freed: &[usize], out: &[usize]) -> Option<Polynomial> {
+        let (system, field) = (self.system, &self.system.field);
+        let mut span = Span::default();
+        let mut parts = Vec::with_capacity(system.columns);
+        for &row in freed {
+            for (which, part) in [(0, Part::Plus(row)), (1, Part::Minus(row))] {
+                parts.push(part);
+                let is_new = span.insert(field, system.rows[row].side(which, system.columns));
+                is_new.then_some(())?;
+            }
+        }
+        let is_whole = |row: &usize| !freed.contains(row) && !out.contains(row);
+        let mut variable = Vec::new();
+        for row in (0..system.rows.len()).filter(is_whole) {
+            parts.push(Part::Whole(row));
+            if system.is_constant(row, self.values) {
+                let is_new = span.insert(field, system.constant(row, self.values));
+                is_new.then_some(())?;
+            } else {
+                variable.push(row);
+            }
+        }
+        let columns: Vec<usize> = (0..system.columns).collect();
+        let is_free = |column: &usize| !span.pivots().contains(column);
+        let free: Vec<usize> = columns.iter().copied().filter(is_free).collect();
+        let reduced_side = |row: usize, which: usize| -> Vec<u64> {
+            let mut side = self.side(row, which);
+            span.reduce(field, &mut side);
+            free.iter().map(|&column| side[column]).collect()
+        };
+        let sides: Vec<[Vec<u64>; 2]> = variable
+            .iter()
+            .map(|&row| [0, 1].map(|which| reduced_side(row, which)))
+            .collect();
+        let rows = variable.iter().zip(&sides);
+        let rows: Vec<ScaledRow<'_>> = rows
+            .map(|(&row, both)| self.scaled_row(row, both))
+            .collect();
+        let degrees = self.degrees(&rows);
+        let (_, mut values) = on_grid(field, &rows, free.len(), &degrees).pop()?;
+        interpolate(field, &self.inverses, &degrees, &mut values);
+        Some(Polynomial {
+            minor: Minor {
+                freed: freed.len(),
+                rows: parts,
+                columns,
+                shifts: None,
+            },
+            degrees,
+            coefficients: values,
+        })
+    }
+
     /// The minors with some of the rows with open unknowns; whether those of other rows are wanted.
     fn of_rows(
         &self,
@@ -151,18 +231,9 @@ impl<'a> Minors<'a> {
     ) -> bool {
         let rows: Vec<ScaledRow<'_>> = chosen
             .iter()
-            .map(|&k| ScaledRow {
-                sides: &reduced.sides[k],
-                scales: [0, 1].map(|which| {
-                    let scale = self.system.rows[reduced.variable[k]].sides[which].scale;
-                    scale.and_then(|f| self.unknowns.iter().position(|&g| g == f))
-                }),
-            })
+            .map(|&k| self.scaled_row(reduced.variable[k], &reduced.sides[k]))
             .collect();
-        let with = |f| move |row: &&ScaledRow<'_>| row.scales.contains(&Some(f));
-        let degrees: Vec<usize> = (0..self.unknowns.len())
-            .map(|f| rows.iter().filter(with(f)).count().min(3))
-            .collect();
+        let degrees = self.degrees(&rows);
         let field = &self.system.field;
         let mut found = on_grid(field, &rows, reduced.free.len(), &degrees);
         if self.unknowns.len() > FEW {
@@ -176,6 +247,7 @@ impl<'a> Minors<'a> {
                 freed,
                 rows: reduced.parts.iter().copied().chain(whole).collect(),
                 columns: reduced.pivots.iter().copied().chain(of_free).collect(),
+                shifts: None,
             };
             let polynomial = Polynomial {
                 minor,

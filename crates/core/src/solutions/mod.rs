@@ -3,13 +3,14 @@
 //! In: a graph. It is contracted to members (`members`), whose shared nodes form a core with a
 //! few unknown scales (`chart`). Out: bounds for the number of solutions and what they rest
 //! on: scales that are one by linear algebra (`linear`, Theorem 10.6) or by the span of minors
-//! (`support`, Theorem 10.5), points near which all others are (`points`, Theorem 10.8), and
+//! (`support`, Theorem 10.5; `balanced`, Lemma 10.24), points near which all others are (`points`, Theorem 10.8), and
 //! simple points of tight cores (`simple`, Theorem 10.10), or of others where equations repeat what others
 //! say (`relations`, Theorem 10.22). What hangs together in a few nodes only
 //! is counted apart, and numbers multiply (`product`, Corollary 10.17; `number`). Every bound is a
 //! proof; what it rests on is in `evidence`. A second solution can be looked at (`witness`), and which
 //! of several are real and in front of the cameras is found at integer centres (`oriented`).
 
+mod balanced;
 mod chart;
 mod count;
 mod evidence;

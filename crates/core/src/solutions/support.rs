@@ -1,12 +1,13 @@
-//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.5 and 10.7).
+//! The span of minors in a few unknowns (docs/theory.md, Theorems 10.5, 10.7 and 10.23).
 //!
 //! In: a system and some of its unknowns. Out: minors with independent polynomials, the rank of
 //! all their multiples within degree bounds, and the exponents that never occur.
 
+use super::balanced::Balanced;
 use super::exponents::Exponents;
 use super::minors::{FEW, Minors, Next, Polynomial};
 use super::system::{System, Values, subsets};
-use super::zeros::has_transversal;
+use super::zeros::{has_choice, has_transversal};
 use crate::linalg::prime::PrimeField;
 use crate::linalg::span::Span;
 use std::borrow::Cow;
@@ -27,7 +28,8 @@ impl Generator {
         }
     }
 
-    /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7.
+    /// Whether a coefficient is the zero polynomial in the centres by Theorem 10.7 or, if the minor is
+    /// balanced, 10.23, which says more and costs more.
     pub(super) fn is_zero(&self, system: &System<'_>, unknowns: &[usize], place: usize) -> bool {
         let known = self.zero.borrow()[place];
         known.unwrap_or_else(|| {
@@ -38,8 +40,11 @@ impl Generator {
             } = &self.polynomial;
             let bounds = degrees.clone();
             let exponent = &Exponents { bounds }.all()[place];
-            let zero =
-                coefficients[place] == 0 && !has_transversal(system, minor, unknowns, exponent);
+            let is_out_of_reach = match minor.shifts {
+                None => !has_transversal(system, minor, unknowns, exponent),
+                Some(_) => !has_choice(system, minor, unknowns, exponent),
+            };
+            let zero = coefficients[place] == 0 && is_out_of_reach;
             self.zero.borrow_mut()[place] = Some(zero);
             zero
         })
@@ -55,6 +60,9 @@ const MOST_IDLE: usize = 120;
 /// The same in all unknowns at once, for those of other rows; their columns come in an order that is far
 /// from any.
 const MOST_IDLE_OF_ROWS: usize = 12;
+
+/// The same of balanced minors, which are drawn.
+const MOST_IDLE_OF_BALANCED: usize = 100;
 
 /// The span of the minors in some unknowns, shifts within the bounds included.
 pub(super) struct MinorSpan {
@@ -97,13 +105,36 @@ impl MinorSpan {
                 break;
             }
         }
-        let generators = collected.polynomials.into_iter().map(Generator::new);
-        Some(Self {
-            unknowns: unknowns.to_vec(),
-            generators: generators.collect(),
-            shifts: collected.span,
-            exponents,
-        })
+        Some(collected.into_span(unknowns, exponents))
+    }
+
+    /// The balanced minors in all unknowns without value, with one shift each (Lemma 10.23): in each term
+    /// every node is taken as often. `which` says how often.
+    pub(super) fn balanced(
+        system: &System<'_>,
+        values: &Values,
+        unknowns: &[usize],
+        which: usize,
+    ) -> Option<Self> {
+        let degrees = system.core.degrees(&system.rows);
+        let exponents = Exponents {
+            bounds: unknowns.iter().map(|&f| degrees[f]).collect(),
+        };
+        if exponents.len() > MOST_VALUES {
+            return None;
+        }
+        let minors = Minors::new(system, values, unknowns);
+        let mut balanced = Balanced::new(system, which)?;
+        let mut collected = Collected::new(&exponents, MOST_IDLE_OF_BALANCED, Next::Rows);
+        let mut next = Next::Minor;
+        while next == Next::Minor && !system.is_stopped() {
+            let drawn = balanced.draw(&minors, values, unknowns);
+            next = match drawn.filter(|polynomial| polynomial.stays_within(&exponents)) {
+                Some(polynomial) => collected.add(&system.field, &exponents, polynomial),
+                None => collected.idle(),
+            };
+        }
+        Some(collected.into_span(unknowns, exponents))
     }
 
     /// If only u = 1 is left (Theorem 10.5), the exponents that are absent: the rank is one less than
@@ -131,7 +162,7 @@ impl MinorSpan {
                 .filter(|&(_, &coefficient)| coefficient != 0)
                 .map(|(&place, _)| place)
                 .collect();
-            for shift in exponents.places(&polynomial.room(exponents)) {
+            for shift in polynomial.shifts(exponents) {
                 present.iter().for_each(|place| seen[place + shift] = true);
             }
         }
@@ -143,7 +174,7 @@ impl MinorSpan {
         let mut absent: Vec<bool> = seen.iter().map(|seen| !seen).collect();
         for generator in &self.generators {
             let own = exponents.places(&generator.polynomial.degrees);
-            for shift in exponents.places(&generator.polynomial.room(exponents)) {
+            for shift in generator.polynomial.shifts(exponents) {
                 for (k, place) in own.iter().enumerate() {
                     let absent = &mut absent[place + shift];
                     *absent = *absent && generator.is_zero(system, &self.unknowns, k);
@@ -248,11 +279,31 @@ impl Collected {
         if self.span.dimension() + 1 == seen && self.after == Next::Nothing {
             return Next::Nothing;
         }
+        self.go_on()
+    }
+
+    /// One was looked at that adds nothing.
+    fn idle(&mut self) -> Next {
+        self.idle += 1;
+        self.go_on()
+    }
+
+    fn go_on(&mut self) -> Next {
         if self.idle < self.patience {
             return Next::Minor;
         }
         self.idle = 0;
         self.after
+    }
+
+    fn into_span(self, unknowns: &[usize], exponents: Exponents) -> MinorSpan {
+        let generators = self.polynomials.into_iter().map(Generator::new);
+        MinorSpan {
+            unknowns: unknowns.to_vec(),
+            generators: generators.collect(),
+            shifts: self.span,
+            exponents,
+        }
     }
 }
 
@@ -261,7 +312,7 @@ impl Polynomial {
     fn each_shift(&self, exponents: &Exponents, each: &mut impl FnMut(&mut Vec<u64>)) {
         let own = exponents.places(&self.degrees);
         let mut vector = Vec::new();
-        for shift in exponents.places(&self.room(exponents)) {
+        for shift in self.shifts(exponents) {
             vector.clear();
             vector.resize(exponents.len(), 0);
             for (&place, &coefficient) in own.iter().zip(&self.coefficients) {
@@ -271,10 +322,28 @@ impl Polynomial {
         }
     }
 
-    /// How far shifts may go within the bounds.
-    fn room(&self, exponents: &Exponents) -> Vec<usize> {
+    /// Whether listed shifts do not lead beyond the bounds.
+    fn stays_within(&self, exponents: &Exponents) -> bool {
+        let shifts = self.minor.shifts.iter().flatten();
+        let within = |shift: &Vec<usize>| {
+            let sums = shift
+                .iter()
+                .zip(&self.degrees)
+                .map(|(b, degree)| b + degree);
+            sums.zip(&exponents.bounds)
+                .all(|(sum, &bound)| sum <= bound)
+        };
+        shifts.into_iter().all(within)
+    }
+
+    /// The places of the monomials by which it is multiplied within the bounds.
+    fn shifts(&self, exponents: &Exponents) -> Vec<usize> {
+        if let Some(shifts) = &self.minor.shifts {
+            return shifts.iter().map(|shift| exponents.index(shift)).collect();
+        }
         let room = exponents.bounds.iter().zip(&self.degrees);
-        room.map(|(bound, degree)| bound - degree).collect()
+        let room: Vec<usize> = room.map(|(bound, degree)| bound - degree).collect();
+        exponents.places(&room)
     }
 }
 
